@@ -1,0 +1,68 @@
+// What is true: the contract of every oracle. Ground truth knows scenes, never techniques.
+#pragma once
+
+#include "harness/scene/image.h"
+#include "harness/scene/progress.h"
+#include "harness/scene/scene.h"
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+
+namespace shadowbench::groundtruth {
+
+/// What a pixel's centre ray hits.
+enum class Surface : std::uint8_t {
+    Background,  // nothing
+    FacesAway,   // a surface whose geometric side towards the eye does not face the light: unlit whatever the shadows
+    Receiver,    // scored: for an area light, all of it lies above the tangent plane
+    OnEdge,      // a receiver exactly on a shadow edge (exact oracles only): no label is right, never scored
+};
+
+/// Exact primary hits: what each pixel centre sees. Row 0 at the top.
+struct PrimaryHits {
+    Image<std::uint32_t> id;      // Placement::id, 0 for background
+    Image<glm::vec3> position;    // world position rounded to float
+    Image<Surface> surface;       // Background, FacesAway or Receiver
+};
+
+/// Where the numbers come from. A score without provenance does not exist.
+struct Provenance {
+    std::string oracle;                        // "polygon", "rays", "povray"
+    std::string key;                           // content hash of everything the reference depends on
+    int samples = 0;                           // light samples; 0 for exact oracles
+    std::map<std::string, std::string> tools;  // tool → version
+    double seconds = 0;                        // wall time it took to compute
+};
+
+struct Reference {
+    Image<float> visibility;  // visible fraction of the light in [0, 1] (0 or 1 for point and directional lights)
+    Image<float> sigma;       // its standard uncertainty; 0 where exact
+    Image<Surface> surface;
+    Image<std::uint32_t> id;
+    Image<glm::vec3> position;
+    Image<float> edgeDistance;  // pixels from the centre to the nearest hard shadow edge on the same surface; infinity if none.
+                                // Exact on planar receivers with `polygon`, else to half a pixel; all infinity for area lights.
+    Provenance provenance;
+};
+
+enum class Oracle { Auto, Polygon, Rays, PovRay };
+std::string_view name(Oracle oracle);
+Oracle oracleNamed(std::string_view name);  // throws BadInput naming the valid ones
+
+struct Request {
+    Snapshot snapshot;
+    glm::ivec2 size{256, 256};
+    Oracle oracle = Oracle::Auto;  // Auto: povray for area lights; else polygon where the receiver is planar, rays elsewhere
+    int samples = 1024;            // area lights only
+};
+
+/// Computes a reference, without looking at a cache. Throws Inconclusive if a tool is missing or fails.
+Reference compute(const Request& request, const Progress& progress = {});
+
+/// Content hash (32 hex digits) of canonical snapshot, mesh bytes, size, settings and oracle code versions.
+std::string key(const Request& request);
+
+}  // namespace shadowbench::groundtruth

@@ -1,0 +1,123 @@
+// The record of one cell (scene × technique variant × profile): the only thing that reports and gates read.
+// Written as one JSON object a line in results.jsonl; record.schema.json beside this file describes it to machines.
+// A metric that does not apply is absent, never 0. Rates are fractions, times milliseconds, sizes bytes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shadowbench {
+
+enum class Status { Scored, NotApplicable, ExpectedFailure, Error };
+
+struct EdgeError {  // pixels, technique's shadow edge to the exact one
+    double mean = 0, p95 = 0, hausdorff = 0;
+    double signedMean = 0;  // − shadow too small, + too large
+};
+
+struct Accuracy {
+    // against the exact hard truth
+    std::optional<double> mismatch, mismatchOffEdge, falseShadow, leak;
+    std::optional<EdgeError> edgeError;
+    // against the soft truth, or a filtered technique against the hard truth
+    std::optional<double> rmse, mae, psnr, bad30, bad8, ssim, penumbraRmse, penumbraWidthError, umbraLeak;
+    std::optional<double> unresolved;  // share of M where abs(V − V*) < 3σ* though σ* > 0
+    double primaryMismatch = 0;
+};
+
+struct Flicker {
+    double mean = 0, p95 = 0;
+};
+
+struct Stability {
+    std::optional<Flicker> flicker;         // over the moving frames
+    std::optional<double> flipRate;         // over the moving frames
+    std::optional<int> convergence;         // still frames needed from an empty history
+    std::vector<double> mismatchByFrame;    // over the still frames from an empty history; techniques with history only
+    std::vector<double> rmseByFrame;
+    std::vector<double> bad30ByFrame;
+    std::vector<double> changedByFrame;     // share of M differing by > 30/255 from the technique's own last still frame (EGSR
+                                            // paper, Fig. 3: "differing from the fully converged solution")
+};
+
+struct Time {
+    double median = 0, p95 = 0, mad = 0;  // ms a frame, G-buffer included
+    double ratio = 1;                     // to sm-uniform in the same interleaved rounds, both with the G-buffer
+    double floorRatio = 0;                // share of the frame that the G-buffer alone takes
+    std::optional<double> baseRatio;      // to the technique's own base (history over its base map)
+    std::vector<double> samples;
+};
+
+struct Work {
+    std::uint64_t fragments = 0, vertices = 0, primitives = 0, draws = 0, passes = 0, bytes = 0;
+};
+
+struct Cost {
+    std::optional<Time> time;
+    std::optional<Work> work;
+    std::optional<std::uint64_t> instructions;
+};
+
+struct Environment {
+    std::string renderer, gl, cpu, compiler;
+    int rasterThreads = 0;
+    int vectorBits = 0;
+    std::optional<std::string> valgrind;
+};
+
+struct ReferenceInfo {
+    std::string oracle, key;
+    int samples = 0;
+    double sigma = 0;  // rms over penumbra pixels; 0 for exact
+    std::map<std::string, std::string> tools;
+};
+
+struct Record {
+    int schemaVersion = 1;
+    std::string scene, technique, variant;
+    std::vector<std::pair<std::string, std::string>> parameters;  // every parameter in declared order, as written in a variant
+    std::string profile;
+    int width = 0, height = 0, frames = 0;
+    std::uint32_t seed = 1;
+    Status status = Status::Scored;
+    std::string reason;  // of NotApplicable, ExpectedFailure and Error
+    std::string cell;    // hash of the cell's inputs: two records with one cell id measured the same thing
+    std::string commit;
+    bool dirty = false;
+    std::string time;  // ISO 8601, UTC
+    Environment environment;
+    std::optional<ReferenceInfo> reference;
+    std::optional<ReferenceInfo> softReference;  // the second truth of a hard technique on an area-light scene
+    Accuracy accuracy;
+    Stability stability;
+    Cost cost;
+    double tolerance = 0;         // the scene's, for the metric below; 0 if it states none
+    std::string toleranceMetric;  // "mismatch", "penumbra_rmse" …
+};
+
+/// One JSON line, keys in schema order, no newline. Numbers are written so that they read back equal.
+std::string toJson(const Record& record);
+
+/// Throws BadInput naming the key when `json` is not a record of this schema version.
+Record parseRecord(const std::string& json);
+
+/// All records of a results.jsonl; throws BadInput naming file and line. A last line without newline (a killed writer of another
+/// program) is an error too: this program never leaves one.
+std::vector<Record> readRecords(const std::filesystem::path& file);
+
+/// Replaces the file, whole or not at all.
+void writeRecords(const std::filesystem::path& file, const std::vector<Record>& records);
+
+/// The metric that ranks a record's accuracy: "mismatch" for hard truths, "rmse" for soft ones; nothing if it was not scored.
+struct Headline {
+    std::string metric;
+    double value;
+};
+std::optional<Headline> headline(const Record& record);
+
+}  // namespace shadowbench

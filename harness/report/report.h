@@ -1,0 +1,36 @@
+// Published forms of records: tables, charts and a page. Rendered from records and from nothing else.
+#pragma once
+
+#include "harness/records/record.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowbench::report {
+
+/// The table a person sees for one scene: technique, error, false shadow, leak, edge error, flicker, cost, front; under it the
+/// cheapest technique within the scene's tolerance. `scene`'s records only; plain text for a terminal.
+std::string terminalTable(const std::vector<Record>& records, const std::string& scene);
+
+std::string markdownTable(const std::vector<Record>& records, const std::string& scene);
+
+/// One row a record, every metric a column, absent ones empty.
+std::string csv(const std::vector<Record>& records);
+
+/// Indices of the records of `scene` that no other one beats in both headline error and cost ratio, by rising cost.
+std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene);
+
+/// Index of the cheapest record of `scene` within its tolerance; nothing if none is or it states none.
+std::optional<std::size_t> cheapestAdequate(const std::vector<Record>& records, const std::string& scene);
+
+/// Writes report.md, results.csv and the charts (SVG, by gnuplot): pareto-<scene>.svg for every scene, convergence-<scene>.svg
+/// where a record has curves. Throws Inconclusive when gnuplot is missing or fails, naming the package.
+struct Written {
+    std::filesystem::path page;
+    std::vector<std::filesystem::path> charts;
+};
+Written writeReport(const std::vector<Record>& records, const std::filesystem::path& folder);
+
+}  // namespace shadowbench::report
