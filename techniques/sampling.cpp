@@ -54,9 +54,10 @@ std::vector<glm::vec2> poissonTaps(int count, Region region) {
 }
 
 std::vector<glm::vec2> gridTaps(int side) {
+    const auto centre = [&](int i) { return static_cast<float>(2 * i + 1) / static_cast<float>(side) - 1; };
     std::vector<glm::vec2> taps;
     for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) taps.emplace_back((2.0F * x + 1) / side - 1, (2.0F * y + 1) / side - 1);
+        for (int x = 0; x < side; ++x) taps.emplace_back(centre(x), centre(y));
     return taps;
 }
 

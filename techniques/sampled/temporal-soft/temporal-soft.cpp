@@ -12,6 +12,8 @@
 #include "techniques/soft/pcss_program.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <optional>
 
 namespace shadowbench::techniques {
