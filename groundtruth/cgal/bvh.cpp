@@ -12,7 +12,7 @@ namespace {
 
 constexpr int binCount = 16;
 constexpr std::uint32_t leafSize = 4;
-constexpr int balancedBelow = 64;  // depth from which nodes are halved by count, to bound the depth of the tree
+constexpr int balancedBelow = 64; // depth from which nodes are halved by count, to bound the depth of the tree
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr FloatBox emptyBox{glm::vec3(infinity), glm::vec3(-infinity)};
@@ -27,7 +27,7 @@ float halfArea(const FloatBox& box) {
     return size.x < 0 ? 0 : size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-}  // namespace
+} // namespace
 
 PaddedSegment::PaddedSegment(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& pad)
     : padded_{from + pad, from - pad}, inverse_(0) {
@@ -101,7 +101,7 @@ private:
     }
 
     static int cheapestBorder(const std::array<FloatBox, binCount>& box, const std::array<std::uint32_t, binCount>& count) {
-        std::array<float, binCount> right{};  // cost of everything from a bin on
+        std::array<float, binCount> right{}; // cost of everything from a bin on
         FloatBox sum = emptyBox;
         std::uint32_t total = 0;
         for (int bin = binCount - 1; bin > 0; --bin) {
@@ -148,4 +148,4 @@ Bvh::Bvh(const std::vector<FloatBox>& boxes) {
     if (!boxes.empty()) Builder(*this, boxes);
 }
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

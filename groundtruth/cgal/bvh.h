@@ -1,5 +1,5 @@
-// A bounding volume hierarchy over float boxes. It only proposes candidates: every box test errs on the side of a visit, and exact
-// predicates decide afterwards.
+// A bounding volume hierarchy over float boxes. It only proposes candidates: every box test errs on the side of a visit, and
+// exact predicates decide afterwards.
 #pragma once
 
 #include <cstdint>
@@ -29,12 +29,12 @@ public:
         return enter <= leave ? enter : outside;
     }
 
-    static constexpr double outside = 2;  // parameters end at 1
+    static constexpr double outside = 2; // parameters end at 1
     double last = 1;
 
 private:
-    glm::dvec3 padded_[2];  // from + pad, from − pad
-    glm::dvec3 inverse_;    // of the direction
+    glm::dvec3 padded_[2]; // from + pad, from − pad
+    glm::dvec3 inverse_;   // of the direction
 };
 
 class Bvh {
@@ -45,8 +45,8 @@ public:
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
     [[nodiscard]] const FloatBox& bounds() const { return nodes_.front().box; }
 
-    /// Calls `visit(primitive)` for every box that the segment may meet, roughly front to back, until it returns true. `visit` may
-    /// shorten `segment.last`. True if stopped.
+    /// Calls `visit(primitive)` for every box that the segment may meet, roughly front to back, until it returns true.
+    /// `visit` may shorten `segment.last`. True if stopped.
     template <typename Visit>
     bool visit(const PaddedSegment& segment, Visit&& visit) const {
         if (nodes_.empty() || segment.entry(nodes_.front().box) > segment.last) return false;
@@ -75,14 +75,14 @@ public:
 private:
     struct Node {
         FloatBox box;
-        std::uint32_t first;  // first primitive of a leaf, else the first of two neighbouring children
-        std::uint32_t count;  // primitives; 0 for an inner node
+        std::uint32_t first; // first primitive of a leaf, else the first of two neighbouring children
+        std::uint32_t count; // primitives; 0 for an inner node
     };
     class Builder;
-    static constexpr int maxDepth = 128;  // the builder halves by count below depth 64, so 64 + 32 levels suffice
+    static constexpr int maxDepth = 128; // the builder halves by count below depth 64, so 64 + 32 levels suffice
 
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> order_;
 };
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

@@ -13,7 +13,7 @@
 namespace shadowbench::groundtruth {
 namespace {
 
-constexpr int codeVersion = 1;  // raise it with every change that can change a label or a distance
+constexpr int codeVersion = 1; // raise it with every change that can change a label or a distance
 
 /// Gives the images of `out` their size and what is the same for every oracle.
 void prepare(const PrimaryHits& primary, Reference& out) {
@@ -38,7 +38,7 @@ void requireSize(const PrimaryHits& primary, glm::ivec2 size) {
         throw InternalError("Hard shadow labels were asked for an image size that is not that of the primary hits.");
 }
 
-}  // namespace
+} // namespace
 
 struct ExactScene::Data {
     Camera camera;
@@ -68,7 +68,8 @@ PrimaryHits primaryHits(const Snapshot& snapshot, glm::ivec2 size, const Progres
     return ExactScene(snapshot).primaryHits(size, progress);
 }
 
-void labelByRays(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress) {
+void labelByRays(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, Reference& out,
+                 const Progress& progress) {
     ExactScene(snapshot).labelByRays(size, primary, out, progress);
 }
 
@@ -76,4 +77,4 @@ std::map<std::string, std::string> exactTools() {
     return {{"cgal", CGAL_VERSION_STR}, {"exact", std::to_string(codeVersion)}};
 }
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

@@ -11,8 +11,8 @@
 
 namespace shadowbench::groundtruth {
 
-/// Runs `work(i)` for 0 ≤ i < count on `threads` threads. Progress is called from the calling thread only. The first exception
-/// thrown by an item ends the loop and is thrown again here.
+/// Runs `work(i)` for 0 ≤ i < count on `threads` threads. Progress is called from the calling thread only. The first
+/// exception thrown by an item ends the loop and is thrown again here.
 template <typename Work>
 void forEachInParallel(int count, int threads, const Progress& progress, std::string_view what, const Work& work) {
     std::atomic<int> next{0};
@@ -37,4 +37,4 @@ void forEachInParallel(int count, int threads, const Progress& progress, std::st
     if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

@@ -11,9 +11,7 @@ struct Pixel {
     int x, y;
 };
 
-bool isReceiver(Surface surface) {
-    return surface == Surface::Receiver || surface == Surface::OnEdge;
-}
+bool isReceiver(Surface surface) { return surface == Surface::Receiver || surface == Surface::OnEdge; }
 
 /// Is there a shadow edge between two neighbouring pixels?
 bool differ(const Reference& r, Pixel a, Pixel b) {
@@ -51,7 +49,7 @@ void spreadBetween(Reference& r, Pixel a, Pixel b) {
         if (isReceiver(r.surface(p.x, p.y))) r.edgeDistance(p.x, p.y) = std::min(r.edgeDistance(p.x, p.y), 0.5F);
 }
 
-}  // namespace
+} // namespace
 
 void edgeDistanceFromLabels(Reference& out) {
     std::ranges::fill(out.edgeDistance, std::numeric_limits<float>::infinity());
@@ -67,4 +65,4 @@ void edgeDistanceFromLabels(Reference& out) {
         if (out.surface[i] == Surface::OnEdge) out.edgeDistance[i] = 0;
 }
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

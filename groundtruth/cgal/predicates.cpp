@@ -10,8 +10,8 @@
 namespace shadowbench::groundtruth {
 namespace {
 
-using Interval = CGAL::Interval_nt<false>;                         // rounding set by Interval::Protector
-using Ring = CGAL::internal::Exact_ring_selector<double>::Type;  // no division is needed anywhere
+using Interval = CGAL::Interval_nt<false>;                      // rounding set by Interval::Protector
+using Ring = CGAL::internal::Exact_ring_selector<double>::Type; // no division is needed anywhere
 
 template <typename Number>
 struct Vector {
@@ -55,13 +55,9 @@ Vector<Number> normal(const Triangle& t) {
     return cross(vector<Number>(t[1]) - a, vector<Number>(t[2]) - a);
 }
 
-CGAL::Uncertain<CGAL::Sign> signOf(const Interval& value) {
-    return CGAL_NTS sign(value);
-}
+CGAL::Uncertain<CGAL::Sign> signOf(const Interval& value) { return CGAL_NTS sign(value); }
 
-int signOf(const Ring& value) {
-    return static_cast<int>(CGAL_NTS sign(value));
-}
+int signOf(const Ring& value) { return static_cast<int>(CGAL_NTS sign(value)); }
 
 /// The sign of `polynomial`, a function of the number type (as std::type_identity) to compute in.
 template <typename Polynomial>
@@ -112,10 +108,10 @@ bool meets(const Ray& ray, const Triangle& t) {
     if (s0 * s1 < 0) return false;
     const int s2 = passes(ray, t[2], t[0]);
     if (s0 * s2 < 0 || s1 * s2 < 0) return false;
-    return s0 != 0 || s1 != 0 || s2 != 0;  // all zero: the triangle is seen edge-on
+    return s0 != 0 || s1 != 0 || s2 != 0; // all zero: the triangle is seen edge-on
 }
 
-}  // namespace
+} // namespace
 
 /// The point (x, y, z) / w, w > 0.
 struct ReceiverPoint::Exact {
@@ -133,12 +129,11 @@ struct Homogeneous {
 };
 
 Homogeneous<Interval> homogeneous(const ReceiverPoint& p, std::type_identity<Interval>) {
-    return {{Interval(p.low().x, p.high().x), Interval(p.low().y, p.high().y), Interval(p.low().z, p.high().z)}, Interval(1)};
+    return {{Interval(p.low().x, p.high().x), Interval(p.low().y, p.high().y), Interval(p.low().z, p.high().z)},
+            Interval(1)};
 }
 
-Homogeneous<Ring> homogeneous(const ReceiverPoint& p, std::type_identity<Ring>) {
-    return {p.exact().xyz, p.exact().w};
-}
+Homogeneous<Ring> homogeneous(const ReceiverPoint& p, std::type_identity<Ring>) { return {p.exact().xyz, p.exact().w}; }
 
 int side(const Triangle& triangle, const ReceiverPoint& point) {
     return filteredSign([&](auto tag) {
@@ -148,7 +143,8 @@ int side(const Triangle& triangle, const ReceiverPoint& point) {
     });
 }
 
-/// Seen from the point along the segment to the light: 1 if y lies to the left of x, as the orientation of (point, light, x, y).
+/// Seen from the point along the segment to the light: 1 if y lies to the left of x, as the orientation of (point, light, x,
+/// y).
 int turn(const ReceiverPoint& point, const glm::dvec4& light, const glm::dvec3& x, const glm::dvec3& y) {
     return filteredSign([&](auto tag) {
         using Number = typename decltype(tag)::type;
@@ -159,8 +155,8 @@ int turn(const ReceiverPoint& point, const glm::dvec4& light, const glm::dvec3& 
     });
 }
 
-/// The part of the view along a segment that a touching triangle covers next to it: from `start` to the left up to `end`, less than
-/// half a turn. Directions are named by points: the one from the segment towards that point.
+/// The part of the view along a segment that a touching triangle covers next to it: from `start` to the left up to `end`,
+/// less than half a turn. Directions are named by points: the one from the segment towards that point.
 struct Sector {
     glm::dvec3 start, end;
 };
@@ -169,7 +165,7 @@ struct Sector {
 void addSectors(const ReceiverPoint& point, const glm::dvec4& light, Triangle t, std::vector<Sector>& sectors) {
     std::array<int, 3> turns{};
     for (int i = 0; i < 3; ++i) turns[i] = turn(point, light, t[i], t[(i + 1) % 3]);
-    if (std::ranges::any_of(turns, [](int s) { return s < 0; })) {  // make it turn left
+    if (std::ranges::any_of(turns, [](int s) { return s < 0; })) { // make it turn left
         std::swap(t[1], t[2]);
         turns = {-turns[2], -turns[1], -turns[0]};
     }
@@ -177,7 +173,7 @@ void addSectors(const ReceiverPoint& point, const glm::dvec4& light, Triangle t,
         if (turns[i] > 0) sectors.push_back({t[i], t[(i + 1) % 3]});
 }
 
-}  // namespace
+} // namespace
 
 std::optional<DepthBounds> crossing(const Ray& ray, const Triangle& triangle) {
     if (!meets(ray, triangle)) return std::nullopt;
@@ -248,7 +244,8 @@ Blocking blocking(const ReceiverPoint& point, const glm::dvec4& light, const Tri
 bool blockTogether(const ReceiverPoint& point, const glm::dvec4& light, std::span<const Triangle> touching) {
     std::vector<Sector> sectors;
     for (const Triangle& triangle : touching) addSectors(point, light, triangle, sectors);
-    // A gap, if any, begins where some sector ends: all is covered if every end lies in another sector, its own end excluded.
+    // A gap, if any, begins where some sector ends: all is covered if every end lies in another sector, its own end
+    // excluded.
     const auto covered = [&](const glm::dvec3& direction) {
         return std::ranges::any_of(sectors, [&](const Sector& s) {
             return turn(point, light, s.start, direction) >= 0 && turn(point, light, direction, s.end) > 0;
@@ -257,4 +254,4 @@ bool blockTogether(const ReceiverPoint& point, const glm::dvec4& light, std::spa
     return !sectors.empty() && std::ranges::all_of(sectors, [&](const Sector& s) { return covered(s.end); });
 }
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

@@ -1,5 +1,5 @@
-// Exact decisions about rays, triangles and segments to a light. Inputs are doubles taken at face value; every answer is the sign
-// of a polynomial in them, by interval arithmetic first and by exact integers where the interval is not certain.
+// Exact decisions about rays, triangles and segments to a light. Inputs are doubles taken at face value; every answer is the
+// sign of a polynomial in them, by interval arithmetic first and by exact integers where the interval is not certain.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ struct Ray {
     glm::dvec3 origin, direction;
 };
 
-/// Certain bounds of the parameter at which a ray meets a triangle (its border included); nothing if it misses or lies in its plane.
+/// Certain bounds of the parameter at which a ray meets a triangle (its border included); nothing if it misses or lies in
+/// its plane.
 struct DepthBounds {
     double low, high;
 };
@@ -31,8 +32,8 @@ int compareDepth(const Ray& ray, const Triangle& a, const Triangle& b);
 /// The same for a triangle's plane and parameter `t`.
 int compareDepth(const Ray& ray, const Triangle& triangle, double t);
 
-/// Side of the triangle's plane on which `point` lies: 1 where a, b, c appear counter-clockwise, 0 in the plane. Homogeneous points
-/// with w = 1 or w = 0 (a direction).
+/// Side of the triangle's plane on which `point` lies: 1 where a, b, c appear counter-clockwise, 0 in the plane. Homogeneous
+/// points with w = 1 or w = 0 (a direction).
 int side(const Triangle& triangle, const glm::dvec4& point);
 
 /// The exact point where a ray meets a triangle's plane.
@@ -43,12 +44,12 @@ public:
     ReceiverPoint(const ReceiverPoint&) = delete;
     ReceiverPoint& operator=(const ReceiverPoint&) = delete;
 
-    [[nodiscard]] const glm::dvec3& low() const { return low_; }    // certain bounds, some units in the last place apart
+    [[nodiscard]] const glm::dvec3& low() const { return low_; } // certain bounds, some units in the last place apart
     [[nodiscard]] const glm::dvec3& high() const { return high_; }
     [[nodiscard]] glm::dvec3 rounded() const { return 0.5 * (low_ + high_); }
 
     struct Exact;
-    [[nodiscard]] const Exact& exact() const;  // made when first needed
+    [[nodiscard]] const Exact& exact() const; // made when first needed
 
 private:
     Ray ray_;
@@ -59,14 +60,15 @@ private:
 
 /// What a triangle does to the open segment from a receiver point to a (homogeneous) light.
 enum class Blocking {
-    None,      // misses it, or its plane contains the point or the light
-    Touches,   // meets it in a point of the triangle's border
-    Blocks,    // crosses it inside
+    None,    // misses it, or its plane contains the point or the light
+    Touches, // meets it in a point of the triangle's border
+    Blocks,  // crosses it inside
 };
 Blocking blocking(const ReceiverPoint& point, const glm::dvec4& light, const Triangle& triangle);
 
-/// Whether triangles that only touch the segment block it together: seen along the segment, they leave no direction free around it
-/// (a segment through the edge between two triangles of one surface). `touching` holds triangles for which `blocking` is Touches.
+/// Whether triangles that only touch the segment block it together: seen along the segment, they leave no direction free
+/// around it (a segment through the edge between two triangles of one surface). `touching` holds triangles for which
+/// `blocking` is Touches.
 bool blockTogether(const ReceiverPoint& point, const glm::dvec4& light, std::span<const Triangle> touching);
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

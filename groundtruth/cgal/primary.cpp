@@ -27,7 +27,8 @@ bool before(const Ray& ray, const Hit& a, const Hit& b) {
 
 bool inView(const Camera& camera, const Ray& ray, const Hit& hit) {
     const bool surelyIn = hit.depth.low >= camera.near && hit.depth.high <= camera.far;
-    return surelyIn || (compareDepth(ray, hit.triangle, camera.near) >= 0 && compareDepth(ray, hit.triangle, camera.far) <= 0);
+    return surelyIn ||
+           (compareDepth(ray, hit.triangle, camera.near) >= 0 && compareDepth(ray, hit.triangle, camera.far) <= 0);
 }
 
 std::optional<Hit> nearest(const SceneTriangles& scene, const Camera& camera, const Ray& ray) {
@@ -58,11 +59,12 @@ std::vector<glm::dvec4> lightCorners(const Light& light) {
 
 Surface classify(const Triangle& triangle, const glm::dvec3& eye, const std::vector<glm::dvec4>& light) {
     const int eyeSide = side(triangle, glm::dvec4(eye, 1));
-    const bool faces = std::ranges::all_of(light, [&](const glm::dvec4& corner) { return side(triangle, corner) == eyeSide; });
+    const bool faces =
+        std::ranges::all_of(light, [&](const glm::dvec4& corner) { return side(triangle, corner) == eyeSide; });
     return faces ? Surface::Receiver : Surface::FacesAway;
 }
 
-}  // namespace
+} // namespace
 
 Ray pixelRay(const Camera& camera, int x, int y, glm::ivec2 size) {
     return {camera.eye, camera.ray({x + 0.5, y + 0.5}, size)};
@@ -87,4 +89,4 @@ PrimaryHits tracePrimary(const SceneTriangles& scene, const Camera& camera, cons
     return hits;
 }
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

@@ -12,4 +12,4 @@ Ray pixelRay(const Camera& camera, int x, int y, glm::ivec2 size);
 PrimaryHits tracePrimary(const SceneTriangles& scene, const Camera& camera, const Light& light, glm::ivec2 size, int threads,
                          const Progress& progress);
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

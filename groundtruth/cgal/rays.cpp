@@ -12,24 +12,25 @@ namespace {
 ApproximateSegment towardsLight(const SceneTriangles& scene, const ReceiverPoint& point, const glm::dvec4& light) {
     const glm::dvec3 from = point.rounded();
     const glm::dvec3 l(light);
-    const double reach = 2 * scene.diagonal() / glm::length(l);  // twice: the point lies in the scene, but for rounding
+    const double reach = 2 * scene.diagonal() / glm::length(l); // twice: the point lies in the scene, but for rounding
     return {from, light.w == 0 ? from + reach * l : l, point.high() - point.low()};
 }
 
 /// Label of one receiver point: Blocks = shadowed, None = lit, Touches = exactly on a shadow edge.
 Blocking label(const SceneTriangles& scene, const ReceiverPoint& point, TriangleName receiver, const glm::dvec4& light) {
     std::vector<Triangle> touching;
-    const bool blocked = scene.visit(towardsLight(scene, point, light), [&](TriangleName name, const Triangle& triangle, double&) {
-        if (name == receiver) return false;  // its plane contains the point
-        const Blocking found = blocking(point, light, triangle);
-        if (found == Blocking::Touches) touching.push_back(triangle);
-        return found == Blocking::Blocks;
-    });
+    const bool blocked =
+        scene.visit(towardsLight(scene, point, light), [&](TriangleName name, const Triangle& triangle, double&) {
+            if (name == receiver) return false; // its plane contains the point
+            const Blocking found = blocking(point, light, triangle);
+            if (found == Blocking::Touches) touching.push_back(triangle);
+            return found == Blocking::Blocks;
+        });
     if (blocked || blockTogether(point, light, touching)) return Blocking::Blocks;
     return touching.empty() ? Blocking::None : Blocking::Touches;
 }
 
-}  // namespace
+} // namespace
 
 void traceShadows(const SceneTriangles& scene, const Camera& camera, const glm::dvec4& light, glm::ivec2 size,
                   const PrimaryHits& primary, int threads, Reference& out, const Progress& progress) {
@@ -45,4 +46,4 @@ void traceShadows(const SceneTriangles& scene, const Camera& camera, const glm::
     });
 }
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

@@ -10,4 +10,4 @@ namespace shadowbench::groundtruth {
 void traceShadows(const SceneTriangles& scene, const Camera& camera, const glm::dvec4& light, glm::ivec2 size,
                   const PrimaryHits& primary, int threads, Reference& out, const Progress& progress);
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

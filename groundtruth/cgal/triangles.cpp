@@ -12,20 +12,16 @@
 namespace shadowbench::groundtruth {
 namespace {
 
-constexpr double unit = 0x1p-53;  // relative rounding error of one operation; the counts of operations below are rounded up
+constexpr double unit = 0x1p-53; // relative rounding error of one operation; the counts of operations below are rounded up
 
-glm::dmat3 absolute(const glm::dmat3& m) {
-    return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
-}
+glm::dmat3 absolute(const glm::dmat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
 
 float below(double value) {
     const auto rounded = static_cast<float>(value);
     return rounded > value ? std::nextafter(rounded, -std::numeric_limits<float>::infinity()) : rounded;
 }
 
-float above(double value) {
-    return -below(-value);
-}
+float above(double value) { return -below(-value); }
 
 std::vector<FloatBox> triangleBoxes(const Mesh& mesh) {
     std::vector<FloatBox> boxes;
@@ -65,7 +61,8 @@ FloatBox worldBox(const FloatBox& box, const glm::dmat4& world) {
 }
 
 TriangleInstance makeInstance(const Batch& batch, const Placement& placement, std::size_t tree, const FloatBox& box) {
-    TriangleInstance instance{batch.mesh, tree, placement.world, placement.id, glm::inverse(glm::dmat3(placement.world)), {}, {}};
+    TriangleInstance instance{batch.mesh, tree, placement.world, placement.id, glm::inverse(glm::dmat3(placement.world)),
+                              {},         {}};
     instance.shift = -(instance.toObject * glm::dvec3(placement.world[3]));
     instance.slack = inverseSlack(instance, largestCoordinates(box));
     if (!std::isfinite(instance.slack.x + instance.slack.y + instance.slack.z))
@@ -74,7 +71,7 @@ TriangleInstance makeInstance(const Batch& batch, const Placement& placement, st
     return instance;
 }
 
-}  // namespace
+} // namespace
 
 SceneTriangles::SceneTriangles(const Snapshot& snapshot) {
     std::map<const Mesh*, std::size_t> treeOf;
@@ -127,4 +124,4 @@ PaddedSegment SceneTriangles::padded(const ApproximateSegment& segment, const Tr
     return {from, to, instance.slack + 2.0 * (magnitude * segment.error) + 32 * unit * (mapping + reach)};
 }
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

@@ -24,8 +24,8 @@ inline glm::dvec3 worldVertex(const glm::dmat4& world, const glm::vec3& position
 
 /// Names a triangle of the scene.
 struct TriangleName {
-    std::uint32_t instance = 0;  // index of SceneTriangles::instance
-    std::uint32_t triangle = 0;  // index of Mesh::triangles
+    std::uint32_t instance = 0; // index of SceneTriangles::instance
+    std::uint32_t triangle = 0; // index of Mesh::triangles
     friend bool operator==(const TriangleName&, const TriangleName&) = default;
 };
 
@@ -52,12 +52,12 @@ public:
     explicit SceneTriangles(const Snapshot& snapshot);
 
     [[nodiscard]] const std::vector<TriangleInstance>& instances() const { return instances_; }
-    [[nodiscard]] std::uint32_t instanceOf(std::uint32_t id) const;  // index of the placement with that surface id
+    [[nodiscard]] std::uint32_t instanceOf(std::uint32_t id) const; // index of the placement with that surface id
     [[nodiscard]] Triangle triangle(TriangleName name) const;
-    [[nodiscard]] double diagonal() const;  // of the world bounds, not below the true one
+    [[nodiscard]] double diagonal() const; // of the world bounds, not below the true one
 
-    /// Calls `visit(name, triangle, last)` for every triangle that the segment may meet, roughly front to back, until it returns
-    /// true; `visit` may lower `last`, the parameter in [0, 1] beyond which nothing is wanted. True if stopped.
+    /// Calls `visit(name, triangle, last)` for every triangle that the segment may meet, roughly front to back, until it
+    /// returns true; `visit` may lower `last`, the parameter in [0, 1] beyond which nothing is wanted. True if stopped.
     template <typename Visit>
     bool visit(const ApproximateSegment& segment, Visit&& visit) const {
         PaddedSegment top = padded(segment);
@@ -78,10 +78,10 @@ private:
     [[nodiscard]] PaddedSegment padded(const ApproximateSegment& segment) const;
     [[nodiscard]] PaddedSegment padded(const ApproximateSegment& segment, const TriangleInstance& instance) const;
 
-    std::vector<Bvh> trees_;  // one per distinct mesh
+    std::vector<Bvh> trees_; // one per distinct mesh
     std::vector<TriangleInstance> instances_;
-    std::unordered_map<std::uint32_t, std::uint32_t> indexOf_;  // surface id → instance
+    std::unordered_map<std::uint32_t, std::uint32_t> indexOf_; // surface id → instance
     Bvh top_;
 };
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth
