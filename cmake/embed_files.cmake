@@ -6,8 +6,9 @@ string(APPEND header "std::span<const File> ${NAME}();\n\n}  // namespace shadow
 file(WRITE ${OUT}/embedded_${NAME}.h.new "${header}")
 file(COPY_FILE ${OUT}/embedded_${NAME}.h.new ${OUT}/embedded_${NAME}.h ONLY_IF_DIFFERENT)
 
+list(LENGTH FILES count)
 set(body "#include \"embedded_${NAME}.h\"\n\n#include <array>\n\nnamespace shadowbench::embedded {\n\n")
-string(APPEND body "std::span<const File> ${NAME}() {\n    static const std::array files{\n")
+string(APPEND body "std::span<const File> ${NAME}() {\n    static const std::array<File, ${count}> files{\n")
 foreach(path IN LISTS FILES)
   file(READ ${path} text)
   file(RELATIVE_PATH relative ${ROOT} ${path})

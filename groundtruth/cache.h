@@ -28,4 +28,4 @@ private:
     std::filesystem::path folder_;
 };
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

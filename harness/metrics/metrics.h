@@ -1,13 +1,19 @@
-// Accuracy and stability as pure functions on images (METRICS.md). V is a technique's visibility, V* the truth's.
+// Accuracy and stability as pure functions on images. V is a technique's visibility, V* the truth's, M the receiver mask.
+//
+// All images of one call have the same size. Labels are round(V): V ≥ 0.5 is lit. Sums run in double over rows from the top
+// left, so a score is the same on every machine. What has no pixel to be measured on is absent; nothing here returns NaN. A
+// technique that wrote a non-finite V inside M, or images of different sizes, throw InternalError.
 #pragma once
 
 #include "groundtruth/reference.h"
 #include "harness/records/record.h"
 #include "harness/scene/image.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 namespace shadowbench::metrics {
@@ -20,20 +26,46 @@ struct Drawn {
 
 /// The receiver mask M: the truth's receivers whose primary hit the rasteriser agrees on.
 struct Mask {
-    Image<std::uint8_t> scored;   // 1 in M
-    double primaryMismatch = 0;   // share of all pixels whose primary hits disagree
-    std::size_t count = 0;        // pixels in M
+    Image<std::uint8_t> scored; // 1 in M
+    double primaryMismatch = 0; // share of all pixels whose primary hits disagree
+    std::size_t count = 0;      // pixels in M
 };
+
+/// Primary hits agree when the surface ids are equal and, unless both are background, the distances from `eye` differ by at
+/// most 0.2 % plus 0.1 mm (what 32-bit positions and a grazing view cost).
 Mask receiverMask(const groundtruth::Reference& truth, const Drawn& drawn, const glm::dvec3& eye);
 
-/// Hard labels: V is rounded. Fills mismatch, mismatchOffEdge, falseShadow, leak, edgeError, primaryMismatch.
+/// Hard labels: V is rounded. Fills mismatch, mismatchOffEdge (pixels more than ½ px from the exact edge), falseShadow
+/// (share of lit pixels called shadowed), leak (share of shadowed pixels called lit), edgeError, primaryMismatch.
 Accuracy hardAccuracy(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
 
-/// Graded visibility: fills rmse, mae, psnr, bad30, bad8, ssim, penumbraRmse, penumbraWidthError, umbraLeak, unresolved,
-/// primaryMismatch; what has no pixel to be measured on stays absent.
+/// Distance in pixels from the technique's shadow edge to the exact one; absent if either has no edge inside M.
+///
+/// An edge is sampled where two pixels of M, side by side or one above the other on the same surface, have different labels.
+/// The technique's point p lies where V, linear between the two centres, is ½: halfway for hard labels. The truth's point
+/// lies where its signed distance field is 0, halfway if the truth states no distance. Where V is hard everywhere the
+/// truth's points are put halfway too, so that an image with the truth's labels has no error. With q the truth's point
+/// nearest to p, the displacement of p is d(p) − d(q), where d is the exact distance to the edge, positive on the lit side,
+/// linear between the two pixels; where the truth states no distance it is |p − q|, positive where V* is lit. `mean`, `p95`
+/// and `signedMean` are over the displacements; `hausdorff` also counts the distance of every q to its nearest p.
+std::optional<EdgeError> edgeError(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
+
+/// Graded visibility: fills rmse, mae, psnr (absent for equal images), bad30, bad8, ssim, penumbraRmse, penumbraWidthError,
+/// umbraLeak, unresolved (absent for an exact truth), primaryMismatch.
+/// Neighbourhoods of 2 px are 5 × 5 squares; {V* = 0} is eroded by everything outside it, the image's border too.
 Accuracy softAccuracy(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
 
-/// Share of M where abs(a − b) exceeds `threshold`.
+/// Structural similarity (Wang et al. 2004: 11 × 11 Gaussian, σ 1.5 px, K 0.01 and 0.03, range 1), mean over M. Pixels
+/// outside M have weight 0 in every window and the other weights are scaled to sum to 1.
+std::optional<double> ssim(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
+
+/// Mean of |w − w*| / w* over the points where V* crosses ½ (found as for edgeError). w is the length, along the line
+/// through the point in the direction of V*'s image gradient, on which 0.1 < V < 0.9, in bilinear samples ¼ px apart. The
+/// line runs as far as V* takes to leave (0.1, 0.9) and as much again on each side (4 px at least), so an excess over 2 is
+/// cut off; a line that leaves its surface or M before V* has left (0.1, 0.9) is not measured.
+std::optional<double> penumbraWidthError(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
+
+/// Share of M where abs(a − b) exceeds `threshold`. This and the next two throw BadInput when M is empty.
 double shareAbove(const Image<float>& a, const Image<float>& b, const Mask& mask, double threshold);
 double mismatch(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
 double rmse(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
@@ -45,21 +77,27 @@ struct FrameResult {
     const Mask* mask;
 };
 
-/// Where each pixel of `now` was in the previous frame, by exact reprojection of the truth's primary hits (moving placements by
-/// their own motion): image position in pixels, NaN where it left the image or was disoccluded.
-Image<glm::vec2> warp(const Snapshot& now, glm::ivec2 size, const groundtruth::Reference& truth, const groundtruth::Reference& before);
+/// Where each pixel of `now` was in the previous frame, by exact reprojection of the truth's primary hits (moving placements
+/// by their own motion): image position in pixels, NaN where it left the image or was disoccluded, that is where none of the
+/// 2 × 2 pixels of `before` around it shows the same surface at the same distance from the eye within 0.5 %.
+Image<glm::vec2> warp(const Snapshot& now, glm::ivec2 size, const groundtruth::Reference& truth,
+                      const groundtruth::Reference& before);
 
-/// Per-pixel flicker excess abs((V_t − warp V_{t−1}) − (V*_t − warp V*_{t−1})), appended to `samples` for every pixel in both masks.
-void flickerSamples(const FrameResult& now, const FrameResult& before, const Image<glm::vec2>& warp, std::vector<float>& samples);
-Flicker flicker(std::vector<float> samples);
+/// Per-pixel flicker excess abs((V_t − warp V_{t−1}) − (V*_t − warp V*_{t−1})), appended to `samples` for every pixel in
+/// both masks. The previous frame is read bilinearly where all four pixels are in its mask on the same surface, else at the
+/// nearest pixel if that one is, else the pixel is left out.
+void flickerSamples(const FrameResult& now, const FrameResult& before, const Image<glm::vec2>& warp,
+                    std::vector<float>& samples);
+std::optional<Flicker> flicker(std::vector<float> samples);
 
-/// Reprojected pixels whose class (lit or not) changed while the truth's did not, and how many were compared.
+/// Reprojected pixels (nearest) whose class, lit or not, changed while the truth's did not, and how many were compared.
 struct Flips {
     std::size_t flipped = 0, compared = 0;
 };
 Flips flips(const FrameResult& now, const FrameResult& before, const Image<glm::vec2>& warp);
 
-/// First frame from which the error stays ≤ 1.05 × its steady state (the mean of the last tenth).
-int convergence(const std::vector<double>& errorByFrame);
+/// Number of the first frame, counted from 1, from which the error stays ≤ 1.05 × its steady state, the mean of the last
+/// tenth of the frames (at least one). Absent without frames and for an error still restless at the end.
+std::optional<int> convergence(const std::vector<double>& errorByFrame);
 
-}  // namespace shadowbench::metrics
+} // namespace shadowbench::metrics

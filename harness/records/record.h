@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,9 +16,9 @@ namespace shadowbench {
 
 enum class Status { Scored, NotApplicable, ExpectedFailure, Error };
 
-struct EdgeError {  // pixels, technique's shadow edge to the exact one
+struct EdgeError { // pixels, technique's shadow edge to the exact one
     double mean = 0, p95 = 0, hausdorff = 0;
-    double signedMean = 0;  // − shadow too small, + too large
+    double signedMean = 0; // − shadow too small, + too large
 };
 
 struct Accuracy {
@@ -26,7 +27,7 @@ struct Accuracy {
     std::optional<EdgeError> edgeError;
     // against the soft truth, or a filtered technique against the hard truth
     std::optional<double> rmse, mae, psnr, bad30, bad8, ssim, penumbraRmse, penumbraWidthError, umbraLeak;
-    std::optional<double> unresolved;  // share of M where abs(V − V*) < 3σ* though σ* > 0
+    std::optional<double> unresolved; // share of M where abs(V − V*) < 3σ* though σ* > 0
     double primaryMismatch = 0;
 };
 
@@ -35,21 +36,21 @@ struct Flicker {
 };
 
 struct Stability {
-    std::optional<Flicker> flicker;         // over the moving frames
-    std::optional<double> flipRate;         // over the moving frames
-    std::optional<int> convergence;         // still frames needed from an empty history
-    std::vector<double> mismatchByFrame;    // over the still frames from an empty history; techniques with history only
+    std::optional<Flicker> flicker;      // over the moving frames
+    std::optional<double> flipRate;      // over the moving frames
+    std::optional<int> convergence;      // still frames needed from an empty history
+    std::vector<double> mismatchByFrame; // over the still frames from an empty history; techniques with history only
     std::vector<double> rmseByFrame;
     std::vector<double> bad30ByFrame;
-    std::vector<double> changedByFrame;     // share of M differing by > 30/255 from the technique's own last still frame (EGSR
-                                            // paper, Fig. 3: "differing from the fully converged solution")
+    std::vector<double> changedByFrame; // share of M differing by > 30/255 from the technique's own last still frame (EGSR
+                                        // paper, Fig. 3: "differing from the fully converged solution")
 };
 
 struct Time {
-    double median = 0, p95 = 0, mad = 0;  // ms a frame, G-buffer included
-    double ratio = 1;                     // to sm-uniform in the same interleaved rounds, both with the G-buffer
-    double floorRatio = 0;                // share of the frame that the G-buffer alone takes
-    std::optional<double> baseRatio;      // to the technique's own base (history over its base map)
+    double median = 0, p95 = 0, mad = 0; // ms a frame, G-buffer included
+    double ratio = 1;                    // to sm-uniform in the same interleaved rounds, both with the G-buffer
+    double floorRatio = 0;               // share of the frame that the G-buffer alone takes
+    std::optional<double> baseRatio;     // to the technique's own base (history over its base map)
     std::vector<double> samples;
 };
 
@@ -73,51 +74,63 @@ struct Environment {
 struct ReferenceInfo {
     std::string oracle, key;
     int samples = 0;
-    double sigma = 0;  // rms over penumbra pixels; 0 for exact
+    double sigma = 0; // rms over penumbra pixels; 0 for exact
     std::map<std::string, std::string> tools;
 };
 
 struct Record {
     int schemaVersion = 1;
     std::string scene, technique, variant;
-    std::vector<std::pair<std::string, std::string>> parameters;  // every parameter in declared order, as written in a variant
+    std::vector<std::pair<std::string, std::string>>
+        parameters; // every parameter in declared order, as written in a variant
     std::string profile;
     int width = 0, height = 0, frames = 0;
     std::uint32_t seed = 1;
     Status status = Status::Scored;
-    std::string reason;  // of NotApplicable, ExpectedFailure and Error
-    std::string cell;    // hash of the cell's inputs: two records with one cell id measured the same thing
+    std::string reason; // of NotApplicable, ExpectedFailure and Error
+    std::string cell;   // hash of the cell's inputs: two records with one cell id measured the same thing
     std::string commit;
     bool dirty = false;
-    std::string time;  // ISO 8601, UTC
+    std::string time; // ISO 8601, UTC
     Environment environment;
     std::optional<ReferenceInfo> reference;
-    std::optional<ReferenceInfo> softReference;  // the second truth of a hard technique on an area-light scene
+    std::optional<ReferenceInfo> softReference; // the second truth of a hard technique on an area-light scene
     Accuracy accuracy;
     Stability stability;
     Cost cost;
-    double tolerance = 0;         // the scene's, for the metric below; 0 if it states none
-    std::string toleranceMetric;  // "mismatch", "penumbra_rmse" …
+    double tolerance = 0;        // the scene's, for the metric below; 0 if it states none
+    std::string toleranceMetric; // "mismatch", "penumbra_rmse" …
 };
 
-/// One JSON line, keys in schema order, no newline. Numbers are written so that they read back equal.
+/// One JSON line, keys in schema order, no newline. Numbers are written so that they read back equal; a parameter that is a
+/// number is written as one and reads back in its shortest form. `accuracy` is written for scored records and expected
+/// failures only, other groups when something is in them. Throws InternalError naming the key of a number that is not
+/// finite.
 std::string toJson(const Record& record);
 
-/// Throws BadInput naming the key when `json` is not a record of this schema version.
+/// Throws BadInput naming the key when `json` is not a record of this schema version: a key is missing, unknown or of
+/// another type.
 Record parseRecord(const std::string& json);
 
-/// All records of a results.jsonl; throws BadInput naming file and line. A last line without newline (a killed writer of another
-/// program) is an error too: this program never leaves one.
+/// All records of a results.jsonl; throws BadInput naming file and line. A last line without newline (a killed writer of
+/// another program) is an error too: this program never leaves one.
 std::vector<Record> readRecords(const std::filesystem::path& file);
 
 /// Replaces the file, whole or not at all.
 void writeRecords(const std::filesystem::path& file, const std::vector<Record>& records);
 
-/// The metric that ranks a record's accuracy: "mismatch" for hard truths, "rmse" for soft ones; nothing if it was not scored.
+std::string_view name(Status status);
+
+/// The metric that ranks a record's accuracy, the same for all records of one scene: "rmse" where a soft truth (oracle
+/// "povray") was used, for a hard technique beside its exact one, else "mismatch"; nothing if it was not scored.
 struct Headline {
     std::string metric;
     double value;
 };
 std::optional<Headline> headline(const Record& record);
 
-}  // namespace shadowbench
+/// A metric of `accuracy` by its name in the record ("mismatch_off_edge"); nothing if it is absent or there is none of that
+/// name.
+std::optional<double> accuracyMetric(const Accuracy& accuracy, std::string_view metric);
+
+} // namespace shadowbench

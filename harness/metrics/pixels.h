@@ -1,0 +1,42 @@
+// What the metrics share: loops over the mask, edge crossings, bilinear reading.
+#pragma once
+
+#include "harness/metrics/metrics.h"
+
+#include <vector>
+
+namespace shadowbench::metrics {
+
+inline bool isLit(float visibility) { return visibility >= 0.5F; }
+
+/// Throws InternalError unless all images have M's size and V is finite inside M.
+void requireComparable(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
+
+/// A pair of neighbouring pixels of M on one surface with different labels.
+struct Crossing {
+    glm::ivec2 a, b; // b is right of or below a
+};
+std::vector<Crossing> crossings(const Image<float>& image, const groundtruth::Reference& truth, const Mask& mask);
+
+/// The image position `share` of the way from a's centre to b's.
+glm::dvec2 between(const Crossing& pair, double share);
+
+/// Where `image`, linear between the two centres, is ½.
+double halfCrossing(const Image<float>& image, const Crossing& pair);
+
+/// The 2 × 2 pixels around an image position and their bilinear weights; pixels of weight 0 may lie outside the image.
+struct Bilinear {
+    glm::ivec2 pixels[4];
+    double weights[4];
+    explicit Bilinear(glm::dvec2 position);
+    [[nodiscard]] double operator()(const Image<float>& image) const;
+
+    /// Every pixel with a weight lies in M on surface `id`.
+    [[nodiscard]] bool within(const Mask& mask, const Image<std::uint32_t>& ids, std::uint32_t id) const;
+};
+
+/// The q-quantile by nearest rank; sorts in place. Not for empty sets.
+double quantile(std::vector<double>& values, double q);
+double mean(const std::vector<double>& values);
+
+} // namespace shadowbench::metrics

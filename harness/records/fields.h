@@ -1,0 +1,142 @@
+// The record's shape, once: every key with its member, in schema order. A visitor writes JSON, reads it or makes columns of
+// it.
+//
+// visit(key, member)            a value, a list, an optional one, or a struct that has its own fields() below
+// visit.group(key, has, inner)  an object of the record that is no struct here; `has`: there is something in it
+// visit.text(key, member)       text that is left out when empty
+// visit.size(key, width, height), visit.parameters(key, list)
+#pragma once
+
+#include "harness/records/record.h"
+
+#include <concepts>
+#include <type_traits>
+
+namespace shadowbench::records {
+
+template <typename T, typename U>
+concept Is = std::same_as<std::remove_const_t<T>, U>;
+
+void fields(auto& visit, Is<EdgeError> auto& e) {
+    visit("mean", e.mean);
+    visit("p95", e.p95);
+    visit("hausdorff", e.hausdorff);
+    visit("signed", e.signedMean);
+}
+
+void fields(auto& visit, Is<Accuracy> auto& a) {
+    visit("mismatch", a.mismatch);
+    visit("mismatch_off_edge", a.mismatchOffEdge);
+    visit("false_shadow", a.falseShadow);
+    visit("leak", a.leak);
+    visit("edge_error", a.edgeError);
+    visit("rmse", a.rmse);
+    visit("mae", a.mae);
+    visit("psnr", a.psnr);
+    visit("bad30", a.bad30);
+    visit("bad8", a.bad8);
+    visit("ssim", a.ssim);
+    visit("penumbra_rmse", a.penumbraRmse);
+    visit("penumbra_width_error", a.penumbraWidthError);
+    visit("umbra_leak", a.umbraLeak);
+    visit("unresolved", a.unresolved);
+    visit("primary_mismatch", a.primaryMismatch);
+}
+
+void fields(auto& visit, Is<Flicker> auto& f) {
+    visit("mean", f.mean);
+    visit("p95", f.p95);
+}
+
+void fields(auto& visit, Is<Stability> auto& s) {
+    visit("flicker", s.flicker);
+    visit("flip_rate", s.flipRate);
+    visit("convergence", s.convergence);
+    const bool curves =
+        !s.mismatchByFrame.empty() || !s.rmseByFrame.empty() || !s.bad30ByFrame.empty() || !s.changedByFrame.empty();
+    visit.group("by_frame", curves, [&](auto& byFrame) {
+        byFrame("mismatch", s.mismatchByFrame);
+        byFrame("rmse", s.rmseByFrame);
+        byFrame("bad30", s.bad30ByFrame);
+        byFrame("changed", s.changedByFrame);
+    });
+}
+
+void fields(auto& visit, Is<Time> auto& t) {
+    visit("median", t.median);
+    visit("p95", t.p95);
+    visit("mad", t.mad);
+    visit("ratio", t.ratio);
+    visit("floor_ratio", t.floorRatio);
+    visit("base_ratio", t.baseRatio);
+    visit("samples", t.samples);
+}
+
+void fields(auto& visit, Is<Work> auto& w) {
+    visit("fragments", w.fragments);
+    visit("vertices", w.vertices);
+    visit("primitives", w.primitives);
+    visit("draws", w.draws);
+    visit("passes", w.passes);
+    visit("bytes", w.bytes);
+}
+
+void fields(auto& visit, Is<Cost> auto& c) {
+    visit("time", c.time);
+    visit("instructions", c.instructions);
+    visit("work", c.work);
+}
+
+void fields(auto& visit, Is<Environment> auto& e) {
+    visit("renderer", e.renderer);
+    visit("gl", e.gl);
+    visit("raster_threads", e.rasterThreads);
+    visit("vector_bits", e.vectorBits);
+    visit("cpu", e.cpu);
+    visit("compiler", e.compiler);
+    visit("valgrind", e.valgrind);
+}
+
+void fields(auto& visit, Is<ReferenceInfo> auto& r) {
+    visit("oracle", r.oracle);
+    visit("key", r.key);
+    visit("samples", r.samples);
+    visit("sigma", r.sigma);
+    visit("tools", r.tools);
+}
+
+inline bool wasScored(Status status) { return status == Status::Scored || status == Status::ExpectedFailure; }
+
+void fields(auto& visit, Is<Record> auto& r) {
+    visit("schema_version", r.schemaVersion);
+    visit("scene", r.scene);
+    visit("technique", r.technique);
+    visit("variant", r.variant);
+    visit.parameters("parameters", r.parameters);
+    visit("profile", r.profile);
+    visit.size("size", r.width, r.height);
+    visit("frames", r.frames);
+    visit("seed", r.seed);
+    visit("status", r.status);
+    visit.text("reason", r.reason);
+    visit.text("cell", r.cell);
+    visit("commit", r.commit);
+    visit("dirty", r.dirty);
+    visit("time", r.time);
+    visit("environment", r.environment);
+    visit("reference", r.reference);
+    visit("soft_reference", r.softReference);
+    if (wasScored(r.status)) visit("accuracy", r.accuracy);
+    const Stability& s = r.stability;
+    const bool stability = s.flicker || s.flipRate || s.convergence || !s.mismatchByFrame.empty() ||
+                           !s.rmseByFrame.empty() || !s.bad30ByFrame.empty() || !s.changedByFrame.empty();
+    visit.group("stability", stability, [&](auto& inner) { fields(inner, r.stability); });
+    const bool cost = r.cost.time || r.cost.instructions || r.cost.work;
+    visit.group("cost", cost, [&](auto& inner) { fields(inner, r.cost); });
+    visit.group("tolerance", !r.toleranceMetric.empty(), [&](auto& inner) {
+        inner("metric", r.toleranceMetric);
+        inner("value", r.tolerance);
+    });
+}
+
+} // namespace shadowbench::records

@@ -1,0 +1,184 @@
+// Records from JSON lines; strict, so that a typo in a file is an error and not a missing metric.
+#include "harness/records/fields.h"
+#include "harness/scene/error.h"
+#include "harness/scene/files.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace shadowbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int schemaVersion = 1;
+
+[[noreturn]] void refuse(const std::string& key, std::string_view complaint) {
+    throw BadInput(
+        fmt::format("reading a record: \"{}\" {}; it must be a record of schema version {}", key, complaint, schemaVersion));
+}
+
+class Reader {
+public:
+    Reader(const Json& object, std::string path) : object_(object), path_(std::move(path)) {
+        if (!object.is_object()) refuse(path_.empty() ? "record" : path_.substr(0, path_.size() - 1), "is not an object");
+    }
+
+    template <typename T>
+    void operator()(const char* key, T& value) {
+        const Json* json = find(key);
+        if (json == nullptr) refuse(pathOf(key), "is missing");
+        read(key, *json, value);
+    }
+    template <typename T>
+    void operator()(const char* key, std::optional<T>& value) {
+        if (const Json* json = find(key)) read(key, *json, value.emplace());
+    }
+    void operator()(const char* key, std::vector<double>& values) {
+        const Json* json = find(key);
+        if (json == nullptr) return;
+        if (!json->is_array()) refuse(pathOf(key), "is not a list");
+        for (const Json& item : *json) read(key, item, values.emplace_back());
+    }
+
+    template <typename Inner>
+    void group(const char* key, bool, const Inner& inner) {
+        const Json* json = find(key);
+        if (json == nullptr) return;
+        Reader reader(*json, pathOf(key) + ".");
+        inner(reader);
+        reader.refuseUnknown();
+    }
+
+    void text(const char* key, std::string& value) {
+        if (const Json* json = find(key)) read(key, *json, value);
+    }
+
+    void size(const char* key, int& width, int& height) {
+        const Json* json = find(key);
+        if (json == nullptr) refuse(pathOf(key), "is missing");
+        if (!json->is_array() || json->size() != 2) refuse(pathOf(key), "is not [width, height]");
+        read(key, (*json)[0], width);
+        read(key, (*json)[1], height);
+    }
+
+    void parameters(const char* key, std::vector<std::pair<std::string, std::string>>& list) {
+        const Json* json = find(key);
+        if (json == nullptr) refuse(pathOf(key), "is missing");
+        if (!json->is_object()) refuse(pathOf(key), "is not an object");
+        for (const auto& [name, value] : json->items()) {
+            if (!value.is_string() && !value.is_number()) refuse(pathOf(key) + "." + name, "is neither a number nor text");
+            list.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+        }
+    }
+
+    void refuseUnknown() const {
+        std::vector<std::string> known(known_.begin(), known_.end());
+        for (const auto& [key, value] : object_.items())
+            if (!known_.contains(key)) refuse(path_ + key, "is unknown" + hint(key, known));
+    }
+
+private:
+    [[nodiscard]] std::string pathOf(const char* key) const { return path_ + key; }
+
+    static std::string hint(const std::string& key, const std::vector<std::string>& known) {
+        const std::string near = didYouMean(key, known);
+        return near.empty() ? "" : ", " + near;
+    }
+
+    const Json* find(const char* key) {
+        known_.insert(key);
+        const auto found = object_.find(key);
+        return found == object_.end() ? nullptr : &*found;
+    }
+
+    void read(const char* key, const Json& json, double& value) const {
+        if (!json.is_number()) refuse(pathOf(key), "is not a number");
+        value = json.get<double>();
+    }
+    void read(const char* key, const Json& json, bool& value) const {
+        if (!json.is_boolean()) refuse(pathOf(key), "is neither true nor false");
+        value = json.get<bool>();
+    }
+    void read(const char* key, const Json& json, std::string& value) const {
+        if (!json.is_string()) refuse(pathOf(key), "is not text");
+        value = json.get<std::string>();
+    }
+    void read(const char* key, const Json& json, Status& value) const {
+        for (const Status status : {Status::Scored, Status::NotApplicable, Status::ExpectedFailure, Status::Error}) {
+            if (!json.is_string() || json.get<std::string>() != name(status)) continue;
+            value = status;
+            return;
+        }
+        refuse(pathOf(key), "is not \"scored\", \"not-applicable\", \"expected-failure\" or \"error\"");
+    }
+    void read(const char* key, const Json& json, std::map<std::string, std::string>& values) const {
+        if (!json.is_object()) refuse(pathOf(key), "is not an object");
+        for (const auto& [name, item] : json.items()) read(key, item, values[name]);
+    }
+    template <std::integral T>
+    void read(const char* key, const Json& json, T& value) const {
+        if (!json.is_number_integer()) refuse(pathOf(key), "is not a whole number");
+        const bool fits = json.is_number_unsigned() ? std::in_range<T>(json.get<std::uint64_t>())
+                                                    : std::in_range<T>(json.get<std::int64_t>());
+        if (!fits)
+            refuse(pathOf(key),
+                   fmt::format("is not within {} … {}", std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
+        value = json.get<T>();
+    }
+    template <typename T>
+    requires requires(Reader& reader, T& object) { records::fields(reader, object); }
+    void read(const char* key, const Json& json, T& object) const {
+        Reader reader(json, pathOf(key) + ".");
+        records::fields(reader, object);
+        reader.refuseUnknown();
+    }
+
+    const Json& object_;
+    std::string path_;
+    std::set<std::string> known_;
+};
+
+void requireThisVersion(const Json& json) {
+    const auto version = json.find("schema_version");
+    if (version == json.end() || !version->is_number_integer()) refuse("schema_version", "is missing or not a whole number");
+    if (*version != schemaVersion) refuse("schema_version", "is " + version->dump());
+}
+
+} // namespace
+
+Record parseRecord(const std::string& json) {
+    const Json object = Json::parse(json, nullptr, false);
+    if (object.is_discarded() || !object.is_object()) refuse("record", "is not a JSON object");
+    requireThisVersion(object);
+    Record record;
+    Reader reader(object, "");
+    records::fields(reader, record);
+    reader.refuseUnknown();
+    return record;
+}
+
+std::vector<Record> readRecords(const std::filesystem::path& file) {
+    const std::string text = readFile(file);
+    std::vector<Record> records;
+    int line = 0;
+    for (std::size_t start = 0; start < text.size();) {
+        ++line;
+        const std::size_t end = text.find('\n', start);
+        if (end == std::string::npos)
+            throw BadInput(fmt::format("{}:{}: the last line has no end: the file was cut short; delete the line",
+                                       file.string(), line));
+        try {
+            records.push_back(parseRecord(text.substr(start, end - start)));
+        } catch (const BadInput& error) {
+            throw BadInput(fmt::format("{}:{}: {}", file.string(), line, error.what()));
+        }
+        start = end + 1;
+    }
+    return records;
+}
+
+} // namespace shadowbench

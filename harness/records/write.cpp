@@ -1,0 +1,103 @@
+// Records as JSON lines.
+#include "harness/records/fields.h"
+#include "harness/scene/error.h"
+#include "harness/scene/files.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace shadowbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Writer {
+public:
+    Writer(Json& object, std::string path) : object_(object), path_(std::move(path)) { object_ = Json::object(); }
+
+    template <typename T>
+    void operator()(const char* key, const T& value) {
+        object_[key] = written(key, value);
+    }
+    template <typename T>
+    void operator()(const char* key, const std::optional<T>& value) {
+        if (value) (*this)(key, *value);
+    }
+    void operator()(const char* key, const std::vector<double>& values) {
+        if (values.empty()) return;
+        Json list = Json::array();
+        for (const double value : values) list.push_back(written(key, value));
+        object_[key] = std::move(list);
+    }
+
+    template <typename Inner>
+    void group(const char* key, bool has, const Inner& inner) {
+        if (!has) return;
+        Writer writer(object_[key], pathOf(key) + ".");
+        inner(writer);
+    }
+
+    void text(const char* key, const std::string& value) {
+        if (!value.empty()) object_[key] = value;
+    }
+
+    void size(const char* key, int width, int height) { object_[key] = {width, height}; }
+
+    void parameters(const char* key, const std::vector<std::pair<std::string, std::string>>& list) {
+        Json parameters = Json::object();
+        for (const auto& [name, value] : list) {
+            const Json number = Json::parse(value, nullptr, false); // "32+32" is no number
+            parameters[name] = number.is_number() ? number : Json(value);
+        }
+        object_[key] = std::move(parameters);
+    }
+
+private:
+    [[nodiscard]] std::string pathOf(const char* key) const { return path_ + key; }
+
+    [[nodiscard]] Json written(const char* key, double value) const {
+        if (!std::isfinite(value))
+            throw InternalError(fmt::format("writing a record: \"{}\" is {}; a metric that has no value must be left out",
+                                            pathOf(key), value));
+        return value;
+    }
+    [[nodiscard]] Json written(const char*, Status value) const { return std::string(name(value)); }
+    template <typename T>
+    [[nodiscard]] Json written(const char* key, const T& value) const {
+        if constexpr (requires(Writer & writer) { records::fields(writer, value); }) {
+            Json object;
+            Writer writer(object, pathOf(key) + ".");
+            records::fields(writer, value);
+            return object;
+        } else {
+            return value;
+        }
+    }
+
+    Json& object_;
+    std::string path_;
+};
+
+} // namespace
+
+std::string toJson(const Record& record) {
+    Json json;
+    Writer writer(json, "");
+    records::fields(writer, record);
+    try {
+        return json.dump();
+    } catch (const Json::exception&) {
+        throw InternalError(
+            fmt::format("writing the record of {} on {}: a text is not UTF-8; pass paths and reasons in UTF-8",
+                        record.variant, record.scene));
+    }
+}
+
+void writeRecords(const std::filesystem::path& file, const std::vector<Record>& records) {
+    std::string lines;
+    for (const Record& record : records) lines += toJson(record) + "\n";
+    writeFile(file, lines);
+}
+
+} // namespace shadowbench

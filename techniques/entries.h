@@ -1,0 +1,18 @@
+// The catalogue's lines, one function a technique, each defined in its folder's <id>.cpp.
+#pragma once
+
+#include "techniques/technique.h"
+
+namespace shadowbench::techniques {
+
+Entry none();
+Entry smUniform();
+Entry smLispsm();
+Entry smHistory();
+Entry volumeZfail();
+Entry pcf();
+Entry pcss();
+Entry sampledMaps();
+Entry temporalSoft();
+
+} // namespace shadowbench::techniques

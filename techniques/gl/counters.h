@@ -1,0 +1,40 @@
+// Work counters: what a frame asks of the GPU, independent of how fast this machine is.
+#pragma once
+
+#include <cstdint>
+
+namespace shadowbench::gl {
+
+/// Counted by the wrappers of this folder as they submit work and allocate memory.
+struct Tally {
+    std::uint64_t draws = 0;  // draw calls
+    std::uint64_t passes = 0; // framebuffers bound for drawing
+    std::uint64_t bytes = 0;  // texture and buffer bytes alive now
+};
+
+struct WorkCount {
+    std::uint64_t fragments = 0;  // fragment shader invocations
+    std::uint64_t vertices = 0;   // vertices submitted to the input assembler
+    std::uint64_t primitives = 0; // primitives submitted to the input assembler
+    std::uint64_t draws = 0;
+    std::uint64_t passes = 0;
+};
+
+/// Counts the work between construction and `finish`, with pipeline-statistics queries. One at a time.
+class WorkMeter {
+public:
+    WorkMeter();
+    ~WorkMeter();
+    WorkMeter(const WorkMeter&) = delete;
+    WorkMeter& operator=(const WorkMeter&) = delete;
+
+    WorkCount finish();
+
+private:
+    unsigned queries_[3];
+    bool running_ = true;
+    Tally start_;
+    void end();
+};
+
+} // namespace shadowbench::gl

@@ -1,0 +1,20 @@
+in vec3 world;
+flat in uint surfaceId;
+
+layout(location = 0) out vec4 position;
+layout(location = 1) out vec4 normal;
+layout(location = 2) out uint id;
+#ifdef MOTION
+in vec3 previousWorld;
+layout(location = 3) out vec4 previousPosition;
+#endif
+
+void main() {
+    position = vec4(world, 1.0);
+    // The triangle is flat, so screen-space derivatives span its plane; right × up points towards the viewer.
+    normal = vec4(normalize(cross(dFdx(world), dFdy(world))), 0.0);
+    id = surfaceId;
+#ifdef MOTION
+    previousPosition = vec4(previousWorld, 1.0);
+#endif
+}

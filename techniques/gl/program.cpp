@@ -1,0 +1,187 @@
+#include "techniques/gl/program.h"
+
+#include "harness/scene/error.h"
+#include "techniques/gl/api.h"
+#include "techniques/gl/context.h"
+#include "techniques/gl/texture.h"
+
+#include <cctype>
+#include <glm/gtc/type_ptr.hpp>
+#include <regex>
+#include <sstream>
+
+namespace shadowbench::gl {
+namespace {
+
+/// Mesa writes "0:12(3): error: …": puts the file and line that line 12 came from in its place.
+std::string withOrigins(const std::string& log, const ShaderSource& source) {
+    static const std::regex position(R"(^0:(\d+)\(\d+\))");
+    std::istringstream lines(log);
+    std::string line, result;
+    while (std::getline(lines, line)) {
+        std::smatch match;
+        if (std::regex_search(line, match, position)) {
+            const std::size_t number = std::stoul(match[1]);
+            if (number >= 1 && number <= source.origin.size()) line = source.origin[number - 1] + match.suffix().str();
+        }
+        result += (result.empty() ? "" : "\n") + line;
+    }
+    return result;
+}
+
+GLuint compile(GLenum stage, const std::string& file, const Defines& defines) {
+    const ShaderSource source = loadShader(file, defines);
+    const GLuint shader = glCreateShader(stage);
+    const char* text = source.text.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    GLint good = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    if (good != 0) return shader;
+    std::string log(16384, '\0');
+    GLsizei length = 0;
+    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    glDeleteShader(shader);
+    Context::current().discardErrors();
+    throw InternalError("compiling shader " + file + " failed:\n" + withOrigins(log, source));
+}
+
+GLuint link(GLuint vertex, GLuint fragment, const std::string& title) {
+    const GLuint program = glCreateProgram();
+    glAttachShader(program, vertex);
+    glAttachShader(program, fragment);
+    glLinkProgram(program);
+    glDeleteShader(vertex);
+    glDeleteShader(fragment);
+    GLint good = 0;
+    glGetProgramiv(program, GL_LINK_STATUS, &good);
+    if (good != 0) return program;
+    std::string log(16384, '\0');
+    GLsizei length = 0;
+    glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    glDeleteProgram(program);
+    Context::current().discardErrors();
+    throw InternalError("linking " + title + " failed: " + log);
+}
+
+bool isSampler(GLenum type) {
+    switch (type) {
+    case GL_SAMPLER_2D:
+    case GL_SAMPLER_2D_SHADOW:
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+        return true;
+    default:
+        return false;
+    }
+}
+
+} // namespace
+
+Program::Program(const std::string& vertexFile, const std::string& fragmentFile, const Defines& defines)
+    : title_(vertexFile + " + " + fragmentFile) {
+    const GLuint vertex = compile(GL_VERTEX_SHADER, vertexFile, defines);
+    id_ = link(vertex, compile(GL_FRAGMENT_SHADER, fragmentFile, defines), title_);
+
+    GLint count = 0;
+    glGetProgramiv(id_, GL_ACTIVE_UNIFORMS, &count);
+    int unit = 0;
+    for (GLint i = 0; i < count; ++i) {
+        char buffer[256];
+        GLint size = 0;
+        GLenum type = 0;
+        glGetActiveUniform(id_, static_cast<GLuint>(i), sizeof buffer, nullptr, &size, &type, buffer);
+        std::string name(buffer);
+        if (name.ends_with("[0]")) name.resize(name.size() - 3);
+        uniforms_[name] = {glGetUniformLocation(id_, buffer), isSampler(type) ? unit++ : -1};
+    }
+}
+
+Program Program::screen(const std::string& fragmentFile, const Defines& defines) {
+    return {"gl/screen.vert", fragmentFile, defines};
+}
+
+Program::~Program() {
+    if (id_ != 0) glDeleteProgram(id_);
+}
+
+Program::Program(Program&& other) noexcept
+    : id_(std::exchange(other.id_, 0)), title_(std::move(other.title_)), uniforms_(std::move(other.uniforms_)) {}
+
+const Program::Uniform& Program::uniform(const std::string& name) const {
+    const auto found = uniforms_.find(name);
+    if (found == uniforms_.end()) throw InternalError(title_ + " has no uniform " + name + " in use");
+    return found->second;
+}
+
+Program& Program::set(const std::string& name, int value) {
+    glProgramUniform1i(id_, uniform(name).location, value);
+    return *this;
+}
+
+Program& Program::set(const std::string& name, float value) {
+    glProgramUniform1f(id_, uniform(name).location, value);
+    return *this;
+}
+
+Program& Program::set(const std::string& name, glm::vec2 value) {
+    glProgramUniform2f(id_, uniform(name).location, value.x, value.y);
+    return *this;
+}
+
+Program& Program::set(const std::string& name, glm::vec3 value) {
+    glProgramUniform3f(id_, uniform(name).location, value.x, value.y, value.z);
+    return *this;
+}
+
+Program& Program::set(const std::string& name, glm::vec4 value) {
+    glProgramUniform4f(id_, uniform(name).location, value.x, value.y, value.z, value.w);
+    return *this;
+}
+
+Program& Program::set(const std::string& name, const glm::mat4& value) {
+    glProgramUniformMatrix4fv(id_, uniform(name).location, 1, GL_FALSE, glm::value_ptr(value));
+    return *this;
+}
+
+Program& Program::set(const std::string& name, std::span<const glm::vec2> values) {
+    glProgramUniform2fv(id_, uniform(name).location, static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+    return *this;
+}
+
+Program& Program::set(const std::string& sampler, const Texture& texture) {
+    const Uniform& found = uniform(sampler);
+    glProgramUniform1i(id_, found.location, found.unit);
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(found.unit));
+    glBindTexture(GL_TEXTURE_2D, texture.id());
+    return *this;
+}
+
+void Program::use() const { glUseProgram(id_); }
+
+void Program::drawScreen() const {
+    glDisable(GL_DEPTH_TEST);
+    drawTriangle();
+}
+
+void Program::drawScreenDepth() const {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+    drawTriangle();
+    glDepthFunc(GL_LESS);
+}
+
+void Program::drawTriangle() const {
+    use();
+    glDisable(GL_CULL_FACE);
+    GLuint noAttributes = 0;
+    glGenVertexArrays(1, &noAttributes);
+    glBindVertexArray(noAttributes);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDeleteVertexArrays(1, &noAttributes);
+    ++Context::current().tally().draws;
+}
+
+} // namespace shadowbench::gl

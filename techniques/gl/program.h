@@ -1,0 +1,76 @@
+// A linked GLSL program. Sources are the files under techniques/, embedded by the build; `#include "maps/light_space.glsl"`
+// is resolved when loaded, and a compile error names the file and line it comes from.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <map>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace shadowbench::gl {
+
+class Texture;
+
+/// Preprocessor definitions put before the source.
+using Defines = std::vector<std::pair<std::string, std::string>>;
+
+class Program {
+public:
+    Program(const std::string& vertexFile, const std::string& fragmentFile, const Defines& defines = {});
+
+    /// A full-screen pass of one fragment shader.
+    static Program screen(const std::string& fragmentFile, const Defines& defines = {});
+
+    ~Program();
+    Program(Program&& other) noexcept;
+    Program& operator=(Program&&) = delete;
+
+    /// Uniforms by name. A name the linked program does not use is an InternalError: a misspelt uniform must not pass in
+    /// silence.
+    Program& set(const std::string& uniform, int value);
+    Program& set(const std::string& uniform, float value);
+    Program& set(const std::string& uniform, glm::vec2 value);
+    Program& set(const std::string& uniform, glm::vec3 value);
+    Program& set(const std::string& uniform, glm::vec4 value);
+    Program& set(const std::string& uniform, const glm::mat4& value);
+    Program& set(const std::string& uniform, std::span<const glm::vec2> values);
+
+    /// Binds the texture to the sampler of that name.
+    Program& set(const std::string& sampler, const Texture& texture);
+
+    [[nodiscard]] bool uses(const std::string& uniform) const { return uniforms_.contains(uniform); }
+    void use() const;
+
+    /// Runs the full-screen pass into the framebuffer that is bound for drawing.
+    void drawScreen() const;
+
+    /// The same for a shader that writes gl_FragDepth: every pixel's depth is replaced.
+    void drawScreenDepth() const;
+
+private:
+    struct Uniform {
+        int location;
+        int unit; // texture unit of a sampler, else −1
+    };
+    void drawTriangle() const;
+    [[nodiscard]] const Uniform& uniform(const std::string& name) const;
+
+    unsigned id_ = 0;
+    std::string title_;
+    std::unordered_map<std::string, Uniform> uniforms_;
+};
+
+/// A shader source with its includes in place. `origin[i]` names file and line of line i + 1 of `text`.
+struct ShaderSource {
+    std::string text;
+    std::vector<std::string> origin;
+};
+ShaderSource loadShader(const std::string& file, const Defines& defines);
+
+} // namespace shadowbench::gl

@@ -1,0 +1,102 @@
+#include "techniques/gl/scene_buffers.h"
+
+#include "techniques/gl/api.h"
+#include "techniques/gl/context.h"
+
+#include <array>
+#include <glm/mat3x4.hpp>
+#include <glm/matrix.hpp>
+
+namespace shadowbench::gl {
+namespace {
+
+/// What a vertex shader is told of one placement.
+struct InstanceData {
+    glm::mat3x4 world; // three rows of the affine matrix
+    glm::mat3x4 previous;
+    std::array<GLuint, 2> idAndMoving;
+};
+
+glm::mat3x4 rows(const glm::dmat4& affine) { return glm::mat3x4(glm::transpose(affine)); }
+
+const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+} // namespace
+
+Buffer::Buffer() { glGenBuffers(1, &id_); }
+
+Buffer::~Buffer() {
+    Context::current().tally().bytes -= bytes_;
+    glDeleteBuffers(1, &id_);
+}
+
+void Buffer::upload(const void* data, std::size_t bytes) {
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
+    glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_DYNAMIC_DRAW);
+    Context::current().tally().bytes += bytes;
+    Context::current().tally().bytes -= bytes_;
+    bytes_ = bytes;
+}
+
+VertexArray::VertexArray() { glGenVertexArrays(1, &id_); }
+
+VertexArray::~VertexArray() { glDeleteVertexArrays(1, &id_); }
+
+void VertexArray::bind() const { glBindVertexArray(id_); }
+
+void SceneBuffers::bindInstances() const {
+    glBindBuffer(GL_ARRAY_BUFFER, instances_.id());
+    for (GLuint row = 0; row < 6; ++row) {
+        const GLuint attribute = 1 + row;
+        glEnableVertexAttribArray(attribute);
+        glVertexAttribPointer(attribute, 4, GL_FLOAT, GL_FALSE, sizeof(InstanceData), offset(row * sizeof(glm::vec4)));
+        glVertexAttribDivisor(attribute, 1);
+    }
+    glEnableVertexAttribArray(7);
+    glVertexAttribIPointer(7, 2, GL_UNSIGNED_INT, sizeof(InstanceData), offset(offsetof(InstanceData, idAndMoving)));
+    glVertexAttribDivisor(7, 1);
+}
+
+SceneBuffers::GpuMesh& SceneBuffers::meshOnGpu(const std::shared_ptr<const Mesh>& mesh) {
+    const auto [entry, isNew] = meshes_.try_emplace(mesh.get());
+    GpuMesh& gpu = entry->second;
+    if (!isNew) return gpu;
+    gpu.source = mesh;
+    gpu.vertices.upload(mesh->positions.data(), mesh->positions.size() * sizeof(glm::vec3));
+    gpu.indices.upload(mesh->triangles.data(), mesh->triangles.size() * sizeof(glm::uvec3));
+    gpu.indexCount = static_cast<int>(mesh->triangles.size() * 3);
+    gpu.layout.bind();
+    glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.id());
+    glEnableVertexAttribArray(0);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gpu.indices.id());
+    bindInstances();
+    return gpu;
+}
+
+void SceneBuffers::update(const Snapshot& snapshot) {
+    std::vector<InstanceData> instances;
+    draws_.clear();
+    moving_ = false;
+    for (const Batch& batch : snapshot.batches) {
+        const auto base = static_cast<unsigned>(instances.size());
+        for (const Placement& placement : batch.placements) {
+            const bool moved = placement.world != placement.previous;
+            moving_ = moving_ || moved;
+            instances.push_back({rows(placement.world), rows(placement.previous), {placement.id, moved ? 1U : 0U}});
+        }
+        draws_.push_back({&meshOnGpu(batch.mesh), static_cast<int>(batch.placements.size()), base});
+    }
+    instances_.upload(instances.data(), instances.size() * sizeof(InstanceData));
+}
+
+void SceneBuffers::draw() const {
+    for (const Draw& draw : draws_) {
+        draw.mesh->layout.bind();
+        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, draw.mesh->indexCount, GL_UNSIGNED_INT, nullptr, draw.instances,
+                                            draw.baseInstance);
+    }
+    Context::current().tally().draws += draws_.size();
+}
+
+} // namespace shadowbench::gl

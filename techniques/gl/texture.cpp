@@ -1,0 +1,191 @@
+#include "techniques/gl/texture.h"
+
+#include "harness/scene/error.h"
+#include "techniques/gl/api.h"
+#include "techniques/gl/context.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace shadowbench::gl {
+namespace {
+
+struct FormatFacts {
+    GLenum internal;
+    std::size_t bytes; // a texel
+};
+
+FormatFacts facts(Format format) {
+    switch (format) {
+    case Format::R8:
+        return {GL_R8, 1};
+    case Format::R32F:
+        return {GL_R32F, 4};
+    case Format::RG16F:
+        return {GL_RG16F, 4};
+    case Format::RGBA16F:
+        return {GL_RGBA16F, 8};
+    case Format::RGBA32F:
+        return {GL_RGBA32F, 16};
+    case Format::R32UI:
+        return {GL_R32UI, 4};
+    case Format::Depth32F:
+        return {GL_DEPTH_COMPONENT32F, 4};
+    case Format::Depth32FStencil8:
+        return {GL_DEPTH32F_STENCIL8, 8};
+    }
+    throw InternalError("unknown texture format");
+}
+
+bool isDepth(Format format) { return format == Format::Depth32F || format == Format::Depth32FStencil8; }
+
+/// GL's row 0 is at the bottom, ours at the top.
+template <typename T>
+Image<T> readPixels(unsigned framebuffer, glm::ivec2 size, GLenum buffer, GLenum format, GLenum type) {
+    Image<T> upsideDown(size.x, size.y);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    if (buffer != GL_NONE) glReadBuffer(buffer);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, size.x, size.y, format, type, upsideDown.data());
+    Image<T> image(size.x, size.y);
+    for (int y = 0; y < size.y; ++y) std::copy_n(&upsideDown(0, size.y - 1 - y), size.x, &image(0, y));
+    return image;
+}
+
+} // namespace
+
+Texture::Texture(Format format, glm::ivec2 size, Filter filter, Wrap wrap) : format_(format), size_(size) {
+    glGenTextures(1, &id_);
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glTexStorage2D(GL_TEXTURE_2D, 1, facts(format).internal, size.x, size.y);
+    const GLint sampling = filter == Filter::Linear ? GL_LINEAR : GL_NEAREST;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, sampling);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, sampling);
+    const GLint wrapping = wrap == Wrap::BorderFar ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrapping);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrapping);
+    const float far = isDepth(format) ? 1 : nothingInTheWay;
+    const std::array<float, 4> border{far, far, far, far};
+    glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, border.data());
+    Context::current().tally().bytes += bytes();
+    Context::current().check("allocating a texture of " + std::to_string(size.x) + "×" + std::to_string(size.y));
+}
+
+Texture::~Texture() { release(); }
+
+void Texture::release() {
+    if (id_ == 0) return;
+    Context::current().tally().bytes -= bytes();
+    glDeleteTextures(1, &id_);
+    id_ = 0;
+}
+
+Texture::Texture(Texture&& other) noexcept : id_(std::exchange(other.id_, 0)), format_(other.format_), size_(other.size_) {}
+
+Texture& Texture::operator=(Texture&& other) noexcept {
+    if (this == &other) return *this;
+    release();
+    id_ = std::exchange(other.id_, 0);
+    format_ = other.format_;
+    size_ = other.size_;
+    return *this;
+}
+
+void Texture::compareDepth() {
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+}
+
+std::size_t Texture::bytes() const {
+    return facts(format_).bytes * static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);
+}
+
+RenderTarget::RenderTarget(std::initializer_list<const Texture*> attachments) {
+    glGenFramebuffers(1, &id_);
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    std::vector<GLenum> colours;
+    for (const Texture* texture : attachments) {
+        size_ = texture->size();
+        GLenum point = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colours.size());
+        if (texture->format() == Format::Depth32F) point = GL_DEPTH_ATTACHMENT;
+        if (texture->format() == Format::Depth32FStencil8) point = GL_DEPTH_STENCIL_ATTACHMENT;
+        if (!isDepth(texture->format())) colours.push_back(point);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, point, GL_TEXTURE_2D, texture->id(), 0);
+    }
+    if (colours.empty()) {
+        glDrawBuffer(GL_NONE);
+        glReadBuffer(GL_NONE);
+    } else {
+        glDrawBuffers(static_cast<GLsizei>(colours.size()), colours.data());
+    }
+    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw InternalError("a framebuffer is incomplete (status " + std::to_string(status) + ")");
+}
+
+RenderTarget::~RenderTarget() { release(); }
+
+void RenderTarget::release() {
+    if (id_ != 0) glDeleteFramebuffers(1, &id_);
+    id_ = 0;
+}
+
+RenderTarget::RenderTarget(RenderTarget&& other) noexcept : id_(std::exchange(other.id_, 0)), size_(other.size_) {}
+
+RenderTarget& RenderTarget::operator=(RenderTarget&& other) noexcept {
+    if (this == &other) return *this;
+    release();
+    id_ = std::exchange(other.id_, 0);
+    size_ = other.size_;
+    return *this;
+}
+
+void RenderTarget::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glViewport(0, 0, size_.x, size_.y);
+    ++Context::current().tally().passes;
+}
+
+void RenderTarget::clearColour(int attachment, glm::vec4 value) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glClearBufferfv(GL_COLOR, attachment, &value.x);
+}
+
+void RenderTarget::clearColour(int attachment, unsigned value) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    const std::array<GLuint, 4> values{value, 0, 0, 0};
+    glClearBufferuiv(GL_COLOR, attachment, values.data());
+}
+
+void RenderTarget::clearDepth(float value) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glDepthMask(GL_TRUE);
+    glClearBufferfv(GL_DEPTH, 0, &value);
+}
+
+void RenderTarget::clearStencil() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glStencilMask(0xFF);
+    constexpr GLint zero = 0;
+    glClearBufferiv(GL_STENCIL, 0, &zero);
+}
+
+Image<float> RenderTarget::readFloat(int attachment) const {
+    return readPixels<float>(id_, size_, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachment), GL_RED, GL_FLOAT);
+}
+
+Image<glm::vec4> RenderTarget::readVec4(int attachment) const {
+    return readPixels<glm::vec4>(id_, size_, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachment), GL_RGBA, GL_FLOAT);
+}
+
+Image<unsigned> RenderTarget::readUint(int attachment) const {
+    return readPixels<unsigned>(id_, size_, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachment), GL_RED_INTEGER,
+                                GL_UNSIGNED_INT);
+}
+
+Image<float> RenderTarget::readDepth() const { return readPixels<float>(id_, size_, GL_NONE, GL_DEPTH_COMPONENT, GL_FLOAT); }
+
+} // namespace shadowbench::gl

@@ -1,0 +1,76 @@
+// Two-dimensional textures and the framebuffers that draw into them. Bytes are accounted in Context::tally().
+#pragma once
+
+#include "harness/scene/image.h"
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <initializer_list>
+
+namespace shadowbench::gl {
+
+enum class Format { R8, R32F, RG16F, RGBA16F, RGBA32F, R32UI, Depth32F, Depth32FStencil8 };
+
+/// How a sampler reads between texels and outside [0, 1]².
+enum class Filter { Nearest, Linear };
+enum class Wrap { ClampToEdge, BorderFar }; // BorderFar: outside reads as the farthest depth
+
+/// The farthest depth of a map of linear depths in metres; a depth texture's is 1.
+inline constexpr float nothingInTheWay = 1e30F;
+
+class Texture {
+public:
+    Texture(Format format, glm::ivec2 size, Filter filter = Filter::Nearest, Wrap wrap = Wrap::ClampToEdge);
+    ~Texture();
+    Texture(Texture&& other) noexcept;
+    Texture& operator=(Texture&& other) noexcept;
+
+    /// Makes sampler2DShadow lookups compare (reference ≤ texel); with Filter::Linear the four comparisons are interpolated.
+    void compareDepth();
+
+    [[nodiscard]] unsigned id() const { return id_; }
+    [[nodiscard]] glm::ivec2 size() const { return size_; }
+    [[nodiscard]] Format format() const { return format_; }
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    void release();
+    unsigned id_ = 0;
+    Format format_;
+    glm::ivec2 size_;
+};
+
+/// A framebuffer over textures that outlive it: colour attachments in order, and at most one depth(-stencil) texture.
+class RenderTarget {
+public:
+    explicit RenderTarget(std::initializer_list<const Texture*> attachments);
+    ~RenderTarget();
+    RenderTarget(RenderTarget&& other) noexcept;
+    RenderTarget& operator=(RenderTarget&& other) noexcept;
+
+    /// Binds for drawing and sets the viewport to the whole of it; counts as a pass.
+    void bind() const;
+
+    /// Binds and clears colour attachment `attachment` (float or unsigned formats).
+    void clearColour(int attachment, glm::vec4 value) const;
+    void clearColour(int attachment, unsigned value) const;
+    void clearDepth(float value) const;
+    void clearStencil() const;
+
+    [[nodiscard]] glm::ivec2 size() const { return size_; }
+
+    // Read back, row 0 at the top. Blocks until the GPU is done.
+    [[nodiscard]] Image<float> readFloat(int attachment) const;
+    [[nodiscard]] Image<glm::vec4> readVec4(int attachment) const;
+    [[nodiscard]] Image<unsigned> readUint(int attachment) const;
+    [[nodiscard]] Image<float> readDepth() const;
+
+private:
+    void release();
+    unsigned id_ = 0;
+    glm::ivec2 size_{0, 0};
+};
+
+} // namespace shadowbench::gl

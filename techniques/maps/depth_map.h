@@ -1,0 +1,64 @@
+// The shadow map of Williams (course, "Shadow Mapping"): nearest depth per texel, and the bias that its finite texels need.
+#pragma once
+
+#include "techniques/gl/program.h"
+#include "techniques/gl/scene_buffers.h"
+#include "techniques/gl/texture.h"
+#include "techniques/maps/light_view.h"
+#include "techniques/parameters.h"
+
+#include <glm/mat4x4.hpp>
+#include <string_view>
+#include <vector>
+
+namespace shadowbench::techniques {
+
+/// One step of a 24-bit depth buffer: the unit of a constant bias.
+inline constexpr double depthStep = 1.0 / (1 << 24);
+
+/// Offset away from the light while the map is drawn (course, "Bias"): factor · max depth slope per texel + units ·
+/// depthStep.
+struct Bias {
+    float factor = 0;
+    float units = 0;
+};
+
+/// `map`, `bias`, `factor` and `units`: the parameters of every technique over a depth map.
+std::vector<Parameter> depthMapParameters(int defaultSide = 1024);
+Bias biasFrom(const Parameters& parameters);
+
+/// Compare: sampled through sampler2DShadow with 2×2 interpolated comparisons if `Filter::Linear`; Raw: depths read as
+/// numbers.
+enum class Lookup { Compare, CompareBilinear, Raw };
+
+class DepthMap {
+public:
+    DepthMap(int side, Bias bias, Lookup lookup);
+
+    /// Draws the nearest depths. Occluders between the light and the near plane are kept, at depth 0.
+    void draw(const LightView& light, const gl::SceneBuffers& scene);
+
+    [[nodiscard]] const gl::Texture& texture() const { return depth_; }
+    [[nodiscard]] int side() const { return depth_.size().x; }
+
+private:
+    gl::Texture depth_;
+    gl::RenderTarget target_;
+    gl::Program program_;
+    Bias bias_;
+};
+
+/// Map space: x, y and depth in [0, 1] where clip space has [−1, 1].
+glm::mat4 mapFromWorld(const LightView& light);
+
+/// State shared by every pass that draws casters into a map: clips what lies behind the light, clamps what lies before the
+/// near plane.
+class CasterPass {
+public:
+    CasterPass(gl::Program& program, const LightView& light, Bias bias);
+    ~CasterPass();
+    CasterPass(const CasterPass&) = delete;
+    CasterPass& operator=(const CasterPass&) = delete;
+};
+
+} // namespace shadowbench::techniques

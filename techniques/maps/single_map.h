@@ -1,0 +1,22 @@
+// A technique that draws one shadow map and tests each receiver against it once: they differ in how the map is fitted.
+#pragma once
+
+#include "techniques/maps/depth_map.h"
+#include "techniques/technique.h"
+
+#include <functional>
+
+namespace shadowbench::techniques {
+
+/// How a map is fitted to a frame.
+using FitView = std::function<LightView(const Frame&)>;
+
+std::unique_ptr<Technique> makeSingleMap(const Parameters& parameters, FitView fit);
+
+/// `sm-uniform`: the light frustum fitted to the whole scene.
+LightView uniformView(const Frame& frame);
+
+/// `sm-lispsm`.
+LightView lispsmView(const Frame& frame);
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,121 @@
+// Pixel-correct shadow maps (Scherzer, Jeschke, Wimmer 2007): a history buffer per pixel, reprojected each frame (eq. 3.4)
+// where depths agree (eq. 3.5), takes in the test result of a newly jittered shadow map with a weight that grows with the
+// confidence of the sample (eq. 3.6, 3.7). EGSR paper; dissertation chapter 3 and listing 6.1. Departures: the reprojected
+// position comes from the world position in the G-buffer (and, for moving receivers, last frame's), which is the same point
+// as eq. 3.4's product of matrices; the depth tolerance is the listing's 0.001 in window depth.
+#include "techniques/maps/sm-history/sm-history.h"
+
+#include "techniques/entries.h"
+#include "techniques/maps/single_map.h"
+#include "techniques/resolve.h"
+#include "techniques/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <optional>
+
+namespace shadowbench::techniques {
+
+double confidence(glm::dvec2 texel) {
+    const double dx = std::abs(texel.x - std::floor(texel.x) - 0.5);
+    const double dy = std::abs(texel.y - std::floor(texel.y) - 0.5);
+    return 1 - 2 * std::max(dx, dy);
+}
+
+double smoothed(double previous, double current, double confidence, double m) {
+    const double w = std::pow(confidence, m);
+    return w * current + (1 - w) * previous;
+}
+
+double MSchedule::next(bool moved) {
+    if (moved)
+        m_ = start_;
+    else if (!first_)
+        m_ += step_;
+    first_ = false;
+    return m_;
+}
+
+namespace {
+
+class History final : public Technique {
+public:
+    explicit History(const Parameters& p)
+        : fit_(p.text("base") == "lispsm" ? lispsmView : uniformView), jitter_(p.text("jitter")),
+          map_(p.integer("map"), biasFrom(p), Lookup::Compare), schedule_(p.real("m"), p.real("step")),
+          resolve_(gl::Program::screen("maps/sm-history/sm-history.frag",
+                                       {{"PCF_RADIUS", p.text("filter") == "pcf" ? "1" : "0"}})) {}
+
+    void reset() override {
+        history_.reset();
+        schedule_.reset();
+    }
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        const bool fresh = !history_ || history_->read.size() != frame.size;
+        if (fresh) history_.emplace(frame.size);
+
+        const LightView light = rasterisedAnew(fit_(frame), frame);
+        map_.draw(light, frame.scene);
+        resolve_.set("positions", frame.gbuffer.position())
+            .set("previousPositions", frame.gbuffer.previousPosition())
+            .set("mapFromWorld", mapFromWorld(light))
+            .set("depthMap", map_.texture())
+            .set("history", history_->read)
+            .set("clipFromWorld", glm::mat4(frame.clipFromWorld))
+            .set("previousClipFromWorld", glm::mat4(frame.previousClipFromWorld))
+            .set("m", static_cast<float>(schedule_.next(frame.cameraMoved())))
+            .set("hasHistory", fresh ? 0 : 1);
+        resolveInto({&visibility, &history_->write}, resolve_);
+        std::swap(history_->read, history_->write);
+    }
+
+private:
+    /// Smoothed visibility and window depth, 16-bit floats, double-buffered.
+    struct Buffers {
+        explicit Buffers(glm::ivec2 size)
+            : read(gl::Format::RG16F, size, gl::Filter::Linear), write(gl::Format::RG16F, size, gl::Filter::Linear) {}
+        gl::Texture read, write;
+    };
+
+    /// Section 3.3: a new rasterisation each frame by Halton translation within a texel and rotation of the projection
+    /// window.
+    [[nodiscard]] LightView rasterisedAnew(const LightView& view, const Frame& frame) const {
+        if (jitter_ == "none") return view;
+        const std::uint32_t i = haltonIndex(frame.index, frame.seed);
+        const double angle = jitter_ == "translation" ? 0 : glm::two_pi<double>() * halton(i, 5);
+        return jittered(view, angle, {halton(i, 2) - 0.5, halton(i, 3) - 0.5}, map_.side());
+    }
+
+    FitView fit_;
+    std::string jitter_;
+    DepthMap map_;
+    MSchedule schedule_;
+    gl::Program resolve_;
+    std::optional<Buffers> history_;
+};
+
+} // namespace
+
+Entry smHistory() {
+    std::vector<Parameter> parameters{
+        {"base", "lispsm", OneOf{{"uniform", "lispsm"}}, "how the map under the history is fitted", "EGSR paper, 4"},
+        {"filter", "none", OneOf{{"none", "pcf"}}, "of each frame's test: none or PCF 3×3", "EGSR paper, Fig. 6"},
+        {"m", "3", RealRange{0, 64}, "exponent of the confidence while the camera moves", "EGSR paper, 3.3"},
+        {"step", "0.1", RealRange{0, 16}, "added to m for each frame that the camera stands still", "EGSR paper, 4"},
+        {"jitter", "rotation", OneOf{{"none", "translation", "rotation"}}, "none, Halton translation, or with rotation too",
+         "EGSR paper, 3.3"},
+    };
+    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    return {.id = "sm-history",
+            .title = "Pixel-correct shadow map with history",
+            .source = {Seed::PixelCorrectPaper, "3, listing 6.1 of the dissertation"},
+            .answer = Answer::Hard,
+            .temporal = true,
+            .parameters = std::move(parameters),
+            .variants = {"", "base=uniform", "filter=pcf"},
+            .make = [](const Parameters& p) { return std::make_unique<History>(p); }};
+}
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,58 @@
+// One frame of pixel-correct shadow maps.
+#include "gl/half.glsl"
+#include "gl/receiver.glsl"
+#include "maps/light_space.glsl"
+
+uniform sampler2DShadow depthMap;
+uniform sampler2D previousPositions;  // world position of this pixel's surface point one frame earlier
+uniform sampler2D history;            // smoothed visibility, window depth
+uniform mat4 clipFromWorld;
+uniform mat4 previousClipFromWorld;
+uniform float m;
+uniform int hasHistory;
+
+layout(location = 0) out float visibility;
+layout(location = 1) out vec2 newHistory;
+
+const float depthTolerance = 0.001;  // eq. 3.5
+
+vec3 windowPosition(mat4 clip, vec3 world) {
+    vec4 h = clip * vec4(world, 1.0);
+    return h.xyz / h.w * 0.5 + 0.5;
+}
+
+/// f(n): the shadow test of this frame.
+float currentTest(MapPoint point) {
+    float sum = 0.0;
+    vec2 texel = 1.0 / vec2(textureSize(depthMap, 0));
+    for (int y = -PCF_RADIUS; y <= PCF_RADIUS; ++y)
+        for (int x = -PCF_RADIUS; x <= PCF_RADIUS; ++x)
+            sum += shadowTest(depthMap, MapPoint(point.at + vec3(vec2(x, y) * texel, 0.0), point.behind));
+    return sum / float((2 * PCF_RADIUS + 1) * (2 * PCF_RADIUS + 1));
+}
+
+/// Eq. 3.6.
+float confidence(MapPoint point) {
+    vec2 fromCentre = abs(fract(point.at.xy * vec2(textureSize(depthMap, 0))) - 0.5);
+    return 1.0 - 2.0 * max(fromCentre.x, fromCentre.y);
+}
+
+void main() {
+    Receiver receiver = receiverAt(gl_FragCoord.xy);
+    if (!receiver.seen) {
+        visibility = 1.0;
+        newHistory = vec2(1.0, 1.0);
+        return;
+    }
+    MapPoint point = mapPoint(receiver.position);
+    visibility = currentTest(point);
+
+    vec3 before = windowPosition(previousClipFromWorld, texelFetch(previousPositions, ivec2(gl_FragCoord.xy), 0).xyz);  // eq. 3.4
+    bool inside = all(greaterThanEqual(before.xy, vec2(0.0))) && all(lessThanEqual(before.xy, vec2(1.0)));
+    if (hasHistory == 1 && inside) {
+        vec2 old = texture(history, before.xy).xy;
+        if (abs(old.y - before.z) < depthTolerance)
+            visibility = mix(old.x, visibility, pow(confidence(point), m));  // eq. 3.3, 3.7
+    }
+    newHistory = toHalf(vec2(visibility, windowPosition(clipFromWorld, receiver.position).z));
+}

@@ -1,0 +1,26 @@
+// No shadow at all: the floor of cost and of accuracy (Zápotocký 5.2).
+#include "techniques/entries.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+class None final : public Technique {
+public:
+    void render(const Frame& /*frame*/, const gl::Texture& visibility) override {
+        gl::RenderTarget({&visibility}).clearColour(0, glm::vec4(1));
+    }
+};
+
+} // namespace
+
+Entry none() {
+    return {.id = "none",
+            .title = "No shadow",
+            .source = {Seed::Zapotocky, "5.2"},
+            .answer = Answer::Hard,
+            .parameters = {},
+            .variants = {""},
+            .make = [](const Parameters&) { return std::make_unique<None>(); }};
+}
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,83 @@
+// N shadow maps over the light, averaged (Heckbert–Herf 1997): eq. 4.2 of the dissertation; Zápotocký's "sampled" methods.
+// Converges to the visible fraction of the light's area as N grows; N samples give N − 1 levels between lit and umbra.
+#include "techniques/entries.h"
+#include "techniques/gl/api.h"
+#include "techniques/maps/depth_map.h"
+#include "techniques/resolve.h"
+#include "techniques/sampling.h"
+
+#include <cmath>
+#include <optional>
+
+namespace shadowbench::techniques {
+namespace {
+
+class SampledMaps final : public Technique {
+public:
+    explicit SampledMaps(const Parameters& p)
+        : count_(p.integer("n")), grid_(p.text("pattern") == "grid"), map_(p.integer("map"), biasFrom(p), Lookup::Compare),
+          test_(gl::Program::screen("maps/single_map.frag")), mean_(gl::Program::screen("sampled/sampled-maps/mean.frag")) {}
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        if (!sum_ || sum_->size() != frame.size) sum_.emplace(gl::Format::R32F, frame.size);
+        const gl::RenderTarget sumTarget({&*sum_});
+        sumTarget.clearColour(0, glm::vec4(0));
+        const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
+        for (int i = 0; i < count_; ++i) {
+            const LightView light = fitFromSample(frame.snapshot.light, sample(i, frame), corners);
+            map_.draw(light, frame.scene);
+            addTest(frame, light, sumTarget);
+        }
+        mean_.set("sum", *sum_).set("count", static_cast<float>(count_));
+        resolveInto({&visibility}, mean_);
+    }
+
+private:
+    /// Halton points (bases 2 and 3), or the cell centres of a square grid.
+    [[nodiscard]] glm::dvec3 sample(int i, const Frame& frame) const {
+        const Light& light = frame.snapshot.light;
+        if (grid_) {
+            const int side = std::max(1, static_cast<int>(std::lround(std::sqrt(count_))));
+            return light.sample({(i % side + 0.5) / side, (i / side % side + 0.5) / side});
+        }
+        const std::uint32_t index = haltonIndex(i, frame.seed);
+        return light.sample({halton(index, 2), halton(index, 3)});
+    }
+
+    void addTest(const Frame& frame, const LightView& light, const gl::RenderTarget& sumTarget) {
+        test_.set("positions", frame.gbuffer.position())
+            .set("mapFromWorld", mapFromWorld(light))
+            .set("depthMap", map_.texture());
+        sumTarget.bind();
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_ONE, GL_ONE);
+        test_.drawScreen();
+        glDisable(GL_BLEND);
+    }
+
+    int count_;
+    bool grid_;
+    DepthMap map_;
+    gl::Program test_, mean_;
+    std::optional<gl::Texture> sum_;
+};
+
+} // namespace
+
+Entry sampledMaps() {
+    std::vector<Parameter> parameters{
+        {"n", "64", IntegerRange{1, 4096}, "light samples, one map each", "Zápotocký 5.2 (64 and 100)"},
+        {"pattern", "halton", OneOf{{"halton", "grid"}}, "where the samples lie; a grid has ⌊√n⌉ a side",
+         "dissertation 4.2"},
+    };
+    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    return {.id = "sampled-maps",
+            .title = "Sampled area light, one shadow map a sample",
+            .source = {Seed::Dissertation, "2.3.5, eq. 4.2"},
+            .answer = Answer::Soft,
+            .parameters = std::move(parameters),
+            .variants = {"", "n=256"},
+            .make = [](const Parameters& p) { return std::make_unique<SampledMaps>(p); }};
+}
+
+} // namespace shadowbench::techniques

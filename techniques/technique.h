@@ -1,0 +1,96 @@
+// The contract of a shadow technique: what it is given, what it must return, and how the catalogue describes it.
+#pragma once
+
+#include "harness/scene/scene.h"
+#include "techniques/gl/gbuffer.h"
+#include "techniques/gl/scene_buffers.h"
+#include "techniques/gl/texture.h"
+#include "techniques/parameters.h"
+
+#include <cstdint>
+#include <functional>
+#include <glm/mat4x4.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shadowbench::techniques {
+
+/// Everything a technique may know of one frame. The G-buffer has already been drawn.
+struct Frame {
+    const Snapshot& snapshot;
+    const gl::SceneBuffers& scene;
+    const gl::GBuffer& gbuffer;
+    glm::ivec2 size;                  // of the image, in pixels
+    glm::dmat4 clipFromWorld;         // camera: projection · view
+    glm::dmat4 previousClipFromWorld; // the same one frame earlier
+    int index;                        // frame number from 0
+    std::uint32_t seed;               // of pseudo-random choices; 1 is the default
+
+    [[nodiscard]] bool cameraMoved() const { return clipFromWorld != previousClipFromWorld; }
+};
+
+class Technique {
+public:
+    virtual ~Technique() = default;
+
+    /// Writes the visible fraction of the light at every pixel (R32F in [0, 1], 1 = lit) into `visibility`. Background and
+    /// surfaces that face away from the light are masked by the harness: any value will do there.
+    virtual void render(const Frame& frame, const gl::Texture& visibility) = 0;
+
+    /// Forgets all history: the next frame is the first.
+    virtual void reset() {}
+};
+
+/// The documents that techniques come from.
+enum class Seed { Dissertation, PixelCorrectPaper, Course, Zapotocky };
+std::string_view title(Seed seed);
+
+struct Source {
+    Seed seed;
+    std::string where; // section, equation, listing
+};
+
+/// What kind of answer a technique gives, hence which truth it is scored against (METRICS.md).
+enum class Answer {
+    Hard,     // lit or not, from the light's centre
+    Filtered, // a hard shadow with smoothed edges
+    Soft,     // the visible fraction of an area light; needs one
+};
+
+/// One line of the catalogue.
+struct Entry {
+    std::string id;
+    std::string title;
+    Source source;
+    Answer answer = Answer::Hard;
+    bool temporal = false; // keeps history: its frames must be rendered in order
+    std::vector<Parameter> parameters;
+    std::vector<std::string> variants; // what a run of all techniques shows: parameter strings, "" = all defaults
+    std::function<std::unique_ptr<Technique>(const Parameters&)> make;
+};
+
+/// A technique with all its parameters chosen.
+struct Variant {
+    const Entry* entry;
+    Parameters parameters;
+    std::string name; // canonical
+};
+
+/// Every technique, in the order tables print them.
+std::span<const Entry> catalog();
+
+/// The entry of `id`; throws BadInput with near matches.
+const Entry& entryNamed(std::string_view id);
+
+/// "pcss:taps=32+32" → variant; throws BadInput naming what is valid.
+Variant parseVariant(std::string_view text);
+
+/// Variants matching a pattern: one variant string, or a glob over ids ("sm-*", "*") that gives each match's shown variants.
+std::vector<Variant> matchVariants(const std::string& pattern);
+
+/// The variant whose cost `variant` is compared with beside sm-uniform: history over its base map; nothing for the others.
+std::string baseVariant(const Variant& variant);
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,72 @@
+#include "harness/scene/error.h"
+#include "harness/scene/files.h"
+#include "techniques/technique.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+
+namespace shadowbench::techniques {
+namespace {
+
+std::vector<std::string> ids() {
+    std::vector<std::string> result;
+    for (const Entry& entry : catalog()) result.push_back(entry.id);
+    return result;
+}
+
+Variant make(const Entry& entry, std::string_view assignments) {
+    Parameters parameters = parseParameters(assignments, entry.parameters, entry.id);
+    std::string name = canonicalVariant(entry.id, parameters, entry.parameters);
+    return {&entry, std::move(parameters), std::move(name)};
+}
+
+} // namespace
+
+std::string_view title(Seed seed) {
+    switch (seed) {
+    case Seed::Dissertation:
+        return "Scherzer, dissertation";
+    case Seed::PixelCorrectPaper:
+        return "Scherzer et al., EGSR 2007";
+    case Seed::Course:
+        return "SIGGRAPH 2004 course, Real-Time Shadowing Techniques";
+    case Seed::Zapotocky:
+        return "Zápotocký, thesis";
+    }
+    return "";
+}
+
+const Entry& entryNamed(std::string_view id) {
+    for (const Entry& entry : catalog())
+        if (entry.id == id) return entry;
+    throw BadInput(fmt::format("there is no technique \"{}\"; {}the techniques are: {}", id, didYouMean(id, ids()),
+                               fmt::join(ids(), ", ")));
+}
+
+Variant parseVariant(std::string_view text) {
+    const std::size_t colon = text.find(':');
+    const Entry& entry = entryNamed(text.substr(0, colon));
+    return make(entry, colon == std::string_view::npos ? "" : text.substr(colon + 1));
+}
+
+std::vector<Variant> matchVariants(const std::string& pattern) {
+    if (pattern.find_first_of("*?[") == std::string::npos) return {parseVariant(pattern)};
+    std::vector<Variant> result;
+    for (const Entry& entry : catalog()) {
+        if (fnmatch(pattern.c_str(), entry.id.c_str(), 0) != 0) continue;
+        for (const std::string& assignments : entry.variants) result.push_back(make(entry, assignments));
+    }
+    if (result.empty())
+        throw BadInput(fmt::format("no technique matches \"{}\"; the techniques are: {}", pattern, fmt::join(ids(), ", ")));
+    return result;
+}
+
+std::string baseVariant(const Variant& variant) {
+    for (const auto& [name, value] : variant.parameters.all())
+        if (name == "base") return parseVariant("sm-" + value + ":map=" + variant.parameters.text("map")).name;
+    return "";
+}
+
+} // namespace shadowbench::techniques
