@@ -26,6 +26,7 @@ struct PrimaryHits {
     Image<std::uint32_t> id;      // Placement::id, 0 for background
     Image<glm::vec3> position;    // world position rounded to float
     Image<Surface> surface;       // Background, FacesAway or Receiver
+    Image<std::uint32_t> triangle;  // index in the placement's Mesh::triangles; 0 for background
 };
 
 /// Where the numbers come from. A score without provenance does not exist.

@@ -1,27 +1,51 @@
 // Exact hard shadows with CGAL, behind plain types (GROUNDTRUTH.md: "CGAL hard shadows").
+//
+// One geometry serves every oracle and stage: a world vertex is the double-precision image of its float position under
+// Placement::world, rounded to nearest as worldVertex (groundtruth/cgal/triangles.h) spells it out. It lies within some
+// 1e-16 of the exact image; a vertex shared by triangles stays shared, so closed meshes stay closed; and predicates take
+// doubles as they are. From there on nothing is rounded: pixel rays, receiver points and labels are decided exactly.
 #pragma once
 
 #include "groundtruth/reference.h"
 
+#include <glm/vec4.hpp>
+#include <memory>
+#include <vector>
+
 namespace shadowbench::groundtruth {
 
-/// What every pixel centre sees, decided exactly (Camera::ray defines the ray; ties at equal depth go to the lower id).
+/// A snapshot prepared for queries: one tree per mesh and one over the instances. Make it once and use it for several images
+/// of the same snapshot; const use is thread-safe.
+class ExactScene {
+public:
+    /// `threads`: how many work on an image; results do not depend on it.
+    explicit ExactScene(const Snapshot& snapshot, int threads = 2);
+    ~ExactScene();
+    ExactScene(const ExactScene&) = delete;
+    ExactScene& operator=(const ExactScene&) = delete;
+
+    /// What every pixel centre sees: the nearest triangle whose distance along the camera's forward axis lies in [near,
+    /// far]. Ties go to the lower surface id, then to the lower triangle index. An area light is faced if the corners of its
+    /// rectangle are (for a disk: of the square around it; for a line: its ends).
+    [[nodiscard]] PrimaryHits primaryHits(glm::ivec2 size, const Progress& progress = {}) const;
+
+    /// Exact labels at the receivers of `primary` by shadow rays: 1 lit, 0 shadowed (0 where there is no receiver);
+    /// `surface` becomes OnEdge where the segment to the light meets nothing but an occluder's border. The edge distance is
+    /// that to the nearest midpoint between neighbouring pixels of different labels, up to 8 px, infinity beyond. Images of
+    /// `out` that have no size yet are made. Point and directional lights; else InternalError.
+    void labelByRays(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress = {}) const;
+
+private:
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+/// The same without keeping the trees.
 PrimaryHits primaryHits(const Snapshot& snapshot, glm::ivec2 size, const Progress& progress = {});
-
-/// Exact labels at the receivers of `primary` by shadow rays: 1 lit, 0 shadowed; `surface` becomes OnEdge where the segment to the
-/// light only touches an occluder's border. Point and directional lights.
-void labelByRays(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress = {});
-
-/// The same by silhouette chains and an exact scanline, plus exact edge distances, for the receivers of one planar placement
-/// (surface id `receiver`, all of whose visible pixels lie in one plane); other pixels of `out` are left alone.
-/// Throws InternalError if that placement is not planar as seen.
-void labelByPolygon(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, std::uint32_t receiver, Reference& out,
-                    const Progress& progress = {});
-
-/// Surface ids whose visible receiver pixels all lie in one plane (a ground, one face of a box): where `polygon` applies.
-std::vector<std::uint32_t> planarReceivers(const Snapshot& snapshot, const PrimaryHits& primary);
+void labelByRays(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, Reference& out,
+                 const Progress& progress = {});
 
 /// Versions for the provenance and the key: CGAL's and of this code.
 std::map<std::string, std::string> exactTools();
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

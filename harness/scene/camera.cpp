@@ -14,13 +14,9 @@ Camera::Basis Camera::basis() const {
     return {right, glm::cross(right, forward), forward};
 }
 
-glm::dmat4 Camera::view() const {
-    return glm::lookAt(eye, target, up);
-}
+glm::dmat4 Camera::view() const { return glm::lookAt(eye, target, up); }
 
-glm::dmat4 Camera::projection(double aspect) const {
-    return glm::perspective(glm::radians(fovy), aspect, near, far);
-}
+glm::dmat4 Camera::projection(double aspect) const { return glm::perspective(glm::radians(fovy), aspect, near, far); }
 
 glm::dvec3 Camera::ray(glm::dvec2 pixel, glm::ivec2 size) const {
     const Basis b = basis();
@@ -44,18 +40,21 @@ glm::dvec3 Camera::project(const glm::dvec3& world, glm::ivec2 size) const {
 
 std::string_view name(LightKind kind) {
     switch (kind) {
-    case LightKind::Point: return "point";
-    case LightKind::Directional: return "directional";
-    case LightKind::Rectangle: return "rectangle";
-    case LightKind::Disk: return "disk";
-    case LightKind::Line: return "line";
+    case LightKind::Point:
+        return "point";
+    case LightKind::Directional:
+        return "directional";
+    case LightKind::Rectangle:
+        return "rectangle";
+    case LightKind::Disk:
+        return "disk";
+    case LightKind::Line:
+        return "line";
     }
     return "";
 }
 
-bool Light::isArea() const {
-    return kind == LightKind::Rectangle || kind == LightKind::Disk || kind == LightKind::Line;
-}
+bool Light::isArea() const { return kind == LightKind::Rectangle || kind == LightKind::Disk || kind == LightKind::Line; }
 
 glm::dvec4 Light::homogeneous() const {
     return kind == LightKind::Directional ? glm::dvec4(-direction, 0.0) : glm::dvec4(centre, 1.0);
@@ -63,15 +62,18 @@ glm::dvec4 Light::homogeneous() const {
 
 glm::dvec3 Light::sample(glm::dvec2 st) const {
     switch (kind) {
-    case LightKind::Rectangle: return centre + (st.x - 0.5) * u + (st.y - 0.5) * v;
-    case LightKind::Line: return centre + (st.x - 0.5) * u;
+    case LightKind::Rectangle:
+        return centre + (st.x - 0.5) * u + (st.y - 0.5) * v;
+    case LightKind::Line:
+        return centre + (st.x - 0.5) * u;
     case LightKind::Disk: {
-        const double radius = 0.5 * std::sqrt(st.x);  // u and v are diameters
+        const double radius = 0.5 * std::sqrt(st.x); // u and v are diameters
         const double angle = glm::two_pi<double>() * st.y;
         return centre + radius * std::cos(angle) * u + radius * std::sin(angle) * v;
     }
     case LightKind::Point:
-    case LightKind::Directional: break;
+    case LightKind::Directional:
+        break;
     }
     return centre;
 }
@@ -81,4 +83,4 @@ Light Light::centreOnly() const {
     return {LightKind::Point, centre, direction, glm::dvec3(0), glm::dvec3(0)};
 }
 
-}  // namespace shadowbench
+} // namespace shadowbench

@@ -23,10 +23,11 @@ struct Camera {
     };
     [[nodiscard]] Basis basis() const;
     [[nodiscard]] glm::dmat4 view() const;
-    [[nodiscard]] glm::dmat4 projection(double aspect) const;  // OpenGL clip space, finite far plane
+    [[nodiscard]] glm::dmat4 projection(double aspect) const; // OpenGL clip space, finite far plane
 
-    /// Direction (not normalised, unit length along `forward`) from the eye through image position `pixel`, given in pixels with
-    /// row 0 at the top: the centre of pixel (x, y) is (x + ½, y + ½). This double-precision ray defines the truth's pixel.
+    /// Direction (not normalised, unit length along `forward`) from the eye through image position `pixel`, given in pixels
+    /// with row 0 at the top: the centre of pixel (x, y) is (x + ½, y + ½). This double-precision ray defines the truth's
+    /// pixel.
     [[nodiscard]] glm::dvec3 ray(glm::dvec2 pixel, glm::ivec2 size) const;
 
     /// Image position of a world point in pixels (inverse of `ray`) and its distance along `forward` (≤ 0: behind the eye).
@@ -39,8 +40,8 @@ enum class LightKind { Point, Directional, Rectangle, Disk, Line };
 std::string_view name(LightKind kind);
 
 /// One light. `centre` is the position of a point light and the middle of an area light; a directional light shines along
-/// `direction` (unit length, away from the light). `u` and `v` are a rectangle's full side vectors; a disk's diameters at right
-/// angles; a line has only `u`.
+/// `direction` (unit length, away from the light). `u` and `v` are a rectangle's full side vectors; a disk's diameters at
+/// right angles; a line has only `u`.
 struct Light {
     LightKind kind = LightKind::Point;
     glm::dvec3 centre{0, 0, 0};
@@ -53,8 +54,8 @@ struct Light {
     /// Homogeneous position: (centre, 1), or (−direction, 0) for a directional light.
     [[nodiscard]] glm::dvec4 homogeneous() const;
 
-    /// Point of the light for parameters in [0, 1)², uniform in area: rectangle centre + (s−½)u + (t−½)v, disk by the concentric
-    /// square-root map, line by s alone. The centre for a point light.
+    /// Point of the light for parameters in [0, 1)², uniform in area: rectangle centre + (s−½)u + (t−½)v, disk by the
+    /// concentric square-root map, line by s alone. The centre for a point light.
     [[nodiscard]] glm::dvec3 sample(glm::dvec2 st) const;
 
     /// The point light at the centre of an area light (what a hard technique lights from); other kinds unchanged.
@@ -63,4 +64,4 @@ struct Light {
     friend bool operator==(const Light&, const Light&) = default;
 };
 
-}  // namespace shadowbench
+} // namespace shadowbench

@@ -40,4 +40,4 @@ struct InternalError : Error {
     explicit InternalError(const std::string& sentence) : Error(ExitCode::Internal, sentence) {}
 };
 
-}  // namespace shadowbench
+} // namespace shadowbench

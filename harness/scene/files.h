@@ -22,4 +22,4 @@ std::string readFile(const std::filesystem::path& file);
 /// The near matches of `word` among `known` (edit distance), joined for an error message: `did you mean "pcss"?` or "".
 std::string didYouMean(std::string_view word, const std::vector<std::string>& known);
 
-}  // namespace shadowbench
+} // namespace shadowbench

@@ -13,7 +13,8 @@ class Image {
 public:
     Image() = default;
     Image(int width, int height, T fill = T{})
-        : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {}
+        : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {
+    }
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
@@ -50,4 +51,4 @@ private:
     std::vector<T> pixels_;
 };
 
-}  // namespace shadowbench
+} // namespace shadowbench

@@ -14,7 +14,8 @@ namespace shadowbench {
 /// A named channel of a multi-channel EXR.
 using Channel = std::pair<std::string, const Image<float>*>;
 
-/// 32-bit float EXR, ZIP-compressed; all channels of one size. Throws InternalError naming the file when it cannot be written.
+/// 32-bit float EXR, ZIP-compressed; all channels of one size; same channels, same bytes. Throws InternalError naming the
+/// file when it cannot be written.
 void writeExr(const std::filesystem::path& file, const std::vector<Channel>& channels);
 
 /// 8-bit grey PNG of values in [0, 1] (clamped), linear: 0.5 becomes 128.
@@ -27,4 +28,4 @@ void writePng(const std::filesystem::path& file, const Image<glm::vec3>& colour)
 /// Throws BadInput for a missing or unreadable file and for a channel that is not there.
 Image<float> readChannel(const std::filesystem::path& file, int channel);
 
-}  // namespace shadowbench
+} // namespace shadowbench

@@ -26,20 +26,21 @@ struct Bounds {
 /// Positions are 32-bit floats so that the rasteriser and the exact ground truth start from the very same numbers.
 struct Mesh {
     std::vector<glm::vec3> positions;
-    std::vector<glm::uvec3> triangles;  // indices into positions
-    bool closed = false;                // 2-manifold without border, consistently wound, outward
+    std::vector<glm::uvec3> triangles; // indices into positions
+    bool closed = false;               // 2-manifold without border, consistently wound, outward
 
     [[nodiscard]] Bounds bounds() const;
 };
 
-/// Throws BadInput naming `what` unless every position is finite, every index in range, no triangle has zero area, and, where the
-/// mesh says it is closed, every directed edge is matched by exactly one opposite one and the enclosed volume is positive.
+/// Throws BadInput naming `what` unless every position is finite, every index in range, no triangle has zero area, and,
+/// where the mesh says it is closed, every directed edge is matched by exactly one opposite one and the enclosed volume is
+/// positive.
 void requireSound(const Mesh& mesh, const std::string& what);
 
-/// Joins positions that are equal bit for bit and drops the triangles that collapse.
+/// Joins equal positions (the first one stays; −0 equals 0) and drops the triangles that collapse.
 Mesh weld(const Mesh& mesh);
 
 /// The bounds of `box` after the affine map `world`.
 Bounds transformed(const Bounds& box, const glm::dmat4& world);
 
-}  // namespace shadowbench
+} // namespace shadowbench

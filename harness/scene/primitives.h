@@ -12,13 +12,15 @@ Mesh plane(double half);
 
 Mesh box(const glm::dvec3& size);
 
-/// UV-free icosphere-like sphere with at least `triangles` triangles wanted (the nearest count the construction allows).
+/// Geodesic sphere: each face of an icosahedron cut into n² triangles, n ≥ 1 such that 20 n² is nearest to `triangles`
+/// (within 10 % from 2,000 up).
 Mesh sphere(double radius, int triangles);
 
 /// Upright cylinder standing on y = 0.
 Mesh column(double radius, double height, int sides);
 
-/// A closed, bumpy, star-shaped mesh: a sphere displaced by smooth seeded noise; about `triangles` triangles.
+/// A closed, bumpy, star-shaped mesh: the sphere displaced along its radii by smooth seeded noise of at most ±`bump` <
+/// `radius` metres; triangles as for `sphere`.
 Mesh bumpy(double radius, double bump, int triangles, std::uint32_t seed);
 
-}  // namespace shadowbench
+} // namespace shadowbench

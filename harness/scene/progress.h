@@ -9,4 +9,4 @@ namespace shadowbench {
 /// Called now and then with the finished share in [0, 1] and what is being done; may be empty.
 using Progress = std::function<void(double done, std::string_view what)>;
 
-}  // namespace shadowbench
+} // namespace shadowbench

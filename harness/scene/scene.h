@@ -1,5 +1,5 @@
-// The scene model. A Scene is data (loaded from TOML); a Snapshot is the scene at one frame: what techniques draw and what the
-// ground truth is computed for.
+// The scene model. A Scene is data (loaded from TOML); a Snapshot is the scene at one frame: what techniques draw and what
+// the ground truth is computed for.
 #pragma once
 
 #include "harness/scene/camera.h"
@@ -17,25 +17,26 @@ namespace shadowbench {
 
 enum class Profile { Gate, Standard, Paper };
 std::string_view name(Profile profile);
-Profile profileNamed(std::string_view name);  // throws BadInput naming the valid ones
+Profile profileNamed(std::string_view name); // throws BadInput naming the valid ones
 
-/// Key frames of a vector quantity: linear between them, constant outside; empty means "the rest value". Frames count from the
-/// last still frame of the timeline: everything is at rest before.
+/// Key frames of a vector quantity: linear between them, constant outside; empty means "the rest value". Frames count from
+/// the last still frame of the timeline: everything is at rest before.
 struct Track {
     struct Key {
         double frame;
         glm::dvec3 value;
     };
-    std::vector<Key> keys;  // ascending frames
+    std::vector<Key> keys; // ascending frames
 
     [[nodiscard]] glm::dvec3 at(double frame, const glm::dvec3& rest) const;
 };
 
-/// How all instances of an object move: a turn about an object-space axis through the object's origin and a shift in the world.
+/// How all instances of an object move: a turn about an object-space axis through the object's origin and a shift in the
+/// world.
 struct Motion {
-    glm::dvec3 axis{0, 0, 1};      // unit length
-    double degreesPerFrame = 0;    // of turn; an instance starts at its own phase
-    Track shift;                   // metres, added to the instance's place
+    glm::dvec3 axis{0, 0, 1};   // unit length
+    double degreesPerFrame = 0; // of turn; an instance starts at its own phase
+    Track shift;                // metres, added to the instance's place
 
     [[nodiscard]] bool still() const { return degreesPerFrame == 0 && shift.keys.empty(); }
 };
@@ -55,13 +56,13 @@ struct Level {
 struct Object {
     std::string name;
     glm::vec3 colour{0.8F};
-    std::vector<Level> levels;  // finest first, never empty
+    std::vector<Level> levels; // finest first, never empty
     std::vector<Instance> instances;
     Motion motion;
 };
 
-/// The frames a cell renders: `still` ones with everything at rest (history techniques converge over them; the last is the one
-/// that accuracy is scored on), then `moving` ones along the tracks (stability is scored on them).
+/// The frames a cell renders: `still` ones with everything at rest (history techniques converge over them; the last is the
+/// one that accuracy is scored on), then `moving` ones along the tracks (stability is scored on them).
 struct Timeline {
     int still = 60;
     int moving = 8;
@@ -69,34 +70,35 @@ struct Timeline {
 };
 
 struct Scene {
-    std::string id;     // file stem: the one word for it everywhere
+    std::string id; // file stem: the one word for it everywhere
     std::string title;
-    std::string shows;  // what the scene is there to show: the file's first comment
+    std::string shows; // what the scene is there to show: the file's first comment
     Profile profile = Profile::Gate;
     glm::ivec2 size{256, 256};
     Timeline timeline;
     Camera camera;
-    Track eye, target;          // of the camera
+    Track eye, target; // of the camera
     Light light;
     Track lightCentre, lightDirection;
     std::vector<Object> objects;
-    std::map<std::string, double> tolerance;  // metric name → worst value a viewer of this scene accepts
-    int referenceSamples = 1024;              // light samples of an area light's reference on the scored frame …
-    int movingReferenceSamples = 256;         // … and on the moving frames
+    std::map<std::string, double> tolerance; // metric name → worst value a viewer of this scene accepts
+    int referenceSamples = 1024;             // light samples of an area light's reference on the scored frame …
+    int movingReferenceSamples = 256;        // … and on the moving frames
 };
 
 /// One drawn instance at one frame.
 struct Placement {
-    glm::dmat4 world;     // affine, world from object
-    glm::dmat4 previous;  // the same one frame earlier (equal to `world` in frame 0)
-    std::uint32_t id;     // surface id: the instance's number in the scene, from 1; 0 is background. Stable over frames and levels
+    glm::dmat4 world;    // affine, world from object
+    glm::dmat4 previous; // the same one frame earlier (equal to `world` in frame 0)
+    std::uint32_t
+        id; // surface id: the instance's number in the scene, from 1; 0 is background. Stable over frames and levels
 };
 
 /// All placements of one mesh.
 struct Batch {
     std::shared_ptr<const Mesh> mesh;
     glm::vec3 colour;
-    bool moving;  // some placement differs from its previous one
+    bool moving; // some placement differs from its previous one
     std::vector<Placement> placements;
 };
 
@@ -113,7 +115,8 @@ struct Snapshot {
 /// The scene at `frame`; levels of detail chosen by distance from the eye.
 Snapshot snapshot(const Scene& scene, int frame);
 
-/// Loads a built-in scene by id or a file by path. Errors (BadInput) name file, line and key, and near matches for an unknown id.
+/// Loads a built-in scene by id or a file by path. Errors (BadInput) name file, line and key, and near matches for an
+/// unknown id.
 Scene loadScene(const std::string& idOrFile, Profile profile);
 
 /// Parses TOML text; `file` is used for the id, for error messages and to resolve mesh files.
@@ -123,7 +126,8 @@ Scene parseScene(std::string_view toml, const std::filesystem::path& file, Profi
 std::vector<std::string> builtinScenes();
 std::string_view builtinSceneText(const std::string& id);
 
-/// Throws BadInput when the set-up has no defined answer: light on a surface, zero-size area light, eye inside a closed mesh.
+/// Throws BadInput when the set-up has no defined answer: light on a surface, zero-size area light, eye inside a closed
+/// mesh.
 void requireSound(const Scene& scene);
 
-}  // namespace shadowbench
+} // namespace shadowbench

@@ -8,9 +8,7 @@ namespace shadowbench {
 namespace {
 
 /// Tracks and motion run on the moving frames only: everything is at rest up to the last still frame.
-double motionFrame(const Scene& scene, int frame) {
-    return std::max(0, frame - (scene.timeline.still - 1));
-}
+double motionFrame(const Scene& scene, int frame) { return std::max(0, frame - (scene.timeline.still - 1)); }
 
 Camera cameraAt(const Scene& scene, double frame) {
     Camera camera = scene.camera;
@@ -39,7 +37,7 @@ std::size_t levelAt(const Object& object, double distance) {
     return object.levels.size() - 1;
 }
 
-}  // namespace
+} // namespace
 
 glm::dvec3 Track::at(double frame, const glm::dvec3& rest) const {
     if (keys.empty()) return rest;
@@ -75,7 +73,8 @@ Snapshot snapshot(const Scene& scene, int frame) {
     std::uint32_t id = 0;
     for (const Object& object : scene.objects) {
         std::vector<Batch> byLevel(object.levels.size());
-        for (std::size_t i = 0; i < object.levels.size(); ++i) byLevel[i] = {object.levels[i].mesh, object.colour, false, {}};
+        for (std::size_t i = 0; i < object.levels.size(); ++i)
+            byLevel[i] = {object.levels[i].mesh, object.colour, false, {}};
         for (const Instance& instance : object.instances) {
             const Placement placement{placeAt(object, instance, now), placeAt(object, instance, before), ++id};
             const double distance = glm::distance(result.camera.eye, glm::dvec3(placement.world[3]));
@@ -89,4 +88,4 @@ Snapshot snapshot(const Scene& scene, int frame) {
     return result;
 }
 
-}  // namespace shadowbench
+} // namespace shadowbench

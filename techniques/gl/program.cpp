@@ -68,12 +68,14 @@ bool isSampler(GLenum type) {
     switch (type) {
     case GL_SAMPLER_2D:
     case GL_SAMPLER_2D_SHADOW:
-    case GL_UNSIGNED_INT_SAMPLER_2D: return true;
-    default: return false;
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+        return true;
+    default:
+        return false;
     }
 }
 
-}  // namespace
+} // namespace
 
 Program::Program(const std::string& vertexFile, const std::string& fragmentFile, const Defines& defines)
     : title_(vertexFile + " + " + fragmentFile) {
@@ -154,9 +156,7 @@ Program& Program::set(const std::string& sampler, const Texture& texture) {
     return *this;
 }
 
-void Program::use() const {
-    glUseProgram(id_);
-}
+void Program::use() const { glUseProgram(id_); }
 
 void Program::drawScreen() const {
     glDisable(GL_DEPTH_TEST);
@@ -182,4 +182,4 @@ void Program::drawTriangle() const {
     ++Context::current().tally().draws;
 }
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

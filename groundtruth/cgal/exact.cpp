@@ -1,0 +1,80 @@
+#include "groundtruth/cgal/exact.h"
+
+#include "groundtruth/cgal/pixel_edges.h"
+#include "groundtruth/cgal/primary.h"
+#include "groundtruth/cgal/rays.h"
+#include "harness/scene/error.h"
+
+#include <CGAL/version.h>
+
+#include <limits>
+#include <string>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+constexpr int codeVersion = 1; // raise it with every change that can change a label or a distance
+
+/// Gives the images of `out` their size and what is the same for every oracle.
+void prepare(const PrimaryHits& primary, Reference& out) {
+    if (out.visibility.sameSize(primary.id)) return;
+    const int width = primary.id.width(), height = primary.id.height();
+    out.visibility = Image<float>(width, height);
+    out.sigma = Image<float>(width, height);
+    out.surface = primary.surface;
+    out.id = primary.id;
+    out.position = primary.position;
+    out.edgeDistance = Image<float>(width, height, std::numeric_limits<float>::infinity());
+}
+
+glm::dvec4 hardLight(const Light& light) {
+    if (light.isArea())
+        throw InternalError("Hard shadow labels were asked for an area light; use Light::centreOnly for its centre.");
+    return light.homogeneous();
+}
+
+void requireSize(const PrimaryHits& primary, glm::ivec2 size) {
+    if (primary.id.width() != size.x || primary.id.height() != size.y)
+        throw InternalError("Hard shadow labels were asked for an image size that is not that of the primary hits.");
+}
+
+} // namespace
+
+struct ExactScene::Data {
+    Camera camera;
+    Light light;
+    SceneTriangles triangles;
+    int threads;
+};
+
+ExactScene::ExactScene(const Snapshot& snapshot, int threads)
+    : data_(new Data{snapshot.camera, snapshot.light, SceneTriangles(snapshot), threads}) {}
+
+ExactScene::~ExactScene() = default;
+
+PrimaryHits ExactScene::primaryHits(glm::ivec2 size, const Progress& progress) const {
+    return tracePrimary(data_->triangles, data_->camera, data_->light, size, data_->threads, progress);
+}
+
+void ExactScene::labelByRays(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress) const {
+    requireSize(primary, size);
+    const glm::dvec4 light = hardLight(data_->light);
+    prepare(primary, out);
+    traceShadows(data_->triangles, data_->camera, light, size, primary, data_->threads, out, progress);
+    edgeDistanceFromLabels(out);
+}
+
+PrimaryHits primaryHits(const Snapshot& snapshot, glm::ivec2 size, const Progress& progress) {
+    return ExactScene(snapshot).primaryHits(size, progress);
+}
+
+void labelByRays(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, Reference& out,
+                 const Progress& progress) {
+    ExactScene(snapshot).labelByRays(size, primary, out, progress);
+}
+
+std::map<std::string, std::string> exactTools() {
+    return {{"cgal", CGAL_VERSION_STR}, {"exact", std::to_string(codeVersion)}};
+}
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,87 @@
+// The scene's triangles behind two levels of trees: one per mesh in object space, one over the instances in the world.
+#pragma once
+
+#include "groundtruth/cgal/bvh.h"
+#include "groundtruth/cgal/predicates.h"
+#include "harness/scene/scene.h"
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace shadowbench::groundtruth {
+
+/// The double-precision image of a float position, operations in this order, each rounded to nearest.
+inline glm::dvec3 worldVertex(const glm::dmat4& world, const glm::vec3& position) {
+    const glm::dvec3 p(position);
+    glm::dvec3 result(0);
+    for (int row = 0; row < 3; ++row)
+        result[row] = ((world[0][row] * p.x + world[1][row] * p.y) + world[2][row] * p.z) + world[3][row];
+    return result;
+}
+
+/// Names a triangle of the scene.
+struct TriangleName {
+    std::uint32_t instance = 0; // index of SceneTriangles::instance
+    std::uint32_t triangle = 0; // index of Mesh::triangles
+    friend bool operator==(const TriangleName&, const TriangleName&) = default;
+};
+
+/// An instance and the map back to object space. `slack` bounds, per axis, the distance between a mesh position and
+/// toObject · worldVertex + shift.
+struct TriangleInstance {
+    std::shared_ptr<const Mesh> mesh;
+    std::size_t tree;
+    glm::dmat4 world;
+    std::uint32_t id;
+    glm::dmat3 toObject;
+    glm::dvec3 shift;
+    glm::dvec3 slack;
+};
+
+/// A segment whose every point is known to within `error` per axis.
+struct ApproximateSegment {
+    glm::dvec3 from, to;
+    glm::dvec3 error;
+};
+
+class SceneTriangles {
+public:
+    explicit SceneTriangles(const Snapshot& snapshot);
+
+    [[nodiscard]] const std::vector<TriangleInstance>& instances() const { return instances_; }
+    [[nodiscard]] std::uint32_t instanceOf(std::uint32_t id) const; // index of the placement with that surface id
+    [[nodiscard]] Triangle triangle(TriangleName name) const;
+    [[nodiscard]] double diagonal() const; // of the world bounds, not below the true one
+
+    /// Calls `visit(name, triangle, last)` for every triangle that the segment may meet, roughly front to back, until it
+    /// returns true; `visit` may lower `last`, the parameter in [0, 1] beyond which nothing is wanted. True if stopped.
+    template <typename Visit>
+    bool visit(const ApproximateSegment& segment, Visit&& visit) const {
+        PaddedSegment top = padded(segment);
+        return top_.visit(top, [&](std::uint32_t i) {
+            const TriangleInstance& instance = instances_[i];
+            PaddedSegment local = padded(segment, instance);
+            local.last = top.last;
+            const bool stopped = trees_[instance.tree].visit(local, [&](std::uint32_t index) {
+                const TriangleName name{i, index};
+                return visit(name, triangle(name), local.last);
+            });
+            top.last = local.last;
+            return stopped;
+        });
+    }
+
+private:
+    [[nodiscard]] PaddedSegment padded(const ApproximateSegment& segment) const;
+    [[nodiscard]] PaddedSegment padded(const ApproximateSegment& segment, const TriangleInstance& instance) const;
+
+    std::vector<Bvh> trees_; // one per distinct mesh
+    std::vector<TriangleInstance> instances_;
+    std::unordered_map<std::uint32_t, std::uint32_t> indexOf_; // surface id → instance
+    Bvh top_;
+};
+
+} // namespace shadowbench::groundtruth
