@@ -32,7 +32,7 @@ std::optional<Problem> viewProblem(const Camera& camera) {
     const glm::dvec3 forward = camera.target - camera.eye;
     if (!(glm::length(forward) > 0)) return Problem{"camera.target", "the camera looks at its own eye"};
     const double sine = glm::length(glm::cross(forward, camera.up)) / (glm::length(forward) * glm::length(camera.up));
-    if (!(sine > 1e-6)) return Problem{"camera.up", "is zero or parallel to the line of sight"};
+    if (!(sine > 1e-6)) return Problem{"camera.up", "up is zero or parallel to the line of sight"};
     return std::nullopt;
 }
 

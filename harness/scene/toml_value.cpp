@@ -22,11 +22,17 @@ bool isProfileTable(const toml::node& node) {
     return table != nullptr && std::any_of(profileNames().begin(), profileNames().end(), holds);
 }
 
+/// The near matches as the end of a sentence.
+std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+    const std::string near = didYouMean(word, known);
+    return near.empty() ? "" : "; " + near;
+}
+
 } // namespace
 
 TomlValue::TomlValue(const TomlSource& source, std::string key, const toml::node& node)
     : source_(&source), key_(std::move(key)), node_(&node) {
-    if (!isProfileTable(node)) return;
+    if (key_.empty() || !isProfileTable(node)) return; // the file as a whole is none
     only(profileNames());
     const toml::node* chosen = table().get(name(source.profile));
     if (chosen == nullptr) fail(fmt::format("has no value for profile {}", name(source.profile)));
@@ -63,9 +69,9 @@ std::string TomlValue::text() const {
 }
 
 std::string TomlValue::oneOf(const std::vector<std::string>& words) const {
-    const std::string word = text();
+    std::string word = text();
     if (std::find(words.begin(), words.end(), word) == words.end())
-        fail(fmt::format("expected one of {}, got \"{}\" {}", fmt::join(words, ", "), word, didYouMean(word, words)));
+        fail(fmt::format("expected one of {}, got \"{}\"{}", fmt::join(words, ", "), word, suggestion(word, words)));
     return word;
 }
 

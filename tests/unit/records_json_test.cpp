@@ -137,6 +137,8 @@ TEST(RecordJson, NamesTheKeyOfWhatIsWrong) {
     EXPECT_TRUE(contains(complaint([](Json& j) { j["environment"] = 3; }), "\"environment\" is not an object"));
     EXPECT_TRUE(contains(complaint([](Json& j) { j["schema_version"] = 2; }), "\"schema_version\" is 2"));
     EXPECT_TRUE(contains(complaint([](Json& j) { j.erase("schema_version"); }), "\"schema_version\""));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j.erase("accuracy"); }), "\"accuracy\" belongs to scored records"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["status"] = "error"; }), "\"accuracy\" belongs to scored records"));
     EXPECT_THROW(parseRecord("{"), BadInput);
     EXPECT_THROW(parseRecord("[]"), BadInput);
     EXPECT_THROW(parseRecord(""), BadInput);
