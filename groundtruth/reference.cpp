@@ -119,12 +119,57 @@ Reference softReference(const Request& request, const Progress& progress) {
     return reference;
 }
 
+/// 1 at the receiver pixels that one of `planes` holds.
+Image<std::uint8_t> onPlanes(const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
+    Image<std::uint8_t> result(primary.id.width(), primary.id.height());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        if (primary.surface[i] != Surface::Receiver) continue;
+        const bool held = std::ranges::any_of(planes, [&](const PlanarReceiver& plane) {
+            return plane.id == primary.id[i] && std::ranges::binary_search(plane.triangles, primary.triangle[i]);
+        });
+        result[i] = held ? 1 : 0;
+    }
+    return result;
+}
+
+Reference byRays(const Request& request, const ExactScene& scene, const PrimaryHits& primary, const Progress& progress) {
+    Reference reference = unlabelled(primary);
+    scene.labelByRays(request.size, primary, reference, progress);
+    reference.provenance.oracle = "rays";
+    return reference;
+}
+
+/// Receivers off every plane have no label.
+Reference withoutLabels(const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
+    Reference reference = unlabelled(primary);
+    const Image<std::uint8_t> held = onPlanes(primary, planes);
+    for (std::size_t i = 0; i < held.size(); ++i)
+        if (primary.surface[i] == Surface::Receiver && held[i] == 0) reference.surface[i] = Surface::OnEdge;
+    return reference;
+}
+
 Reference hardReference(const Request& request, const Progress& progress) {
     const ExactScene scene(request.snapshot, threads());
-    const PrimaryHits primary = scene.primaryHits(request.size, part(progress, 0, 0.4));
-    Reference reference = unlabelled(primary);
-    scene.labelByRays(request.size, primary, reference, part(progress, 0.4, 1));
-    reference.provenance.oracle = "rays";
+    const PrimaryHits primary = scene.primaryHits(request.size, part(progress, 0, 0.3));
+    if (request.oracle == Oracle::Rays) return byRays(request, scene, primary, part(progress, 0.3, 1));
+
+    const std::vector<PlanarReceiver> planes = scene.planarReceivers(primary);
+    const bool polygonOnly = request.oracle == Oracle::Polygon;
+    if (planes.empty() && polygonOnly)
+        throw BadInput(
+            "the polygon oracle needs a planar receiver, and none of this scene's covers enough of the image: use rays");
+
+    Reference reference =
+        polygonOnly ? withoutLabels(primary, planes) : byRays(request, scene, primary, part(progress, 0.3, 0.6));
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const double step = 0.4 / static_cast<double>(planes.size());
+        const double from = 0.6 + step * static_cast<double>(i);
+        scene.labelByPolygon(request.size, primary, planes[i], reference, part(progress, from, from + step));
+    }
+    const Image<std::uint8_t> held = onPlanes(primary, planes);
+    const auto receivers = std::ranges::count(primary.surface, Surface::Receiver);
+    const bool all = polygonOnly || (!planes.empty() && std::ranges::count(held, 1) == receivers);
+    reference.provenance.oracle = all ? "polygon" : planes.empty() ? "rays" : "polygon+rays";
     return reference;
 }
 
