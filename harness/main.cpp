@@ -1,6 +1,7 @@
 // The command line: parses, calls, prints. One function a verb.
 #include "groundtruth/cache.h"
 #include "groundtruth/reference.h"
+#include "groundtruth/reference_files.h"
 #include "harness/report/report.h"
 #include "harness/run/catalogues.h"
 #include "harness/run/progress_line.h"
