@@ -8,6 +8,7 @@ namespace shadowbench::report {
 namespace {
 
 constexpr double pointRadius = 7; // pixels kept free around a point
+constexpr double nearest = 10;    // pixels between a point and its label where there is room
 
 /// Displacements of a label's box from its point, as unit offsets: right, left, above, below, then the corners.
 constexpr glm::ivec2 directions[] = {{1, 0}, {-1, 0}, {0, -1}, {0, 1}, {1, -1}, {1, 1}, {-1, -1}, {-1, 1}};
@@ -49,13 +50,13 @@ std::vector<PlacedLabel> placeLabels(const std::vector<LabelledPoint>& points, c
         const glm::dvec2 size(letter.x * static_cast<double>(point.text.size()), letter.y);
         double least = std::numeric_limits<double>::infinity();
         PlacedLabel best{};
-        for (const double distance : {9.0, 18.0, 28.0, 40.0, 55.0, 75.0, 100.0}) {
+        for (const double distance : {nearest, 18.0, 28.0, 40.0, 55.0, 75.0, 100.0}) {
             for (const glm::ivec2 direction : directions) {
                 const Box box = candidate(point.at, size, direction, distance);
                 const double worth = penalty(box) + distance;
                 if (worth >= least) continue;
                 least = worth;
-                best = {box, distance > 9.0};
+                best = {box, direction, distance > nearest};
             }
         }
         placed.push_back(best);

@@ -21,9 +21,11 @@ struct LabelledPoint {
     std::string text;
 };
 
-/// Where a label lies, and whether it is so far from its point that a line must lead to it.
+/// Where a label lies, on which side of its point (−1, 0 or 1 right and down), and whether it is so far from it that a line
+/// must lead there. The text belongs at the side of the box that is nearer to the point.
 struct PlacedLabel {
     Box box;
+    glm::ivec2 side;
     bool leader;
 };
 
