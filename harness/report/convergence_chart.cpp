@@ -85,7 +85,8 @@ std::string furniture(const std::vector<std::string>& variants, const std::strin
                                      literal(scene + ": convergence from an empty history"), 1 - 24 / height);
     for (std::size_t style = 0; style < variants.size(); ++style) {
         const double x = style % 2 == 0 ? 0.085 : 0.585;
-        const double y = 1 - (plotHeight + keyRow * (0.7 + static_cast<double>(style / 2))) / height;
+        const std::size_t row = style / 2;
+        const double y = 1 - (plotHeight + keyRow * (0.7 + static_cast<double>(row))) / height;
         script += fmt::format("set arrow from screen {0}, screen {1} to screen {2}, screen {1} nohead {3}\n", x, y,
                               x + 0.035, lineStyle(style));
         script +=
@@ -108,6 +109,7 @@ std::optional<std::string> convergenceChart(const std::vector<Record>& records, 
     if (panels.empty()) return {};
 
     std::vector<std::string> variants;
+    variants.reserve(shownRecords.size());
     for (const std::size_t i : shownRecords) variants.push_back(records[i].variant);
     const int height = plotHeight + keyRow * static_cast<int>((variants.size() + 1) / 2) + 14;
     std::string script = "set multiplot\n" + furniture(variants, scene, height);

@@ -41,7 +41,7 @@ std::vector<Point> points(const std::vector<Record>& records, const std::string&
 
 class Canvas {
 public:
-    Canvas(LogAxis cost, LogAxis error) : cost_(std::move(cost)), error_(std::move(error)) {}
+    Canvas(const LogAxis& cost, const LogAxis& error) : cost_(cost), error_(error) {}
 
     [[nodiscard]] glm::dvec2 at(const Place& place) const {
         return {left + (right - left) * cost_.position(place.cost), bottom - (bottom - top) * error_.position(place.error)};
@@ -86,6 +86,7 @@ std::string block(const std::string& name, const std::vector<Place>& places, con
 
 std::string labels(const std::vector<Point>& all, const Canvas& canvas, const std::optional<double>& toleranceLine) {
     std::vector<LabelledPoint> named;
+    named.reserve(all.size());
     for (const Point& point : all) named.push_back({canvas.at(point.place), point.variant});
     std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;
     const std::vector<Place> front = corners(all, canvas);
