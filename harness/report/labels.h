@@ -13,7 +13,8 @@ struct Box {
     glm::dvec2 low, high;
     [[nodiscard]] bool overlaps(const Box& other) const;
     [[nodiscard]] bool contains(const Box& other) const;
-    [[nodiscard]] bool meets(glm::dvec2 a, glm::dvec2 b) const; // a horizontal or vertical segment
+    [[nodiscard]] bool meets(glm::dvec2 a, glm::dvec2 b) const; // the segment's bounding box
+    [[nodiscard]] glm::dvec2 closest(glm::dvec2 point) const;
 };
 
 struct LabelledPoint {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 namespace shadowbench::report {
 namespace {
@@ -109,8 +108,8 @@ std::string labels(const std::vector<Point>& all, const Canvas& canvas, const st
                                          : "center",
                               all[i].onFront ? blue : "#444444");
         if (!placed[i].leader) continue;
-        const glm::dvec2 near = glm::clamp(named[i].at, box.low, box.high);
-        script += fmt::format("set arrow from {} to {} nohead lc rgb '#B0B0B0' lw 1\n", Canvas::screen(named[i].at),
+        const glm::dvec2 near = box.closest(named[i].at);
+        script += fmt::format("set arrow from {} to {} nohead lc rgb '#9A9A9A' lw 1\n", Canvas::screen(named[i].at),
                               Canvas::screen(near));
     }
     return script;
