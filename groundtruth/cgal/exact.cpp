@@ -1,6 +1,8 @@
 #include "groundtruth/cgal/exact.h"
 
 #include "groundtruth/cgal/pixel_edges.h"
+#include "groundtruth/cgal/planar.h"
+#include "groundtruth/cgal/polygon.h"
 #include "groundtruth/cgal/primary.h"
 #include "groundtruth/cgal/rays.h"
 #include "harness/scene/error.h"
@@ -64,6 +66,20 @@ void ExactScene::labelByRays(glm::ivec2 size, const PrimaryHits& primary, Refere
     edgeDistanceFromLabels(out);
 }
 
+std::vector<PlanarReceiver> ExactScene::planarReceivers(const PrimaryHits& primary, std::size_t minimumPixels) const {
+    return findPlanarReceivers(data_->triangles, data_->camera.eye, primary, minimumPixels);
+}
+
+void ExactScene::labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
+                                const Progress& progress) const {
+    requireSize(primary, size);
+    const glm::dvec4 light = hardLight(data_->light);
+    if (receiver.triangles.empty())
+        throw InternalError("Polygon labels were asked for a planar receiver without triangles.");
+    prepare(primary, out);
+    labelPlane(data_->triangles, data_->camera, light, size, primary, receiver, data_->threads, out, progress);
+}
+
 PrimaryHits primaryHits(const Snapshot& snapshot, glm::ivec2 size, const Progress& progress) {
     return ExactScene(snapshot).primaryHits(size, progress);
 }
@@ -71,6 +87,16 @@ PrimaryHits primaryHits(const Snapshot& snapshot, glm::ivec2 size, const Progres
 void labelByRays(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, Reference& out,
                  const Progress& progress) {
     ExactScene(snapshot).labelByRays(size, primary, out, progress);
+}
+
+std::vector<PlanarReceiver> planarReceivers(const Snapshot& snapshot, const PrimaryHits& primary,
+                                            std::size_t minimumPixels) {
+    return ExactScene(snapshot).planarReceivers(primary, minimumPixels);
+}
+
+void labelByPolygon(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver,
+                    Reference& out, const Progress& progress) {
+    ExactScene(snapshot).labelByPolygon(size, primary, receiver, out, progress);
 }
 
 std::map<std::string, std::string> exactTools() {

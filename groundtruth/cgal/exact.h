@@ -14,6 +14,14 @@
 
 namespace shadowbench::groundtruth {
 
+/// Where `polygon` applies: the part of one surface that lies in one exact plane, as far as it is seen and faces the light
+/// (a ground, one face of a box).
+struct PlanarReceiver {
+    std::uint32_t id = 0;                 // Placement::id
+    std::vector<std::uint32_t> triangles; // of the placement's mesh, ascending
+    std::size_t pixels = 0;               // that see it
+};
+
 /// A snapshot prepared for queries: one tree per mesh and one over the instances. Make it once and use it for several images
 /// of the same snapshot; const use is thread-safe.
 class ExactScene {
@@ -35,6 +43,17 @@ public:
     /// `out` that have no size yet are made. Point and directional lights; else InternalError.
     void labelByRays(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress = {}) const;
 
+    /// The planes that at least `minimumPixels` receiver pixels of one surface see, ordered by surface id.
+    [[nodiscard]] std::vector<PlanarReceiver> planarReceivers(const PrimaryHits& primary,
+                                                              std::size_t minimumPixels = 256) const;
+
+    /// The labels of `labelByRays` by another derivation, silhouette chains and a scanline, with exact edge distances: to
+    /// the nearest boundary of the union of the shadows on the receiver's plane (parts hidden from the eye included),
+    /// correct to 1e-6 px up to 8 px, infinity beyond. Writes the pixels of `receiver` only; images of `out` that have no
+    /// size yet are made. Costs a pass over all triangles per receiver.
+    void labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
+                        const Progress& progress = {}) const;
+
 private:
     struct Data;
     std::unique_ptr<Data> data_;
@@ -44,6 +63,10 @@ private:
 PrimaryHits primaryHits(const Snapshot& snapshot, glm::ivec2 size, const Progress& progress = {});
 void labelByRays(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, Reference& out,
                  const Progress& progress = {});
+std::vector<PlanarReceiver> planarReceivers(const Snapshot& snapshot, const PrimaryHits& primary,
+                                            std::size_t minimumPixels = 256);
+void labelByPolygon(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver,
+                    Reference& out, const Progress& progress = {});
 
 /// Versions for the provenance and the key: CGAL's and of this code.
 std::map<std::string, std::string> exactTools();

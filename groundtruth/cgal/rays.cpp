@@ -12,16 +12,18 @@ namespace {
 ApproximateSegment towardsLight(const SceneTriangles& scene, const ReceiverPoint& point, const glm::dvec4& light) {
     const glm::dvec3 from = point.rounded();
     const glm::dvec3 l(light);
-    const double reach = 2 * scene.diagonal() / glm::length(l); // twice: the point lies in the scene, but for rounding
+    const double reach = scene.reachFrom(from) / glm::length(l);
     return {from, light.w == 0 ? from + reach * l : l, point.high() - point.low()};
 }
 
-/// Label of one receiver point: Blocks = shadowed, None = lit, Touches = exactly on a shadow edge.
-Blocking label(const SceneTriangles& scene, const ReceiverPoint& point, TriangleName receiver, const glm::dvec4& light) {
+} // namespace
+
+Blocking shadowLabel(const SceneTriangles& scene, const ReceiverPoint& point, TriangleName receiver,
+                     const glm::dvec4& light) {
     std::vector<Triangle> touching;
     const bool blocked =
         scene.visit(towardsLight(scene, point, light), [&](TriangleName name, const Triangle& triangle, double&) {
-            if (name == receiver) return false; // its plane contains the point
+            if (name == receiver) return false;
             const Blocking found = blocking(point, light, triangle);
             if (found == Blocking::Touches) touching.push_back(triangle);
             return found == Blocking::Blocks;
@@ -30,7 +32,18 @@ Blocking label(const SceneTriangles& scene, const ReceiverPoint& point, Triangle
     return touching.empty() ? Blocking::None : Blocking::Touches;
 }
 
-} // namespace
+std::optional<int> coverCount(const SceneTriangles& scene, const ReceiverPoint& point, TriangleName receiver,
+                              const glm::dvec4& light) {
+    int count = 0;
+    const bool touched =
+        scene.visit(towardsLight(scene, point, light), [&](TriangleName name, const Triangle& triangle, double&) {
+            if (name == receiver) return false;
+            const Blocking found = blocking(point, light, triangle);
+            count += found == Blocking::Blocks;
+            return found == Blocking::Touches;
+        });
+    return touched ? std::nullopt : std::optional(count);
+}
 
 void traceShadows(const SceneTriangles& scene, const Camera& camera, const glm::dvec4& light, glm::ivec2 size,
                   const PrimaryHits& primary, int threads, Reference& out, const Progress& progress) {
@@ -39,7 +52,7 @@ void traceShadows(const SceneTriangles& scene, const Camera& camera, const glm::
             if (primary.surface(x, y) != Surface::Receiver) continue;
             const TriangleName receiver{scene.instanceOf(primary.id(x, y)), primary.triangle(x, y)};
             const ReceiverPoint point(pixelRay(camera, x, y, size), scene.triangle(receiver));
-            const Blocking found = label(scene, point, receiver, light);
+            const Blocking found = shadowLabel(scene, point, receiver, light);
             out.visibility(x, y) = found == Blocking::Blocks ? 0.0F : 1.0F;
             out.surface(x, y) = found == Blocking::Touches ? Surface::OnEdge : Surface::Receiver;
         }

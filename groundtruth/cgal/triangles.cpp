@@ -105,9 +105,10 @@ Triangle SceneTriangles::triangle(TriangleName name) const {
             worldVertex(instance.world, positions[corner.z])};
 }
 
-double SceneTriangles::diagonal() const {
+double SceneTriangles::reachFrom(const glm::dvec3& point) const {
     if (top_.empty()) return 0;
-    return glm::length(glm::dvec3(top_.bounds().high) - glm::dvec3(top_.bounds().low)) * (1 + 8 * unit);
+    const glm::dvec3 low(top_.bounds().low), high(top_.bounds().high);
+    return 1.01 * (glm::length(high - low) + glm::distance(point, low));
 }
 
 PaddedSegment SceneTriangles::padded(const ApproximateSegment& segment) const {

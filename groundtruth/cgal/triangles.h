@@ -54,7 +54,7 @@ public:
     [[nodiscard]] const std::vector<TriangleInstance>& instances() const { return instances_; }
     [[nodiscard]] std::uint32_t instanceOf(std::uint32_t id) const; // index of the placement with that surface id
     [[nodiscard]] Triangle triangle(TriangleName name) const;
-    [[nodiscard]] double diagonal() const; // of the world bounds, not below the true one
+    [[nodiscard]] double reachFrom(const glm::dvec3& point) const; // all of the scene lies nearer to the point than this
 
     /// Calls `visit(name, triangle, last)` for every triangle that the segment may meet, roughly front to back, until it
     /// returns true; `visit` may lower `last`, the parameter in [0, 1] beyond which nothing is wanted. True if stopped.

@@ -45,6 +45,11 @@ void Context::ceaseCurrent() { currentContext = nullptr; }
 
 void Context::finish() { glFinish(); }
 
+void Context::discardErrors() {
+    glGetError();
+    firstError_.clear();
+}
+
 void Context::check(const std::string& doing) {
     const GLenum error = glGetError();
     if (error == GL_NO_ERROR && firstError_.empty()) return;

@@ -46,6 +46,9 @@ public:
     /// Throws InternalError naming `doing` if GL has reported an error since the last check.
     void check(const std::string& doing);
 
+    /// Forgets reported errors: for a caller that has just thrown a better sentence.
+    void discardErrors();
+
 protected:
     explicit Context(int rasterThreads, int vectorBits) : info_{"", "", rasterThreads, vectorBits} {}
     /// Reads the info and installs the debug callback; to be called by a derived class once it is current.

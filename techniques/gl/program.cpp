@@ -43,6 +43,7 @@ GLuint compile(GLenum stage, const std::string& file, const Defines& defines) {
     glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     glDeleteShader(shader);
+    Context::current().discardErrors();
     throw InternalError("compiling shader " + file + " failed:\n" + withOrigins(log, source));
 }
 
@@ -61,6 +62,7 @@ GLuint link(GLuint vertex, GLuint fragment, const std::string& title) {
     glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     glDeleteProgram(program);
+    Context::current().discardErrors();
     throw InternalError("linking " + title + " failed: " + log);
 }
 

@@ -15,12 +15,13 @@ inline Batch placed(Mesh mesh, const glm::dmat4& world, std::uint32_t id) {
 
 inline glm::dmat4 at(const glm::dvec3& position) { return glm::translate(glm::dmat4(1), position); }
 
-/// A ground seen from above through a camera whose right is +x; a thin box from x = 0 to x = 20 one metre above it hides a
-/// half-plane; a square light of side 2, parallel to the box's edge, two metres above the box. The camera is so low that the
-/// box is behind it. Penumbra on the ground: x in (−½, ½), visible fraction ½ − x (similar triangles, box of no thickness).
+/// A ground seen from above, turned so that every pixel sees another distance to the edge; a thin box from x = 0 to x = 20
+/// one metre above it hides a half-plane; a square light of side 2, parallel to the box's edge, two metres above the box.
+/// The camera is so low that the box is behind it. Penumbra on the ground: x in (−½, ½), visible fraction ½ − x (similar
+/// triangles, box of no thickness).
 inline Snapshot halfPlane(LightKind kind) {
     Snapshot s;
-    s.camera = {{0.013, 0.9, 0.017}, {0.013, 0, 0.017}, {0, 0, -1}, 100, 0.01, 50};
+    s.camera = {{0.013, 0.9, 0.017}, {0.013, 0, 0.017}, {0.3, 0, -1}, 100, 0.01, 50};
     s.previousCamera = s.camera;
     s.light = {kind, {0, 3, 0}, {0, -1, 0}, {2, 0, 0}, kind == LightKind::Line ? glm::dvec3(0) : glm::dvec3(0, 0, 2)};
     s.batches.push_back(placed(plane(30), glm::dmat4(1), 1));

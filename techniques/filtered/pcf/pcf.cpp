@@ -30,10 +30,10 @@ public:
         else
             midpoint_->draw(light, frame.scene);
         resolve_.set("positions", frame.gbuffer.position())
-            .set("normals", frame.gbuffer.normal())
             .set("mapFromWorld", mapFromWorld(light))
-            .set("depthMap", map_ ? map_->texture() : midpoint_->texture())
-            .set("followPlane", slope_ && map_ ? 1.0F : 0.0F);
+            .set("depthMap", map_ ? map_->texture() : midpoint_->texture());
+        if (!bilinear_)  // its one tap lies in the receiver's own texel
+            resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", slope_ && map_ ? 1.0F : 0.0F);
         resolveInto({&visibility}, resolve_);
     }
 

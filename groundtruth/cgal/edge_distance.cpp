@@ -1,0 +1,183 @@
+// The plane is cut into unit cells between four pixel centres. In a cell the edges are split where they cross; the winding
+// number on both sides of a piece is that of a corner plus the edges crossed on the way.
+#include "groundtruth/cgal/edge_distance.h"
+
+#include "groundtruth/cgal/pixel_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <span>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+constexpr double sideStep = 1e-7; // pixels from a piece at which its two sides are tested
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+double distanceToSegment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+    const glm::dvec2 d = b - a;
+    const double length2 = glm::dot(d, d);
+    const double share = length2 > 0 ? std::clamp(glm::dot(p - a, d) / length2, 0.0, 1.0) : 0.0;
+    return glm::length(a + share * d - p);
+}
+
+/// Share of `e` at which it crosses `other`, if it does.
+std::optional<double> crossingShare(const PixelEdge& e, const PixelEdge& other) {
+    const glm::dvec2 d = e.to - e.from, o = other.to - other.from, between = other.from - e.from;
+    const double area = cross(d, o);
+    if (area == 0) return std::nullopt;
+    const double along = cross(between, d) / area;
+    if (along < 0 || along > 1) return std::nullopt;
+    return cross(between, o) / area;
+}
+
+/// Change of the winding number on the way from `start` to `end`. An edge that runs down adds on the way right.
+int windingChange(const glm::dvec2& start, const glm::dvec2& end, std::span<const PixelEdge* const> edges) {
+    const glm::dvec2 way = end - start;
+    int change = 0;
+    for (const PixelEdge* e : edges) {
+        const bool fromLeft = cross(way, e->from - start) < 0, toLeft = cross(way, e->to - start) < 0;
+        if (fromLeft == toLeft) continue;
+        const glm::dvec2 d = e->to - e->from;
+        const bool startSide = cross(d, start - e->from) < 0, endSide = cross(d, end - e->from) < 0;
+        if (startSide == endSide) continue;
+        change += fromLeft ? e->covers : -e->covers;
+    }
+    return change;
+}
+
+/// Which share of an edge lies in the unit square at `corner`; empty if none.
+std::pair<double, double> sharesInCell(const PixelEdge& e, const glm::dvec2& corner) {
+    double first = 0, last = 1;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double a = e.from[axis] - corner[axis], d = e.to[axis] - e.from[axis];
+        if (d == 0) {
+            if (a < 0 || a > 1) return {1, 0};
+            continue;
+        }
+        first = std::max(first, std::min(-a / d, (1 - a) / d));
+        last = std::min(last, std::max(-a / d, (1 - a) / d));
+    }
+    return {first, last};
+}
+
+class EdgeDistance {
+public:
+    EdgeDistance(const std::vector<PixelEdge>& edges, const Image<int>& winding, const Image<std::uint8_t>& members,
+                 Image<float>& distance)
+        : edges_(edges), winding_(winding), members_(members), distance_(distance),
+          cells_(winding.width() - 1, winding.height() - 1) {
+        nearMembers();
+        for (std::uint32_t i = 0; i < edges_.size(); ++i) enter(i);
+    }
+
+    void run() {
+        for (int y = 0; y < cells_.height(); ++y)
+            for (int x = 0; x < cells_.width(); ++x)
+                if (!cells_(x, y).empty()) visitCell(x, y);
+    }
+
+private:
+    static glm::dvec2 centre(int x, int y) { return {x - scanMargin + 0.5, y - scanMargin + 0.5}; }
+
+    /// Cells out of reach of every member need no work.
+    void nearMembers() {
+        near_ = Image<std::uint8_t>(cells_.width(), cells_.height());
+        const int reach = static_cast<int>(edgeReach) + 1;
+        Image<std::uint8_t> rows(cells_.width(), cells_.height()); // dilation along x, then along y
+        for (int y = 0; y < members_.height(); ++y)
+            for (int x = 0; x < members_.width(); ++x)
+                if (members_(x, y))
+                    for (int i = std::max(0, x + scanMargin - reach);
+                         i <= std::min(cells_.width() - 1, x + scanMargin + reach); ++i)
+                        rows(i, y + scanMargin) = 1;
+        for (int y = 0; y < rows.height(); ++y)
+            for (int x = 0; x < rows.width(); ++x)
+                if (rows(x, y))
+                    for (int i = std::max(0, y - reach); i <= std::min(cells_.height() - 1, y + reach); ++i) near_(x, i) = 1;
+    }
+
+    /// Lists the edge in the cells it may pass through, row by row.
+    void enter(std::uint32_t index) {
+        const PixelEdge& e = edges_[index];
+        const glm::dvec2 offset(scanMargin - 0.5);
+        glm::dvec2 a = e.from + offset, b = e.to + offset;
+        if (a.y > b.y) std::swap(a, b);
+        const int top = std::max(0, static_cast<int>(std::floor(a.y)));
+        const int bottom = std::min(cells_.height() - 1, static_cast<int>(std::floor(b.y)));
+        for (int y = top; y <= bottom; ++y) {
+            const double first = b.y > a.y ? std::clamp((y - a.y) / (b.y - a.y), 0.0, 1.0) : 0;
+            const double last = b.y > a.y ? std::clamp((y + 1 - a.y) / (b.y - a.y), 0.0, 1.0) : 1;
+            const double x0 = a.x + first * (b.x - a.x), x1 = a.x + last * (b.x - a.x);
+            const int left = std::max(0, static_cast<int>(std::floor(std::min(x0, x1) - 1e-9)));
+            const int right = std::min(cells_.width() - 1, static_cast<int>(std::floor(std::max(x0, x1) + 1e-9)));
+            for (int x = left; x <= right; ++x)
+                if (near_(x, y)) cells_(x, y).push_back(index);
+        }
+    }
+
+    void visitCell(int x, int y) {
+        std::optional<std::pair<glm::dvec2, int>> corner;
+        for (int i = 0; i < 4 && !corner; ++i)
+            if (const int w = winding_(x + i % 2, y + i / 2); w >= 0) corner = {centre(x + i % 2, y + i / 2), w};
+        if (!corner) return;
+        std::vector<const PixelEdge*> here;
+        int most = 0;
+        for (const std::uint32_t index : cells_(x, y)) {
+            here.push_back(&edges_[index]);
+            most += std::abs(edges_[index].covers);
+        }
+        if (corner->second > most) return; // shadowed throughout
+        for (const PixelEdge* edge : here) visitEdge(*edge, centre(x, y), *corner, here);
+    }
+
+    void visitEdge(const PixelEdge& e, const glm::dvec2& cell, const std::pair<glm::dvec2, int>& corner,
+                   std::span<const PixelEdge* const> here) {
+        const auto [first, last] = sharesInCell(e, cell);
+        if (first >= last) return;
+        std::vector<double> cuts{first, last};
+        for (const PixelEdge* other : here)
+            if (const std::optional<double> share = crossingShare(e, *other); share && *share > first && *share < last)
+                cuts.push_back(*share);
+        std::ranges::sort(cuts);
+        const glm::dvec2 d = e.to - e.from;
+        const glm::dvec2 aside = sideStep / glm::length(d) * glm::dvec2(-d.y, d.x);
+        for (std::size_t i = 1; i < cuts.size(); ++i) {
+            const glm::dvec2 middle = e.from + 0.5 * (cuts[i - 1] + cuts[i]) * d;
+            const bool left = corner.second + windingChange(corner.first, middle + aside, here) > 0;
+            const bool right = corner.second + windingChange(corner.first, middle - aside, here) > 0;
+            if (left != right) spread(e.from + cuts[i - 1] * d, e.from + cuts[i] * d);
+        }
+    }
+
+    void spread(const glm::dvec2& a, const glm::dvec2& b) {
+        const glm::ivec2 low(glm::floor(glm::min(a, b) - 0.5 - edgeReach)),
+            high(glm::ceil(glm::max(a, b) - 0.5 + edgeReach));
+        for (int y = std::max(0, low.y); y <= std::min(members_.height() - 1, high.y); ++y) {
+            for (int x = std::max(0, low.x); x <= std::min(members_.width() - 1, high.x); ++x) {
+                if (!members_(x, y)) continue;
+                const double d = distanceToSegment({x + 0.5, y + 0.5}, a, b);
+                if (d <= edgeReach) distance_(x, y) = std::min(distance_(x, y), static_cast<float>(d));
+            }
+        }
+    }
+
+    const std::vector<PixelEdge>& edges_;
+    const Image<int>& winding_;
+    const Image<std::uint8_t>& members_;
+    Image<float>& distance_;
+    Image<std::vector<std::uint32_t>> cells_;
+    Image<std::uint8_t> near_;
+};
+
+} // namespace
+
+void lowerToEdgeDistance(const std::vector<PixelEdge>& edges, const Image<int>& winding, const Image<std::uint8_t>& members,
+                         Image<float>& distance) {
+    EdgeDistance(edges, winding, members, distance).run();
+}
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,34 @@
+// Winding numbers of shadow edges at pixel centres by a half-open-row scanline.
+#pragma once
+
+#include "groundtruth/cgal/silhouette.h"
+#include "harness/scene/image.h"
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace shadowbench::groundtruth {
+
+/// An edge in pixels, clipped to the neighbourhood of the image. The true edge lies within `error` pixels. In the image (y
+/// down), going right across an edge that runs down adds `covers` to the winding number.
+struct PixelEdge {
+    glm::dvec2 from, to;
+    int covers;
+    double error;
+};
+
+/// Pixels around the image that are scanned too, so that edges just outside it have distances.
+inline constexpr int scanMargin = 9;
+
+/// Clips to scanMargin + 1 pixels around the image and to what lies below the light and before the camera.
+std::vector<PixelEdge> toPixels(const std::vector<ShadowEdge>& edges, glm::ivec2 size, double pixelError);
+
+/// Indexed by pixel + scanMargin.
+struct Winding {
+    Image<int> change;             // of the winding number from the left neighbour
+    Image<std::uint8_t> uncertain; // 1 where an edge may pass through the centre: only exact arithmetic can tell
+};
+Winding scan(const std::vector<PixelEdge>& edges, glm::ivec2 size);
+
+} // namespace shadowbench::groundtruth
