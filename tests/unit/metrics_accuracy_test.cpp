@@ -80,7 +80,7 @@ TEST(HardAccuracy, OfOneFlippedPixelIsOneOverTheMask) {
     v(30, 5) = 0; // a lit pixel called shadowed
     const Accuracy a = metrics::hardAccuracy(v, truth, everything(truth));
     EXPECT_DOUBLE_EQ(*a.mismatch, 1.0 / (size * size));
-    EXPECT_DOUBLE_EQ(*a.falseShadow, 1.0 / (size * size / 2));
+    EXPECT_DOUBLE_EQ(*a.falseShadow, 2.0 / (size * size));
     EXPECT_EQ(a.leak, 0.0);
 }
 

@@ -45,9 +45,9 @@ private:
 };
 
 TEST(Labels, NeverOverlapInACrowd) {
-    std::vector<report::LabelledPoint> points;
+    std::vector<report::LabelledPoint> points(14);
     for (int i = 0; i < 14; ++i) // a cluster as of variants of one technique: some at the very same place
-        points.push_back({{300 + 13 * (i % 5), 200 + 9 * (i % 3)}, "technique:option=" + std::to_string(i)});
+        points[i] = {{300 + 13 * (i % 5), 200 + 9 * (i % 3)}, "technique:option=" + std::to_string(i)};
     const report::Box area{{100, 80}, {900, 540}};
     const std::vector<report::PlacedLabel> placed = report::placeLabels(points, area, {}, {6.4, 16});
     ASSERT_EQ(placed.size(), points.size());

@@ -11,6 +11,7 @@ using namespace test;
 
 std::vector<std::string> variants(const std::vector<Record>& records, const std::vector<std::size_t>& indices) {
     std::vector<std::string> result;
+    result.reserve(indices.size());
     for (const std::size_t i : indices) result.push_back(records[i].variant);
     return result;
 }
