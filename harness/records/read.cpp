@@ -3,11 +3,12 @@
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
 
-#include <array>
+#include <cstdint>
 #include <fmt/format.h>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 namespace shadowbench {
 namespace {

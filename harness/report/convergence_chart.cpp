@@ -13,7 +13,6 @@ constexpr int width = 960, plotHeight = 400, keyRow = 22; // pixels
 constexpr double top = 84, bottomMargin = 62;
 
 struct Curve {
-    std::string variant;
     std::vector<double> values; // by frame, from 1
     std::size_t style;          // the same in both panels
 };
@@ -29,8 +28,7 @@ std::vector<Curve> curvesOf(const std::vector<Record>& records, const std::vecto
     std::vector<Curve> curves;
     for (std::size_t style = 0; style < shownRecords.size(); ++style) {
         const Record& record = records[shownRecords[style]];
-        if (const std::vector<double>& values = record.stability.*member; !values.empty())
-            curves.push_back({record.variant, values, style});
+        if (const std::vector<double>& values = record.stability.*member; !values.empty()) curves.push_back({values, style});
     }
     return curves;
 }
@@ -43,6 +41,14 @@ std::vector<std::size_t> recordsWithCurves(const std::vector<Record>& records, c
         if (!error.empty() || !s.changedByFrame.empty()) result.push_back(i);
     }
     return result;
+}
+
+/// Without the last frame, which is compared with itself.
+std::vector<Curve> changeCurves(const std::vector<Record>& records, const std::vector<std::size_t>& shownRecords) {
+    std::vector<Curve> curves = curvesOf(records, shownRecords, &Stability::changedByFrame);
+    for (Curve& curve : curves) curve.values.pop_back();
+    std::erase_if(curves, [](const Curve& curve) { return curve.values.empty(); });
+    return curves;
 }
 
 std::string lineStyle(std::size_t style) {
@@ -60,7 +66,7 @@ std::string panelScript(const Panel& panel, std::size_t column, std::size_t colu
         "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n",
         start + 0.085, start + share - 0.02, 1 - top / height, 1 - (plotHeight - bottomMargin) / height);
     script += fmt::format("set title {} font ',14' offset 0,-0.4\n", literal(panel.title));
-    script += "set xlabel 'frame'\nset xrange [1:*]\n" + axis.script("y", panel.share ? 100 : 1, panel.share ? " %" : "");
+    script += "set xlabel 'frame'\nset xrange [1:*]\n" + axis.script("y", panel.share ? 100 : 1, panel.share ? " %%" : "");
     std::string plots;
     for (std::size_t i = 0; i < panel.curves.size(); ++i) {
         script += fmt::format("$curve{}_{} << EOD\n", column, i);
@@ -79,7 +85,8 @@ std::string furniture(const std::vector<std::string>& variants, const std::strin
                                      literal(scene + ": convergence from an empty history"), 1 - 24 / height);
     for (std::size_t style = 0; style < variants.size(); ++style) {
         const double x = style % 2 == 0 ? 0.085 : 0.585;
-        const double y = 1 - (plotHeight + keyRow * (0.5 + static_cast<double>(style / 2))) / height;
+        const std::size_t row = style / 2;
+        const double y = 1 - (plotHeight + keyRow * (0.7 + static_cast<double>(row))) / height;
         script += fmt::format("set arrow from screen {0}, screen {1} to screen {2}, screen {1} nohead {3}\n", x, y,
                               x + 0.035, lineStyle(style));
         script +=
@@ -97,14 +104,14 @@ std::optional<std::string> convergenceChart(const std::vector<Record>& records, 
     std::vector<Panel> panels{
         {"error against the truth: " + meaning(metric), isShare(metric),
          curvesOf(records, shownRecords, soft ? &Stability::rmseByFrame : &Stability::mismatchByFrame)},
-        {"pixels > 30/255 off the technique's own last frame", true,
-         curvesOf(records, shownRecords, &Stability::changedByFrame)}};
+        {"pixels > 30/255 off the technique's own last frame", true, changeCurves(records, shownRecords)}};
     std::erase_if(panels, [](const Panel& panel) { return panel.curves.empty(); });
     if (panels.empty()) return {};
 
     std::vector<std::string> variants;
+    variants.reserve(shownRecords.size());
     for (const std::size_t i : shownRecords) variants.push_back(records[i].variant);
-    const int height = plotHeight + keyRow * static_cast<int>((variants.size() + 1) / 2) + 10;
+    const int height = plotHeight + keyRow * static_cast<int>((variants.size() + 1) / 2) + 14;
     std::string script = "set multiplot\n" + furniture(variants, scene, height);
     for (std::size_t i = 0; i < panels.size(); ++i) script += panelScript(panels[i], i, panels.size(), height);
     return svgOf(script + "unset multiplot\n", width, height);

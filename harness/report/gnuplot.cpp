@@ -1,77 +1,57 @@
 #include "harness/report/gnuplot.h"
 
+#include "groundtruth/povray/process.h"
+#include "groundtruth/povray/temporary_folder.h"
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
 
 #include <algorithm>
 #include <array>
-#include <boost/process.hpp>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace shadowbench::report {
 namespace {
 
-namespace process = boost::process;
-
-/// A folder of our own that goes when we are done.
-class PrivateFolder {
-public:
-    PrivateFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "shadowbench-chart-XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr)
-            throw InternalError(fmt::format("drawing a chart: no folder can be made in {}; free some space or set TMPDIR",
-                                            std::filesystem::temp_directory_path().string()));
-        path_ = pattern;
-    }
-    ~PrivateFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    PrivateFolder(const PrivateFolder&) = delete;
-    PrivateFolder& operator=(const PrivateFolder&) = delete;
-    [[nodiscard]] std::filesystem::path file(const char* name) const { return path_ / name; }
-
-private:
-    std::filesystem::path path_;
-};
-
-std::string header(const std::filesystem::path& output, int width, int height) {
+std::string header(int width, int height) {
     return fmt::format(
         "set terminal svg size {},{} font 'Liberation Sans,Arial,Helvetica,sans-serif,14' background '#FFFFFF' "
         "noenhanced dashlength 1.2\n"
-        "set output {}\n"
+        "set output 'chart.svg'\n"
         "set border 3 lw 1 lc rgb '#333333'\n"
         "set tics nomirror textcolor rgb '#333333'\n"
         "set grid xtics ytics lc rgb '#E4E4E4' lw 1 lt 1\n",
-        width, height, literal(output.string()));
+        width, height);
 }
 
-void runGnuplot(const std::filesystem::path& script, const std::filesystem::path& messages) {
-    const auto program = process::search_path("gnuplot");
-    if (program.empty()) throw Inconclusive("drawing charts: gnuplot is not installed; run `apt-get install gnuplot-nox`");
-    std::error_code failure;
-    const int status = process::system(program, "--default-settings", script.string(),
-                                       process::std_in<process::null, process::std_out> process::null,
-                                       process::std_err > messages.string(), failure);
-    if (failure)
-        throw Inconclusive(
-            fmt::format("drawing charts: gnuplot cannot be run ({}); run `apt-get install gnuplot-nox`", failure.message()));
-    if (status == 0) return;
-    const std::string text = readFile(messages);
-    throw Inconclusive(fmt::format("drawing charts: gnuplot failed with status {} ({}); reinstall gnuplot-nox", status,
-                                   text.substr(0, text.find_last_not_of('\n') + 1)));
+void runGnuplot(const std::filesystem::path& folder, const std::string& script) {
+    const auto program = groundtruth::findProgram("gnuplot");
+    if (!program) throw Inconclusive("drawing charts: gnuplot is not installed; run `apt-get install gnuplot-nox`");
+    std::string messages;
+    const groundtruth::Command command{*program, {"--default-settings", script}, folder};
+    const groundtruth::Finished end =
+        groundtruth::runProcess(command, [&](std::string_view line) { messages.append(line).append(" "); });
+    if (end.timedOut)
+        throw Inconclusive("drawing charts: gnuplot ran for more than a minute and was stopped; reinstall gnuplot-nox");
+    if (end.signal != 0 || end.exitCode != 0)
+        throw Inconclusive(fmt::format("drawing charts: gnuplot ended with status {}, signal {} ({}); reinstall gnuplot-nox",
+                                       end.exitCode, end.signal, messages));
 }
 
-/// Ticks 1, 2, 5 × 10ⁿ within [low, high]; powers of ten only on an axis of more than two decades.
-std::vector<double> ticks(double low, double high) {
-    const bool wide = std::log10(high / low) > 2;
-    std::vector<double> result;
+struct Tick {
+    double value;
+    bool labelled;
+};
+
+/// Ticks at 1 … 9 × 10ⁿ within [low, high]: labelled at 1, 2 and 5, on an axis of more than three decades at 1 only.
+std::vector<Tick> ticks(double low, double high) {
+    const bool wide = std::log10(high / low) > 3;
+    std::vector<Tick> result;
     for (int decade = static_cast<int>(std::floor(std::log10(low))); decade <= std::ceil(std::log10(high)); ++decade) {
-        for (const double digit : {1.0, 2.0, 5.0}) {
+        for (int digit = 1; digit <= 9; ++digit) {
             const double value = digit * std::pow(10.0, decade);
-            if (value >= low && value <= high && (!wide || digit == 1.0)) result.push_back(value);
+            const bool labelled = digit == 1 || (!wide && (digit == 2 || digit == 5));
+            if (value >= low && value <= high) result.push_back({value, labelled});
         }
     }
     return result;
@@ -80,10 +60,10 @@ std::vector<double> ticks(double low, double high) {
 } // namespace
 
 std::string svgOf(const std::string& script, int width, int height) {
-    const PrivateFolder folder;
-    writeFile(folder.file("chart.gp"), header(folder.file("chart.svg"), width, height) + script);
-    runGnuplot(folder.file("chart.gp"), folder.file("messages"));
-    return readFile(folder.file("chart.svg"));
+    const groundtruth::TemporaryFolder folder;
+    writeFile(folder.path() / "chart.gp", header(width, height) + script);
+    runGnuplot(folder.path(), "chart.gp");
+    return readFile(folder.path() / "chart.svg");
 }
 
 std::string literal(const std::string& text) {
@@ -126,8 +106,12 @@ double LogAxis::position(double value) const { return std::log(drawn(value) / lo
 std::string LogAxis::script(const std::string& axis, double factor, const std::string& unit) const {
     std::string labels;
     if (hasZero_) labels += fmt::format("'0{}' {}, ", unit, floor_);
-    for (const double tick : ticks((hasZero_ ? floor_ * 1.3 : low_) * factor, high_ * factor))
-        labels += fmt::format("'{:g}{}' {}, ", tick, unit, tick / factor);
+    for (const Tick& tick : ticks((hasZero_ ? floor_ * 1.3 : low_) * factor, high_ * factor)) {
+        if (tick.labelled)
+            labels += fmt::format("'{:g}{}' {}, ", tick.value, unit, tick.value / factor);
+        else
+            labels += fmt::format("'' {} 1, ", tick.value / factor); // a minor tick
+    }
     if (!labels.empty()) labels.resize(labels.size() - 2);
     return fmt::format("set logscale {0}\nset {0}range [{1}:{2}]\nset {0}tics ({3})\n", axis, low_, high_, labels);
 }

@@ -8,6 +8,7 @@ namespace shadowbench::report {
 namespace {
 
 constexpr double pointRadius = 7; // pixels kept free around a point
+constexpr double nearest = 10;    // pixels between a point and its label where there is room
 
 /// Displacements of a label's box from its point, as unit offsets: right, left, above, below, then the corners.
 constexpr glm::ivec2 directions[] = {{1, 0}, {-1, 0}, {0, -1}, {0, 1}, {1, -1}, {1, 1}, {-1, -1}, {-1, 1}};
@@ -20,6 +21,8 @@ Box candidate(glm::dvec2 point, glm::dvec2 size, glm::ivec2 direction, double di
 Box around(glm::dvec2 point) { return {point - pointRadius, point + pointRadius}; }
 
 } // namespace
+
+glm::dvec2 Box::closest(glm::dvec2 point) const { return glm::clamp(point, low, high); }
 
 bool Box::overlaps(const Box& other) const {
     return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y && other.low.y < high.y;
@@ -38,9 +41,14 @@ bool Box::meets(glm::dvec2 a, glm::dvec2 b) const {
 std::vector<PlacedLabel> placeLabels(const std::vector<LabelledPoint>& points, const Box& area,
                                      const std::vector<std::pair<glm::dvec2, glm::dvec2>>& lines, glm::dvec2 letter) {
     std::vector<PlacedLabel> placed;
-    const auto penalty = [&](const Box& box) {
+    const auto penalty = [&](const Box& box, glm::dvec2 point) {
         double sum = area.contains(box) ? 0 : 1e5;
-        for (const PlacedLabel& other : placed) sum += box.overlaps(other.box) ? 1e4 : 0;
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            if (box.overlaps(placed[i].box)) sum += 1e4;
+            const bool crossed = box.meets(points[i].at, placed[i].box.closest(points[i].at)) ||
+                                 placed[i].box.meets(point, box.closest(point)); // by the line that leads to a label
+            if (crossed) sum += 30;
+        }
         for (const LabelledPoint& other : points) sum += box.overlaps(around(other.at)) ? 1e4 : 0;
         for (const auto& [a, b] : lines) sum += box.meets(a, b) ? 40 : 0;
         return sum;
@@ -49,13 +57,13 @@ std::vector<PlacedLabel> placeLabels(const std::vector<LabelledPoint>& points, c
         const glm::dvec2 size(letter.x * static_cast<double>(point.text.size()), letter.y);
         double least = std::numeric_limits<double>::infinity();
         PlacedLabel best{};
-        for (const double distance : {9.0, 18.0, 28.0, 40.0, 55.0, 75.0, 100.0}) {
+        for (const double distance : {nearest, 18.0, 28.0, 40.0, 55.0, 75.0, 100.0}) {
             for (const glm::ivec2 direction : directions) {
                 const Box box = candidate(point.at, size, direction, distance);
-                const double worth = penalty(box) + distance;
+                const double worth = penalty(box, point.at) + distance;
                 if (worth >= least) continue;
                 least = worth;
-                best = {box, distance > 9.0};
+                best = {box, direction, distance > nearest};
             }
         }
         placed.push_back(best);

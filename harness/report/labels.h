@@ -13,7 +13,8 @@ struct Box {
     glm::dvec2 low, high;
     [[nodiscard]] bool overlaps(const Box& other) const;
     [[nodiscard]] bool contains(const Box& other) const;
-    [[nodiscard]] bool meets(glm::dvec2 a, glm::dvec2 b) const; // a horizontal or vertical segment
+    [[nodiscard]] bool meets(glm::dvec2 a, glm::dvec2 b) const; // the segment's bounding box
+    [[nodiscard]] glm::dvec2 closest(glm::dvec2 point) const;
 };
 
 struct LabelledPoint {
@@ -21,9 +22,11 @@ struct LabelledPoint {
     std::string text;
 };
 
-/// Where a label lies, and whether it is so far from its point that a line must lead to it.
+/// Where a label lies, on which side of its point (−1, 0 or 1 right and down), and whether it is so far from it that a line
+/// must lead there. The text belongs at the side of the box that is nearer to the point.
 struct PlacedLabel {
     Box box;
+    glm::ivec2 side;
     bool leader;
 };
 

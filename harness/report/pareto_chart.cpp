@@ -6,14 +6,13 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 namespace shadowbench::report {
 namespace {
 
 constexpr int width = 960, height = 620;
 constexpr double left = 96, right = 936, top = 84, bottom = 540; // of the plot, pixels, y down
-constexpr glm::dvec2 letter(6.9, 16);                            // of a label at 12 points, pixels
+constexpr glm::dvec2 letter(6.4, 16);                            // of a label at 12 points, pixels
 
 struct Point {
     std::string variant;
@@ -41,7 +40,7 @@ std::vector<Point> points(const std::vector<Record>& records, const std::string&
 
 class Canvas {
 public:
-    Canvas(LogAxis cost, LogAxis error) : cost_(std::move(cost)), error_(std::move(error)) {}
+    Canvas(const LogAxis& cost, const LogAxis& error) : cost_(cost), error_(error) {}
 
     [[nodiscard]] glm::dvec2 at(const Place& place) const {
         return {left + (right - left) * cost_.position(place.cost), bottom - (bottom - top) * error_.position(place.error)};
@@ -86,6 +85,7 @@ std::string block(const std::string& name, const std::vector<Place>& places, con
 
 std::string labels(const std::vector<Point>& all, const Canvas& canvas, const std::optional<double>& toleranceLine) {
     std::vector<LabelledPoint> named;
+    named.reserve(all.size());
     for (const Point& point : all) named.push_back({canvas.at(point.place), point.variant});
     std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;
     const std::vector<Place> front = corners(all, canvas);
@@ -99,12 +99,17 @@ std::string labels(const std::vector<Point>& all, const Canvas& canvas, const st
     std::string script;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const Box& box = placed[i].box;
-        const glm::dvec2 centre = 0.5 * (box.low + box.high);
-        script += fmt::format("set label {} at {} center front font ',12' textcolor rgb '{}'\n", literal(named[i].text),
-                              Canvas::screen(centre), all[i].onFront ? blue : "#444444");
+        const int side = placed[i].side.x;
+        const double x = side > 0 ? box.low.x : side < 0 ? box.high.x : 0.5 * (box.low.x + box.high.x);
+        script += fmt::format("set label {} at {} {} front font ',12' textcolor rgb '{}'\n", literal(named[i].text),
+                              Canvas::screen({x, 0.5 * (box.low.y + box.high.y)}),
+                              side > 0   ? "left"
+                              : side < 0 ? "right"
+                                         : "center",
+                              all[i].onFront ? blue : "#444444");
         if (!placed[i].leader) continue;
-        const glm::dvec2 near = glm::clamp(named[i].at, box.low, box.high);
-        script += fmt::format("set arrow from {} to {} nohead lc rgb '#B0B0B0' lw 1\n", Canvas::screen(named[i].at),
+        const glm::dvec2 near = box.closest(named[i].at);
+        script += fmt::format("set arrow from {} to {} nohead lc rgb '#9A9A9A' lw 1\n", Canvas::screen(named[i].at),
                               Canvas::screen(near));
     }
     return script;
@@ -117,28 +122,39 @@ std::vector<Place> chosen(const std::vector<Point>& all, bool onFront, bool adeq
     return result;
 }
 
-std::string plotCommand(const std::vector<Point>& all, const Canvas& canvas, const std::optional<Tolerance>& limit,
-                        const std::optional<double>& toleranceLine) {
+std::string plotCommand(const std::vector<Point>& all, const Canvas& canvas, const std::optional<double>& toleranceLine) {
     std::string data = block("front", corners(all, canvas), canvas);
-    std::string plots = fmt::format("plot $front with lines lw 2 lc rgb '{}' title 'Pareto front'", blue);
-    if (toleranceLine) plots += fmt::format(", {} with lines lw 2 dt 2 lc rgb '{}' notitle", *toleranceLine, vermilion);
+    std::string plots = fmt::format("plot $front with lines lw 2 lc rgb '{}'", blue);
+    if (toleranceLine) plots += fmt::format(", {} with lines lw 2 dt 2 lc rgb '{}'", *toleranceLine, vermilion);
     for (const bool onFront : {true, false}) {
         for (const bool adequate : {true, false}) {
             const std::vector<Place> places = chosen(all, onFront, adequate);
             if (places.empty()) continue;
             const std::string name = fmt::format("points{}{}", onFront ? 1 : 0, adequate ? 1 : 0);
             data += block(name, places, canvas);
-            plots += fmt::format(", ${} with points pt {} ps 1.1 lw 2 lc rgb '{}' notitle", name, adequate ? 7 : 6,
+            plots += fmt::format(", ${} with points pt {} ps 1.1 lw 2 lc rgb '{}'", name, adequate ? 7 : 6,
                                  onFront ? blue : grey);
         }
     }
-    if (limit) {
-        const std::string bound = fmt::format("{} ≤ {}", limit->metric, shown(limit->metric, limit->value));
-        plots += fmt::format(", NaN with points pt 7 ps 1.1 lc rgb '{}' title {}", grey,
-                             literal("within tolerance (" + bound + ")"));
-        plots += fmt::format(", NaN with points pt 6 ps 1.1 lw 2 lc rgb '{}' title 'outside'", grey);
-    }
     return data + plots + "\n";
+}
+
+/// What line and points mean, in one row under the title.
+std::string key(const std::optional<Tolerance>& limit) {
+    const double y = 56;
+    const auto text = [y](const std::string& words, double x) {
+        return fmt::format("set label {} at {} left font ',12'\n", literal(words), Canvas::screen({x, y}));
+    };
+    const auto point = [y](int kind, double x) {
+        return fmt::format("set label '' at {} point pt {} ps 1.1 lw 2 lc rgb '{}'\n", Canvas::screen({x, y}), kind, grey);
+    };
+    std::string script = fmt::format("set arrow from {} to {} nohead lw 2 lc rgb '{}'\n", Canvas::screen({left, y}),
+                                     Canvas::screen({left + 28, y}), blue);
+    script += text("Pareto front", left + 36);
+    if (!limit) return script;
+    script += point(7, left + 146) +
+              text(fmt::format("within tolerance ({} ≤ {})", limit->metric, shownBound(*limit)), left + 160);
+    return script + point(6, left + 440) + text("outside", left + 454);
 }
 
 } // namespace
@@ -157,14 +173,17 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
         "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n",
         left / width, right / width, 1 - top / height, 1 - bottom / height);
     script += fmt::format("set label {} at {} left font ',18'\n", literal(scene), Canvas::screen({left, 26}));
-    script += fmt::format("set key at {} left top horizontal Left reverse samplen 2 width 1 maxrows 1\n",
-                          Canvas::screen({left - 8, 44}));
+    script += "unset key\n" + key(limit);
+    if (toleranceLine)
+        script += fmt::format("set label {} at {} right font ',12' textcolor rgb '{}'\n",
+                              literal("tolerance " + shownBound(*limit)),
+                              Canvas::screen(area.at({*toleranceLine, area.cost().high()}) - glm::dvec2(4, 9)), vermilion);
     script += "set xlabel 'cost: frame time as a multiple of sm-uniform'\n";
-    script += fmt::format("set ylabel {} offset -1,0\n", literal("error: " + meaning(metric)));
+    script += fmt::format("set ylabel {}\n", literal("error: " + meaning(metric)));
     script += area.cost().script("x", 1, "×");
-    script += area.error().script("y", share ? 100 : 1, share ? " %" : "");
+    script += area.error().script("y", share ? 100 : 1, share ? " %%" : "");
     script += labels(all, area, toleranceLine);
-    script += plotCommand(all, area, limit, toleranceLine);
+    script += plotCommand(all, area, toleranceLine);
     return svgOf(script, width, height);
 }
 

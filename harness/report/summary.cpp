@@ -64,12 +64,16 @@ bool isShare(const std::string& metric) {
 std::string percent(double share) {
     const double value = 100 * share;
     if (value > 0 && value < 0.005) return "< 0.01 %";
-    if (value >= 99.95) return "100 %";
+    if (value >= 99.95) return fmt::format("{:.0f} %", value);
     return value >= 9.995 ? fmt::format("{:.1f} %", value) : fmt::format("{:.2f} %", value);
 }
 
 std::string shown(const std::string& metric, double value) {
     return isShare(metric) ? percent(value) : fmt::format("{:.4f}", value);
+}
+
+std::string shownBound(const Tolerance& limit) {
+    return isShare(limit.metric) ? fmt::format("{:g} %", 100 * limit.value) : fmt::format("{:g}", limit.value);
 }
 
 std::string imageSize(const Record& record) {

@@ -43,6 +43,9 @@ std::string percent(double share);
 /// A value of `metric` as tables show it: per cent for shares, four decimals for others.
 std::string shown(const std::string& metric, double value);
 
+/// A tolerance as written in a scene: "0.5 %", "0.05".
+std::string shownBound(const Tolerance& limit);
+
 /// "256²", "800 × 600".
 std::string imageSize(const Record& record);
 

@@ -98,7 +98,7 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
     if (const std::optional<Tolerance> limit = tolerance(records, scene)) {
         const std::optional<std::size_t> best = cheapestAdequate(records, scene);
         const std::string metric = limit->metric == headlineMetric(records, scene) ? "" : limit->metric + " ";
-        lines.push_back(fmt::format("cheapest within tolerance ({}{}): {}", metric, shown(limit->metric, limit->value),
+        lines.push_back(fmt::format("cheapest within tolerance ({}{}): {}", metric, shownBound(*limit),
                                     best ? records[*best].variant : "none"));
     }
     for (const std::size_t i : ofScene(records, scene)) {

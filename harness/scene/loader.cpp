@@ -18,6 +18,25 @@ constexpr int kMostPixels = 8192; // along one side of the image
 constexpr int kMostFrames = 100'000;
 constexpr int kMostSamples = 1 << 20;
 
+/// `rest` moved by each key of `shift`.
+Track shifted(const Track& shift, const glm::dvec3& rest) {
+    Track track = shift;
+    for (Track::Key& key : track.keys) key.value += rest;
+    return track;
+}
+
+void readCameraPath(const TomlValue& path, Scene& scene) {
+    for (const TomlValue& key : path.list()) {
+        key.only({"frame", "eye", "target", "shift"});
+        if (key.find("shift").has_value() != path.list().front().find("shift").has_value())
+            key.fail("give shift (of eye and target) in every key or in none");
+        if (key.find("shift") && (key.find("eye") || key.find("target"))) key.fail("give either shift or eye and target");
+    }
+    const Track shift = readTrack(path, "shift");
+    scene.eye = shift.keys.empty() ? readTrack(path, "eye") : shifted(shift, scene.camera.eye);
+    scene.target = shift.keys.empty() ? readTrack(path, "target") : shifted(shift, scene.camera.target);
+}
+
 void readCamera(const TomlValue& value, Scene& scene) {
     value.only({"eye", "target", "up", "fovy", "near", "far", "path"});
     Camera& camera = scene.camera;
@@ -29,11 +48,7 @@ void readCamera(const TomlValue& value, Scene& scene) {
     camera.near = value.get("near").positive();
     camera.far = value.get("far").positive();
     if (!(camera.near < camera.far)) value.get("far").fail("expected more than near");
-    if (const auto path = value.find("path")) {
-        for (const TomlValue& key : path->list()) key.only({"frame", "eye", "target"});
-        scene.eye = readTrack(*path, "eye");
-        scene.target = readTrack(*path, "target");
-    }
+    if (const auto path = value.find("path")) readCameraPath(*path, scene);
 }
 
 LightKind readKind(const TomlValue& value) {

@@ -83,6 +83,14 @@ const std::vector<Mistake>& mistakes() {
          withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60, path = [{ frame = 3, eye = "
                     "[0, 2, 6] }, { frame = 3, eye = [0, 2, 7] }]"),
          "scenes/x.toml:2: camera.path[2].frame: frames must grow"},
+        {"ShiftAndEyeInAPath",
+         withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60, path = [{ frame = 3, eye = "
+                    "[0, 2, 6], shift = [1, 0, 0] }]"),
+         "scenes/x.toml:2: camera.path[1]: give either shift or eye and target"},
+        {"ShiftInSomeKeysOfAPath",
+         withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60, path = [{ frame = 3, shift = "
+                    "[0, 2, 6] }, { frame = 4, eye = [1, 0, 9] }]"),
+         "scenes/x.toml:2: camera.path[2]: give shift (of eye and target) in every key or in none"},
         {"UnknownLightKind", withLight("kind = \"dsik\", centre = [0, 5, 0]"),
          "scenes/x.toml:3: light.kind: expected one of point, directional, rectangle, disk, line, got \"dsik\"; did you "
          "mean "

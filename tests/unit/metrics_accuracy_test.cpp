@@ -80,7 +80,7 @@ TEST(HardAccuracy, OfOneFlippedPixelIsOneOverTheMask) {
     v(30, 5) = 0; // a lit pixel called shadowed
     const Accuracy a = metrics::hardAccuracy(v, truth, everything(truth));
     EXPECT_DOUBLE_EQ(*a.mismatch, 1.0 / (size * size));
-    EXPECT_DOUBLE_EQ(*a.falseShadow, 1.0 / (size * size / 2));
+    EXPECT_DOUBLE_EQ(*a.falseShadow, 2.0 / (size * size));
     EXPECT_EQ(a.leak, 0.0);
 }
 
@@ -294,6 +294,18 @@ TEST(PenumbraWidth, OfAMissingShadowHasError1AndOfADisplacedOneNone) {
     EXPECT_DOUBLE_EQ(*metrics::penumbraWidthError(Image<float>(128, 16, 1), truth, everything(truth)), 1);
     const Image<float> displaced = imageOf(128, 16, [&](glm::dvec2 p) { return edge.moved(3).ramp(p, 12); });
     EXPECT_NEAR(*metrics::penumbraWidthError(displaced, truth, everything(truth)), 0, 1e-6) << "float pixels";
+}
+
+TEST(PenumbraWidth, IsTheLengthFromATenthToNineTenths) {
+    const HalfPlane edge{{1, 0}, 64};
+    const Reference truth = truthOf(128, 16, [&](glm::dvec2 p) { return edge.ramp(p, 20); });
+    const Image<float> tailed = imageOf(128, 16, [&](glm::dvec2 p) { // three times slower above 0.8
+        const double ramp = 0.5 + edge.distance(p) / 20;
+        return std::clamp(ramp > 0.8 ? 0.8 + (ramp - 0.8) / 3 : ramp, 0.0, 1.0);
+    });
+    // 0.1 to 0.8 is as long, 0.8 to 0.9 takes 0.3 instead of 0.1 of 20 px; pixels blunt the bend by less than a tenth of a
+    // pixel.
+    EXPECT_NEAR(*metrics::penumbraWidthError(tailed, truth, everything(truth)), 0.2 / 0.8, 0.1 / 16);
 }
 
 TEST(PenumbraWidth, IsAbsentWhereThePenumbraLeavesTheImage) {
