@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace shadowbench::groundtruth {
 
@@ -18,14 +19,18 @@ public:
     /// The stored reference; nothing when absent or damaged (a damaged entry is removed and reported on stderr in one line).
     [[nodiscard]] std::optional<Reference> find(const std::string& key) const;
 
-    /// Stores; a failure to write (full disk, no permission) throws InternalError and leaves no partial entry.
+    /// Stores; a failure to write (full disk, no permission) throws InternalError and leaves no partial entry. Writers of
+    /// the same key do not disturb each other: the last one's whole file stays.
     void store(const Reference& reference) const;
 
     /// `find`, else `compute` and `store`; a cache that cannot be written costs a warning, not the run.
     Reference get(const Request& request, const Progress& progress = {}) const;
 
+    /// Where the entry of `key` is or would be. Throws InternalError unless `key` is 32 hex digits.
+    [[nodiscard]] std::filesystem::path entry(const std::string& key) const;
+
 private:
     std::filesystem::path folder_;
 };
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

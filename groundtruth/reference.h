@@ -15,55 +15,65 @@ namespace shadowbench::groundtruth {
 
 /// What a pixel's centre ray hits.
 enum class Surface : std::uint8_t {
-    Background,  // nothing
-    FacesAway,   // a surface whose geometric side towards the eye does not face the light: unlit whatever the shadows
-    Receiver,    // scored: for an area light, all of it lies above the tangent plane
-    OnEdge,      // a receiver exactly on a shadow edge (exact oracles only): no label is right, never scored
+    Background, // nothing
+    FacesAway,  // a surface whose geometric side towards the eye does not face the light: unlit whatever the shadows
+    Receiver,   // scored: for an area light, all of it lies above the tangent plane
+    OnEdge,     // a receiver exactly on a shadow edge (exact oracles only): no label is right, never scored
 };
 
 /// Exact primary hits: what each pixel centre sees. Row 0 at the top.
 struct PrimaryHits {
-    Image<std::uint32_t> id;      // Placement::id, 0 for background
-    Image<glm::vec3> position;    // world position rounded to float
-    Image<Surface> surface;       // Background, FacesAway or Receiver
-    Image<std::uint32_t> triangle;  // index in the placement's Mesh::triangles; 0 for background
+    Image<std::uint32_t> id;       // Placement::id, 0 for background
+    Image<glm::vec3> position;     // world position rounded to float
+    Image<Surface> surface;        // Background, FacesAway or Receiver
+    Image<std::uint32_t> triangle; // index in the placement's Mesh::triangles; 0 for background
 };
 
 /// Where the numbers come from. A score without provenance does not exist.
 struct Provenance {
-    std::string oracle;                        // "polygon", "rays", "povray"
-    std::string key;                           // content hash of everything the reference depends on
-    int samples = 0;                           // light samples; 0 for exact oracles
-    std::map<std::string, std::string> tools;  // tool → version
-    double seconds = 0;                        // wall time it took to compute
+    std::string oracle;                       // "polygon", "rays", "polygon+rays" (planar receivers + the others), "povray"
+    std::string key;                          // content hash of everything the reference depends on
+    int samples = 0;                          // light samples; 0 for exact oracles
+    std::map<std::string, std::string> tools; // tool → version
+    double seconds = 0;                       // wall time it took to compute
+    std::map<std::string, double> measured;   // povray: "primary_mismatch" (share of pixels where its hit mask and the exact
+                                              // primary hits differ), "light_mismatch" (share of pixels seen as fully lit or
+                                              // fully shadowed whose exact label for the light's centre says otherwise),
+                                              // "scale" (POV-Ray units per world unit)
 };
 
 struct Reference {
-    Image<float> visibility;  // visible fraction of the light in [0, 1] (0 or 1 for point and directional lights)
-    Image<float> sigma;       // its standard uncertainty; 0 where exact
+    Image<float> visibility; // visible fraction of the light in [0, 1] (0 or 1 for point and directional lights)
+    Image<float> sigma;      // its standard uncertainty; 0 where exact. povray: groundtruth/povray/uncertainty.h
     Image<Surface> surface;
     Image<std::uint32_t> id;
     Image<glm::vec3> position;
-    Image<float> edgeDistance;  // pixels from the centre to the nearest hard shadow edge on the same surface; infinity if none.
-                                // Exact on planar receivers with `polygon`, else to half a pixel; all infinity for area lights.
+    Image<float>
+        edgeDistance; // pixels from the centre to the nearest hard shadow edge on the same surface; infinity if none.
+                      // Exact on planar receivers with `polygon`, else to half a pixel; all infinity for area lights.
     Provenance provenance;
 };
 
 enum class Oracle { Auto, Polygon, Rays, PovRay };
 std::string_view name(Oracle oracle);
-Oracle oracleNamed(std::string_view name);  // throws BadInput naming the valid ones
+Oracle oracleNamed(std::string_view name); // throws BadInput naming the valid ones and near matches
 
 struct Request {
     Snapshot snapshot;
     glm::ivec2 size{256, 256};
-    Oracle oracle = Oracle::Auto;  // Auto: povray for area lights; else polygon where the receiver is planar, rays elsewhere
-    int samples = 1024;            // area lights only
+    Oracle oracle = Oracle::Auto; // Auto: povray for area lights; else polygon where the receiver is planar, rays elsewhere
+    int samples = 1024;           // area lights only
 };
 
-/// Computes a reference, without looking at a cache. Throws Inconclusive if a tool is missing or fails.
+/// Computes a reference, without looking at a cache. Visibility is 0 off the receivers. With an explicit `Polygon`,
+/// receivers that are not planar become OnEdge: there is no label for them. Throws BadInput for an oracle that cannot answer
+/// for this light or scene (`Polygon` with no planar receiver), Inconclusive if a tool is missing or fails, InternalError if
+/// two oracles see different geometry.
 Reference compute(const Request& request, const Progress& progress = {});
 
-/// Content hash (32 hex digits) of canonical snapshot, mesh bytes, size, settings and oracle code versions.
+/// Content hash (32 hex digits, XXH3-128) of all that the reference depends on: camera, light, mesh bytes, placements and
+/// their ids, size, oracle, samples (area lights only), oracle code and tool versions. Colours, previous matrices, the frame
+/// number and the order of batches do not count. Throws Inconclusive if a tool whose version it needs is missing.
 std::string key(const Request& request);
 
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

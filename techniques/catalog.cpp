@@ -5,9 +5,9 @@
 namespace shadowbench::techniques {
 
 std::span<const Entry> catalog() {
-    static const std::array entries{none(),        smUniform(), smLispsm(), smHistory(),   volumeZfail(),
-                                    pcf(),         pcss(),      sampledMaps(), temporalSoft()};
+    static const std::array entries{none(), smUniform(), smLispsm(),    smHistory(),   volumeZfail(),
+                                    pcf(),  pcss(),      sampledMaps(), temporalSoft()};
     return entries;
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -15,4 +15,4 @@ Entry pcss();
 Entry sampledMaps();
 Entry temporalSoft();
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

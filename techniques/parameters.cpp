@@ -52,7 +52,7 @@ std::vector<std::string> names(const std::vector<Parameter>& declared) {
     return result;
 }
 
-}  // namespace
+} // namespace
 
 std::string describe(const Domain& domain) {
     if (const auto* range = std::get_if<IntegerRange>(&domain)) return fmt::format("{}…{}", range->low, range->high);
@@ -78,9 +78,11 @@ double Parameters::real(std::string_view name) const {
     return value;
 }
 
-Parameters parseParameters(std::string_view assignments, const std::vector<Parameter>& declared, const std::string& technique) {
+Parameters parseParameters(std::string_view assignments, const std::vector<Parameter>& declared,
+                           const std::string& technique) {
     std::vector<std::pair<std::string, std::string>> values;
-    for (const Parameter& parameter : declared) values.emplace_back(parameter.name, normalised(parameter.domain, parameter.defaultValue));
+    for (const Parameter& parameter : declared)
+        values.emplace_back(parameter.name, normalised(parameter.domain, parameter.defaultValue));
 
     std::vector<std::string> given;
     while (!assignments.empty()) {
@@ -88,7 +90,8 @@ Parameters parseParameters(std::string_view assignments, const std::vector<Param
         assignments.remove_prefix(std::min(assignments.size(), word.size() + 1));
         const std::size_t equals = word.find('=');
         const std::string name = word.substr(0, equals);
-        const auto parameter = std::find_if(declared.begin(), declared.end(), [&](const Parameter& p) { return p.name == name; });
+        const auto parameter =
+            std::find_if(declared.begin(), declared.end(), [&](const Parameter& p) { return p.name == name; });
         if (parameter == declared.end())
             throw BadInput(fmt::format("technique {} has no parameter \"{}\"; {}it has: {}", technique, name,
                                        didYouMean(name, names(declared)),
@@ -117,4 +120,4 @@ std::string canonicalVariant(const std::string& id, const Parameters& parameters
     return words.empty() ? id : fmt::format("{}:{}", id, fmt::join(words, ","));
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -27,8 +27,8 @@ struct Parameter {
     std::string name;
     std::string defaultValue;
     Domain domain;
-    std::string meaning;  // one line, with the unit
-    std::string source;   // where the seed gives the parameter or its default; empty if it is ours
+    std::string meaning; // one line, with the unit
+    std::string source;  // where the seed gives the parameter or its default; empty if it is ours
 };
 
 /// Values for all declared parameters of one technique, in declared order.
@@ -45,10 +45,12 @@ private:
     std::vector<std::pair<std::string, std::string>> values_;
 };
 
-/// Parses "name=value,…" against the declarations. Throws BadInput naming `technique`, the offending word and the valid ones.
-Parameters parseParameters(std::string_view assignments, const std::vector<Parameter>& declared, const std::string& technique);
+/// Parses "name=value,…" against the declarations. Throws BadInput naming `technique`, the offending word and the valid
+/// ones.
+Parameters parseParameters(std::string_view assignments, const std::vector<Parameter>& declared,
+                           const std::string& technique);
 
 /// "id" or "id:name=value,…": declared order, defaults left out.
 std::string canonicalVariant(const std::string& id, const Parameters& parameters, const std::vector<Parameter>& declared);
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -15,4 +15,4 @@ inline void resolveInto(std::initializer_list<const gl::Texture*> outputs, const
     program.drawScreen();
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

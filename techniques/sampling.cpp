@@ -27,7 +27,7 @@ float inset(const glm::vec2& point, Region region) {
     return 1 - glm::max(glm::abs(point.x), glm::abs(point.y));
 }
 
-}  // namespace
+} // namespace
 
 std::vector<glm::vec2> poissonTaps(int count, Region region) {
     constexpr int candidates = 512;
@@ -41,7 +41,7 @@ std::vector<glm::vec2> poissonTaps(int count, Region region) {
             const float rim = inset(candidate, region);
             if (rim < 0) continue;
             ++tried;
-            float distance = 2 * rim;  // a point speaks for a disk around it, which should stay inside
+            float distance = 2 * rim; // a point speaks for a disk around it, which should stay inside
             for (const glm::vec2& point : points) distance = glm::min(distance, glm::distance(point, candidate));
             if (distance > bestDistance) {
                 best = candidate;
@@ -61,4 +61,4 @@ std::vector<glm::vec2> gridTaps(int side) {
     return taps;
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

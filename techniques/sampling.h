@@ -13,13 +13,13 @@ double halton(std::uint32_t index, std::uint32_t base);
 /// The Halton index of a frame: seeds start far apart in the sequence. Index 0 (the origin) is left out.
 std::uint32_t haltonIndex(int frame, std::uint32_t seed);
 
-enum class Region { Disk, Square };  // the unit disk, or [−1, 1]²
+enum class Region { Disk, Square }; // the unit disk, or [−1, 1]²
 
-/// `count` points of the region, well apart from each other and from its rim (best-candidate Poisson disk), deterministic; the
-/// first is the centre.
+/// `count` points of the region, well apart from each other and from its rim (best-candidate Poisson disk), deterministic;
+/// the first is the centre.
 std::vector<glm::vec2> poissonTaps(int count, Region region);
 
 /// side × side cell centres of the square [−1, 1]².
 std::vector<glm::vec2> gridTaps(int side);
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -22,11 +22,11 @@ struct Frame {
     const Snapshot& snapshot;
     const gl::SceneBuffers& scene;
     const gl::GBuffer& gbuffer;
-    glm::ivec2 size;                   // of the image, in pixels
-    glm::dmat4 clipFromWorld;          // camera: projection · view
-    glm::dmat4 previousClipFromWorld;  // the same one frame earlier
-    int index;                         // frame number from 0
-    std::uint32_t seed;                // of pseudo-random choices; 1 is the default
+    glm::ivec2 size;                  // of the image, in pixels
+    glm::dmat4 clipFromWorld;         // camera: projection · view
+    glm::dmat4 previousClipFromWorld; // the same one frame earlier
+    int index;                        // frame number from 0
+    std::uint32_t seed;               // of pseudo-random choices; 1 is the default
 
     [[nodiscard]] bool cameraMoved() const { return clipFromWorld != previousClipFromWorld; }
 };
@@ -35,8 +35,8 @@ class Technique {
 public:
     virtual ~Technique() = default;
 
-    /// Writes the visible fraction of the light at every pixel (R32F in [0, 1], 1 = lit) into `visibility`. Background and surfaces
-    /// that face away from the light are masked by the harness: any value will do there.
+    /// Writes the visible fraction of the light at every pixel (R32F in [0, 1], 1 = lit) into `visibility`. Background and
+    /// surfaces that face away from the light are masked by the harness: any value will do there.
     virtual void render(const Frame& frame, const gl::Texture& visibility) = 0;
 
     /// Forgets all history: the next frame is the first.
@@ -49,14 +49,14 @@ std::string_view title(Seed seed);
 
 struct Source {
     Seed seed;
-    std::string where;  // section, equation, listing
+    std::string where; // section, equation, listing
 };
 
 /// What kind of answer a technique gives, hence which truth it is scored against (METRICS.md).
 enum class Answer {
-    Hard,      // lit or not, from the light's centre
-    Filtered,  // a hard shadow with smoothed edges
-    Soft,      // the visible fraction of an area light; needs one
+    Hard,     // lit or not, from the light's centre
+    Filtered, // a hard shadow with smoothed edges
+    Soft,     // the visible fraction of an area light; needs one
 };
 
 /// One line of the catalogue.
@@ -65,9 +65,9 @@ struct Entry {
     std::string title;
     Source source;
     Answer answer = Answer::Hard;
-    bool temporal = false;                // keeps history: its frames must be rendered in order
+    bool temporal = false; // keeps history: its frames must be rendered in order
     std::vector<Parameter> parameters;
-    std::vector<std::string> variants;    // what a run of all techniques shows: parameter strings, "" = all defaults
+    std::vector<std::string> variants; // what a run of all techniques shows: parameter strings, "" = all defaults
     std::function<std::unique_ptr<Technique>(const Parameters&)> make;
 };
 
@@ -75,7 +75,7 @@ struct Entry {
 struct Variant {
     const Entry* entry;
     Parameters parameters;
-    std::string name;  // canonical
+    std::string name; // canonical
 };
 
 /// Every technique, in the order tables print them.
@@ -93,4 +93,4 @@ std::vector<Variant> matchVariants(const std::string& pattern);
 /// The variant whose cost `variant` is compared with beside sm-uniform: history over its base map; nothing for the others.
 std::string baseVariant(const Variant& variant);
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

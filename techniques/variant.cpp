@@ -22,14 +22,18 @@ Variant make(const Entry& entry, std::string_view assignments) {
     return {&entry, std::move(parameters), std::move(name)};
 }
 
-}  // namespace
+} // namespace
 
 std::string_view title(Seed seed) {
     switch (seed) {
-    case Seed::Dissertation: return "Scherzer, dissertation";
-    case Seed::PixelCorrectPaper: return "Scherzer et al., EGSR 2007";
-    case Seed::Course: return "SIGGRAPH 2004 course, Real-Time Shadowing Techniques";
-    case Seed::Zapotocky: return "Zápotocký, thesis";
+    case Seed::Dissertation:
+        return "Scherzer, dissertation";
+    case Seed::PixelCorrectPaper:
+        return "Scherzer et al., EGSR 2007";
+    case Seed::Course:
+        return "SIGGRAPH 2004 course, Real-Time Shadowing Techniques";
+    case Seed::Zapotocky:
+        return "Zápotocký, thesis";
     }
     return "";
 }
@@ -65,4 +69,4 @@ std::string baseVariant(const Variant& variant) {
     return "";
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -9,29 +9,45 @@
 
 namespace shadowbench::groundtruth {
 
-/// The scene text for one snapshot: numbers only, world scaled by 1024, one point light per light sample. Red is the visible
-/// fraction, blue the hit mask.
+/// To be raised with every change that can alter a pixel: it is part of every key.
+constexpr int povrayCodeVersion = 1;
+
+/// More samples than this could not be told apart in a 16-bit channel.
+constexpr int mostLightSamples = 16384;
+
+/// Point `i` of `n` of the low-discrepancy set in [0, 1)² that the light is sampled at: the first two Sobol dimensions, a
+/// (0,2)-sequence in base 2, moved to the centres of its cells. Every aligned block of 2^k points is a net of its own.
+glm::dvec2 lightSample(int i, int n);
+
+/// World units → POV-Ray units: the largest power of two ≤ 1024 that keeps every coordinate below 10⁷. POV-Ray ignores
+/// shadow hits nearer than 10⁻³ of its units, so the larger the better; a power of two changes no mantissa.
+double povrayScale(const Snapshot& snapshot);
+
+/// The scene text for one snapshot: numbers only, world scaled by povrayScale, one point light per light sample. Red and
+/// green count the visible samples of the first and the second half of the set in units of 1/P, P the power of two ≥ the
+/// larger half, so that sums are exact; blue is the hit mask. Throws BadInput for a light without area, samples outside [2,
+/// mostLightSamples] and values that are not finite.
 std::string povrayScene(const Snapshot& snapshot, glm::ivec2 size, int samples);
 
 struct PovRayOptions {
-    std::filesystem::path program = "povray";  // looked up on PATH
-    std::chrono::seconds limit{1800};          // wall clock of one render
-    int threads = 2;
+    std::filesystem::path program = "povray";   // looked up on PATH
+    std::chrono::milliseconds limit{1'800'000}; // wall clock of one render
+    int threads = 2;                            // pixels do not depend on it
 };
 
 struct PovRayImage {
-    Image<float> visible;          // fraction of light samples that are visible
-    Image<std::uint8_t> hit;       // 1 where the ray hits something
+    Image<float> visible;               // fraction of light samples that are visible: exactly k/N, rounded to float
+    Image<float> firstHalf, secondHalf; // the same for the first ⌈N/2⌉ samples and for the others
+    Image<std::uint8_t> hit;            // 1 where the ray hits something
+    double scale = 0;                   // povrayScale
 };
 
-/// Renders; throws Inconclusive when POV-Ray is missing, fails, is killed, runs over the limit or the disk is full.
+/// Renders; throws Inconclusive when POV-Ray is missing, fails, is killed, runs over the limit or the disk is full. Leaves
+/// no file and no process behind in any case.
 PovRayImage renderPovRay(const Snapshot& snapshot, glm::ivec2 size, int samples, const PovRayOptions& options = {},
                          const Progress& progress = {});
 
 /// "3.7.0.10.unofficial"; throws Inconclusive naming the package to install when POV-Ray is missing.
 std::string povrayVersion(const PovRayOptions& options = {});
 
-/// Point `i` of `n` of the low-discrepancy set in [0, 1)² that the light is sampled at ((0,2)-sequence in base 2, cell-centred).
-glm::dvec2 lightSample(int i, int n);
-
-}  // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth

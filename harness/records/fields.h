@@ -126,7 +126,7 @@ void fields(auto& visit, Is<Record> auto& r) {
     visit("environment", r.environment);
     visit("reference", r.reference);
     visit("soft_reference", r.softReference);
-    if (wasScored(r.status)) visit("accuracy", r.accuracy);
+    visit.group("accuracy", wasScored(r.status), [&](auto& inner) { fields(inner, r.accuracy); });
     const Stability& s = r.stability;
     const bool stability = s.flicker || s.flipRate || s.convergence || !s.mismatchByFrame.empty() ||
                            !s.rmseByFrame.empty() || !s.bad30ByFrame.empty() || !s.changedByFrame.empty();

@@ -158,6 +158,8 @@ Record parseRecord(const std::string& json) {
     Reader reader(object, "");
     records::fields(reader, record);
     reader.refuseUnknown();
+    if (object.contains("accuracy") != records::wasScored(record.status))
+        refuse("accuracy", "belongs to scored records and expected failures, and to no others");
     return record;
 }
 

@@ -10,8 +10,8 @@
 
 namespace shadowbench::report {
 
-/// The table a person sees for one scene: technique, error, false shadow, leak, edge error, flicker, cost, front; under it the
-/// cheapest technique within the scene's tolerance. `scene`'s records only; plain text for a terminal.
+/// The table a person sees for one scene: technique, error, false shadow, leak, edge error, flicker, cost, front; under it
+/// the cheapest technique within the scene's tolerance. `scene`'s records only; plain text for a terminal.
 std::string terminalTable(const std::vector<Record>& records, const std::string& scene);
 
 std::string markdownTable(const std::vector<Record>& records, const std::string& scene);
@@ -25,12 +25,13 @@ std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const s
 /// Index of the cheapest record of `scene` within its tolerance; nothing if none is or it states none.
 std::optional<std::size_t> cheapestAdequate(const std::vector<Record>& records, const std::string& scene);
 
-/// Writes report.md, results.csv and the charts (SVG, by gnuplot): pareto-<scene>.svg for every scene, convergence-<scene>.svg
-/// where a record has curves. Throws Inconclusive when gnuplot is missing or fails, naming the package.
+/// Writes report.md, results.csv and the charts (SVG, by gnuplot): pareto-<scene>.svg for every scene,
+/// convergence-<scene>.svg where a record has curves. Throws Inconclusive when gnuplot is missing or fails, naming the
+/// package.
 struct Written {
     std::filesystem::path page;
     std::vector<std::filesystem::path> charts;
 };
 Written writeReport(const std::vector<Record>& records, const std::filesystem::path& folder);
 
-}  // namespace shadowbench::report
+} // namespace shadowbench::report

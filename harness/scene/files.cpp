@@ -9,11 +9,9 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
-#include <numeric>
 #include <sstream>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <utility>
 
 namespace shadowbench {
 namespace fs = std::filesystem;
@@ -69,19 +67,22 @@ void writeWhole(const fs::path& path, const fs::path& target, std::string_view c
     if (failed != 0) failToWrite(target, std::strerror(failed));
 }
 
-/// Levenshtein distance: insertions, deletions and replacements.
+/// Insertions, deletions, replacements and swaps of neighbours (optimal string alignment).
 std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) {
+        for (std::size_t j = 0; j <= b.size(); ++j) {
+            if (i == 0 || j == 0) {
+                cost[i][j] = i + j;
+                continue;
+            }
+            const std::size_t replaced = cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            cost[i][j] = std::min({replaced, cost[i - 1][j] + 1, cost[i][j - 1] + 1});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
         }
     }
-    return row.back();
+    return cost.back().back();
 }
 
 } // namespace

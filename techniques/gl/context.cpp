@@ -9,7 +9,7 @@ namespace {
 // GL's own notion of "current" is per thread and hidden; this is the same thing, visible.
 thread_local Context* currentContext = nullptr;
 
-}  // namespace
+} // namespace
 
 void noteMessage(Context& context, unsigned type, const char* message) {
     if (type == GL_DEBUG_TYPE_ERROR && context.firstError_.empty()) context.firstError_ = message;
@@ -22,11 +22,9 @@ void APIENTRY onMessage(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum /*
     noteMessage(*static_cast<Context*>(const_cast<void*>(context)), type, message);
 }
 
-std::string text(GLenum what) {
-    return reinterpret_cast<const char*>(glGetString(what));
-}
+std::string text(GLenum what) { return reinterpret_cast<const char*>(glGetString(what)); }
 
-}  // namespace
+} // namespace
 
 Context& Context::current() {
     if (currentContext == nullptr) throw InternalError("no OpenGL context is current on this thread");
@@ -43,12 +41,13 @@ void Context::becomeCurrent(bool debug) {
     glDebugMessageCallback(onMessage, this);
 }
 
-void Context::ceaseCurrent() {
-    currentContext = nullptr;
-}
+void Context::ceaseCurrent() { currentContext = nullptr; }
 
-void Context::finish() {
-    glFinish();
+void Context::finish() { glFinish(); }
+
+void Context::discardErrors() {
+    glGetError();
+    firstError_.clear();
 }
 
 void Context::check(const std::string& doing) {
@@ -59,4 +58,4 @@ void Context::check(const std::string& doing) {
     throw InternalError(doing + ": " + reason);
 }
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

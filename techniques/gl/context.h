@@ -10,15 +10,15 @@
 namespace shadowbench::gl {
 
 struct ContextOptions {
-    int rasterThreads = 0;   // 0: raster on the calling thread (the reproducible setting)
-    int vectorBits = 256;    // native vector width of the software rasteriser
-    bool debug = false;      // GL messages of type error become exceptions at the next `check`
+    int rasterThreads = 0; // 0: raster on the calling thread (the reproducible setting)
+    int vectorBits = 256;  // native vector width of the software rasteriser
+    bool debug = false;    // GL messages of type error become exceptions at the next `check`
 };
 
 /// What the records' environment block says about the rasteriser.
 struct ContextInfo {
-    std::string renderer;  // "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string version;   // "4.5 (Core Profile) Mesa 22.3.6"
+    std::string renderer; // "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string version;  // "4.5 (Core Profile) Mesa 22.3.6"
     int rasterThreads;
     int vectorBits;
 };
@@ -46,6 +46,9 @@ public:
     /// Throws InternalError naming `doing` if GL has reported an error since the last check.
     void check(const std::string& doing);
 
+    /// Forgets reported errors: for a caller that has just thrown a better sentence.
+    void discardErrors();
+
 protected:
     explicit Context(int rasterThreads, int vectorBits) : info_{"", "", rasterThreads, vectorBits} {}
     /// Reads the info and installs the debug callback; to be called by a derived class once it is current.
@@ -59,4 +62,4 @@ private:
     friend void noteMessage(Context&, unsigned type, const char* message);
 };
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<GLenum, 3> statistics{GL_FRAGMENT_SHADER_INVOCATIONS_ARB, GL_VERTICES_SUBMITTED_ARB,
                                            GL_PRIMITIVES_SUBMITTED_ARB};
 
-}  // namespace
+} // namespace
 
 WorkMeter::WorkMeter() : start_(Context::current().tally()) {
     glGenQueries(3, queries_);
@@ -40,4 +40,4 @@ WorkCount WorkMeter::finish() {
     return {counts[0], counts[1], counts[2], now.draws - start_.draws, now.passes - start_.passes};
 }
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

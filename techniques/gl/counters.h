@@ -7,15 +7,15 @@ namespace shadowbench::gl {
 
 /// Counted by the wrappers of this folder as they submit work and allocate memory.
 struct Tally {
-    std::uint64_t draws = 0;   // draw calls
-    std::uint64_t passes = 0;  // framebuffers bound for drawing
-    std::uint64_t bytes = 0;   // texture and buffer bytes alive now
+    std::uint64_t draws = 0;  // draw calls
+    std::uint64_t passes = 0; // framebuffers bound for drawing
+    std::uint64_t bytes = 0;  // texture and buffer bytes alive now
 };
 
 struct WorkCount {
-    std::uint64_t fragments = 0;   // fragment shader invocations
-    std::uint64_t vertices = 0;    // vertices submitted to the input assembler
-    std::uint64_t primitives = 0;  // primitives submitted to the input assembler
+    std::uint64_t fragments = 0;  // fragment shader invocations
+    std::uint64_t vertices = 0;   // vertices submitted to the input assembler
+    std::uint64_t primitives = 0; // primitives submitted to the input assembler
     std::uint64_t draws = 0;
     std::uint64_t passes = 0;
 };
@@ -37,4 +37,4 @@ private:
     void end();
 };
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

@@ -35,4 +35,4 @@ void GBuffer::draw(const SceneBuffers& scene, const glm::dmat4& clipFromWorld) {
     scene.draw();
 }
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

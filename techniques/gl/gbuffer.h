@@ -9,8 +9,8 @@
 
 namespace shadowbench::gl {
 
-/// World position (RGBA32F, w = 1 where something is hit), geometric normal of the side that is seen (RGBA16F), surface id (R32UI),
-/// depth-stencil (32-bit float + 8 bits), and, when something moves, each pixel's world position one frame earlier.
+/// World position (RGBA32F, w = 1 where something is hit), geometric normal of the side that is seen (RGBA16F), surface id
+/// (R32UI), depth-stencil (32-bit float + 8 bits), and, when something moves, each pixel's world position one frame earlier.
 class GBuffer {
 public:
     /// `border` extra pixels on every side (overscan); pixel centres of the inner part stay where they are.
@@ -24,7 +24,7 @@ public:
     [[nodiscard]] const Texture& id() const { return id_; }
     [[nodiscard]] const Texture& depthStencil() const { return depthStencil_; }
     [[nodiscard]] const Texture& previousPosition() const { return moving_ ? previousPosition_ : position_; }
-    [[nodiscard]] glm::ivec2 size() const { return position_.size(); }  // border included
+    [[nodiscard]] glm::ivec2 size() const { return position_.size(); } // border included
     [[nodiscard]] int border() const { return border_; }
 
     /// The projection that was drawn with: the camera's, widened by the border.
@@ -41,4 +41,4 @@ private:
     bool moving_ = false;
 };
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

@@ -43,6 +43,7 @@ GLuint compile(GLenum stage, const std::string& file, const Defines& defines) {
     glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     glDeleteShader(shader);
+    Context::current().discardErrors();
     throw InternalError("compiling shader " + file + " failed:\n" + withOrigins(log, source));
 }
 
@@ -61,6 +62,7 @@ GLuint link(GLuint vertex, GLuint fragment, const std::string& title) {
     glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     glDeleteProgram(program);
+    Context::current().discardErrors();
     throw InternalError("linking " + title + " failed: " + log);
 }
 
@@ -68,12 +70,14 @@ bool isSampler(GLenum type) {
     switch (type) {
     case GL_SAMPLER_2D:
     case GL_SAMPLER_2D_SHADOW:
-    case GL_UNSIGNED_INT_SAMPLER_2D: return true;
-    default: return false;
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+        return true;
+    default:
+        return false;
     }
 }
 
-}  // namespace
+} // namespace
 
 Program::Program(const std::string& vertexFile, const std::string& fragmentFile, const Defines& defines)
     : title_(vertexFile + " + " + fragmentFile) {
@@ -154,9 +158,7 @@ Program& Program::set(const std::string& sampler, const Texture& texture) {
     return *this;
 }
 
-void Program::use() const {
-    glUseProgram(id_);
-}
+void Program::use() const { glUseProgram(id_); }
 
 void Program::drawScreen() const {
     glDisable(GL_DEPTH_TEST);
@@ -182,4 +184,4 @@ void Program::drawTriangle() const {
     ++Context::current().tally().draws;
 }
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

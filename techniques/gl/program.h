@@ -1,5 +1,5 @@
-// A linked GLSL program. Sources are the files under techniques/, embedded by the build; `#include "maps/light_space.glsl"` is
-// resolved when loaded, and a compile error names the file and line it comes from.
+// A linked GLSL program. Sources are the files under techniques/, embedded by the build; `#include "maps/light_space.glsl"`
+// is resolved when loaded, and a compile error names the file and line it comes from.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -31,7 +31,8 @@ public:
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
 
-    /// Uniforms by name. A name the linked program does not use is an InternalError: a misspelt uniform must not pass in silence.
+    /// Uniforms by name. A name the linked program does not use is an InternalError: a misspelt uniform must not pass in
+    /// silence.
     Program& set(const std::string& uniform, int value);
     Program& set(const std::string& uniform, float value);
     Program& set(const std::string& uniform, glm::vec2 value);
@@ -55,7 +56,7 @@ public:
 private:
     struct Uniform {
         int location;
-        int unit;  // texture unit of a sampler, else −1
+        int unit; // texture unit of a sampler, else −1
     };
     void drawTriangle() const;
     [[nodiscard]] const Uniform& uniform(const std::string& name) const;
@@ -72,4 +73,4 @@ struct ShaderSource {
 };
 ShaderSource loadShader(const std::string& file, const Defines& defines);
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

@@ -12,24 +12,18 @@ namespace {
 
 /// What a vertex shader is told of one placement.
 struct InstanceData {
-    glm::mat3x4 world;     // three rows of the affine matrix
+    glm::mat3x4 world; // three rows of the affine matrix
     glm::mat3x4 previous;
     std::array<GLuint, 2> idAndMoving;
 };
 
-glm::mat3x4 rows(const glm::dmat4& affine) {
-    return glm::mat3x4(glm::transpose(affine));
-}
+glm::mat3x4 rows(const glm::dmat4& affine) { return glm::mat3x4(glm::transpose(affine)); }
 
-const void* offset(std::size_t bytes) {
-    return reinterpret_cast<const void*>(bytes);
-}
+const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
-}  // namespace
+} // namespace
 
-Buffer::Buffer() {
-    glGenBuffers(1, &id_);
-}
+Buffer::Buffer() { glGenBuffers(1, &id_); }
 
 Buffer::~Buffer() {
     Context::current().tally().bytes -= bytes_;
@@ -44,17 +38,11 @@ void Buffer::upload(const void* data, std::size_t bytes) {
     bytes_ = bytes;
 }
 
-VertexArray::VertexArray() {
-    glGenVertexArrays(1, &id_);
-}
+VertexArray::VertexArray() { glGenVertexArrays(1, &id_); }
 
-VertexArray::~VertexArray() {
-    glDeleteVertexArrays(1, &id_);
-}
+VertexArray::~VertexArray() { glDeleteVertexArrays(1, &id_); }
 
-void VertexArray::bind() const {
-    glBindVertexArray(id_);
-}
+void VertexArray::bind() const { glBindVertexArray(id_); }
 
 void SceneBuffers::bindInstances() const {
     glBindBuffer(GL_ARRAY_BUFFER, instances_.id());
@@ -111,4 +99,4 @@ void SceneBuffers::draw() const {
     Context::current().tally().draws += draws_.size();
 }
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

@@ -40,8 +40,8 @@ private:
     unsigned id_ = 0;
 };
 
-/// Vertex attributes (gl/instance.glsl): 0 position; 1–3 rows of world-from-object; 4–6 the same one frame earlier; 7 surface id and
-/// whether the placement moves.
+/// Vertex attributes (gl/instance.glsl): 0 position; 1–3 rows of world-from-object; 4–6 the same one frame earlier; 7
+/// surface id and whether the placement moves.
 class SceneBuffers {
 public:
     /// Uploads meshes not seen before and this frame's placements.
@@ -50,8 +50,8 @@ public:
     /// Draws every batch, instanced, with the program that is in use.
     void draw() const;
 
-    /// Binds the instance attributes 1–7 of the current vertex array; a draw's base instance picks the placement, counted through
-    /// the snapshot's batches in order.
+    /// Binds the instance attributes 1–7 of the current vertex array; a draw's base instance picks the placement, counted
+    /// through the snapshot's batches in order.
     void bindInstances() const;
 
     /// True when some placement moved since the previous frame.
@@ -59,7 +59,7 @@ public:
 
 private:
     struct GpuMesh {
-        std::shared_ptr<const Mesh> source;  // keeps the key alive
+        std::shared_ptr<const Mesh> source; // keeps the key alive
         Buffer vertices, indices;
         VertexArray layout;
         int indexCount = 0;
@@ -78,4 +78,4 @@ private:
     bool moving_ = false;
 };
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

@@ -34,7 +34,7 @@ void append(const std::string& file, const std::string& includedFrom, std::set<s
     }
 }
 
-}  // namespace
+} // namespace
 
 ShaderSource loadShader(const std::string& file, const Defines& defines) {
     ShaderSource source;
@@ -49,4 +49,4 @@ ShaderSource loadShader(const std::string& file, const Defines& defines) {
     return source;
 }
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

@@ -14,26 +14,32 @@ namespace {
 
 struct FormatFacts {
     GLenum internal;
-    std::size_t bytes;  // a texel
+    std::size_t bytes; // a texel
 };
 
 FormatFacts facts(Format format) {
     switch (format) {
-    case Format::R8: return {GL_R8, 1};
-    case Format::R32F: return {GL_R32F, 4};
-    case Format::RG16F: return {GL_RG16F, 4};
-    case Format::RGBA16F: return {GL_RGBA16F, 8};
-    case Format::RGBA32F: return {GL_RGBA32F, 16};
-    case Format::R32UI: return {GL_R32UI, 4};
-    case Format::Depth32F: return {GL_DEPTH_COMPONENT32F, 4};
-    case Format::Depth32FStencil8: return {GL_DEPTH32F_STENCIL8, 8};
+    case Format::R8:
+        return {GL_R8, 1};
+    case Format::R32F:
+        return {GL_R32F, 4};
+    case Format::RG16F:
+        return {GL_RG16F, 4};
+    case Format::RGBA16F:
+        return {GL_RGBA16F, 8};
+    case Format::RGBA32F:
+        return {GL_RGBA32F, 16};
+    case Format::R32UI:
+        return {GL_R32UI, 4};
+    case Format::Depth32F:
+        return {GL_DEPTH_COMPONENT32F, 4};
+    case Format::Depth32FStencil8:
+        return {GL_DEPTH32F_STENCIL8, 8};
     }
     throw InternalError("unknown texture format");
 }
 
-bool isDepth(Format format) {
-    return format == Format::Depth32F || format == Format::Depth32FStencil8;
-}
+bool isDepth(Format format) { return format == Format::Depth32F || format == Format::Depth32FStencil8; }
 
 /// GL's row 0 is at the bottom, ours at the top.
 template <typename T>
@@ -44,12 +50,11 @@ Image<T> readPixels(unsigned framebuffer, glm::ivec2 size, GLenum buffer, GLenum
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, size.x, size.y, format, type, upsideDown.data());
     Image<T> image(size.x, size.y);
-    for (int y = 0; y < size.y; ++y)
-        std::copy_n(&upsideDown(0, size.y - 1 - y), size.x, &image(0, y));
+    for (int y = 0; y < size.y; ++y) std::copy_n(&upsideDown(0, size.y - 1 - y), size.x, &image(0, y));
     return image;
 }
 
-}  // namespace
+} // namespace
 
 Texture::Texture(Format format, glm::ivec2 size, Filter filter, Wrap wrap) : format_(format), size_(size) {
     glGenTextures(1, &id_);
@@ -68,9 +73,7 @@ Texture::Texture(Format format, glm::ivec2 size, Filter filter, Wrap wrap) : for
     Context::current().check("allocating a texture of " + std::to_string(size.x) + "×" + std::to_string(size.y));
 }
 
-Texture::~Texture() {
-    release();
-}
+Texture::~Texture() { release(); }
 
 void Texture::release() {
     if (id_ == 0) return;
@@ -123,9 +126,7 @@ RenderTarget::RenderTarget(std::initializer_list<const Texture*> attachments) {
         throw InternalError("a framebuffer is incomplete (status " + std::to_string(status) + ")");
 }
 
-RenderTarget::~RenderTarget() {
-    release();
-}
+RenderTarget::~RenderTarget() { release(); }
 
 void RenderTarget::release() {
     if (id_ != 0) glDeleteFramebuffers(1, &id_);
@@ -185,8 +186,6 @@ Image<unsigned> RenderTarget::readUint(int attachment) const {
                                 GL_UNSIGNED_INT);
 }
 
-Image<float> RenderTarget::readDepth() const {
-    return readPixels<float>(id_, size_, GL_NONE, GL_DEPTH_COMPONENT, GL_FLOAT);
-}
+Image<float> RenderTarget::readDepth() const { return readPixels<float>(id_, size_, GL_NONE, GL_DEPTH_COMPONENT, GL_FLOAT); }
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

@@ -15,7 +15,7 @@ enum class Format { R8, R32F, RG16F, RGBA16F, RGBA32F, R32UI, Depth32F, Depth32F
 
 /// How a sampler reads between texels and outside [0, 1]².
 enum class Filter { Nearest, Linear };
-enum class Wrap { ClampToEdge, BorderFar };  // BorderFar: outside reads as the farthest depth
+enum class Wrap { ClampToEdge, BorderFar }; // BorderFar: outside reads as the farthest depth
 
 /// The farthest depth of a map of linear depths in metres; a depth texture's is 1.
 inline constexpr float nothingInTheWay = 1e30F;
@@ -73,4 +73,4 @@ private:
     glm::ivec2 size_{0, 0};
 };
 
-}  // namespace shadowbench::gl
+} // namespace shadowbench::gl

@@ -10,9 +10,11 @@ std::vector<Parameter> depthMapParameters(int defaultSide) {
     return {
         {"map", std::to_string(defaultSide), IntegerRange{16, 8192}, "texels per side of the shadow map", "EGSR paper, 4"},
         {"bias", "slope", OneOf{{"none", "constant", "slope"}}, "depth bias while the map is drawn", "course, Bias"},
-        // Half a texel in x and in y changes depth by at most ½(|∂z/∂x| + |∂z/∂y|) ≤ 1 · max slope: the factor that suffices.
+        // Half a texel in x and in y changes depth by at most ½(|∂z/∂x| + |∂z/∂y|) ≤ 1 · max slope: the factor that
+        // suffices.
         {"factor", "1", RealRange{0, 64}, "of the polygon's depth slope per texel (bias=slope)", ""},
-        {"units", "64", RealRange{0, 1e7}, "smallest depth steps (bias=constant or slope): covers rounding", ""},
+        {"units", "64", RealRange{0, 1e7},
+         "constant bias in 2⁻²⁴ of the depth range (bias=constant or slope): covers rounding", ""},
     };
 }
 
@@ -30,12 +32,14 @@ CasterPass::CasterPass(gl::Program& program, const LightView& light, Bias bias) 
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_CLAMP);
     if (light.perspective) glEnable(GL_CLIP_DISTANCE0);
-    if (bias.factor != 0 || bias.units != 0) {
+    if (bias.factor != 0) {
         glEnable(GL_POLYGON_OFFSET_FILL);
-        glPolygonOffset(bias.factor, bias.units);
+        glPolygonOffset(bias.factor, 0);
     }
-    program.set("clipFromWorld", glm::mat4(light.clipFromWorld));
-    // Behind the light or closer to its plane than a ten-thousandth of the scene's depth: no caster.
+    // The constant part goes into the matrix: polygon offset's unit of a floating-point depth buffer vanishes near depth 0.
+    const glm::dmat4 away = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 2 * bias.units * depthStep));
+    program.set("clipFromWorld", glm::mat4(away * light.clipFromWorld));
+    // Behind the light, or closer to its plane than a ten-thousandth of the scene's depth: no caster.
     program.set("lightPlane", glm::vec4(light.depthFromWorld - glm::dvec4(0, 0, 0, 1e-4 * light.far)));
     program.use();
 }
@@ -47,8 +51,8 @@ CasterPass::~CasterPass() {
 }
 
 DepthMap::DepthMap(int side, Bias bias, Lookup lookup)
-    : depth_(gl::Format::Depth32F, {side, side}, lookup == Lookup::CompareBilinear ? gl::Filter::Linear : gl::Filter::Nearest,
-             gl::Wrap::BorderFar),
+    : depth_(gl::Format::Depth32F, {side, side},
+             lookup == Lookup::CompareBilinear ? gl::Filter::Linear : gl::Filter::Nearest, gl::Wrap::BorderFar),
       target_{&depth_}, program_("maps/depth_map.vert", "maps/depth_map.frag"), bias_(bias) {
     if (lookup != Lookup::Raw) depth_.compareDepth();
 }
@@ -65,4 +69,4 @@ glm::mat4 mapFromWorld(const LightView& light) {
     return glm::mat4(half * light.clipFromWorld);
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

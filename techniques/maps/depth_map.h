@@ -13,7 +13,11 @@
 
 namespace shadowbench::techniques {
 
-/// Polygon offset applied while the map is drawn (course, "Bias"): factor · max depth slope per texel + units · smallest step.
+/// One step of a 24-bit depth buffer: the unit of a constant bias.
+inline constexpr double depthStep = 1.0 / (1 << 24);
+
+/// Offset away from the light while the map is drawn (course, "Bias"): factor · max depth slope per texel + units ·
+/// depthStep.
 struct Bias {
     float factor = 0;
     float units = 0;
@@ -23,7 +27,8 @@ struct Bias {
 std::vector<Parameter> depthMapParameters(int defaultSide = 1024);
 Bias biasFrom(const Parameters& parameters);
 
-/// Compare: sampled through sampler2DShadow with 2×2 interpolated comparisons if `Filter::Linear`; Raw: depths read as numbers.
+/// Compare: sampled through sampler2DShadow with 2×2 interpolated comparisons if `Filter::Linear`; Raw: depths read as
+/// numbers.
 enum class Lookup { Compare, CompareBilinear, Raw };
 
 class DepthMap {
@@ -46,7 +51,8 @@ private:
 /// Map space: x, y and depth in [0, 1] where clip space has [−1, 1].
 glm::mat4 mapFromWorld(const LightView& light);
 
-/// State shared by every pass that draws casters into a map: clips what lies behind the light, clamps what lies before the near plane.
+/// State shared by every pass that draws casters into a map: clips what lies behind the light, clamps what lies before the
+/// near plane.
 class CasterPass {
 public:
     CasterPass(gl::Program& program, const LightView& light, Bias bias);
@@ -55,4 +61,4 @@ public:
     CasterPass& operator=(const CasterPass&) = delete;
 };
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -22,9 +22,7 @@ struct Extent {
     }
 };
 
-glm::dvec3 divided(const glm::dvec4& h) {
-    return glm::dvec3(h) / h.w;
-}
+glm::dvec3 divided(const glm::dvec4& h) { return glm::dvec3(h) / h.w; }
 
 Extent extentOf(const glm::dmat4& transform, const std::vector<glm::dvec3>& points) {
     Extent extent;
@@ -45,7 +43,8 @@ Camera::Basis lightBasis(const Light& light, const std::vector<glm::dvec3>& poin
     Bounds box;
     for (const glm::dvec3& p : points) box.add(p);
     if (light.kind == LightKind::Rectangle || light.kind == LightKind::Disk) {
-        // The map's plane is the light's own, its sides the light's sides, so that offsets on the light are offsets on the map.
+        // The map's plane is the light's own, its sides the light's sides, so that offsets on the light are offsets on the
+        // map.
         glm::dvec3 axis = glm::normalize(glm::cross(light.u, light.v));
         if (glm::dot(axis, box.centre() - light.centre) < 0) axis = -axis;
         const glm::dvec3 right = glm::normalize(light.u);
@@ -66,13 +65,14 @@ Camera::Basis lightBasis(const Light& light, const std::vector<glm::dvec3>& poin
 
 /// View matrix that looks along `basis.forward` from `eye` (−z forward).
 glm::dmat4 viewFrom(const glm::dvec3& eye, const Camera::Basis& basis) {
-    const glm::dmat4 rows(glm::dvec4(basis.right, -glm::dot(basis.right, eye)), glm::dvec4(basis.up, -glm::dot(basis.up, eye)),
+    const glm::dmat4 rows(glm::dvec4(basis.right, -glm::dot(basis.right, eye)),
+                          glm::dvec4(basis.up, -glm::dot(basis.up, eye)),
                           glm::dvec4(-basis.forward, glm::dot(basis.forward, eye)), glm::dvec4(0, 0, 0, 1));
     return glm::transpose(rows);
 }
 
-constexpr double nearestShare = 0.01;                // of the far distance
-const double steepest = std::tan(glm::radians(80.0));  // off the axis
+constexpr double nearestShare = 0.01;                 // of the far distance
+const double steepest = std::tan(glm::radians(80.0)); // off the axis
 
 LightView fitPerspective(const glm::dvec3& eye, const Camera::Basis& basis, std::vector<glm::dvec3> points) {
     const glm::dmat4 view = viewFrom(eye, basis);
@@ -93,10 +93,15 @@ LightView fitPerspective(const glm::dvec3& eye, const Camera::Basis& basis, std:
         const double depth = std::max(-v.z, near);
         slopes.add({std::clamp(v.x / depth, -steepest, steepest), std::clamp(v.y / depth, -steepest, steepest), 0});
     }
-    const glm::dmat4 projection = glm::frustum(slopes.low.x * near, slopes.high.x * near, slopes.low.y * near,
-                                               slopes.high.y * near, near, far);
-    return {projection * view, glm::dvec4(basis.forward, -glm::dot(basis.forward, eye)), near, far, true,
-            glm::dvec2(slopes.high - slopes.low), std::move(points)};
+    const glm::dmat4 projection =
+        glm::frustum(slopes.low.x * near, slopes.high.x * near, slopes.low.y * near, slopes.high.y * near, near, far);
+    return {projection * view,
+            glm::dvec4(basis.forward, -glm::dot(basis.forward, eye)),
+            near,
+            far,
+            true,
+            glm::dvec2(slopes.high - slopes.low),
+            std::move(points)};
 }
 
 LightView fitOrthographic(const Camera::Basis& basis, std::vector<glm::dvec3> points) {
@@ -106,7 +111,8 @@ LightView fitOrthographic(const Camera::Basis& basis, std::vector<glm::dvec3> po
     const double near = -box.high.z - slack;
     const double far = -box.low.z + slack;
     const glm::dmat4 projection = glm::ortho(box.low.x, box.high.x, box.low.y, box.high.y, near, far);
-    return {projection * view, glm::dvec4(basis.forward, 0), near, far, false, glm::dvec2(box.high - box.low), std::move(points)};
+    return {projection * view, glm::dvec4(basis.forward, 0), near, far, false, glm::dvec2(box.high - box.low),
+            std::move(points)};
 }
 
 /// Cuts the convex polyhedron spanned by `faces` with the half-space dot(plane, (p, 1)) ≥ 0.
@@ -128,7 +134,7 @@ Polygon cut(const Polygon& polygon, const glm::dvec4& plane, std::vector<glm::dv
 }
 
 std::vector<Polygon> boxFaces(const Bounds& box) {
-    const auto c = box.corners();  // corner i takes high.x, high.y, high.z where bit 0, 1, 2 of i is set
+    const auto c = box.corners(); // corner i takes high.x, high.y, high.z where bit 0, 1, 2 of i is set
     constexpr std::array<std::array<std::size_t, 4>, 6> faces{
         {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}}};
     std::vector<Polygon> result;
@@ -141,7 +147,7 @@ std::array<glm::dvec4, 6> frustumPlanes(const glm::dmat4& clipFromWorld) {
     return {m[3] + m[0], m[3] - m[0], m[3] + m[1], m[3] - m[1], m[3] + m[2], m[3] - m[2]};
 }
 
-}  // namespace
+} // namespace
 
 std::vector<glm::dvec3> boundingCorners(const Snapshot& snapshot) {
     std::vector<glm::dvec3> points;
@@ -165,15 +171,13 @@ LightView fitFromSample(const Light& light, const glm::dvec3& sample, std::vecto
     return fitToPoints(moved, std::move(points));
 }
 
-LightView fitToScene(const Light& light, const Snapshot& snapshot) {
-    return fitToPoints(light, boundingCorners(snapshot));
-}
+LightView fitToScene(const Light& light, const Snapshot& snapshot) { return fitToPoints(light, boundingCorners(snapshot)); }
 
 std::vector<glm::dvec3> visiblePart(const Bounds& box, const Camera& camera, double aspect) {
     std::vector<Polygon> faces = boxFaces(box);
     for (const glm::dvec4& plane : frustumPlanes(camera.projection(aspect) * camera.view())) {
         std::vector<Polygon> kept;
-        Polygon lid;  // the new face; as only its corners are needed later, their order is not
+        Polygon lid; // the new face; as only its corners are needed later, their order is not
         for (const Polygon& face : faces) {
             Polygon rest = cut(face, plane, lid);
             if (rest.size() >= 3) kept.push_back(std::move(rest));
@@ -210,7 +214,7 @@ LightView jittered(const LightView& view, double angle, glm::dvec2 shift, int te
         const glm::dvec3 q(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 0, 1)) * glm::dvec4(held, 1));
         extent.add({q.x, q.y, held.z});
     }
-    extent.low.z = -1;  // depth stays as it was
+    extent.low.z = -1; // depth stays as it was
     extent.high.z = 1;
     const glm::dmat4 moved = glm::translate(glm::dmat4(1), glm::dvec3(2.0 * shift / static_cast<double>(texels), 0));
     result.clipFromWorld = moved * fitMatrix(extent, 0.5 / texels) * turned;
@@ -226,7 +230,7 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, double aspect)
     LightView view = fitToScene(light.centreOnly(), snapshot);
     std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), snapshot.camera, aspect);
     std::erase_if(body, [&](const glm::dvec3& p) { return glm::dot(view.depthFromWorld, glm::dvec4(p, 1)) < view.near; });
-    if (body.size() < 3) return view;  // nothing visible lies in front of the light
+    if (body.size() < 3) return view; // nothing visible lies in front of the light
 
     // The view axis in light space, seen from the nearest point of the body (post-perspective for a point light).
     const glm::dvec3 forward = snapshot.camera.basis().forward;
@@ -239,15 +243,15 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, double aspect)
     const glm::dvec3 start = toLight(nearest);
     const glm::dvec3 axis = toLight(nearest + 1e-4 * (deepest - eyeDepth(nearest)) * forward) - start;
 
-    const double turn = std::atan2(axis.x, axis.y);  // about z: brings the axis onto +y
+    const double turn = std::atan2(axis.x, axis.y); // about z: brings the axis onto +y
     glm::dmat4 light2 = glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 0, 1)) * view.clipFromWorld;
     const Extent box = extentOf(light2, body);
     const glm::dvec3 e = divided(light2 * glm::dvec4(nearest, 1));
 
-    // Two points of one line along y, at the near and far end of the body; the first on the plane through `nearest` parallel to the
-    // image, the second a body's length further: their eye depths give the depth ratio that the warp has to even out.
+    // Two points of one line along y, at the near and far end of the body; the first on the plane through `nearest` parallel
+    // to the image, the second a body's length further: their eye depths give the depth ratio that the warp has to even out.
     const glm::dvec4 plane = glm::transpose(glm::inverse(light2)) *
-                             glm::dvec4(forward, -glm::dot(forward, nearest));  // the parallel plane, in light space
+                             glm::dvec4(forward, -glm::dot(forward, nearest)); // the parallel plane, in light space
     const double z = std::abs(plane.z) > 1e-12 ? -(plane.x * e.x + plane.y * box.low.y + plane.w) / plane.z : e.z;
     const glm::dmat4 back = glm::inverse(light2);
     const double z0 = eyeDepth(divided(back * glm::dvec4(e.x, box.low.y, z, 1)));
@@ -268,4 +272,4 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, double aspect)
     return view;
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

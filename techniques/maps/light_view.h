@@ -14,20 +14,20 @@ namespace shadowbench::techniques {
 /// A shadow map's projection. Depth grows away from the light.
 struct LightView {
     glm::dmat4 clipFromWorld{1};
-    glm::dvec4 depthFromWorld{0};      // dot(·, (p, 1)) = metres from the light's plane along its axis
-    double near = 0, far = 1;          // that depth at clip z = −1 and +1 (before any warp)
-    bool perspective = false;          // point light
-    glm::dvec2 span{0};                // width and height of the map at unit depth (perspective) or in metres (orthographic), unwarped
-    std::vector<glm::dvec3> covered;   // world points that the map must hold
+    glm::dvec4 depthFromWorld{0}; // dot(·, (p, 1)) = metres from the light's plane along its axis
+    double near = 0, far = 1;     // that depth at clip z = −1 and +1 (before any warp)
+    bool perspective = false;     // point light
+    glm::dvec2 span{0}; // width and height of the map at unit depth (perspective) or in metres (orthographic), unwarped
+    std::vector<glm::dvec3> covered; // world points that the map must hold
 };
 
 /// World corners of the bounding boxes of all placements.
 std::vector<glm::dvec3> boundingCorners(const Snapshot& snapshot);
 
-/// The light frustum fitted to `points` (Scherzer 2.2; course, "Shadow Mapping"). A point or area light looks from its centre: along its
-/// normal if it is a flat area light (at right angles to a line light), else towards the middle of the points; a directional light is orthographic. Points nearer to
-/// the light's plane than a hundredth of the far distance, or more than 80° off the axis, are held at that limit: a single map
-/// cannot see behind its light.
+/// The light frustum fitted to `points` (Scherzer 2.2; course, "Shadow Mapping"). A point or area light looks from its
+/// centre: along its normal if it is a flat area light (at right angles to a line light), else towards the middle of the
+/// points; a directional light is orthographic. Points nearer to the light's plane than a hundredth of the far distance, or
+/// more than 80° off the axis, are held at that limit: a single map cannot see behind its light.
 LightView fitToPoints(const Light& light, std::vector<glm::dvec3> points);
 
 /// The view of point `sample` of an area light, its plane parallel to the light's.
@@ -39,18 +39,18 @@ LightView fitToScene(const Light& light, const Snapshot& snapshot);
 /// Corners of the part of `box` that the camera sees: the box clipped by the view frustum (Scherzer Fig. 2.5, S ∩ V).
 std::vector<glm::dvec3> visiblePart(const Bounds& box, const Camera& camera, double aspect);
 
-/// Light space perspective shadow map (Wimmer, Scherzer, Purgathofer 2004; Scherzer 2.2.2): light space turned so that the view
-/// direction lies along y, then warped by a perspective along y whose near distance n spreads the error evenly over the depth
-/// range (`lispsmNear`), then focused on what the camera sees. Falls back to the focused, unwarped map where the view direction is
-/// parallel to the light (duelling frusta).
+/// Light space perspective shadow map (Wimmer, Scherzer, Purgathofer 2004; Scherzer 2.2.2): light space turned so that the
+/// view direction lies along y, then warped by a perspective along y whose near distance n spreads the error evenly over the
+/// depth range (`lispsmNear`), then focused on what the camera sees. Falls back to the focused, unwarped map where the view
+/// direction is parallel to the light (duelling frusta).
 LightView fitLispsm(const Light& light, const Snapshot& snapshot, double aspect);
 
-/// n_opt for a light-space depth range `d` along the view axis whose ends lie at eye depths z0 < z1: d / (√(z1/z0) − 1), which is
-/// (z0 + √(z0·z1)) / sin γ for a directional light. Infinity where z1 ≤ z0 or z0 ≤ 0: no warp.
+/// n_opt for a light-space depth range `d` along the view axis whose ends lie at eye depths z0 < z1: d / (√(z1/z0) − 1),
+/// which is (z0 + √(z0·z1)) / sin γ for a directional light. Infinity where z1 ≤ z0 or z0 ≤ 0: no warp.
 double lispsmNear(double d, double z0, double z1);
 
-/// The same view rasterised differently: the projection window turned by `angle` (radians), re-fitted to the covered points, and
-/// shifted by `shift` texels (each in [−½, ½]) of a map of `texels` per side (EGSR paper, 3.3).
+/// The same view rasterised differently: the projection window turned by `angle` (radians), re-fitted to the covered points,
+/// and shifted by `shift` texels (each in [−½, ½]) of a map of `texels` per side (EGSR paper, 3.3).
 LightView jittered(const LightView& view, double angle, glm::dvec2 shift, int texels);
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -5,18 +5,18 @@
 namespace shadowbench::techniques {
 
 LinearDepthMap::LinearDepthMap(int side, Bias bias)
-    : linear_(gl::Format::R32F, {side, side}, gl::Filter::Nearest, gl::Wrap::BorderFar), depth_(gl::Format::Depth32F, {side, side}),
-      target_{&linear_, &depth_}, program_("maps/linear_depth_map.vert", "maps/linear_depth_map.frag"), bias_(bias) {}
+    : linear_(gl::Format::R32F, {side, side}, gl::Filter::Nearest, gl::Wrap::BorderFar),
+      depth_(gl::Format::Depth32F, {side, side}), target_{&linear_, &depth_},
+      program_("maps/linear_depth_map.vert", "maps/linear_depth_map.frag"), bias_(bias) {}
 
 void LinearDepthMap::draw(const LightView& light, const gl::SceneBuffers& scene) {
     target_.clearColour(0, glm::vec4(gl::nothingInTheWay));
     target_.clearDepth(1);
     target_.bind();
-    // A smallest step of linear depth is 2⁻²³ of the far distance, as it would be of a depth buffer's range.
-    const auto step = static_cast<float>(light.far / (1 << 23));
-    program_.set("depthFromWorld", glm::vec4(light.depthFromWorld)).set("bias", glm::vec2(bias_.factor, bias_.units * step));
+    const double constant = bias_.units * depthStep * light.far;
+    program_.set("depthFromWorld", glm::vec4(light.depthFromWorld)).set("bias", glm::vec2(bias_.factor, constant));
     const CasterPass pass(program_, light, Bias{});
     scene.draw();
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -1,4 +1,5 @@
-// Shadow map of linear depth in 32-bit floats (Scherzer 4.2): metres along the light's axis, negative where the caster moves (4.1.4).
+// Shadow map of linear depth in 32-bit floats (Scherzer 4.2): metres along the light's axis, negative where the caster moves
+// (4.1.4).
 #pragma once
 
 #include "techniques/maps/depth_map.h"
@@ -20,4 +21,4 @@ private:
     Bias bias_;
 };
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

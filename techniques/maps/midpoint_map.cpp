@@ -5,9 +5,10 @@
 namespace shadowbench::techniques {
 
 MidpointMap::MidpointMap(int side, Lookup lookup)
-    : first_(side, Bias{}, Lookup::Raw), second_(gl::Format::Depth32F, {side, side}, gl::Filter::Nearest, gl::Wrap::BorderFar),
-      middle_(gl::Format::Depth32F, {side, side}, lookup == Lookup::CompareBilinear ? gl::Filter::Linear : gl::Filter::Nearest,
-              gl::Wrap::BorderFar),
+    : first_(side, Bias{}, Lookup::Raw),
+      second_(gl::Format::Depth32F, {side, side}, gl::Filter::Nearest, gl::Wrap::BorderFar),
+      middle_(gl::Format::Depth32F, {side, side},
+              lookup == Lookup::CompareBilinear ? gl::Filter::Linear : gl::Filter::Nearest, gl::Wrap::BorderFar),
       secondTarget_{&second_}, middleTarget_{&middle_}, peel_("maps/depth_map.vert", "maps/midpoint_peel.frag"),
       mean_(gl::Program::screen("maps/midpoint_mean.frag")) {
     if (lookup != Lookup::Raw) middle_.compareDepth();
@@ -29,4 +30,4 @@ void MidpointMap::draw(const LightView& light, const gl::SceneBuffers& scene) {
     mean_.drawScreenDepth();
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -1,4 +1,5 @@
-// Midpoint shadow map (Woo 1992; Zápotocký 4.4.2): the mean of first and second surface, so that neither is close to a receiver.
+// Midpoint shadow map (Woo 1992; Zápotocký 4.4.2): the mean of first and second surface, so that neither is close to a
+// receiver.
 #pragma once
 
 #include "techniques/maps/depth_map.h"
@@ -21,4 +22,4 @@ private:
     gl::Program peel_, mean_;
 };
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

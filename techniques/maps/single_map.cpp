@@ -14,7 +14,9 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const LightView light = fit_(frame);
         map_.draw(light, frame.scene);
-        resolve_.set("positions", frame.gbuffer.position()).set("mapFromWorld", mapFromWorld(light)).set("depthMap", map_.texture());
+        resolve_.set("positions", frame.gbuffer.position())
+            .set("mapFromWorld", mapFromWorld(light))
+            .set("depthMap", map_.texture());
         resolveInto({&visibility}, resolve_);
     }
 
@@ -24,18 +26,16 @@ private:
     gl::Program resolve_;
 };
 
-}  // namespace
+} // namespace
 
 std::unique_ptr<Technique> makeSingleMap(const Parameters& parameters, FitView fit) {
     return std::make_unique<SingleMap>(parameters, std::move(fit));
 }
 
-LightView uniformView(const Frame& frame) {
-    return fitToScene(frame.snapshot.light.centreOnly(), frame.snapshot);
-}
+LightView uniformView(const Frame& frame) { return fitToScene(frame.snapshot.light.centreOnly(), frame.snapshot); }
 
 LightView lispsmView(const Frame& frame) {
     return fitLispsm(frame.snapshot.light, frame.snapshot, static_cast<double>(frame.size.x) / frame.size.y);
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -19,4 +19,4 @@ LightView uniformView(const Frame& frame);
 /// `sm-lispsm`.
 LightView lispsmView(const Frame& frame);
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -16,8 +16,8 @@ gl::Defines PcssTaps::defines() const {
     return {{"SEARCH_TAPS", std::to_string(search)}, {"FILTER_TAPS", std::to_string(filter)}};
 }
 
-void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view, const LinearDepthMap& map,
-             bool followPlane) {
+void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view,
+             const LinearDepthMap& map, bool followPlane) {
     const Region region = light.kind == LightKind::Disk ? Region::Disk : Region::Square;
     const auto points = [&](int count) {
         return taps.grid ? gridTaps(static_cast<int>(std::lround(std::sqrt(count)))) : poissonTaps(count, region);
@@ -35,4 +35,4 @@ void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, con
         .set("filterTaps", filter);
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

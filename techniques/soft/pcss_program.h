@@ -20,7 +20,7 @@ struct PcssTaps {
 };
 
 /// Light size, map geometry and tap positions: Poisson taps over the light's own shape, or grids.
-void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view, const LinearDepthMap& map,
-             bool followPlane);
+void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view,
+             const LinearDepthMap& map, bool followPlane);
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -72,4 +72,4 @@ glm::dmat4 infiniteProjection(const glm::dmat4& projection, double near) {
     return result;
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

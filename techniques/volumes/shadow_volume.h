@@ -26,8 +26,8 @@ public:
     [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
     [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
 
-    /// For each triangle whether it faces the homogeneous light `light` (object space): A·L > 0 with the triangle's plane A. Edge-on
-    /// counts as facing away.
+    /// For each triangle whether it faces the homogeneous light `light` (object space): A·L > 0 with the triangle's plane A.
+    /// Edge-on counts as facing away.
     [[nodiscard]] std::vector<bool> facing(const glm::dvec4& light) const;
 
 private:
@@ -35,16 +35,16 @@ private:
     std::vector<Edge> edges_;
 };
 
-/// Possible silhouette edges: those between a facing and an averted triangle, directed as in the facing one; a border edge of a
-/// facing triangle is one too.
+/// Possible silhouette edges: those between a facing and an averted triangle, directed as in the facing one; a border edge
+/// of a facing triangle is one too.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> silhouette(const EdgeMesh& mesh, const std::vector<bool>& facing);
 
-/// Triangles of the shadow volume as indices into the mesh's vertices; index + vertexCount is the same vertex projected to infinity
-/// away from the light. Facing triangles close it at the front; averted ones, projected, close it at infinity, except for a
-/// directional light, whose volume ends in a point there.
+/// Triangles of the shadow volume as indices into the mesh's vertices; index + vertexCount is the same vertex projected to
+/// infinity away from the light. Facing triangles close it at the front; averted ones, projected, close it at infinity,
+/// except for a directional light, whose volume ends in a point there.
 void appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, std::vector<std::uint32_t>& indices);
 
 /// The projection `projection` (perspective) with its far plane moved to infinity: P_inf (Everitt–Kilgard 3.2.1).
 glm::dmat4 infiniteProjection(const glm::dmat4& projection, double near);
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -1,8 +1,8 @@
-// Percentage-closer filtering (Reeves, Salesin, Cook 1987): the share of k×k shadow tests around the receiver that pass. Scherzer 2.2.1,
-// Zápotocký 3.2; `kernel=2` is the hardware's bilinear 2×2. With `depth=midpoint` the map holds the mean of first and second surface (Woo;
-// Zápotocký 4.4.2) and needs no bias on closed meshes.
-// Departure: with bias=slope each tap is compared with the depth of the receiver's plane at the tap (course, "Bias": the offset follows the
-// surface slope, here over the whole kernel), else a k×k kernel darkens every slanted surface.
+// Percentage-closer filtering (Reeves, Salesin, Cook 1987): the share of k×k shadow tests around the receiver that pass.
+// Scherzer 2.2.1, Zápotocký 3.2; `kernel=2` is the hardware's bilinear 2×2. With `depth=midpoint` the map holds the mean of
+// first and second surface (Woo; Zápotocký 4.4.2) and needs no bias on closed meshes. Departure: with bias=slope each tap is
+// compared with the depth of the receiver's plane at the tap (course, "Bias": the offset follows the surface slope, here
+// over the whole kernel), else a k×k kernel darkens every slanted surface.
 #include "techniques/entries.h"
 #include "techniques/maps/midpoint_map.h"
 #include "techniques/maps/single_map.h"
@@ -17,19 +17,23 @@ public:
         : bilinear_(p.integer("kernel") == 2), slope_(p.text("bias") == "slope"), side_(p.integer("map")),
           resolve_(gl::Program::screen("filtered/pcf/pcf.frag", {{"KERNEL", bilinear_ ? "1" : p.text("kernel")}})) {
         const Lookup lookup = bilinear_ ? Lookup::CompareBilinear : Lookup::Compare;
-        if (p.text("depth") == "midpoint") midpoint_ = std::make_unique<MidpointMap>(side_, lookup);
-        else map_ = std::make_unique<DepthMap>(side_, biasFrom(p), lookup);
+        if (p.text("depth") == "midpoint")
+            midpoint_ = std::make_unique<MidpointMap>(side_, lookup);
+        else
+            map_ = std::make_unique<DepthMap>(side_, biasFrom(p), lookup);
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const LightView light = uniformView(frame);
-        if (map_) map_->draw(light, frame.scene);
-        else midpoint_->draw(light, frame.scene);
+        if (map_)
+            map_->draw(light, frame.scene);
+        else
+            midpoint_->draw(light, frame.scene);
         resolve_.set("positions", frame.gbuffer.position())
-            .set("normals", frame.gbuffer.normal())
             .set("mapFromWorld", mapFromWorld(light))
-            .set("depthMap", map_ ? map_->texture() : midpoint_->texture())
-            .set("followPlane", slope_ && map_ ? 1.0F : 0.0F);
+            .set("depthMap", map_ ? map_->texture() : midpoint_->texture());
+        if (!bilinear_)  // its one tap lies in the receiver's own texel
+            resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", slope_ && map_ ? 1.0F : 0.0F);
         resolveInto({&visibility}, resolve_);
     }
 
@@ -41,12 +45,13 @@ private:
     gl::Program resolve_;
 };
 
-}  // namespace
+} // namespace
 
 Entry pcf() {
     std::vector<Parameter> parameters{
         {"kernel", "3", OneOf{{"2", "3", "5", "7"}}, "taps per side; 2 is bilinear 2×2", "Zápotocký 3.2"},
-        {"depth", "basic", OneOf{{"basic", "midpoint"}}, "nearest depth, or the mean of first and second surface", "Zápotocký 4.4.2"},
+        {"depth", "basic", OneOf{{"basic", "midpoint"}}, "nearest depth, or the mean of first and second surface",
+         "Zápotocký 4.4.2"},
     };
     for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
     return {.id = "pcf",
@@ -58,4 +63,4 @@ Entry pcf() {
             .make = [](const Parameters& p) { return std::make_unique<Pcf>(p); }};
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

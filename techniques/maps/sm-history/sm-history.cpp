@@ -1,8 +1,8 @@
-// Pixel-correct shadow maps (Scherzer, Jeschke, Wimmer 2007): a history buffer per pixel, reprojected each frame (eq. 3.4) where depths
-// agree (eq. 3.5), takes in the test result of a newly jittered shadow map with a weight that grows with the confidence of the sample
-// (eq. 3.6, 3.7). EGSR paper; dissertation chapter 3 and listing 6.1.
-// Departures: the reprojected position comes from the world position in the G-buffer (and, for moving receivers, last frame's), which is
-// the same point as eq. 3.4's product of matrices; the depth tolerance is the listing's 0.001 in window depth.
+// Pixel-correct shadow maps (Scherzer, Jeschke, Wimmer 2007): a history buffer per pixel, reprojected each frame (eq. 3.4)
+// where depths agree (eq. 3.5), takes in the test result of a newly jittered shadow map with a weight that grows with the
+// confidence of the sample (eq. 3.6, 3.7). EGSR paper; dissertation chapter 3 and listing 6.1. Departures: the reprojected
+// position comes from the world position in the G-buffer (and, for moving receivers, last frame's), which is the same point
+// as eq. 3.4's product of matrices; the depth tolerance is the listing's 0.001 in window depth.
 #include "techniques/maps/sm-history/sm-history.h"
 
 #include "techniques/entries.h"
@@ -29,8 +29,10 @@ double smoothed(double previous, double current, double confidence, double m) {
 }
 
 double MSchedule::next(bool moved) {
-    if (moved) m_ = start_;
-    else if (!first_) m_ += step_;
+    if (moved)
+        m_ = start_;
+    else if (!first_)
+        m_ += step_;
     first_ = false;
     return m_;
 }
@@ -42,7 +44,8 @@ public:
     explicit History(const Parameters& p)
         : fit_(p.text("base") == "lispsm" ? lispsmView : uniformView), jitter_(p.text("jitter")),
           map_(p.integer("map"), biasFrom(p), Lookup::Compare), schedule_(p.real("m"), p.real("step")),
-          resolve_(gl::Program::screen("maps/sm-history/sm-history.frag", {{"PCF_RADIUS", p.text("filter") == "pcf" ? "1" : "0"}})) {}
+          resolve_(gl::Program::screen("maps/sm-history/sm-history.frag",
+                                       {{"PCF_RADIUS", p.text("filter") == "pcf" ? "1" : "0"}})) {}
 
     void reset() override {
         history_.reset();
@@ -76,7 +79,8 @@ private:
         gl::Texture read, write;
     };
 
-    /// Section 3.3: a new rasterisation each frame by Halton translation within a texel and rotation of the projection window.
+    /// Section 3.3: a new rasterisation each frame by Halton translation within a texel and rotation of the projection
+    /// window.
     [[nodiscard]] LightView rasterisedAnew(const LightView& view, const Frame& frame) const {
         if (jitter_ == "none") return view;
         const std::uint32_t i = haltonIndex(frame.index, frame.seed);
@@ -92,7 +96,7 @@ private:
     std::optional<Buffers> history_;
 };
 
-}  // namespace
+} // namespace
 
 Entry smHistory() {
     std::vector<Parameter> parameters{
@@ -114,4 +118,4 @@ Entry smHistory() {
             .make = [](const Parameters& p) { return std::make_unique<History>(p); }};
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -1,4 +1,5 @@
 // One frame of pixel-correct shadow maps.
+#include "gl/half.glsl"
 #include "gl/receiver.glsl"
 #include "maps/light_space.glsl"
 
@@ -53,5 +54,5 @@ void main() {
         if (abs(old.y - before.z) < depthTolerance)
             visibility = mix(old.x, visibility, pow(confidence(point), m));  // eq. 3.3, 3.7
     }
-    newHistory = vec2(visibility, windowPosition(clipFromWorld, receiver.position).z);
+    newHistory = toHalf(vec2(visibility, windowPosition(clipFromWorld, receiver.position).z));
 }

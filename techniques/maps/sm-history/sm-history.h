@@ -23,4 +23,4 @@ private:
     bool first_ = true;
 };
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -1,6 +1,7 @@
-// Light space perspective shadow map (Wimmer, Scherzer, Purgathofer 2004), Scherzer 2.2.2. The warp is in maps/light_view.cpp.
-// Departure: the body that the map is focused on is the scene's bounding box clipped by the view frustum; casters between it and the
-// light are kept by depth clamping instead of growing the body towards the light, which leaves all of the depth range to receivers.
+// Light space perspective shadow map (Wimmer, Scherzer, Purgathofer 2004), Scherzer 2.2.2. The warp is in
+// maps/light_view.cpp. Departure: the body that the map is focused on is the scene's bounding box clipped by the view
+// frustum; casters between it and the light are kept by depth clamping instead of growing the body towards the light, which
+// leaves all of the depth range to receivers.
 #include "techniques/entries.h"
 #include "techniques/maps/single_map.h"
 
@@ -16,4 +17,4 @@ Entry smLispsm() {
             .make = [](const Parameters& p) { return makeSingleMap(p, lispsmView); }};
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

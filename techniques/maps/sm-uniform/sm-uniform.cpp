@@ -15,4 +15,4 @@ Entry smUniform() {
             .make = [](const Parameters& p) { return makeSingleMap(p, uniformView); }};
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -11,7 +11,7 @@ public:
     }
 };
 
-}  // namespace
+} // namespace
 
 Entry none() {
     return {.id = "none",
@@ -23,4 +23,4 @@ Entry none() {
             .make = [](const Parameters&) { return std::make_unique<None>(); }};
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

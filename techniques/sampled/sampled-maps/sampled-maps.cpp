@@ -1,5 +1,5 @@
-// N shadow maps over the light, averaged (Heckbert–Herf 1997): eq. 4.2 of the dissertation; Zápotocký's "sampled" methods. Converges to the
-// visible fraction of the light's area as N grows; N samples give N − 1 levels between lit and umbra.
+// N shadow maps over the light, averaged (Heckbert–Herf 1997): eq. 4.2 of the dissertation; Zápotocký's "sampled" methods.
+// Converges to the visible fraction of the light's area as N grows; N samples give N − 1 levels between lit and umbra.
 #include "techniques/entries.h"
 #include "techniques/gl/api.h"
 #include "techniques/maps/depth_map.h"
@@ -45,7 +45,9 @@ private:
     }
 
     void addTest(const Frame& frame, const LightView& light, const gl::RenderTarget& sumTarget) {
-        test_.set("positions", frame.gbuffer.position()).set("mapFromWorld", mapFromWorld(light)).set("depthMap", map_.texture());
+        test_.set("positions", frame.gbuffer.position())
+            .set("mapFromWorld", mapFromWorld(light))
+            .set("depthMap", map_.texture());
         sumTarget.bind();
         glEnable(GL_BLEND);
         glBlendFunc(GL_ONE, GL_ONE);
@@ -60,12 +62,13 @@ private:
     std::optional<gl::Texture> sum_;
 };
 
-}  // namespace
+} // namespace
 
 Entry sampledMaps() {
     std::vector<Parameter> parameters{
         {"n", "64", IntegerRange{1, 4096}, "light samples, one map each", "Zápotocký 5.2 (64 and 100)"},
-        {"pattern", "halton", OneOf{{"halton", "grid"}}, "where the samples lie; a grid has ⌊√n⌉ a side", "dissertation 4.2"},
+        {"pattern", "halton", OneOf{{"halton", "grid"}}, "where the samples lie; a grid has ⌊√n⌉ a side",
+         "dissertation 4.2"},
     };
     for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
     return {.id = "sampled-maps",
@@ -77,4 +80,4 @@ Entry sampledMaps() {
             .make = [](const Parameters& p) { return std::make_unique<SampledMaps>(p); }};
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

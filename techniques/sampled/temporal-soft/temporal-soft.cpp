@@ -1,9 +1,10 @@
-// Physically correct soft shadows over time (Scherzer, dissertation chapter 4, listing 6.2): each frame draws one shadow map from one Halton
-// point of the light and adds its test to a reprojected shadow buffer (ρ, n, linear depth, mean blocker depth; RGBA16F, double-buffered,
-// with overscan). New pixels, and those shadowed by something that moves, start from PCSS 16+16. While the estimated standard error is at
-// least 1/50 what is shown is smoothed over the estimated penumbra; the buffer is not.
-// Departures: eq. 4.6's near/depth projection is written as pixels per metre at the receiver; the filter's disk has the penumbra width as its
-// diameter and takes neighbours whose depth agrees by eq. 4.8; the tolerance of eq. 4.8, which the seed leaves open, is a parameter.
+// Physically correct soft shadows over time (Scherzer, dissertation chapter 4, listing 6.2): each frame draws one shadow map
+// from one Halton point of the light and adds its test to a reprojected shadow buffer (ρ, n, linear depth, mean blocker
+// depth; RGBA16F, double-buffered, with overscan). New pixels, and those shadowed by something that moves, start from PCSS
+// 16+16. While the estimated standard error is at least 1/50 what is shown is smoothed over the estimated penumbra; the
+// buffer is not. Departures: eq. 4.6's near/depth projection is written as pixels per metre at the receiver; the filter's
+// disk has the penumbra width as its diameter and takes neighbours whose depth agrees by eq. 4.8; the tolerance of eq. 4.8,
+// which the seed leaves open, is a parameter.
 #include "techniques/sampled/temporal-soft/temporal-soft.h"
 
 #include "techniques/entries.h"
@@ -18,17 +19,11 @@
 
 namespace shadowbench::techniques {
 
-double occlusionEstimate(double shadowed, double n) {
-    return shadowed / n;
-}
+double occlusionEstimate(double shadowed, double n) { return shadowed / n; }
 
-double occlusionUpdate(double shadowed, double n, double tau) {
-    return (tau + shadowed) / (n + 1);
-}
+double occlusionUpdate(double shadowed, double n, double tau) { return (tau + shadowed) / (n + 1); }
 
-double occlusionVariance(double estimate, double n) {
-    return n > 1 ? estimate * (1 - estimate) / (n - 1) : 0;
-}
+double occlusionVariance(double estimate, double n) { return n > 1 ? estimate * (1 - estimate) / (n - 1) : 0; }
 
 double blockerUpdate(double previousMean, double depth, double i, double k) {
     return (depth + previousMean * (i - 1 + k)) / (i + k);
@@ -42,8 +37,9 @@ constexpr int filterTaps = 16;
 class TemporalSoft final : public Technique {
 public:
     explicit TemporalSoft(const Parameters& p)
-        : start_(p.integer("start")), threshold_(static_cast<float>(p.real("threshold"))), epsilon_(static_cast<float>(p.real("epsilon"))),
-          overscan_(p.real("overscan")), followPlane_(p.text("bias") == "slope"), map_(p.integer("map"), biasFrom(p)),
+        : start_(p.integer("start")), threshold_(static_cast<float>(p.real("threshold"))),
+          epsilon_(static_cast<float>(p.real("epsilon"))), overscan_(p.real("overscan")),
+          followPlane_(p.text("bias") == "slope"), map_(p.integer("map"), biasFrom(p)),
           resolve_(gl::Program::screen("sampled/temporal-soft/temporal-soft.frag", defines())),
           copy_(gl::Program::screen("sampled/temporal-soft/inner_part.frag")) {}
 
@@ -57,7 +53,8 @@ public:
 
         const Light& light = frame.snapshot.light;
         const std::uint32_t i = haltonIndex(frame.index, frame.seed);
-        const LightView view = fitFromSample(light, light.sample({halton(i, 2), halton(i, 3)}), boundingCorners(frame.snapshot));
+        const LightView view =
+            fitFromSample(light, light.sample({halton(i, 2), halton(i, 3)}), boundingCorners(frame.snapshot));
         map_.draw(view, frame.scene);
 
         setPcss(resolve_, startTaps, light, view, map_, followPlane_);
@@ -93,8 +90,10 @@ private:
         const glm::dvec3 previousForward = frame.snapshot.previousCamera.basis().forward;
         const Light& light = frame.snapshot.light;
         const double lightSize = 0.5 * (glm::length(light.u) + glm::length(light.v));
-        const double pixelsPerMetre = 0.5 * frame.size.y / std::tan(0.5 * glm::radians(camera.fovy));  // at unit distance
-        const auto plane = [](const glm::dvec3& axis, const glm::dvec3& eye) { return glm::vec4(glm::dvec4(axis, -glm::dot(axis, eye))); };
+        const double pixelsPerMetre = 0.5 * frame.size.y / std::tan(0.5 * glm::radians(camera.fovy)); // at unit distance
+        const auto plane = [](const glm::dvec3& axis, const glm::dvec3& eye) {
+            return glm::vec4(glm::dvec4(axis, -glm::dot(axis, eye)));
+        };
         resolve_.set("positions", wide.position())
             .set("normals", wide.normal())
             .set("previousPositions", wide.previousPosition())
@@ -119,15 +118,17 @@ private:
     std::optional<Buffers> buffers_;
 };
 
-}  // namespace
+} // namespace
 
 Entry temporalSoft() {
     std::vector<Parameter> parameters{
         {"start", "1", IntegerRange{0, 64}, "samples that the PCSS start counts for; 0 starts from the first sample alone",
          "dissertation 4.1.3, Fig. 4.6"},
-        {"threshold", "0.02", RealRange{0, 1}, "standard error from which what is shown is smoothed over the penumbra", "dissertation 4.2"},
+        {"threshold", "0.02", RealRange{0, 1}, "standard error from which what is shown is smoothed over the penumbra",
+         "dissertation 4.2"},
         {"epsilon", "0.01", RealRange{1e-5, 1}, "relative depth tolerance of reprojection", "dissertation eq. 4.8"},
-        {"overscan", "0.05", RealRange{0, 0.5}, "share by which the shadow buffer is larger than the image", "dissertation 4.2"},
+        {"overscan", "0.05", RealRange{0, 0.5}, "share by which the shadow buffer is larger than the image",
+         "dissertation 4.2"},
     };
     for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
     return {.id = "temporal-soft",
@@ -140,4 +141,4 @@ Entry temporalSoft() {
             .make = [](const Parameters& p) { return std::make_unique<TemporalSoft>(p); }};
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

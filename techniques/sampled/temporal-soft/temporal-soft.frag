@@ -1,4 +1,5 @@
 // One frame of temporally sampled soft shadows. ψ is the occluded fraction; the output is 1 − ψ.
+#include "gl/half.glsl"
 #include "gl/receiver.glsl"
 #include "soft/pcss.glsl"
 
@@ -66,7 +67,7 @@ void main() {
         float blocker = old.w;
         if (tau == 1.0)  // eq. 4.7, from the sixteen depths of the blocker search
             blocker = old.w > 0.0 ? (abs(mapDepth) + old.w * (n - 1.0 + float(SEARCH_TAPS))) / (n + float(SEARCH_TAPS)) : abs(mapDepth);
-        newShadowBuffer = vec4(rho, n, depth, blocker);
+        newShadowBuffer = toHalf(vec4(rho, n, depth, blocker));
 
         float psi = rho / n;
         float standardError = sqrt(psi * (1.0 - psi) / max(n - 1.0, 1.0));  // eq. 4.3
@@ -79,7 +80,7 @@ void main() {
     float blocker = r.behind ? -1.0 : averageBlockerDepth(r);
     float psi = start > 0.0 ? 1.0 - pcssVisibility(r, blocker) : tau;
     float n = max(start, 1.0);
-    newShadowBuffer = vec4(psi * n, n, depth, blocker);
+    newShadowBuffer = toHalf(vec4(psi * n, n, depth, blocker));
     if (movingShadow && hasHistory == 1 && inside && blocker > 0.0) psi = neighbourhoodFilter(at, psi, depth, r.depth, blocker);
     visibility = 1.0 - psi;
 }

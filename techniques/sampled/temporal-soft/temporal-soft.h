@@ -15,4 +15,4 @@ double occlusionVariance(double estimate, double n);
 /// Eq. 4.7: mean blocker depth after sample i, started from k depths of the blocker search.
 double blockerUpdate(double previousMean, double depth, double i, double k);
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

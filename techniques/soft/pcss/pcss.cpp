@@ -1,8 +1,8 @@
 // Percentage-closer soft shadows (Fernando 2005), after Zápotocký 3.5 and Scherzer 2.3.3:
 // 1. blocker search  2. penumbra width from similar triangles (eq. 3.3)  3. PCF over that width.
-// Departures: the search window is the light's own projection on the map's near plane, where the seed scales an empirical offset; a
-// rectangular light has its own width along each side (the seed's 4.4.1 interpolates a ratio by angle); with bias=slope every tap is
-// compared with the receiver's plane, without which wide kernels shadow every slanted surface.
+// Departures: the search window is the light's own projection on the map's near plane, where the seed scales an empirical
+// offset; a rectangular light has its own width along each side (the seed's 4.4.1 interpolates a ratio by angle); with
+// bias=slope every tap is compared with the receiver's plane, without which wide kernels shadow every slanted surface.
 #include "techniques/entries.h"
 #include "techniques/maps/single_map.h"
 #include "techniques/resolve.h"
@@ -14,8 +14,8 @@ namespace {
 class Pcss final : public Technique {
 public:
     explicit Pcss(const Parameters& p)
-        : taps_(PcssTaps::parse(p.text("taps"))), followPlane_(p.text("bias") == "slope"), map_(p.integer("map"), biasFrom(p)),
-          resolve_(gl::Program::screen("soft/pcss/pcss.frag", taps_.defines())) {}
+        : taps_(PcssTaps::parse(p.text("taps"))), followPlane_(p.text("bias") == "slope"),
+          map_(p.integer("map"), biasFrom(p)), resolve_(gl::Program::screen("soft/pcss/pcss.frag", taps_.defines())) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const Light& light = frame.snapshot.light;
@@ -33,7 +33,7 @@ private:
     gl::Program resolve_;
 };
 
-}  // namespace
+} // namespace
 
 Entry pcss() {
     std::vector<Parameter> parameters{
@@ -48,4 +48,4 @@ Entry pcss() {
             .make = [](const Parameters& p) { return std::make_unique<Pcss>(p); }};
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

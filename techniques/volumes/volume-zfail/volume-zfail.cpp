@@ -1,7 +1,7 @@
-// Stencil shadow volumes, depth-fail (Everitt–Kilgard, course "Practical and robust stenciled shadow volumes"; Zápotocký 2.4.4).
-// Back faces that fail the depth test increment, front faces decrement, both in one pass with wrapping two-sided stencil; a pixel whose
-// count ends at zero is lit. Vertices at infinity are homogeneous; `far=clamp` keeps the camera's far plane and clamps depth (the paper's
-// section 3.4), `far=infinity` draws depth again under P_inf.
+// Stencil shadow volumes, depth-fail (Everitt–Kilgard, course "Practical and robust stenciled shadow volumes";
+// Zápotocký 2.4.4). Back faces that fail the depth test increment, front faces decrement, both in one pass with wrapping
+// two-sided stencil; a pixel whose count ends at zero is lit. Vertices at infinity are homogeneous; `far=clamp` keeps the
+// camera's far plane and clamps depth (the paper's section 3.4), `far=infinity` draws depth again under P_inf.
 #include "techniques/entries.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
@@ -151,17 +151,17 @@ private:
     std::optional<gl::Texture> ownDepth_;
 };
 
-}  // namespace
+} // namespace
 
 Entry volumeZfail() {
     return {.id = "volume-zfail",
             .title = "Stencil shadow volumes, depth-fail",
             .source = {Seed::Course, "Practical and Robust Stenciled Shadow Volumes; Zápotocký 2.4.4"},
             .answer = Answer::Hard,
-            .parameters = {{"far", "clamp", OneOf{{"clamp", "infinity"}}, "clamp depth, or put the far plane at infinity (P_inf)",
-                            "course, 3.2.1 and 3.4"}},
+            .parameters = {{"far", "clamp", OneOf{{"clamp", "infinity"}},
+                            "clamp depth, or put the far plane at infinity (P_inf)", "course, 3.2.1 and 3.4"}},
             .variants = {""},
             .make = [](const Parameters& p) { return std::make_unique<VolumeZfail>(p); }};
 }
 
-}  // namespace shadowbench::techniques
+} // namespace shadowbench::techniques

@@ -1,0 +1,87 @@
+#include "groundtruth/cache.h"
+
+#include "groundtruth/reference_files.h"
+#include "harness/scene/error.h"
+#include "harness/scene/files.h"
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <pwd.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+std::filesystem::path variable(const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+std::filesystem::path home() {
+    if (std::filesystem::path folder = variable("HOME"); !folder.empty()) return folder;
+    const passwd* user = getpwuid(getuid());
+    if (user == nullptr || user->pw_dir == nullptr)
+        throw BadInput("there is no home folder to keep references in: set SHADOWBENCH_CACHE to a folder");
+    return user->pw_dir;
+}
+
+bool isKey(std::string_view key) {
+    constexpr std::size_t digits = 32;
+    return key.size() == digits && key.find_first_not_of("0123456789abcdef") == key.npos;
+}
+
+/// Nothing, after a warning, if the file cannot be read (which says nothing of what it holds, so it stays).
+std::optional<std::string> contents(const std::filesystem::path& file) {
+    try {
+        return readFile(file);
+    } catch (const BadInput& error) {
+        fmt::print(stderr, "warning: a stored reference is not used: {}\n", error.what());
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
+std::filesystem::path defaultCacheFolder() {
+    if (std::filesystem::path own = variable("SHADOWBENCH_CACHE"); !own.empty()) return own;
+    // The XDG specification has relative paths ignored.
+    if (const std::filesystem::path xdg = variable("XDG_CACHE_HOME"); xdg.is_absolute()) return xdg / "shadowbench";
+    return home() / ".cache" / "shadowbench";
+}
+
+std::filesystem::path Cache::entry(const std::string& key) const {
+    if (!isKey(key)) throw InternalError(fmt::format("\"{}\" is not the key of a reference", key));
+    return folder_ / key.substr(0, 2) / (key + ".ref");
+}
+
+std::optional<Reference> Cache::find(const std::string& key) const {
+    const std::filesystem::path file = entry(key);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+    const std::optional<std::string> bytes = contents(file);
+    if (!bytes) return std::nullopt;
+    try {
+        return decode(*bytes, key);
+    } catch (const BadInput& damage) {
+        std::filesystem::remove(file, error);
+        const std::string_view outcome = error ? "it cannot be removed" : "it was removed and will be computed again";
+        fmt::print(stderr, "warning: {}: {}; {}\n", file.string(), damage.what(), outcome);
+        return std::nullopt;
+    }
+}
+
+void Cache::store(const Reference& reference) const { writeFile(entry(reference.provenance.key), encode(reference)); }
+
+Reference Cache::get(const Request& request, const Progress& progress) const {
+    if (std::optional<Reference> known = find(key(request))) return std::move(*known);
+    Reference reference = compute(request, progress);
+    try {
+        store(reference);
+    } catch (const InternalError& error) {
+        fmt::print(stderr, "warning: the reference is not kept for the next run: {}\n", error.what());
+    }
+    return reference;
+}
+
+} // namespace shadowbench::groundtruth

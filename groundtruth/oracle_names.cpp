@@ -1,0 +1,37 @@
+// The oracles' names on the command line.
+#include "groundtruth/reference.h"
+
+#include "harness/scene/error.h"
+#include "harness/scene/files.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <utility>
+#include <vector>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+constexpr std::array<std::pair<Oracle, std::string_view>, 4> oracles{
+    {{Oracle::Auto, "auto"}, {Oracle::Polygon, "polygon"}, {Oracle::Rays, "rays"}, {Oracle::PovRay, "povray"}}};
+
+} // namespace
+
+std::string_view name(Oracle oracle) {
+    for (const auto& [value, text] : oracles)
+        if (value == oracle) return text;
+    return "";
+}
+
+Oracle oracleNamed(std::string_view name) {
+    std::vector<std::string> known;
+    for (const auto& [value, text] : oracles) {
+        if (text == name) return value;
+        known.emplace_back(text);
+    }
+    const std::string near = didYouMean(name, known);
+    throw BadInput(fmt::format("unknown oracle \"{}\": {}{}valid are auto, polygon, rays and povray", name, near,
+                               near.empty() ? "" : " "));
+}
+
+} // namespace shadowbench::groundtruth

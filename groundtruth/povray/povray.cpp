@@ -1,0 +1,196 @@
+#include "groundtruth/povray/povray.h"
+
+#include "groundtruth/povray/process.h"
+#include "groundtruth/povray/temporary_folder.h"
+#include "harness/scene/error.h"
+#include "harness/scene/image_io.h"
+
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <system_error>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+constexpr const char* sceneName = "scene.pov";
+constexpr const char* imageName = "image.png";
+constexpr std::size_t longestMessage = 300; // of POV-Ray's, in our one sentence
+
+/// Gathers what matters of POV-Ray's messages: the progress and the first line that names an error.
+class Messages {
+public:
+    explicit Messages(const Progress& progress) : progress_(progress) {}
+
+    void operator()(std::string_view line) {
+        if (isProgress(line)) return;
+        if (continues_ && line.starts_with(' ')) { // POV-Ray wraps at 80 columns and indents the rest by one
+            if (error_.size() < longestMessage) error_ += line;
+            return;
+        }
+        continues_ = error_.empty() && isError(line);
+        if (continues_) error_ = line;
+        if (!line.empty()) last_ = line;
+    }
+
+    /// The first error line, else the last line of all; bounded, printable.
+    [[nodiscard]] std::string relevant() const {
+        std::string text = (error_.empty() ? last_ : error_).substr(0, longestMessage);
+        for (char& c : text)
+            if (static_cast<unsigned char>(c) < ' ') c = ' ';
+        return text.empty() ? "no message" : text;
+    }
+
+private:
+    bool isProgress(std::string_view line) const {
+        long done = 0, all = 0;
+        if (std::sscanf(std::string(line).c_str(), "Rendered %ld of %ld pixels", &done, &all) != 2) return false;
+        if (progress_ && all > 0) progress_(static_cast<double>(done) / static_cast<double>(all), "POV-Ray");
+        return true;
+    }
+    static bool isError(std::string_view line) {
+        if (line.find("user configuration file") != line.npos) return false; // absent by intent: HOME is private
+        return line.find("rror") != line.npos || line.find("annot") != line.npos;
+    }
+
+    const Progress& progress_;
+    std::string error_, last_;
+    bool continues_ = false;
+};
+
+std::filesystem::path program(const PovRayOptions& options) {
+    if (const auto found = findProgram(options.program)) return *found;
+    throw Inconclusive(
+        fmt::format("cannot compute soft shadows: the program {} is missing; install it with apt-get install povray",
+                    options.program.string()));
+}
+
+bool diskIsFull(const std::filesystem::path& folder) {
+    constexpr std::uintmax_t little = 64 * 1024;
+    std::error_code error;
+    const std::filesystem::space_info space = std::filesystem::space(folder, error);
+    return !error && space.available < little;
+}
+
+[[noreturn]] void throwDiskFull(const std::filesystem::path& folder) {
+    throw Inconclusive(fmt::format("POV-Ray could not render: the disk of {} is full; free some space or set TMPDIR",
+                                   folder.parent_path().string()));
+}
+
+void writeScene(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream stream(file, std::ios::binary);
+    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+    stream.close();
+    if (stream) return;
+    if (diskIsFull(file.parent_path())) throwDiskFull(file.parent_path());
+    throw Inconclusive(fmt::format("cannot write the POV-Ray scene in {}: {}", file.parent_path().parent_path().string(),
+                                   std::generic_category().message(errno)));
+}
+
+void requireSuccess(const Finished& finished, const Messages& messages, const Command& command) {
+    const double seconds = std::chrono::duration<double>(command.limit).count();
+    if (finished.timedOut)
+        throw Inconclusive(
+            fmt::format("POV-Ray was stopped after its limit of {:g} s; ask for fewer samples or pixels", seconds));
+    if (finished.signal == 0 && finished.exitCode == 0) return;
+    if (diskIsFull(command.folder)) throwDiskFull(command.folder);
+    if (finished.signal != 0)
+        throw Inconclusive(fmt::format("POV-Ray was killed by signal {} ({}): {}; run it again", finished.signal,
+                                       strsignal(finished.signal), messages.relevant()));
+    throw Inconclusive(
+        fmt::format("POV-Ray failed with exit code {}: {}; run it again", finished.exitCode, messages.relevant()));
+}
+
+/// A channel holds k/unit for a whole k ≤ most; anything else means that POV-Ray did not render the scene that was written.
+Image<int> counts(const Image<float>& channel, double unit, int most) {
+    constexpr double tolerance = 0.25; // of one sample; PNG16's rounding is at most 0.13 at mostLightSamples
+    Image<int> result(channel.width(), channel.height());
+    for (std::size_t i = 0; i < channel.size(); ++i) {
+        const double value = channel[i] * unit;
+        const double count = std::rint(value);
+        if (!(std::abs(value - count) <= tolerance) || count < 0 || count > most)
+            throw Inconclusive(fmt::format("POV-Ray's image is not a count of light samples: {:g} of {}", value, most));
+        result[i] = static_cast<int>(count);
+    }
+    return result;
+}
+
+Image<float> fraction(const Image<int>& visible, int samples) {
+    Image<float> result(visible.width(), visible.height());
+    for (std::size_t i = 0; i < visible.size(); ++i)
+        result[i] = static_cast<float>(static_cast<double>(visible[i]) / samples);
+    return result;
+}
+
+Image<float> readImage(const std::filesystem::path& file, int channel, glm::ivec2 size) {
+    try {
+        Image<float> image = readChannel(file, channel);
+        if (image.width() == size.x && image.height() == size.y) return image;
+    } catch (const Error&) {
+        // The reader's sentence names a temporary file that will be gone: ours says what the caller can act on.
+    }
+    if (diskIsFull(file.parent_path())) throwDiskFull(file.parent_path());
+    throw Inconclusive("POV-Ray ended without a complete image; run it again");
+}
+
+PovRayImage decode(const std::filesystem::path& file, glm::ivec2 size, int samples) {
+    const int first = (samples + 1) / 2;
+    const int second = samples - first;
+    const double unit = std::bit_ceil(static_cast<unsigned>(first)); // P of povrayScene
+    const Image<int> red = counts(readImage(file, 0, size), unit, first);
+    const Image<int> green = counts(readImage(file, 1, size), unit, second);
+
+    Image<int> all = red;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += green[i];
+    PovRayImage result{fraction(all, samples), fraction(red, first), fraction(green, second), {size.x, size.y}, 0};
+    const Image<float> blue = readImage(file, 2, size);
+    for (std::size_t i = 0; i < blue.size(); ++i) result.hit[i] = blue[i] > 0.25F ? 1 : 0;
+    return result;
+}
+
+} // namespace
+
+PovRayImage renderPovRay(const Snapshot& snapshot, glm::ivec2 size, int samples, const PovRayOptions& options,
+                         const Progress& progress) {
+    const std::string text = povrayScene(snapshot, size, samples);
+    const std::filesystem::path found = program(options);
+    const TemporaryFolder folder;
+    writeScene(folder.path() / sceneName, text);
+
+    Command command{found, {}, folder.path()};
+    command.arguments = {fmt::format("+I{}", sceneName),       fmt::format("+O{}", imageName), "+FN16", "File_Gamma=1.0",
+                         fmt::format("+W{}", size.x),          fmt::format("+H{}", size.y),    "-D",    "-A",
+                         fmt::format("+WT{}", options.threads)};
+    command.limit = options.limit;
+    command.cpuLimit = std::chrono::ceil<std::chrono::seconds>(options.limit) * options.threads + std::chrono::seconds(1);
+    command.fileLimit =
+        (std::uintmax_t{64} << 20) + std::uintmax_t{32} * static_cast<unsigned>(size.x) * static_cast<unsigned>(size.y);
+
+    Messages messages(progress);
+    const Finished finished = runProcess(command, std::ref(messages));
+    requireSuccess(finished, messages, command);
+    PovRayImage image = decode(folder.path() / imageName, size, samples);
+    image.scale = povrayScale(snapshot);
+    return image;
+}
+
+std::string povrayVersion(const PovRayOptions& options) {
+    const TemporaryFolder folder;
+    std::string version;
+    const Command command{program(options), {"--version"}, folder.path()};
+    runProcess(command, [&version](std::string_view line) {
+        for (const std::string_view start : {"POV-Ray ", "Persistence of Vision(tm) Ray Tracer Version "})
+            if (version.empty() && line.starts_with(start))
+                version = line.substr(start.size(), line.find(' ', start.size()) - start.size());
+    });
+    if (version.empty())
+        throw Inconclusive(
+            fmt::format("{} --version names no POV-Ray; install it with apt-get install povray", command.program.string()));
+    return version;
+}
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,244 @@
+#include "groundtruth/povray/process.h"
+
+#include "harness/scene/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t longestLine = 4096; // a child that never ends a line must not fill our memory
+
+/// A file descriptor that closes itself.
+class Descriptor {
+public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    ~Descriptor() { close(); }
+    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    Descriptor& operator=(Descriptor&&) = delete;
+
+    [[nodiscard]] int get() const { return fd_; }
+    void close() {
+        if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+    }
+
+private:
+    int fd_;
+};
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+std::pair<Descriptor, Descriptor> makePipe() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Inconclusive("cannot start a program: " + reason(errno));
+    return {Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
+void limit(__rlimit_resource resource, rlim_t value) {
+    const rlimit both{value, value};
+    setrlimit(resource, &both);
+}
+
+/// Everything the child needs, laid out before the fork: afterwards only async-signal-safe calls are allowed.
+struct Launch {
+    const Command& command;
+    std::vector<std::string> words, variables;
+    std::vector<char*> argv, envp;
+
+    explicit Launch(const Command& c) : command(c) {
+        words.push_back(c.program.string());
+        words.insert(words.end(), c.arguments.begin(), c.arguments.end());
+        const char* path = std::getenv("PATH");
+        variables = {"HOME=" + c.folder.string(), "TMPDIR=" + c.folder.string(), "LC_ALL=C",
+                     std::string("PATH=") + (path != nullptr ? path : "/usr/bin:/bin")};
+        for (std::string& word : words) argv.push_back(word.data());
+        for (std::string& variable : variables) envp.push_back(variable.data());
+        argv.push_back(nullptr);
+        envp.push_back(nullptr);
+    }
+
+    /// In the child. Reports errno through `failure` when the program cannot be run.
+    [[noreturn]] void exec(pid_t parent, int output, int failure) const {
+        setpgid(0, 0);
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (getppid() != parent) _exit(127); // it died before the line above took effect
+        limit(RLIMIT_CORE, 0);
+        limit(RLIMIT_CPU, static_cast<rlim_t>(command.cpuLimit.count()));
+        limit(RLIMIT_FSIZE, command.fileLimit);
+        sigset_t none;
+        sigemptyset(&none);
+        sigprocmask(SIG_SETMASK, &none, nullptr);
+        std::signal(SIGPIPE, SIG_DFL);
+
+        const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+        if (nothing >= 0 && dup2(nothing, 0) >= 0 && dup2(output, 1) >= 0 && dup2(output, 2) >= 0 &&
+            chdir(command.folder.c_str()) == 0)
+            execve(argv[0], argv.data(), envp.data());
+        const int error = errno;
+        [[maybe_unused]] const ssize_t written = write(failure, &error, sizeof error);
+        _exit(127);
+    }
+};
+
+/// A running child, killed with its group when it goes out of scope.
+class Child {
+public:
+    explicit Child(pid_t pid) : pid_(pid) {}
+    ~Child() {
+        if (pid_ > 0) kill();
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    /// The status if it has ended.
+    std::optional<int> poll() {
+        siginfo_t info{};
+        // WNOWAIT keeps the process id taken, so that the group can still be killed safely before it is reaped.
+        if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == 0)
+            return std::nullopt;
+        return kill();
+    }
+
+    /// Ends the whole group and returns the child's status.
+    int kill() {
+        ::kill(-pid_, SIGKILL);
+        int status = 0;
+        while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+        }
+        pid_ = -1;
+        return status;
+    }
+
+private:
+    pid_t pid_;
+};
+
+/// Cuts a stream of bytes into lines.
+class Lines {
+public:
+    explicit Lines(const OnLine& onLine) : onLine_(onLine) {}
+
+    void add(std::string_view bytes) {
+        for (const char c : bytes) {
+            if (c == '\n' || c == '\r')
+                flush();
+            else if (line_.size() < longestLine)
+                line_ += c;
+        }
+    }
+    void flush() {
+        if (!line_.empty() && onLine_) onLine_(line_);
+        line_.clear();
+    }
+
+private:
+    const OnLine& onLine_;
+    std::string line_;
+};
+
+bool readable(int fd, std::chrono::milliseconds wait) {
+    pollfd watched{fd, POLLIN, 0};
+    return ::poll(&watched, 1, static_cast<int>(wait.count())) > 0;
+}
+
+/// Passes on what is there; false at the end of the stream.
+bool readSome(int fd, Lines& lines) {
+    std::array<char, 8192> buffer{};
+    const ssize_t count = read(fd, buffer.data(), buffer.size());
+    if (count < 0) return errno == EINTR;
+    lines.add({buffer.data(), static_cast<std::size_t>(count)});
+    return count > 0;
+}
+
+/// Why the child could not run the program; 0 when it does (the pipe closes on exec).
+int startError(int fd) {
+    int error = 0;
+    ssize_t count = 0;
+    do {
+        count = read(fd, &error, sizeof error);
+    } while (count < 0 && errno == EINTR);
+    return count == sizeof error ? error : 0;
+}
+
+Finished decoded(int status) {
+    if (WIFSIGNALED(status)) return {0, WTERMSIG(status), false};
+    return {WEXITSTATUS(status), 0, false};
+}
+
+bool executable(const std::filesystem::path& file) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
+}
+
+} // namespace
+
+std::optional<std::filesystem::path> findProgram(const std::filesystem::path& name) {
+    if (name.has_parent_path()) return executable(name) ? std::optional(std::filesystem::absolute(name)) : std::nullopt;
+    const char* variable = std::getenv("PATH");
+    std::string_view rest = variable != nullptr ? variable : "/usr/bin:/bin";
+    while (!rest.empty()) {
+        const std::size_t colon = std::min(rest.find(':'), rest.size());
+        const std::filesystem::path folder(rest.substr(0, colon));
+        if (!folder.empty() && executable(folder / name)) return std::filesystem::absolute(folder / name);
+        rest.remove_prefix(std::min(colon + 1, rest.size()));
+    }
+    return std::nullopt;
+}
+
+Finished runProcess(const Command& command, const OnLine& onLine) {
+    const Launch launch(command);
+    auto [output, outputEnd] = makePipe();
+    auto [failure, failureEnd] = makePipe();
+
+    const pid_t parent = getpid();
+    const pid_t pid = fork();
+    if (pid < 0) throw Inconclusive(fmt::format("cannot start {}: {}", command.program.string(), reason(errno)));
+    if (pid == 0) launch.exec(parent, outputEnd.get(), failureEnd.get());
+
+    Child child(pid);
+    setpgid(pid, pid); // here too: whoever is first, the group exists before anyone kills it
+    outputEnd.close();
+    failureEnd.close();
+    if (const int error = startError(failure.get()))
+        throw Inconclusive(fmt::format("cannot start {}: {}", command.program.string(), reason(error)));
+
+    Lines lines(onLine);
+    const Clock::time_point end = Clock::now() + command.limit;
+    std::optional<int> status;
+    bool open = true;
+    while (!status) {
+        constexpr std::chrono::milliseconds tick{20};
+        if (!open)
+            ::poll(nullptr, 0, static_cast<int>(tick.count()));
+        else if (readable(output.get(), tick))
+            open = readSome(output.get(), lines);
+        status = child.poll();
+        if (!status && Clock::now() >= end) {
+            Finished late = decoded(child.kill());
+            late.timedOut = true;
+            return late;
+        }
+    }
+    while (open && readable(output.get(), {})) open = readSome(output.get(), lines); // what was still in the pipe
+    lines.flush();
+    return decoded(*status);
+}
+
+} // namespace shadowbench::groundtruth

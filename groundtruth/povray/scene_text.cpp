@@ -1,0 +1,115 @@
+// Scene text for POV-Ray. Everything in it is a number or a word of ours: no string of the user's gets into it.
+#include "groundtruth/povray/povray.h"
+
+#include "harness/scene/error.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
+#include <iterator>
+#include <map>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+using Text = fmt::memory_buffer;
+
+constexpr double largestCoordinate = 1e7; // POV-Ray's MAX_DISTANCE
+constexpr double largestScale = 1024;
+
+template <typename... Arguments>
+void add(Text& text, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(text), format, std::forward<Arguments>(arguments)...);
+}
+
+/// Round-trip decimal form.
+std::string vector(const glm::dvec3& v) {
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+        throw BadInput("cannot write the POV-Ray scene: a position or a placement is not finite; correct the scene");
+    return fmt::format("<{:.17g},{:.17g},{:.17g}>", v.x, v.y, v.z);
+}
+
+void addCamera(Text& text, const Camera& camera, glm::ivec2 size, double scale) {
+    const Camera::Basis basis = camera.basis();
+    const double height = 2 * std::tan(0.5 * glm::radians(camera.fovy));
+    const double aspect = static_cast<double>(size.x) / size.y;
+    add(text, "camera {{ perspective location {} direction {} right {} up {} }}\n", vector(scale * camera.eye),
+        vector(basis.forward), vector(height * aspect * basis.right), vector(height * basis.up));
+}
+
+void addMesh(Text& text, const Mesh& mesh, std::size_t number) {
+    add(text, "#declare M{} = mesh2 {{\nvertex_vectors {{ {}", number, mesh.positions.size());
+    for (const glm::vec3& p : mesh.positions) add(text, ",\n{}", vector(p));
+    add(text, "\n}}\nface_indices {{ {}", mesh.triangles.size());
+    for (const glm::uvec3& t : mesh.triangles) add(text, ",\n<{},{},{}>", t.x, t.y, t.z);
+    add(text, "\n}}\n}}\n");
+}
+
+/// POV-Ray multiplies row vectors, so its twelve numbers are the columns of our matrix one after the other.
+void addPlacement(Text& text, const glm::dmat4& world, std::size_t mesh, double scale) {
+    add(text, "object {{ M{} matrix <", mesh);
+    for (int column = 0; column < 4; ++column) {
+        const std::string numbers = vector(scale * glm::dvec3(world[column]));
+        add(text, "{}{}", column == 0 ? "" : ",", numbers.substr(1, numbers.size() - 2));
+    }
+    add(text, "> texture {{ T }} double_illuminate }}\n");
+}
+
+/// One point light a sample; the halves of the set in red and green.
+void addLights(Text& text, const Light& light, int samples, double scale) {
+    const int firstHalf = (samples + 1) / 2;
+    const double brightness = 1.0 / std::bit_ceil(static_cast<unsigned>(firstHalf));
+    for (int i = 0; i < samples; ++i) {
+        const glm::dvec3 colour = i < firstHalf ? glm::dvec3(brightness, 0, 0) : glm::dvec3(0, brightness, 0);
+        add(text, "light_source {{ {} rgb {} }}\n", vector(scale * light.sample(lightSample(i, samples))), vector(colour));
+    }
+}
+
+void requireRenderable(const Snapshot& snapshot, glm::ivec2 size, int samples) {
+    if (!snapshot.light.isArea())
+        throw BadInput(fmt::format("the povray oracle samples area lights, and this light is {}: use polygon or rays",
+                                   name(snapshot.light.kind)));
+    if (samples < 2 || samples > mostLightSamples)
+        throw BadInput(fmt::format("{} light samples asked for: give 2 to {}", samples, mostLightSamples));
+    if (size.x < 1 || size.y < 1) throw BadInput(fmt::format("an image of {} × {} pixels has none", size.x, size.y));
+}
+
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+} // namespace
+
+double povrayScale(const Snapshot& snapshot) {
+    const Light& light = snapshot.light;
+    double world =
+        std::max(largest(snapshot.camera.eye), largest(light.centre) + 0.5 * (largest(light.u) + largest(light.v)));
+    if (const Bounds bounds = snapshot.bounds(); !bounds.empty())
+        world = std::max({world, largest(bounds.low), largest(bounds.high)});
+    double scale = largestScale;
+    while (scale * world >= largestCoordinate && std::isfinite(world)) scale /= 2;
+    return scale;
+}
+
+std::string povrayScene(const Snapshot& snapshot, glm::ivec2 size, int samples) {
+    requireRenderable(snapshot, size, samples);
+    const double scale = povrayScale(snapshot);
+    Text text;
+    // brilliance 0 makes the diffuse term constant; double_illuminate lets a light count whichever side the surface shows.
+    add(text, "#version 3.7;\nglobal_settings {{ assumed_gamma 1.0 }}\n");
+    add(text, "#declare T = texture {{ pigment {{ rgb 1 }} "
+              "finish {{ ambient 0 diffuse 1 brilliance 0 emission rgb <0,0,0.5> }} }}\n");
+    addCamera(text, snapshot.camera, size, scale);
+
+    std::map<const Mesh*, std::size_t> numbers;
+    for (const Batch& batch : snapshot.batches) {
+        const auto [entry, isNew] = numbers.try_emplace(batch.mesh.get(), numbers.size());
+        if (isNew) addMesh(text, *batch.mesh, entry->second);
+        for (const Placement& placement : batch.placements) addPlacement(text, placement.world, entry->second, scale);
+    }
+    addLights(text, snapshot.light, samples, scale);
+    return fmt::to_string(text);
+}
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,55 @@
+#include "groundtruth/povray/uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+/// Calls `visit(x, y)` for the pixels of the surface at (cx, cy) in the (2·radius + 1)² window around it, itself included.
+template <typename Visit>
+void forWindow(const Image<std::uint32_t>& id, int cx, int cy, int radius, const Visit& visit) {
+    for (int y = std::max(0, cy - radius); y <= std::min(id.height() - 1, cy + radius); ++y)
+        for (int x = std::max(0, cx - radius); x <= std::min(id.width() - 1, cx + radius); ++x)
+            if (id(x, y) == id(cx, cy)) visit(x, y);
+}
+
+/// 1 where a pixel or a neighbour on the same surface sees a part of the light, or they differ.
+Image<std::uint8_t> unresolvedPixels(const Image<float>& visible, const Image<std::uint32_t>& id) {
+    Image<std::uint8_t> result(visible.width(), visible.height());
+    for (int y = 0; y < visible.height(); ++y) {
+        for (int x = 0; x < visible.width(); ++x) {
+            if (id(x, y) == 0) continue;
+            const float here = visible(x, y);
+            bool resolved = here == 0 || here == 1;
+            forWindow(id, x, y, 1, [&](int nx, int ny) { resolved = resolved && visible(nx, ny) == here; });
+            result(x, y) = resolved ? 0 : 1;
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+Image<float> samplingUncertainty(const PovRayImage& image, const Image<std::uint32_t>& id, int samples) {
+    const Image<std::uint8_t> unresolved = unresolvedPixels(image.visible, id);
+    const double rounding = 1.0 / (12.0 * samples * samples);
+    Image<float> sigma(id.width(), id.height());
+    for (int y = 0; y < id.height(); ++y) {
+        for (int x = 0; x < id.width(); ++x) {
+            if (unresolved(x, y) == 0) continue;
+            double sum = 0;
+            int count = 0;
+            forWindow(id, x, y, 2, [&](int nx, int ny) {
+                if (unresolved(nx, ny) == 0) return;
+                const double half = 0.5 * (image.firstHalf(nx, ny) - image.secondHalf(nx, ny));
+                sum += half * half;
+                ++count;
+            });
+            sigma(x, y) = static_cast<float>(std::sqrt(sum / count + rounding));
+        }
+    }
+    return sigma;
+}
+
+} // namespace shadowbench::groundtruth

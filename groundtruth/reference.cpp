@@ -1,0 +1,199 @@
+#include "groundtruth/reference.h"
+
+#include "groundtruth/cgal/exact.h"
+#include "groundtruth/povray/povray.h"
+#include "groundtruth/povray/uncertainty.h"
+#include "groundtruth/reference_tools.h"
+#include "harness/scene/error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <limits>
+#include <thread>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+constexpr int referenceCodeVersion =
+    1; // of this file and the uncertainty: raise it with every change that can alter a number
+
+/// Two oracles that see the same geometry differ on isolated silhouette pixels only (METRICS.md: primary_mismatch).
+constexpr double mostPrimaryMismatch = 0.001;
+/// A light moved by more than its own size is far above this; an occluder too thin for the samples stays below.
+constexpr double mostLightMismatch = 0.01;
+
+int threads() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+
+void requireAnswerable(const Request& request) {
+    if (request.size.x < 1 || request.size.y < 1)
+        throw BadInput(fmt::format("a reference of {} × {} pixels has none: give a size of at least 1 × 1", request.size.x,
+                                   request.size.y));
+    const LightKind kind = request.snapshot.light.kind;
+    const bool area = request.snapshot.light.isArea();
+    if (area && (request.oracle == Oracle::Polygon || request.oracle == Oracle::Rays))
+        throw BadInput(
+            fmt::format("the {} oracle answers for point and directional lights, and this light is a {}: use povray",
+                        name(request.oracle), name(kind)));
+    if (!area && request.oracle == Oracle::PovRay)
+        throw BadInput(
+            fmt::format("the povray oracle samples area lights, and this light is {}: use polygon or rays", name(kind)));
+}
+
+/// The part [from, to] of the whole progress.
+Progress part(const Progress& progress, double from, double to) {
+    if (!progress) return {};
+    return [&progress, from, to](double done, std::string_view what) { progress(from + (to - from) * done, what); };
+}
+
+/// A reference that knows its surfaces and nothing of the light.
+Reference unlabelled(const PrimaryHits& primary) {
+    const int width = primary.id.width(), height = primary.id.height();
+    Reference reference;
+    reference.visibility = Image<float>(width, height, 0);
+    reference.sigma = Image<float>(width, height, 0);
+    reference.edgeDistance = Image<float>(width, height, std::numeric_limits<float>::infinity());
+    reference.surface = primary.surface;
+    reference.id = primary.id;
+    reference.position = primary.position;
+    return reference;
+}
+
+double primaryMismatch(const PovRayImage& image, const PrimaryHits& primary) {
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < primary.id.size(); ++i) differing += (image.hit[i] != 0) != (primary.id[i] != 0);
+    return static_cast<double>(differing) / static_cast<double>(primary.id.size());
+}
+
+/// Exact labels for the light's centre against pixels that POV-Ray sees as fully lit or fully shadowed.
+double lightMismatch(const Request& request, const PrimaryHits& primary, const Image<float>& visible,
+                     const Progress& progress) {
+    Snapshot centre = request.snapshot;
+    centre.light = centre.light.centreOnly();
+    Reference hard = unlabelled(primary);
+    ExactScene(centre, threads()).labelByRays(request.size, primary, hard, progress);
+
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < visible.size(); ++i) {
+        const bool resolved = visible[i] == 0 || visible[i] == 1;
+        if (resolved && hard.surface[i] == Surface::Receiver && hard.visibility[i] != visible[i]) ++differing;
+    }
+    return static_cast<double>(differing) / static_cast<double>(visible.size());
+}
+
+void requireAligned(const std::map<std::string, double>& measured) {
+    const double primary = measured.at("primary_mismatch");
+    if (primary > mostPrimaryMismatch)
+        throw InternalError(fmt::format(
+            "POV-Ray and the exact primary hits disagree on {:.2f} % of the pixels (at most {:.1f} %): the cameras "
+            "are misaligned, or the camera's near or far plane cuts through the scene",
+            100 * primary, 100 * mostPrimaryMismatch));
+    const double light = measured.at("light_mismatch");
+    if (light > mostLightMismatch)
+        throw InternalError(
+            fmt::format("POV-Ray and the exact hard shadow of the light's centre contradict each other on {:.2f} % of the "
+                        "pixels (at most {:.0f} %): the lights are misaligned",
+                        100 * light, 100 * mostLightMismatch));
+}
+
+Reference softReference(const Request& request, const Progress& progress) {
+    const PrimaryHits primary = primaryHits(request.snapshot, request.size, part(progress, 0, 0.05));
+    const PovRayImage image =
+        renderPovRay(request.snapshot, request.size, request.samples, {.threads = threads()}, part(progress, 0.05, 0.95));
+
+    Reference reference = unlabelled(primary);
+    reference.provenance.oracle = "povray";
+    reference.provenance.samples = request.samples;
+    reference.provenance.measured = {
+        {"primary_mismatch", primaryMismatch(image, primary)},
+        {"light_mismatch", lightMismatch(request, primary, image.visible, part(progress, 0.95, 1))},
+        {"scale", image.scale}};
+    requireAligned(reference.provenance.measured);
+
+    const Image<float> sigma = samplingUncertainty(image, primary.id, request.samples);
+    for (std::size_t i = 0; i < primary.surface.size(); ++i) {
+        if (primary.surface[i] != Surface::Receiver) continue;
+        reference.visibility[i] = image.visible[i];
+        reference.sigma[i] = sigma[i];
+    }
+    return reference;
+}
+
+/// 1 at the receiver pixels that one of `planes` holds.
+Image<std::uint8_t> onPlanes(const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
+    Image<std::uint8_t> result(primary.id.width(), primary.id.height());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        if (primary.surface[i] != Surface::Receiver) continue;
+        const bool held = std::ranges::any_of(planes, [&](const PlanarReceiver& plane) {
+            return plane.id == primary.id[i] && std::ranges::binary_search(plane.triangles, primary.triangle[i]);
+        });
+        result[i] = held ? 1 : 0;
+    }
+    return result;
+}
+
+Reference byRays(const Request& request, const ExactScene& scene, const PrimaryHits& primary, const Progress& progress) {
+    Reference reference = unlabelled(primary);
+    scene.labelByRays(request.size, primary, reference, progress);
+    reference.provenance.oracle = "rays";
+    return reference;
+}
+
+/// Receivers off every plane have no label.
+Reference withoutLabels(const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
+    Reference reference = unlabelled(primary);
+    const Image<std::uint8_t> held = onPlanes(primary, planes);
+    for (std::size_t i = 0; i < held.size(); ++i)
+        if (primary.surface[i] == Surface::Receiver && held[i] == 0) reference.surface[i] = Surface::OnEdge;
+    return reference;
+}
+
+Reference hardReference(const Request& request, const Progress& progress) {
+    const ExactScene scene(request.snapshot, threads());
+    const PrimaryHits primary = scene.primaryHits(request.size, part(progress, 0, 0.3));
+    if (request.oracle == Oracle::Rays) return byRays(request, scene, primary, part(progress, 0.3, 1));
+
+    const std::vector<PlanarReceiver> planes = scene.planarReceivers(primary);
+    const bool polygonOnly = request.oracle == Oracle::Polygon;
+    if (planes.empty() && polygonOnly)
+        throw BadInput(
+            "the polygon oracle needs a planar receiver, and none of this scene's covers enough of the image: use rays");
+
+    Reference reference =
+        polygonOnly ? withoutLabels(primary, planes) : byRays(request, scene, primary, part(progress, 0.3, 0.6));
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const double step = 0.4 / static_cast<double>(planes.size());
+        const double from = 0.6 + step * static_cast<double>(i);
+        scene.labelByPolygon(request.size, primary, planes[i], reference, part(progress, from, from + step));
+    }
+    const Image<std::uint8_t> held = onPlanes(primary, planes);
+    const auto receivers = std::ranges::count(primary.surface, Surface::Receiver);
+    const bool all = polygonOnly || (!planes.empty() && std::ranges::count(held, 1) == receivers);
+    reference.provenance.oracle = all ? "polygon" : planes.empty() ? "rays" : "polygon+rays";
+    return reference;
+}
+
+} // namespace
+
+std::map<std::string, std::string> toolVersions(const Request& request) {
+    std::map<std::string, std::string> tools = exactTools();
+    tools["reference"] = std::to_string(referenceCodeVersion);
+    if (!request.snapshot.light.isArea()) return tools;
+    tools["povray"] = povrayVersion();
+    tools["povray recipe"] = std::to_string(povrayCodeVersion);
+    return tools;
+}
+
+Reference compute(const Request& request, const Progress& progress) {
+    requireAnswerable(request);
+    const auto start = std::chrono::steady_clock::now();
+    std::string content = key(request); // first: a missing tool is reported before any work
+    Reference reference =
+        request.snapshot.light.isArea() ? softReference(request, progress) : hardReference(request, progress);
+    reference.provenance.key = std::move(content);
+    reference.provenance.tools = toolVersions(request);
+    reference.provenance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return reference;
+}
+
+} // namespace shadowbench::groundtruth

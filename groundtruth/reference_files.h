@@ -1,0 +1,25 @@
+// References as bytes (the cache's entry) and as files for people (the `reference` verb).
+#pragma once
+
+#include "groundtruth/reference.h"
+
+#include <filesystem>
+#include <string_view>
+
+namespace shadowbench::groundtruth {
+
+/// One line of JSON (format version, key, size, provenance), the images as little-endian arrays, and the XXH3-64 of all
+/// before.
+std::string encode(const Reference& reference);
+
+/// The inverse. Throws BadInput saying what is wrong (too short, checksum, version, another key, sizes) with damaged bytes.
+Reference decode(std::string_view bytes, std::string_view key);
+
+/// The provenance as JSON text, indented, ending in a new line.
+std::string provenanceJson(const Provenance& provenance);
+
+/// Writes `visibility.exr` (float channels V, sigma, mask: 1 at scored receivers, else 0, and edge_distance in pixels,
+/// infinity where there is none) and `provenance.json` into `folder`. Throws InternalError when a file cannot be written.
+void writeReference(const Reference& reference, const std::filesystem::path& folder);
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,113 @@
+// Curves over the still frames from an empty history (the dissertation's Figs. 3.9 and 4.5).
+#include "harness/report/charts.h"
+#include "harness/report/gnuplot.h"
+#include "harness/report/summary.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace shadowbench::report {
+namespace {
+
+constexpr int width = 960, plotHeight = 400, keyRow = 22; // pixels
+constexpr double top = 84, bottomMargin = 62;
+
+struct Curve {
+    std::string variant;
+    std::vector<double> values; // by frame, from 1
+    std::size_t style;          // the same in both panels
+};
+
+struct Panel {
+    std::string title;
+    bool share;
+    std::vector<Curve> curves;
+};
+
+std::vector<Curve> curvesOf(const std::vector<Record>& records, const std::vector<std::size_t>& shownRecords,
+                            const std::vector<double> Stability::*member) {
+    std::vector<Curve> curves;
+    for (std::size_t style = 0; style < shownRecords.size(); ++style) {
+        const Record& record = records[shownRecords[style]];
+        if (const std::vector<double>& values = record.stability.*member; !values.empty())
+            curves.push_back({record.variant, values, style});
+    }
+    return curves;
+}
+
+std::vector<std::size_t> recordsWithCurves(const std::vector<Record>& records, const std::string& scene, bool soft) {
+    std::vector<std::size_t> result;
+    for (const std::size_t i : ofScene(records, scene)) {
+        const Stability& s = records[i].stability;
+        const std::vector<double>& error = soft ? s.rmseByFrame : s.mismatchByFrame;
+        if (!error.empty() || !s.changedByFrame.empty()) result.push_back(i);
+    }
+    return result;
+}
+
+std::string lineStyle(std::size_t style) {
+    return fmt::format("lw 2 dt {} lc rgb '{}'", 1 + style / 7, colour(style)); // a new dash once the colours are used up
+}
+
+std::string panelScript(const Panel& panel, std::size_t column, std::size_t columns, double height) {
+    const double share = 1.0 / static_cast<double>(columns);
+    const double start = static_cast<double>(column) * share;
+    std::vector<double> all;
+    for (const Curve& curve : panel.curves) all.insert(all.end(), curve.values.begin(), curve.values.end());
+    const LogAxis axis(all);
+
+    std::string script = fmt::format(
+        "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n",
+        start + 0.085, start + share - 0.02, 1 - top / height, 1 - (plotHeight - bottomMargin) / height);
+    script += fmt::format("set title {} font ',14' offset 0,-0.4\n", literal(panel.title));
+    script += "set xlabel 'frame'\nset xrange [1:*]\n" + axis.script("y", panel.share ? 100 : 1, panel.share ? " %" : "");
+    std::string plots;
+    for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+        script += fmt::format("$curve{}_{} << EOD\n", column, i);
+        for (std::size_t frame = 0; frame < panel.curves[i].values.size(); ++frame)
+            script += fmt::format("{} {}\n", frame + 1, axis.drawn(panel.curves[i].values[frame]));
+        script += "EOD\n";
+        plots += fmt::format("{}$curve{}_{} with lines {} notitle", i == 0 ? "plot " : ", ", column, i,
+                             lineStyle(panel.curves[i].style));
+    }
+    return script + plots + "\nunset label\nunset arrow\n";
+}
+
+/// Scene name and the legend of all curves, two a row, under the panels.
+std::string furniture(const std::vector<std::string>& variants, const std::string& scene, double height) {
+    std::string script = fmt::format("set label {} at screen 0.085, screen {} left font ',18'\n",
+                                     literal(scene + ": convergence from an empty history"), 1 - 24 / height);
+    for (std::size_t style = 0; style < variants.size(); ++style) {
+        const double x = style % 2 == 0 ? 0.085 : 0.585;
+        const double y = 1 - (plotHeight + keyRow * (0.5 + static_cast<double>(style / 2))) / height;
+        script += fmt::format("set arrow from screen {0}, screen {1} to screen {2}, screen {1} nohead {3}\n", x, y,
+                              x + 0.035, lineStyle(style));
+        script +=
+            fmt::format("set label {} at screen {}, screen {} left font ',13'\n", literal(variants[style]), x + 0.045, y);
+    }
+    return script;
+}
+
+} // namespace
+
+std::optional<std::string> convergenceChart(const std::vector<Record>& records, const std::string& scene) {
+    const std::string metric = headlineMetric(records, scene);
+    const bool soft = metric == "rmse";
+    const std::vector<std::size_t> shownRecords = recordsWithCurves(records, scene, soft);
+    std::vector<Panel> panels{
+        {"error against the truth: " + meaning(metric), isShare(metric),
+         curvesOf(records, shownRecords, soft ? &Stability::rmseByFrame : &Stability::mismatchByFrame)},
+        {"pixels > 30/255 off the technique's own last frame", true,
+         curvesOf(records, shownRecords, &Stability::changedByFrame)}};
+    std::erase_if(panels, [](const Panel& panel) { return panel.curves.empty(); });
+    if (panels.empty()) return {};
+
+    std::vector<std::string> variants;
+    for (const std::size_t i : shownRecords) variants.push_back(records[i].variant);
+    const int height = plotHeight + keyRow * static_cast<int>((variants.size() + 1) / 2) + 10;
+    std::string script = "set multiplot\n" + furniture(variants, scene, height);
+    for (std::size_t i = 0; i < panels.size(); ++i) script += panelScript(panels[i], i, panels.size(), height);
+    return svgOf(script + "unset multiplot\n", width, height);
+}
+
+} // namespace shadowbench::report

@@ -1,0 +1,115 @@
+// Records as comma-separated values (RFC 4180): one column a number or text of the record, lists left out.
+#include "harness/records/fields.h"
+#include "harness/report/report.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace shadowbench::report {
+namespace {
+
+std::string quoted(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string result = "\"";
+    for (const char letter : text) {
+        if (letter == '"') result += '"';
+        result += letter;
+    }
+    return result + "\"";
+}
+
+std::string written(const std::string& text) { return quoted(text); }
+std::string written(Status status) { return std::string(name(status)); }
+std::string written(bool value) { return value ? "true" : "false"; }
+template <typename T>
+requires std::is_arithmetic_v<T> std::string written(T value) {
+    return fmt::format("{}", value); // the shortest text that reads back equal
+}
+
+template <typename T>
+concept Text = requires(const T& value) {
+    written(value);
+};
+
+/// Visits every number and text of a record, there or not, in schema order: collects its column's title and its cell.
+class Flattener {
+public:
+    template <typename T>
+    void operator()(const char* key, const T& value) {
+        optional(key, &value);
+    }
+    template <typename T>
+    void operator()(const char* key, const std::optional<T>& value) {
+        optional(key, value ? &*value : nullptr);
+    }
+    void operator()(const char*, const std::vector<double>&) {}
+    void operator()(const char*, const std::map<std::string, std::string>&) {}
+
+    template <typename Inner>
+    void group(const char* key, bool has, const Inner& inner) {
+        inside(key, has, [&] { inner(*this); });
+    }
+    void text(const char* key, const std::string& value) { add(key, quoted(value)); }
+    void size(const char*, int width, int height) {
+        add("width", written(width));
+        add("height", written(height));
+    }
+    void parameters(const char*, const std::vector<std::pair<std::string, std::string>>&) {} // the variant says them
+
+    [[nodiscard]] std::string titles() const { return line(titles_); }
+    [[nodiscard]] std::string cells() const { return line(cells_); }
+
+private:
+    template <typename T>
+    void optional(const char* key, const T* value) {
+        if constexpr (Text<T>)
+            add(key, value == nullptr ? "" : written(*value));
+        else
+            inside(key, value != nullptr, [&] { records::fields(*this, value == nullptr ? blank<T>() : *value); });
+    }
+
+    template <typename Visit>
+    void inside(const char* key, bool has, const Visit& visit) {
+        const std::string outer = path_;
+        const bool wasPresent = present_;
+        path_ += std::string(key) + ".";
+        present_ = present_ && has;
+        visit();
+        path_ = outer;
+        present_ = wasPresent;
+    }
+
+    template <typename T>
+    static const T& blank() {
+        static const T value{};
+        return value;
+    }
+
+    void add(const char* key, const std::string& cell) {
+        titles_.push_back(path_ + key);
+        cells_.push_back(present_ ? cell : "");
+    }
+
+    static std::string line(const std::vector<std::string>& cells) { return fmt::format("{}\n", fmt::join(cells, ",")); }
+
+    std::string path_;
+    bool present_ = true;
+    std::vector<std::string> titles_, cells_;
+};
+
+} // namespace
+
+std::string csv(const std::vector<Record>& records) {
+    Flattener header;
+    const Record blank;
+    records::fields(header, blank);
+    std::string text = header.titles();
+    for (const Record& record : records) {
+        Flattener row;
+        records::fields(row, record);
+        text += row.cells();
+    }
+    return text;
+}
+
+} // namespace shadowbench::report

@@ -1,0 +1,142 @@
+// The published page: report.md, results.csv and the charts.
+#include "harness/report/charts.h"
+#include "harness/report/report.h"
+#include "harness/report/summary.h"
+#include "harness/scene/files.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace shadowbench::report {
+namespace {
+
+constexpr const char* legend = R"(## The columns
+
+| column | meaning |
+|:---|:---|
+| error | share of receiver pixels with the wrong label (per cent), or, on scenes lit by an area light, root mean square error of visibility |
+| false shadow, leak | share of lit pixels called shadowed, share of shadowed pixels called lit |
+| edge error px | mean distance in pixels from the technique's shadow edge to the exact one |
+| off-edge error | mismatching pixels more than half a pixel from the exact edge |
+| bad30 | share of pixels off by more than 30/255 |
+| SSIM | structural similarity with the truth |
+| penumbra rmse, penumbra width | error in and around the penumbra; relative error of its width |
+| umbra leak | mean visibility where the light is fully hidden |
+| flicker, flips | mean change between moving frames beyond the truth's own; share of pixels whose label changes while the truth's does not |
+| converged at | still frame, counted from 1, from which the error stays within 5 % of its final value |
+| MiB | textures and buffers |
+| cost | frame time, G-buffer included, as a multiple of `sm-uniform` in the same rounds |
+| front | ● no other technique has both less error and less cost |
+
+– does not apply. Pixels count where the rasteriser and the truth see the same receiver.
+)";
+
+/// Distinct descriptions in order of first occurrence, joined.
+template <typename Describe>
+std::string distinct(const std::vector<Record>& records, const Describe& describe) {
+    std::vector<std::string> found;
+    for (const Record& record : records) {
+        const std::string text = describe(record);
+        if (!text.empty() && std::find(found.begin(), found.end(), text) == found.end()) found.push_back(text);
+    }
+    return fmt::format("{}", fmt::join(found, "; "));
+}
+
+std::string environment(const Record& record) {
+    const Environment& e = record.environment;
+    if (e.renderer.empty()) return "";
+    const std::string threads =
+        e.rasterThreads == 0 ? "no raster threads" : fmt::format("{} raster threads", e.rasterThreads);
+    return fmt::format("{}, OpenGL {}, {}, {} bit vectors, {}, {}", e.renderer, e.gl, threads, e.vectorBits, e.cpu,
+                       e.compiler);
+}
+
+std::string tools(const std::optional<ReferenceInfo>& reference) {
+    std::string text;
+    if (!reference) return text;
+    for (const auto& [tool, version] : reference->tools)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", tool, version);
+    return text;
+}
+
+std::string truths(const Record& record) {
+    std::string text;
+    for (const std::optional<ReferenceInfo>& reference : {record.reference, record.softReference}) {
+        if (!reference) continue;
+        const std::string by = tools(reference);
+        text += fmt::format("{}{}{}", text.empty() ? "" : " and ", truth(*reference), by.empty() ? "" : " by " + by);
+    }
+    return text;
+}
+
+std::string commit(const Record& record) { return record.commit + (record.dirty ? " with uncommitted changes" : ""); }
+
+/// The truths of a scene; the longest description is the one of a hard technique beside a soft truth, which names both.
+std::string sceneTruth(const std::vector<Record>& records, const std::string& scene) {
+    std::string longest;
+    for (const std::size_t i : ofScene(records, scene)) {
+        const std::string text = truths(records[i]);
+        if (text.size() > longest.size()) longest = text;
+    }
+    return longest;
+}
+
+std::string sceneSection(const std::vector<Record>& records, const std::string& scene,
+                         const std::vector<std::string>& charts) {
+    const Record& first = records[ofScene(records, scene).front()];
+    const std::string metric = headlineMetric(records, scene);
+    std::string text = fmt::format("## {}\n\n{} pixels, {} frames", markdownText(scene), imageSize(first), first.frames);
+    if (!metric.empty()) text += ", error = " + meaning(metric);
+    const std::string how = sceneTruth(records, scene);
+    text += how.empty() ? ".\n\n" : fmt::format(". Truth: {}.\n\n", markdownText(how));
+    text += markdownTable(records, scene) + "\n";
+    for (const std::string& chart : charts) text += fmt::format("![{}]({})\n\n", chart.substr(0, chart.find('.')), chart);
+    return text;
+}
+
+std::string command(const std::vector<Record>& records) {
+    std::string text = "./bench run";
+    for (const std::string& scene : scenes(records)) text += " --scene " + scene;
+    return text + " --profile " + records.front().profile;
+}
+
+std::string head(const std::vector<Record>& records) {
+    std::string text = "# Shadow techniques against the truth\n\n";
+    if (records.empty()) return text + "No records.\n";
+    text += fmt::format("Commit {}. Measured on {}. Made again by:\n\n```\n{}\n```\n\n", distinct(records, commit),
+                        markdownText(distinct(records, environment)), command(records));
+    return text;
+}
+
+/// A scene id as part of a file name.
+std::string fileStem(const std::string& scene) {
+    std::string stem = scene;
+    std::replace_if(
+        stem.begin(), stem.end(), [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
+    return stem;
+}
+
+} // namespace
+
+Written writeReport(const std::vector<Record>& records, const std::filesystem::path& folder) {
+    Written written{folder / "report.md", {}};
+    std::string page = head(records);
+    for (const std::string& scene : scenes(records)) {
+        std::vector<std::string> charts;
+        const auto keep = [&](const std::string& kind, const std::optional<std::string>& svg) {
+            if (!svg) return;
+            charts.push_back(kind + "-" + fileStem(scene) + ".svg");
+            writeFile(folder / charts.back(), *svg);
+            written.charts.push_back(folder / charts.back());
+        };
+        keep("pareto", paretoChart(records, scene));
+        keep("convergence", convergenceChart(records, scene));
+        page += sceneSection(records, scene, charts);
+    }
+    writeFile(folder / "results.csv", csv(records));
+    writeFile(written.page, page + legend);
+    return written;
+}
+
+} // namespace shadowbench::report

@@ -1,0 +1,171 @@
+#include "harness/report/charts.h"
+#include "harness/report/gnuplot.h"
+#include "harness/report/labels.h"
+#include "harness/report/report.h"
+#include "harness/report/summary.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+namespace shadowbench::report {
+namespace {
+
+constexpr int width = 960, height = 620;
+constexpr double left = 96, right = 936, top = 84, bottom = 540; // of the plot, pixels, y down
+constexpr glm::dvec2 letter(6.9, 16);                            // of a label at 12 points, pixels
+
+struct Point {
+    std::string variant;
+    Place place;
+    bool onFront;
+    bool adequate;
+};
+
+/// Points on the front first, by cost, so that they get the best places for their labels.
+std::vector<Point> points(const std::vector<Record>& records, const std::string& scene) {
+    const std::vector<std::size_t> front = paretoFront(records, scene);
+    const std::optional<Tolerance> limit = tolerance(records, scene);
+    std::vector<std::size_t> order = front;
+    for (const std::size_t i : ofScene(records, scene))
+        if (place(records[i]) && std::find(front.begin(), front.end(), i) == front.end()) order.push_back(i);
+
+    std::vector<Point> result;
+    for (const std::size_t i : order) {
+        const std::optional<double> error = limit ? accuracyMetric(records[i].accuracy, limit->metric) : std::nullopt;
+        result.push_back(
+            {records[i].variant, *place(records[i]), result.size() < front.size(), error && *error <= limit->value});
+    }
+    return result;
+}
+
+class Canvas {
+public:
+    Canvas(LogAxis cost, LogAxis error) : cost_(std::move(cost)), error_(std::move(error)) {}
+
+    [[nodiscard]] glm::dvec2 at(const Place& place) const {
+        return {left + (right - left) * cost_.position(place.cost), bottom - (bottom - top) * error_.position(place.error)};
+    }
+    [[nodiscard]] static std::string screen(glm::dvec2 pixel) {
+        return fmt::format("screen {:.5f}, screen {:.5f}", pixel.x / width, 1 - pixel.y / height);
+    }
+    [[nodiscard]] const LogAxis& cost() const { return cost_; }
+    [[nodiscard]] const LogAxis& error() const { return error_; }
+
+private:
+    LogAxis cost_, error_;
+};
+
+Canvas canvas(const std::vector<Point>& all, const std::optional<double>& toleranceLine) {
+    std::vector<double> costs, errors;
+    for (const Point& point : all) {
+        costs.push_back(point.place.cost);
+        errors.push_back(point.place.error);
+    }
+    if (toleranceLine) errors.push_back(*toleranceLine);
+    return {LogAxis(costs), LogAxis(errors)};
+}
+
+std::vector<Place> corners(const std::vector<Point>& all, const Canvas& canvas) {
+    std::vector<Place> result;
+    for (const Point& point : all) {
+        if (!point.onFront) continue;
+        result.push_back({result.empty() ? canvas.error().high() : result.back().error, point.place.cost});
+        result.push_back(point.place);
+    }
+    if (!result.empty()) result.push_back({result.back().error, canvas.cost().high()});
+    return result;
+}
+
+std::string block(const std::string& name, const std::vector<Place>& places, const Canvas& canvas) {
+    std::string text = fmt::format("${} << EOD\n", name);
+    for (const Place& place : places)
+        text += fmt::format("{} {}\n", canvas.cost().drawn(place.cost), canvas.error().drawn(place.error));
+    return text + "EOD\n";
+}
+
+std::string labels(const std::vector<Point>& all, const Canvas& canvas, const std::optional<double>& toleranceLine) {
+    std::vector<LabelledPoint> named;
+    for (const Point& point : all) named.push_back({canvas.at(point.place), point.variant});
+    std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;
+    const std::vector<Place> front = corners(all, canvas);
+    for (std::size_t i = 1; i < front.size(); ++i) lines.emplace_back(canvas.at(front[i - 1]), canvas.at(front[i]));
+    if (toleranceLine) {
+        const double y = canvas.at({*toleranceLine, 1}).y;
+        lines.emplace_back(glm::dvec2(left, y), glm::dvec2(right, y));
+    }
+
+    const std::vector<PlacedLabel> placed = placeLabels(named, {{left + 4, top}, {right, bottom - 2}}, lines, letter);
+    std::string script;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const Box& box = placed[i].box;
+        const glm::dvec2 centre = 0.5 * (box.low + box.high);
+        script += fmt::format("set label {} at {} center front font ',12' textcolor rgb '{}'\n", literal(named[i].text),
+                              Canvas::screen(centre), all[i].onFront ? blue : "#444444");
+        if (!placed[i].leader) continue;
+        const glm::dvec2 near = glm::clamp(named[i].at, box.low, box.high);
+        script += fmt::format("set arrow from {} to {} nohead lc rgb '#B0B0B0' lw 1\n", Canvas::screen(named[i].at),
+                              Canvas::screen(near));
+    }
+    return script;
+}
+
+std::vector<Place> chosen(const std::vector<Point>& all, bool onFront, bool adequate) {
+    std::vector<Place> result;
+    for (const Point& point : all)
+        if (point.onFront == onFront && point.adequate == adequate) result.push_back(point.place);
+    return result;
+}
+
+std::string plotCommand(const std::vector<Point>& all, const Canvas& canvas, const std::optional<Tolerance>& limit,
+                        const std::optional<double>& toleranceLine) {
+    std::string data = block("front", corners(all, canvas), canvas);
+    std::string plots = fmt::format("plot $front with lines lw 2 lc rgb '{}' title 'Pareto front'", blue);
+    if (toleranceLine) plots += fmt::format(", {} with lines lw 2 dt 2 lc rgb '{}' notitle", *toleranceLine, vermilion);
+    for (const bool onFront : {true, false}) {
+        for (const bool adequate : {true, false}) {
+            const std::vector<Place> places = chosen(all, onFront, adequate);
+            if (places.empty()) continue;
+            const std::string name = fmt::format("points{}{}", onFront ? 1 : 0, adequate ? 1 : 0);
+            data += block(name, places, canvas);
+            plots += fmt::format(", ${} with points pt {} ps 1.1 lw 2 lc rgb '{}' notitle", name, adequate ? 7 : 6,
+                                 onFront ? blue : grey);
+        }
+    }
+    if (limit) {
+        const std::string bound = fmt::format("{} ≤ {}", limit->metric, shown(limit->metric, limit->value));
+        plots += fmt::format(", NaN with points pt 7 ps 1.1 lc rgb '{}' title {}", grey,
+                             literal("within tolerance (" + bound + ")"));
+        plots += fmt::format(", NaN with points pt 6 ps 1.1 lw 2 lc rgb '{}' title 'outside'", grey);
+    }
+    return data + plots + "\n";
+}
+
+} // namespace
+
+std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene) {
+    const std::vector<Point> all = points(records, scene);
+    if (all.empty()) return {};
+    const std::string metric = headlineMetric(records, scene);
+    const std::optional<Tolerance> limit = tolerance(records, scene);
+    const std::optional<double> toleranceLine =
+        limit && limit->metric == metric ? std::optional(limit->value) : std::nullopt;
+    const Canvas area = canvas(all, toleranceLine);
+    const bool share = isShare(metric);
+
+    std::string script = fmt::format(
+        "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n",
+        left / width, right / width, 1 - top / height, 1 - bottom / height);
+    script += fmt::format("set label {} at {} left font ',18'\n", literal(scene), Canvas::screen({left, 26}));
+    script += fmt::format("set key at {} left top horizontal Left reverse samplen 2 width 1 maxrows 1\n",
+                          Canvas::screen({left - 8, 44}));
+    script += "set xlabel 'cost: frame time as a multiple of sm-uniform'\n";
+    script += fmt::format("set ylabel {} offset -1,0\n", literal("error: " + meaning(metric)));
+    script += area.cost().script("x", 1, "×");
+    script += area.error().script("y", share ? 100 : 1, share ? " %" : "");
+    script += labels(all, area, toleranceLine);
+    script += plotCommand(all, area, limit, toleranceLine);
+    return svgOf(script, width, height);
+}
+
+} // namespace shadowbench::report

@@ -1,0 +1,125 @@
+#include "harness/report/summary.h"
+
+#include "harness/report/report.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <string_view>
+#include <tuple>
+
+namespace shadowbench::report {
+namespace {
+
+bool dominates(const Place& a, const Place& b) {
+    return a.error <= b.error && a.cost <= b.cost && (a.error < b.error || a.cost < b.cost);
+}
+
+} // namespace
+
+std::vector<std::string> scenes(const std::vector<Record>& records) {
+    std::vector<std::string> ids;
+    for (const Record& record : records)
+        if (std::find(ids.begin(), ids.end(), record.scene) == ids.end()) ids.push_back(record.scene);
+    return ids;
+}
+
+std::vector<std::size_t> ofScene(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < records.size(); ++i)
+        if (records[i].scene == scene) indices.push_back(i);
+    return indices;
+}
+
+std::optional<Place> place(const Record& record) {
+    const std::optional<Headline> error = headline(record);
+    if (!error || !record.cost.time) return {};
+    return Place{error->value, record.cost.time->ratio};
+}
+
+std::optional<Tolerance> tolerance(const std::vector<Record>& records, const std::string& scene) {
+    for (const std::size_t i : ofScene(records, scene))
+        if (!records[i].toleranceMetric.empty()) return Tolerance{records[i].toleranceMetric, records[i].tolerance};
+    return {};
+}
+
+std::string headlineMetric(const std::vector<Record>& records, const std::string& scene) {
+    for (const std::size_t i : ofScene(records, scene))
+        if (const std::optional<Headline> error = headline(records[i])) return error->metric;
+    return "";
+}
+
+std::string meaning(const std::string& metric) {
+    if (metric == "mismatch") return "mismatching pixels";
+    if (metric == "rmse") return "rms error of visibility";
+    return metric;
+}
+
+bool isShare(const std::string& metric) {
+    static constexpr std::array<std::string_view, 7> shares{"mismatch", "mismatch_off_edge", "false_shadow", "leak", "bad30",
+                                                            "bad8",     "unresolved"};
+    return std::find(shares.begin(), shares.end(), metric) != shares.end();
+}
+
+std::string percent(double share) {
+    const double value = 100 * share;
+    if (value > 0 && value < 0.005) return "< 0.01 %";
+    if (value >= 99.95) return "100 %";
+    return value >= 9.995 ? fmt::format("{:.1f} %", value) : fmt::format("{:.2f} %", value);
+}
+
+std::string shown(const std::string& metric, double value) {
+    return isShare(metric) ? percent(value) : fmt::format("{:.4f}", value);
+}
+
+std::string imageSize(const Record& record) {
+    if (record.width == record.height) return fmt::format("{}²", record.width);
+    return fmt::format("{} × {}", record.width, record.height);
+}
+
+std::string markdownText(const std::string& text) {
+    std::string result;
+    for (const char letter : text) {
+        if (std::string_view("|*_<>`\\").find(letter) != std::string_view::npos) result += '\\';
+        result += letter;
+    }
+    return result;
+}
+
+std::string truth(const ReferenceInfo& reference) {
+    if (reference.oracle != "povray") return "exact (" + reference.oracle + ")";
+    return fmt::format("POV-Ray {} samples, σ {:.1g}", reference.samples, reference.sigma);
+}
+
+std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::size_t> front;
+    const std::vector<std::size_t> candidates = ofScene(records, scene);
+    for (const std::size_t i : candidates) {
+        const std::optional<Place> here = place(records[i]);
+        if (!here) continue;
+        const bool beaten = std::any_of(candidates.begin(), candidates.end(), [&](std::size_t j) {
+            const std::optional<Place> other = place(records[j]);
+            return other && dominates(*other, *here);
+        });
+        if (!beaten) front.push_back(i);
+    }
+    std::stable_sort(front.begin(), front.end(),
+                     [&](std::size_t a, std::size_t b) { return place(records[a])->cost < place(records[b])->cost; });
+    return front;
+}
+
+std::optional<std::size_t> cheapestAdequate(const std::vector<Record>& records, const std::string& scene) {
+    const std::optional<Tolerance> limit = tolerance(records, scene);
+    if (!limit) return {};
+    std::optional<std::size_t> best;
+    const auto rank = [&](std::size_t i) { return std::tuple(place(records[i])->cost, place(records[i])->error); };
+    for (const std::size_t i : ofScene(records, scene)) {
+        if (!place(records[i])) continue;
+        const std::optional<double> error = accuracyMetric(records[i].accuracy, limit->metric);
+        if (!error || *error > limit->value) continue;
+        if (!best || rank(i) < rank(*best)) best = i;
+    }
+    return best;
+}
+
+} // namespace shadowbench::report

@@ -1,0 +1,55 @@
+// What tables, charts and the page read out of records.
+#pragma once
+
+#include "harness/records/record.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowbench::report {
+
+/// Scene ids in the order they first occur.
+std::vector<std::string> scenes(const std::vector<Record>& records);
+
+/// Indices of the records of `scene`, in order.
+std::vector<std::size_t> ofScene(const std::vector<Record>& records, const std::string& scene);
+
+/// A record's place on the accuracy–cost plane; nothing unless it was scored and timed.
+struct Place {
+    double error; // headline
+    double cost;  // ratio to sm-uniform
+};
+std::optional<Place> place(const Record& record);
+
+/// The scene's tolerance, from the first of its records that states one.
+struct Tolerance {
+    std::string metric;
+    double value;
+};
+std::optional<Tolerance> tolerance(const std::vector<Record>& records, const std::string& scene);
+
+/// The headline metric of `scene`'s records; "" if none was scored.
+std::string headlineMetric(const std::vector<Record>& records, const std::string& scene);
+
+/// "error = mismatching pixels", "error = rms error of visibility".
+std::string meaning(const std::string& metric);
+
+bool isShare(const std::string& metric); // shown in per cent
+
+/// 31.2 %, 4.87 %, 0.09 %, < 0.01 % …; a share of exactly nothing is 0.00 %.
+std::string percent(double share);
+
+/// A value of `metric` as tables show it: per cent for shares, four decimals for others.
+std::string shown(const std::string& metric, double value);
+
+/// "256²", "800 × 600".
+std::string imageSize(const Record& record);
+
+/// Text with Markdown's own characters escaped: | * _ < > `.
+std::string markdownText(const std::string& text);
+
+/// "exact (polygon)", "POV-Ray 1024 samples, σ 0.0006".
+std::string truth(const ReferenceInfo& reference);
+
+} // namespace shadowbench::report

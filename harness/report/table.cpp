@@ -1,0 +1,177 @@
+// Tables of one scene, for a terminal and in Markdown.
+#include "harness/report/report.h"
+#include "harness/report/summary.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <span>
+
+namespace shadowbench::report {
+namespace {
+
+using Cell = std::optional<std::string>; // nothing: does not apply
+
+struct Column {
+    const char* title;
+    bool pageOnly; // the terminal has no room for it
+    Cell (*cell)(const Record&);
+};
+
+Cell percentOf(const std::optional<double>& share) { return share ? Cell(percent(*share)) : Cell(); }
+
+Cell decimals(const std::optional<double>& value, int places) {
+    return value ? Cell(fmt::format("{:.{}f}", *value, places)) : Cell();
+}
+
+Cell error(const Record& r) {
+    const std::optional<Headline> head = headline(r);
+    return head ? Cell(shown(head->metric, head->value)) : Cell();
+}
+
+Cell edge(const Record& r) { return r.accuracy.edgeError ? decimals(r.accuracy.edgeError->mean, 2) : Cell(); }
+Cell flickerMean(const Record& r) { return r.stability.flicker ? decimals(r.stability.flicker->mean, 3) : Cell(); }
+Cell convergence(const Record& r) {
+    return r.stability.convergence ? Cell(std::to_string(*r.stability.convergence)) : Cell();
+}
+Cell cost(const Record& r) { return r.cost.time ? decimals(r.cost.time->ratio, 2) : Cell(); }
+
+Cell mebibytes(const Record& r) {
+    if (!r.cost.work) return {};
+    return decimals(static_cast<double>(r.cost.work->bytes) / (1024.0 * 1024.0), 1);
+}
+
+std::span<const Column> columns() {
+    static constexpr Column all[] = {
+        {"error", false, error},
+        {"false shadow", false, [](const Record& r) { return percentOf(r.accuracy.falseShadow); }},
+        {"leak", false, [](const Record& r) { return percentOf(r.accuracy.leak); }},
+        {"edge error px", false, edge},
+        {"off-edge error", true, [](const Record& r) { return percentOf(r.accuracy.mismatchOffEdge); }},
+        {"bad30", true, [](const Record& r) { return percentOf(r.accuracy.bad30); }},
+        {"SSIM", true, [](const Record& r) { return decimals(r.accuracy.ssim, 3); }},
+        {"penumbra rmse", true, [](const Record& r) { return decimals(r.accuracy.penumbraRmse, 4); }},
+        {"penumbra width", true, [](const Record& r) { return percentOf(r.accuracy.penumbraWidthError); }},
+        {"umbra leak", true, [](const Record& r) { return decimals(r.accuracy.umbraLeak, 4); }},
+        {"flicker", false, flickerMean},
+        {"flips", true, [](const Record& r) { return percentOf(r.stability.flipRate); }},
+        {"converged at", true, convergence},
+        {"MiB", true, mebibytes},
+        {"cost", false, cost},
+    };
+    return all;
+}
+
+struct Table {
+    std::vector<std::string> titles;
+    std::vector<std::vector<std::string>> rows;
+};
+
+std::string rowName(const Record& record) {
+    return record.status == Status::ExpectedFailure ? record.variant + " (fails as expected)" : record.variant;
+}
+
+/// Scored records of `scene`, with the columns that apply to at least one of them.
+Table table(const std::vector<Record>& records, const std::string& scene, bool page) {
+    std::vector<std::size_t> scored;
+    for (const std::size_t i : ofScene(records, scene))
+        if (headline(records[i])) scored.push_back(i);
+
+    Table result{{"technique"}, {}};
+    for (const std::size_t i : scored) result.rows.push_back({rowName(records[i])});
+    for (const Column& column : columns()) {
+        const auto applies = [&](std::size_t i) { return column.cell(records[i]).has_value(); };
+        if ((column.pageOnly && !page) || std::none_of(scored.begin(), scored.end(), applies)) continue;
+        result.titles.emplace_back(column.title);
+        for (std::size_t row = 0; row < scored.size(); ++row)
+            result.rows[row].push_back(column.cell(records[scored[row]]).value_or("–"));
+    }
+    const std::vector<std::size_t> front = paretoFront(records, scene);
+    if (front.empty()) return result;
+    result.titles.emplace_back("front");
+    for (std::size_t row = 0; row < scored.size(); ++row)
+        result.rows[row].emplace_back(std::find(front.begin(), front.end(), scored[row]) == front.end() ? "" : "●");
+    return result;
+}
+
+std::vector<std::string> footnotes(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::string> lines;
+    if (const std::optional<Tolerance> limit = tolerance(records, scene)) {
+        const std::optional<std::size_t> best = cheapestAdequate(records, scene);
+        const std::string metric = limit->metric == headlineMetric(records, scene) ? "" : limit->metric + " ";
+        lines.push_back(fmt::format("cheapest within tolerance ({}{}): {}", metric, shown(limit->metric, limit->value),
+                                    best ? records[*best].variant : "none"));
+    }
+    for (const std::size_t i : ofScene(records, scene)) {
+        const Record& record = records[i];
+        if (record.status == Status::NotApplicable)
+            lines.push_back(fmt::format("not applicable: {} ({})", record.variant, record.reason));
+        if (record.status == Status::Error) lines.push_back(fmt::format("error: {} ({})", record.variant, record.reason));
+    }
+    return lines;
+}
+
+std::string heading(const std::vector<Record>& records, const std::string& scene) {
+    const Record& first = records[ofScene(records, scene).front()];
+    std::string line = fmt::format("scene: {} · {}", scene, imageSize(first));
+    const std::string metric = headlineMetric(records, scene);
+    if (!metric.empty()) line += fmt::format(" · error = {} · cost = frames of sm-uniform", meaning(metric));
+    return line;
+}
+
+/// Columns of a terminal that UTF-8 text takes; everything printed here is one column wide a character.
+std::size_t displayWidth(const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char byte) { return (byte & 0xC0) != 0x80; }));
+}
+
+std::string spaces(std::size_t wanted, const std::string& text) { return std::string(wanted - displayWidth(text), ' '); }
+
+std::vector<std::size_t> widths(const Table& table) {
+    std::vector<std::size_t> result;
+    for (std::size_t column = 0; column < table.titles.size(); ++column) {
+        result.push_back(displayWidth(table.titles[column]));
+        for (const std::vector<std::string>& row : table.rows)
+            result.back() = std::max(result.back(), displayWidth(row[column]));
+    }
+    return result;
+}
+
+/// One line: names to the left, figures to the right.
+std::string aligned(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) {
+    std::string line = fmt::format(" {}{}", cells[0], spaces(widths[0], cells[0]));
+    for (std::size_t i = 1; i < cells.size(); ++i) line += fmt::format("   {}{}", spaces(widths[i], cells[i]), cells[i]);
+    return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+}
+
+std::string markdownRow(const std::vector<std::string>& cells) {
+    std::string line = "|";
+    for (const std::string& cell : cells) line += fmt::format(" {} |", markdownText(cell));
+    return line + "\n";
+}
+
+} // namespace
+
+std::string terminalTable(const std::vector<Record>& records, const std::string& scene) {
+    if (ofScene(records, scene).empty()) return "";
+    const Table content = table(records, scene, false);
+    std::string text = fmt::format(" {}\n", heading(records, scene));
+    if (!content.rows.empty()) text += aligned(content.titles, widths(content));
+    for (const std::vector<std::string>& row : content.rows) text += aligned(row, widths(content));
+    for (const std::string& line : footnotes(records, scene)) text += fmt::format(" {}\n", line);
+    return text;
+}
+
+std::string markdownTable(const std::vector<Record>& records, const std::string& scene) {
+    const Table content = table(records, scene, true);
+    std::string text;
+    if (!content.rows.empty()) {
+        text += markdownRow(content.titles) + "|:---|";
+        for (std::size_t i = 1; i < content.titles.size(); ++i) text += "---:|";
+        text += "\n";
+    }
+    for (const std::vector<std::string>& row : content.rows) text += markdownRow(row);
+    for (const std::string& line : footnotes(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
+    return text;
+}
+
+} // namespace shadowbench::report

@@ -1,0 +1,208 @@
+#include "harness/run/cell.h"
+
+#include "harness/scene/error.h"
+#include "techniques/gl/context.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <xxhash.h>
+
+namespace shadowbench {
+namespace {
+
+using groundtruth::Reference;
+using metrics::FrameResult;
+using metrics::Mask;
+using techniques::Answer;
+
+constexpr double primaryLimit = 0.001; // METRICS: above this the run is an error, not a score
+
+/// The truth that a technique's answer is measured by frame after frame.
+Truth mainTruth(const techniques::Variant& variant) {
+    return variant.entry->answer == Answer::Soft ? Truth::Soft : Truth::Hard;
+}
+
+ReferenceInfo describe(const Reference& reference) {
+    double sum = 0;
+    std::size_t penumbra = 0;
+    for (std::size_t i = 0; i < reference.sigma.size(); ++i) {
+        const float v = reference.visibility[i];
+        if (reference.surface[i] != groundtruth::Surface::Receiver || v <= 0 || v >= 1) continue;
+        sum += static_cast<double>(reference.sigma[i]) * static_cast<double>(reference.sigma[i]);
+        ++penumbra;
+    }
+    const auto& provenance = reference.provenance;
+    return {provenance.oracle, provenance.key, provenance.samples,
+            penumbra > 0 ? std::sqrt(sum / static_cast<double>(penumbra)) : 0, provenance.tools};
+}
+
+/// Soft scores join the hard ones of the same cell.
+void addSoftScores(Accuracy& accuracy, const Accuracy& soft) {
+    Accuracy both = soft;
+    both.mismatch = accuracy.mismatch;
+    both.mismatchOffEdge = accuracy.mismatchOffEdge;
+    both.falseShadow = accuracy.falseShadow;
+    both.leak = accuracy.leak;
+    both.edgeError = accuracy.edgeError;
+    both.primaryMismatch = std::max(accuracy.primaryMismatch, soft.primaryMismatch);
+    accuracy = both;
+}
+
+/// The last still frame against every truth it is scored by (METRICS, "Which truth a cell is scored against").
+void scoreStillFrame(const Scene& scene, Truths& truths, const techniques::Variant& variant, const Image<float>& v,
+                     const metrics::Drawn& drawn, const glm::dvec3& eye, Record& record) {
+    const int frame = scene.timeline.still - 1;
+    if (variant.entry->answer == Answer::Soft) {
+        const Reference& soft = truths.at(Truth::Soft, frame);
+        record.reference = describe(soft);
+        record.accuracy = metrics::softAccuracy(v, soft, metrics::receiverMask(soft, drawn, eye));
+        return;
+    }
+    const Reference& hard = truths.at(Truth::Hard, frame);
+    const Mask mask = metrics::receiverMask(hard, drawn, eye);
+    record.reference = describe(hard);
+    record.accuracy = metrics::hardAccuracy(v, hard, mask);
+    if (scene.light.isArea()) {
+        const Reference& soft = truths.at(Truth::Soft, frame);
+        record.softReference = describe(soft);
+        addSoftScores(record.accuracy, metrics::softAccuracy(v, soft, metrics::receiverMask(soft, drawn, eye)));
+    } else if (variant.entry->answer == Answer::Filtered || variant.entry->temporal) {
+        addSoftScores(record.accuracy, metrics::softAccuracy(v, hard, mask));
+    }
+}
+
+Image<std::uint8_t> toBytes(const Image<float>& v) {
+    Image<std::uint8_t> bytes(v.width(), v.height());
+    std::transform(v.begin(), v.end(), bytes.begin(),
+                   [](float x) { return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(x, 0.0F, 1.0F))); });
+    return bytes;
+}
+
+double shareChanged(const Image<std::uint8_t>& a, const Image<std::uint8_t>& b, const Mask& mask) {
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (mask.scored[i] != 0 && std::abs(a[i] - b[i]) > 30) ++changed;
+    return static_cast<double>(changed) / static_cast<double>(mask.count);
+}
+
+/// Error over the still frames from an empty history.
+class StillCurve {
+public:
+    StillCurve(const Reference& truth, bool hard) : truth_(truth), hard_(hard) {}
+
+    void add(const Image<float>& v, const Mask& mask, Stability& stability) {
+        if (hard_) stability.mismatchByFrame.push_back(metrics::mismatch(v, truth_, mask));
+        stability.rmseByFrame.push_back(metrics::rmse(v, truth_, mask));
+        stability.bad30ByFrame.push_back(metrics::shareAbove(v, truth_.visibility, mask, 30.0 / 255));
+        frames_.push_back(toBytes(v));
+    }
+
+    void finish(const Mask& mask, Stability& stability) const {
+        for (const Image<std::uint8_t>& frame : frames_)
+            stability.changedByFrame.push_back(shareChanged(frame, frames_.back(), mask));
+        stability.convergence = metrics::convergence(stability.rmseByFrame);
+    }
+
+private:
+    const Reference& truth_;
+    bool hard_;
+    std::vector<Image<std::uint8_t>> frames_;
+};
+
+/// Flicker and flips from one scored frame to the next.
+class MotionScores {
+public:
+    void add(const Snapshot& shown, const Reference& truth, Image<float> v, Mask mask) {
+        if (before_.truth != nullptr) {
+            const Image<glm::vec2> warp = metrics::warp(shown, {v.width(), v.height()}, truth, *before_.truth);
+            const FrameResult now{&v, &truth, &mask}, before{&before_.v, before_.truth, &before_.mask};
+            metrics::flickerSamples(now, before, warp, samples_);
+            const metrics::Flips flips = metrics::flips(now, before, warp);
+            flips_.flipped += flips.flipped;
+            flips_.compared += flips.compared;
+        }
+        before_ = {std::move(v), &truth, std::move(mask)};
+    }
+
+    void finish(Stability& stability) {
+        stability.flicker = metrics::flicker(std::move(samples_));
+        if (flips_.compared > 0)
+            stability.flipRate = static_cast<double>(flips_.flipped) / static_cast<double>(flips_.compared);
+    }
+
+private:
+    struct Kept {
+        Image<float> v;
+        const Reference* truth = nullptr;
+        Mask mask;
+    };
+    Kept before_;
+    std::vector<float> samples_;
+    metrics::Flips flips_;
+};
+
+void requireSamePrimaryHits(double share, const Scene& scene, int frame) {
+    if (share <= primaryLimit) return;
+    throw InternalError(
+        fmt::format("frame {} of scene {}: the rasteriser and the ground truth disagree on the primary hit of {:.2f} % of "
+                    "the pixels (limit 0.10 %): camera or geometry differ, so no score is given",
+                    frame, scene.id, 100 * share));
+}
+
+} // namespace
+
+std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed) {
+    std::string inputs = fmt::format("schema 1\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
+                                     scene.timeline.still, scene.timeline.moving);
+    for (const int frame : truths.scoredFrames())
+        inputs += groundtruth::key(truths.request(mainTruth(variant), frame)) + "\n";
+    const XXH128_hash_t hash = XXH3_128bits(inputs.data(), inputs.size());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::optional<std::string> notApplicable(const Scene& scene, const techniques::Variant& variant) {
+    if (variant.entry->answer == Answer::Soft && !scene.light.isArea())
+        return fmt::format("{} needs an area light; the light of {} is {}", variant.entry->id, scene.id,
+                           scene.light.kind == LightKind::Point ? "a point" : "directional");
+    return std::nullopt;
+}
+
+void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
+             const CellOptions& options, Record& record, CellImages& images) {
+    const std::uint64_t bytesBefore = gl::Context::current().tally().bytes;
+    const auto technique = variant.entry->make(variant.parameters);
+    const Truth kind = mainTruth(variant);
+    const int scored = scene.timeline.still - 1;
+    const bool temporal = variant.entry->temporal;
+
+    StillCurve curve(truths.at(kind, scored), kind == Truth::Hard);
+    MotionScores motion;
+    std::uint64_t bytes = 0;
+    for (int frame = temporal ? 0 : scored; frame < scene.timeline.frames(); ++frame) {
+        if (frame == 0 || frame >= scored) stage.show(frame); // the still frames between are all the same
+        stage.render(*technique, frame, options.seed);
+        Image<float> v = stage.visibility();
+        const Reference& truth = truths.at(kind, std::max(frame, scored));
+        Mask mask = metrics::receiverMask(truth, stage.drawn(), stage.shown().camera.eye);
+        requireSamePrimaryHits(mask.primaryMismatch, scene, frame);
+        if (temporal && frame <= scored) curve.add(v, mask, record.stability);
+        if (frame < scored) continue;
+        if (frame == scored) {
+            if (temporal) curve.finish(mask, record.stability);
+            scoreStillFrame(scene, truths, variant, v, stage.drawn(), stage.shown().camera.eye, record);
+            requireSamePrimaryHits(record.accuracy.primaryMismatch, scene, frame);
+            images = {v, scene.light.isArea() ? &truths.at(Truth::Soft, frame) : &truth};
+            bytes = gl::Context::current().tally().bytes - bytesBefore;
+        }
+        motion.add(stage.shown(), truth, std::move(v), std::move(mask));
+    }
+    motion.finish(record.stability);
+
+    stage.show(scored);
+    record.cost =
+        timing::measureCost(stage, variant, *technique, bytes, scene.timeline.frames(), options.seed, options.cost);
+    record.status = Status::Scored;
+}
+
+} // namespace shadowbench

@@ -1,0 +1,23 @@
+// Where and with what a record was made.
+#pragma once
+
+#include "harness/records/record.h"
+#include "techniques/gl/context.h"
+
+#include <string>
+
+namespace shadowbench {
+
+Environment environmentOf(const gl::ContextInfo& context);
+
+/// The commit this program was built from, and whether tracked files had been changed.
+struct Commit {
+    std::string hash;
+    bool dirty;
+};
+Commit builtFrom();
+
+/// Now, ISO 8601 in UTC to the second.
+std::string timeNow();
+
+} // namespace shadowbench

@@ -1,0 +1,171 @@
+#include "harness/run/run.h"
+
+#include "harness/run/cell.h"
+#include "harness/run/cell_images.h"
+#include "harness/run/environment.h"
+#include "harness/run/progress_line.h"
+#include "techniques/gl/context.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+
+namespace shadowbench {
+namespace {
+
+std::vector<techniques::Variant> chosenVariants(const std::vector<std::string>& patterns) {
+    std::vector<techniques::Variant> variants;
+    for (const std::string& pattern : patterns.empty() ? std::vector<std::string>{"*"} : patterns)
+        for (techniques::Variant& variant : techniques::matchVariants(pattern)) {
+            const bool known =
+                std::any_of(variants.begin(), variants.end(), [&](const auto& v) { return v.name == variant.name; });
+            if (!known) variants.push_back(std::move(variant));
+        }
+    return variants;
+}
+
+std::vector<Scene> chosenScenes(const RunOptions& options) {
+    std::vector<Scene> scenes;
+    for (const std::string& id : options.scenes.empty() ? builtinScenes() : options.scenes)
+        scenes.push_back(loadScene(id, options.profile));
+    return scenes;
+}
+
+/// What is known of a cell before it runs.
+Record blankRecord(const Scene& scene, const techniques::Variant& variant, const RunOptions& options,
+                   const gl::ContextInfo& context) {
+    Record record;
+    record.scene = scene.id;
+    record.technique = variant.entry->id;
+    record.variant = variant.name;
+    record.parameters = variant.parameters.all();
+    record.profile = name(scene.profile);
+    record.width = scene.size.x;
+    record.height = scene.size.y;
+    record.frames = scene.timeline.frames();
+    record.seed = options.seed;
+    const Commit commit = builtFrom();
+    record.commit = commit.hash;
+    record.dirty = commit.dirty;
+    record.time = timeNow();
+    record.environment = environmentOf(context);
+    if (!scene.tolerance.empty()) {
+        record.toleranceMetric = scene.tolerance.begin()->first;
+        record.tolerance = scene.tolerance.begin()->second;
+    }
+    return record;
+}
+
+/// The records of an unfinished run that need not be made again.
+std::vector<Record> finishedRecords(const RunOptions& options) {
+    const std::filesystem::path file = options.out / "results.jsonl";
+    if (!options.resume || !std::filesystem::exists(file)) return {};
+    std::vector<Record> records = readRecords(file);
+    std::erase_if(records, [](const Record& r) { return r.status == Status::Error || r.commit != builtFrom().hash; });
+    return records;
+}
+
+class Runner {
+public:
+    explicit Runner(const RunOptions& options)
+        : options_(options), variants_(chosenVariants(options.techniques)), scenes_(chosenScenes(options)),
+          finished_(finishedRecords(options)),
+          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache),
+          context_(gl::Context::create()) {
+        std::filesystem::create_directories(options.out);
+    }
+
+    RunResult all() {
+        for (const Scene& scene : scenes_) runScene(scene);
+        return std::move(result_);
+    }
+
+private:
+    void runScene(const Scene& scene) {
+        ProgressLine line(scene.id, static_cast<int>(variants_.size()), options_.quiet);
+        Stage stage(scene);
+        Truths truths(scene, cache_);
+        int done = 0;
+        for (const techniques::Variant& variant : variants_) {
+            line.show(done, 0, variant.name);
+            keep(cell(scene, stage, truths, variant,
+                      [&](double share, std::string_view what) { line.show(done, share, what); }));
+            ++done;
+        }
+        line.show(done, 0, "");
+    }
+
+    Record cell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
+                const Progress& progress) {
+        Record record = blankRecord(scene, variant, options_, context_->info());
+        if (const auto reason = notApplicable(scene, variant)) {
+            record.status = Status::NotApplicable;
+            record.reason = *reason;
+            return record;
+        }
+        try {
+            record.cell = cellId(truths, scene, variant, options_.seed);
+            if (const Record* same = finishedAlready(record.cell)) return *same;
+            computeTruths(scene, truths, variant, progress);
+            CellOptions cellOptions;
+            cellOptions.seed = options_.seed;
+            cellOptions.cost.time = options_.time;
+            CellImages images;
+            progress(0, variant.name);
+            runCell(scene, stage, truths, variant, cellOptions, record, images);
+            if (options_.images) writeCellImages(options_.out / "images" / scene.id / fileName(variant.name), images);
+            return record;
+        } catch (const Error& error) {
+            Record failed = blankRecord(scene, variant, options_, context_->info());
+            failed.cell = record.cell;
+            failed.status = Status::Error;
+            failed.reason = error.what();
+            if (result_.code == ExitCode::Pass) result_.code = error.code();
+            return failed;
+        }
+    }
+
+    /// References first, with their own progress: they are the long part of an empty cache.
+    static void computeTruths(const Scene& scene, Truths& truths, const techniques::Variant& variant,
+                              const Progress& progress) {
+        const bool soft = variant.entry->answer == techniques::Answer::Soft;
+        for (const int frame : truths.scoredFrames()) {
+            const std::string what = fmt::format("truth of frame {}", frame);
+            const auto show = [&](double share, std::string_view) { progress(share, what); };
+            truths.at(soft ? Truth::Soft : Truth::Hard, frame, show);
+            if (scene.light.isArea() && frame == scene.timeline.still - 1) truths.at(Truth::Soft, frame, show);
+        }
+    }
+
+    const Record* finishedAlready(const std::string& cell) const {
+        const auto found = std::find_if(finished_.begin(), finished_.end(), [&](const Record& r) { return r.cell == cell; });
+        return found == finished_.end() ? nullptr : &*found;
+    }
+
+    /// Every finished cell is on disk before the next one starts.
+    void keep(Record record) {
+        result_.records.push_back(std::move(record));
+        std::vector<Record> all = result_.records;
+        for (const Record& earlier : finished_) {
+            const bool again = std::any_of(all.begin(), all.end(), [&](const Record& r) {
+                return r.scene == earlier.scene && r.variant == earlier.variant && r.profile == earlier.profile;
+            });
+            if (!again) all.push_back(earlier);
+        }
+        writeRecords(options_.out / "results.jsonl", all);
+    }
+
+    RunOptions options_;
+    std::vector<techniques::Variant> variants_;
+    std::vector<Scene> scenes_;
+    std::vector<Record> finished_;
+    groundtruth::Cache cache_;
+    std::unique_ptr<gl::Context> context_;
+    RunResult result_;
+};
+
+} // namespace
+
+RunResult run(const RunOptions& options) { return Runner(options).all(); }
+
+} // namespace shadowbench

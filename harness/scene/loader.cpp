@@ -1,0 +1,212 @@
+// Scene files: the sections that every scene has. Meshes and objects are read in loader_meshes.cpp and loader_objects.cpp.
+#include "harness/scene/loader.h"
+
+#include "harness/scene/error.h"
+#include "harness/scene/files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/geometric.hpp>
+
+namespace shadowbench {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kMostPixels = 8192; // along one side of the image
+constexpr int kMostFrames = 100'000;
+constexpr int kMostSamples = 1 << 20;
+
+void readCamera(const TomlValue& value, Scene& scene) {
+    value.only({"eye", "target", "up", "fovy", "near", "far", "path"});
+    Camera& camera = scene.camera;
+    camera.eye = value.get("eye").vector();
+    camera.target = value.get("target").vector();
+    if (const auto up = value.find("up")) camera.up = up->vector();
+    camera.fovy = value.get("fovy").number();
+    if (camera.fovy < 1 || camera.fovy > 170) value.get("fovy").fail("expected degrees from 1 to 170");
+    camera.near = value.get("near").positive();
+    camera.far = value.get("far").positive();
+    if (!(camera.near < camera.far)) value.get("far").fail("expected more than near");
+    if (const auto path = value.find("path")) {
+        for (const TomlValue& key : path->list()) key.only({"frame", "eye", "target"});
+        scene.eye = readTrack(*path, "eye");
+        scene.target = readTrack(*path, "target");
+    }
+}
+
+LightKind readKind(const TomlValue& value) {
+    const std::vector<LightKind> kinds{LightKind::Point, LightKind::Directional, LightKind::Rectangle, LightKind::Disk,
+                                       LightKind::Line};
+    std::vector<std::string> names;
+    for (const LightKind kind : kinds) names.emplace_back(name(kind));
+    const std::string word = value.oneOf(names);
+    return kinds[static_cast<std::size_t>(std::find(names.begin(), names.end(), word) - names.begin())];
+}
+
+glm::dvec3 readDirection(const TomlValue& value) {
+    const glm::dvec3 direction = value.vector();
+    if (!(glm::length(direction) > 0)) value.fail("expected a vector other than zero");
+    return glm::normalize(direction);
+}
+
+void readLight(const TomlValue& value, Scene& scene) {
+    Light& light = scene.light;
+    light.kind = readKind(value.only({"kind", "centre", "direction", "u", "v", "path"}).get("kind"));
+    const bool directional = light.kind == LightKind::Directional;
+    const std::string moved = directional ? "direction" : "centre";
+    std::vector<std::string> known{"kind", moved, "path"};
+    if (light.isArea()) known.emplace_back("u");
+    if (light.isArea() && light.kind != LightKind::Line) known.emplace_back("v");
+    value.only(known);
+
+    if (directional)
+        light.direction = readDirection(value.get("direction"));
+    else
+        light.centre = value.get("centre").vector();
+    if (light.isArea()) light.u = value.get("u").vector();
+    if (light.isArea() && light.kind != LightKind::Line) light.v = value.get("v").vector();
+    if (const auto path = value.find("path")) {
+        for (const TomlValue& key : path->list()) key.only({"frame", moved});
+        (directional ? scene.lightDirection : scene.lightCentre) = readTrack(*path, moved);
+    }
+}
+
+glm::ivec2 readSize(const TomlValue& value) {
+    if (!value.isList()) return glm::ivec2(value.integer(1, kMostPixels));
+    const std::vector<TomlValue> sides = value.list();
+    if (sides.size() != 2) value.fail(fmt::format("expected a whole number or 2, got {}", sides.size()));
+    return {sides[0].integer(1, kMostPixels), sides[1].integer(1, kMostPixels)};
+}
+
+glm::ivec2 usualSize(Profile profile) {
+    switch (profile) {
+    case Profile::Gate:
+        return {256, 256};
+    case Profile::Standard:
+        return {512, 512};
+    case Profile::Paper:
+        break;
+    }
+    return {1024, 1024};
+}
+
+void readTimeline(const TomlValue& value, Timeline& timeline) {
+    value.only({"still", "moving"});
+    if (const auto still = value.find("still")) timeline.still = still->integer(1, kMostFrames);
+    if (const auto moving = value.find("moving")) timeline.moving = moving->integer(0, kMostFrames);
+}
+
+void readTolerances(const TomlValue& value, std::map<std::string, double>& tolerance) {
+    value.only({"mismatch", "mismatch_off_edge", "false_shadow", "leak", "edge_error", "bad30", "bad8", "mae", "rmse",
+                "penumbra_rmse", "penumbra_width_error", "umbra_leak", "flicker", "flip_rate", "convergence", "pop"});
+    for (const TomlValue& entry : value.members()) tolerance[std::string(entry.lastKey())] = entry.positive();
+}
+
+void readObjects(const TomlValue& root, Scene& scene, const fs::path& file) {
+    const auto objects = root.find("object");
+    if (!objects) root.fail("the scene has no objects; add an [[object]]");
+    MeshStore meshes(file.parent_path());
+    int number = 0;
+    for (const TomlValue& value : objects->list()) {
+        ++number;
+        if (belongsTo(value, scene.profile)) scene.objects.push_back(readObject(value, number, scene.camera.eye, meshes));
+    }
+    if (scene.objects.empty()) objects->fail(fmt::format("no object belongs to profile {}", name(scene.profile)));
+}
+
+/// The text of the first line that is a comment.
+std::string firstComment(std::string_view toml) {
+    while (!toml.empty()) {
+        std::string_view line = toml.substr(0, toml.find('\n'));
+        toml.remove_prefix(std::min(toml.size(), line.size() + 1));
+        if (line.empty() || line.front() != '#') continue;
+        line.remove_prefix(std::min(line.find_first_not_of("# "), line.size()));
+        while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+        return std::string(line);
+    }
+    return "";
+}
+
+toml::table parseToml(std::string_view text, const std::string& file) {
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& error) {
+        throw BadInput(fmt::format("{}:{}: not valid TOML: {}", file, error.source().begin.line, error.description()));
+    }
+}
+
+/// Points a problem of the whole scene at the deepest key of the file that it is about.
+void requireNoProblem(const TomlValue& root, const Scene& scene) {
+    const std::optional<Problem> problem = findProblem(scene);
+    if (!problem) return;
+    const std::size_t dot = problem->key.find('.');
+    const TomlValue section = root.get(problem->key.substr(0, dot));
+    const auto inner = section.find(problem->key.substr(dot + 1));
+    (inner ? *inner : section).fail(problem->sentence);
+}
+
+} // namespace
+
+Scene parseScene(std::string_view toml, const fs::path& file, Profile profile) {
+    const TomlSource source{file.string(), profile};
+    const toml::table table = parseToml(toml, source.file);
+    const TomlValue root(source, "", table);
+    if (table.empty()) root.fail("the file is empty; a scene has a title, a camera, a light and objects");
+    root.only({"title", "profile", "size", "reference_samples", "moving_reference_samples", "camera", "light", "timeline",
+               "object", "tolerance"});
+
+    Scene scene;
+    scene.id = file.stem().string();
+    scene.shows = firstComment(toml);
+    scene.profile = profile;
+    scene.title = root.get("title").text();
+    if (!belongsTo(root, profile))
+        root.get("profile").fail(fmt::format("the scene does not belong to profile {}", name(profile)));
+    const auto size = root.find("size");
+    scene.size = size ? readSize(*size) : usualSize(profile);
+    if (const auto samples = root.find("reference_samples")) scene.referenceSamples = samples->integer(1, kMostSamples);
+    if (const auto samples = root.find("moving_reference_samples"))
+        scene.movingReferenceSamples = samples->integer(1, kMostSamples);
+    readCamera(root.get("camera"), scene);
+    readLight(root.get("light"), scene);
+    if (const auto timeline = root.find("timeline")) readTimeline(*timeline, scene.timeline);
+    if (const auto tolerance = root.find("tolerance")) readTolerances(*tolerance, scene.tolerance);
+    readObjects(root, scene, file);
+    requireNoProblem(root, scene);
+    return scene;
+}
+
+Scene loadScene(const std::string& idOrFile, Profile profile) {
+    const std::vector<std::string> ids = builtinScenes();
+    if (std::find(ids.begin(), ids.end(), idOrFile) != ids.end())
+        return parseScene(builtinSceneText(idOrFile), "harness/scenes/" + idOrFile + ".toml", profile);
+    const fs::path file(idOrFile);
+    std::error_code ignored;
+    if (file.extension() == ".toml" || file.has_parent_path() || fs::exists(file, ignored))
+        return parseScene(readFile(file), file, profile);
+    throw BadInput(fmt::format("unknown scene \"{}\"; {} known are {}, or the path of a .toml file", idOrFile,
+                               didYouMean(idOrFile, ids), fmt::join(ids, ", ")));
+}
+
+std::string_view name(Profile profile) {
+    switch (profile) {
+    case Profile::Gate:
+        return "gate";
+    case Profile::Standard:
+        return "standard";
+    case Profile::Paper:
+        break;
+    }
+    return "paper";
+}
+
+Profile profileNamed(std::string_view word) {
+    for (const Profile profile : {Profile::Gate, Profile::Standard, Profile::Paper})
+        if (name(profile) == word) return profile;
+    throw BadInput(fmt::format("unknown profile \"{}\"; {} known are gate, standard, paper", word,
+                               didYouMean(word, {"gate", "standard", "paper"})));
+}
+
+} // namespace shadowbench

@@ -1,0 +1,104 @@
+// What holds for every technique on every scene.
+#include "cell_stage.h"
+#include "harness/scene/primitives.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+struct Case {
+    std::string scene, variant;
+};
+
+std::vector<Case> everyCell() {
+    std::vector<Case> cases;
+    for (const std::string& scene : builtinScenes())
+        for (const techniques::Variant& variant : techniques::matchVariants("*")) cases.push_back({scene, variant.name});
+    return cases;
+}
+
+/// A few frames, some of them moving; images of all of them one after another.
+std::vector<Image<float>> shortRun(const Scene& scene, const std::string& name) {
+    Stage stage(scene);
+    const techniques::Variant variant = techniques::parseVariant(name);
+    const auto technique = variant.entry->make(variant.parameters);
+    std::vector<Image<float>> images;
+    for (int frame = 0; frame < 4; ++frame) {
+        stage.show(frame);
+        stage.render(*technique, frame, 1);
+        images.push_back(stage.visibility());
+    }
+    return images;
+}
+
+class EveryCell : public testing::TestWithParam<Case> {};
+
+TEST_P(EveryCell, IsInRangeAndTheSameEveryTime) {
+    Scene scene = stillScene(GetParam().scene);
+    scene.timeline = {2, 2};
+    scene.size = {72, 64};  // not square, small enough for all of them
+    const techniques::Variant variant = techniques::parseVariant(GetParam().variant);
+    if (const auto reason = notApplicable(scene, variant)) {
+        EXPECT_NE(reason->find("needs an area light"), std::string::npos);
+        return;
+    }
+    const auto images = shortRun(scene, variant.name);
+    for (const Image<float>& image : images)
+        for (const float v : image) {
+            ASSERT_TRUE(std::isfinite(v));
+            ASSERT_GE(v, 0.0F);
+            ASSERT_LE(v, 1.0F);
+        }
+    EXPECT_EQ(shortRun(scene, variant.name), images);
+}
+
+std::string caseName(const testing::TestParamInfo<Case>& info) {
+    std::string name = info.param.scene + "_" + info.param.variant;
+    std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(TechniquesTimesScenes, EveryCell, testing::ValuesIn(everyCell()), caseName);
+
+class EveryVariant : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryVariant, LeavesAFullyLitSceneLit) {
+    testContext();
+    Scene scene;
+    scene.id = "lit";
+    scene.size = {64, 64};
+    scene.timeline = {2, 2};
+    scene.camera = {{0.3, 3.1, 5.2}, {0.1, 0, 0}, {0, 1, 0}, 40, 0.1, 50};
+    scene.light = {LightKind::Rectangle, {0.7, 5.3, 0.4}, {0, -1, 0}, {1, 0, 0.1}, {-0.1, 0, 1}};
+    Object ground;
+    ground.levels.push_back({std::make_shared<const Mesh>(box({8, 0.2, 8}))});
+    ground.instances.push_back({});
+    scene.objects.push_back(ground);
+    std::size_t top = 0;
+    const auto images = shortRun(scene, GetParam());
+    Stage stage(scene);
+    stage.show(0);
+    const metrics::Drawn drawn = stage.drawn();
+    for (const Image<float>& image : images)
+        for (std::size_t i = 0; i < image.size(); ++i) {
+            if (drawn.id[i] == 0 || drawn.position[i].y < 0.0999F) continue;
+            ++top;
+            ASSERT_EQ(image[i], 1.0F) << "pixel " << i;
+        }
+    EXPECT_GT(top, 2000U);
+}
+
+std::vector<std::string> everyVariant() {
+    std::vector<std::string> names;
+    for (const techniques::Variant& variant : techniques::matchVariants("*")) names.push_back(variant.name);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(everyVariant()),
+                         [](const testing::TestParamInfo<std::string>& info) { return caseName({{"", info.param}, 0}).substr(1); });
+
+}  // namespace
+}  // namespace shadowbench

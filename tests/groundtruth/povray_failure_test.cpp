@@ -1,0 +1,281 @@
+// What happens when POV-Ray is missing, fails, dies, hangs or writes rubbish: one sentence, and nothing is left behind.
+#include "groundtruth/povray/povray.h"
+#include "harness/scene/error.h"
+#include "harness/scene/files.h"
+#include "harness/scene/image_io.h"
+#include "povray_scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <regex>
+#include <set>
+#include <sys/mount.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr glm::ivec2 size{64, 64};
+
+/// Alive and not a zombie that nobody has collected yet.
+bool alive(pid_t pid) {
+    std::string stat;
+    try {
+        stat = readFile(fmt::format("/proc/{}/stat", pid));
+    } catch (const Error&) {
+        return false;
+    }
+    const std::size_t state = stat.rfind(')') + 2;
+    return state < stat.size() && stat[state] != 'Z';
+}
+
+bool endsSoon(pid_t pid) {
+    for (int i = 0; i < 200 && alive(pid); ++i) std::this_thread::sleep_for(10ms);
+    return !alive(pid);
+}
+
+/// Temporary folders go to a place of the test's own, where whatever is left can be seen.
+class PovRayFailure : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "povray-test-XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        base_ = name;
+        fs::create_directory(temporary());
+        if (const char* before = std::getenv("TMPDIR")) before_ = before;
+        setenv("TMPDIR", temporary().c_str(), 1);
+    }
+    void TearDown() override {
+        EXPECT_TRUE(fs::is_empty(temporary())) << "a temporary folder was left behind";
+        before_.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", before_.c_str(), 1);
+        fs::remove_all(base_);
+    }
+
+    [[nodiscard]] fs::path temporary() const { return base_ / "tmp"; }
+    [[nodiscard]] fs::path file(const std::string& name) const { return base_ / name; }
+
+    /// A stand-in for POV-Ray: a shell script with this body.
+    PovRayOptions fake(const std::string& body, std::chrono::milliseconds limit = 30s) const {
+        writeFile(file("povray"), "#!/bin/sh\n" + body + "\n");
+        fs::permissions(file("povray"), fs::perms::owner_all);
+        return {file("povray"), limit, 1};
+    }
+
+    /// The sentence with which rendering is inconclusive.
+    static std::string sentence(const PovRayOptions& options, const Progress& progress = {}) {
+        try {
+            renderPovRay(overlappingPlates(), size, 16, options, progress);
+        } catch (const Inconclusive& error) {
+            return error.what();
+        }
+        ADD_FAILURE() << "rendering did not end as inconclusive";
+        return "";
+    }
+
+    [[nodiscard]] pid_t pidIn(const std::string& name) const {
+        for (int i = 0; i < 500 && !(fs::exists(file(name)) && fs::file_size(file(name)) > 0); ++i)
+            std::this_thread::sleep_for(10ms);
+        return std::stoi(readFile(file(name)));
+    }
+
+    fs::path base_;
+    std::string before_;
+};
+
+bool contains(const std::string& text, std::string_view part) { return text.find(part) != text.npos; }
+
+TEST_F(PovRayFailure, AMissingProgramNamesThePackage) {
+    const std::string said = sentence({.program = "no-such-povray"});
+    EXPECT_TRUE(contains(said, "no-such-povray") && contains(said, "apt-get install povray")) << said;
+    EXPECT_THROW(povrayVersion({.program = "no-such-povray"}), Inconclusive);
+}
+
+TEST_F(PovRayFailure, AProgramThatIsNotPovRayHasNoVersion) { EXPECT_THROW(povrayVersion(fake("echo hello")), Inconclusive); }
+
+TEST_F(PovRayFailure, AFileThatCannotBeExecutedIsReported) {
+    writeFile(file("povray"), "not a program");
+    fs::permissions(file("povray"), fs::perms::owner_all);
+    EXPECT_TRUE(contains(sentence({.program = file("povray")}), "cannot start"));
+}
+
+TEST_F(PovRayFailure, AFailureNamesTheExitCodeAndTheFirstErrorLine) {
+    const std::string said =
+        sentence(fake("echo 'povray: cannot open the user configuration file x' >&2\n"
+                      "echo \"File 'scene.pov' line 3: Parse Error: No matching } in\" >&2\n"
+                      "echo \" 'camera'\" >&2\necho 'Fatal error in parser: Cannot parse input.' >&2\nexit 1"));
+    EXPECT_TRUE(contains(said, "exit code 1: File 'scene.pov' line 3: Parse Error: No matching } in 'camera';")) << said;
+    EXPECT_FALSE(contains(said, "\n"));
+}
+
+TEST_F(PovRayFailure, EndlessOutputIsBounded) {
+    const std::string said = sentence(fake("yes 'Error: again and again' | head -c 3000000 | tr -d '\\n' >&2; exit 1"));
+    EXPECT_TRUE(contains(said, "exit code 1")) << said.substr(0, 500);
+    EXPECT_LT(said.size(), 500U);
+}
+
+TEST_F(PovRayFailure, AKilledRenderNamesTheSignal) {
+    const std::string said = sentence(fake("kill -9 $$"));
+    EXPECT_TRUE(contains(said, "signal 9")) << said;
+}
+
+TEST_F(PovRayFailure, AHangEndsAtTheLimitAndTakesItsChildrenAlong) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::string said = sentence(fake(fmt::format("sleep 100 & echo $! > {}; wait", file("pid").string()), 500ms));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, 20s); // far below the 100 s that it wanted, far above a slow machine
+    EXPECT_TRUE(contains(said, "limit of 0.5 s")) << said;
+    EXPECT_TRUE(endsSoon(pidIn("pid")));
+}
+
+TEST_F(PovRayFailure, AChildThatOutlivesAFailedRenderIsEnded) {
+    sentence(fake(fmt::format("sleep 100 & echo $! > {}; exit 1", file("pid").string())));
+    EXPECT_TRUE(endsSoon(pidIn("pid")));
+}
+
+TEST_F(PovRayFailure, AnInterruptedCallerLeavesNothingBehind) {
+    struct Interrupted {};
+    const PovRayOptions options =
+        fake(fmt::format("echo $$ > {}; echo 'Rendered 1024 of 4096 pixels (25%)' >&2; sleep 100", file("pid").string()));
+    const Progress interrupt = [](double, std::string_view) { throw Interrupted{}; };
+    EXPECT_THROW(renderPovRay(overlappingPlates(), size, 16, options, interrupt), Interrupted);
+    EXPECT_TRUE(endsSoon(pidIn("pid")));
+}
+
+TEST_F(PovRayFailure, TheRenderDiesWithItsParent) {
+    const PovRayOptions options = fake(fmt::format("echo $$ > {}; exec sleep 100", file("pid").string()));
+    const pid_t parent = fork();
+    if (parent == 0) {
+        renderPovRay(overlappingPlates(), size, 16, options);
+        _exit(0);
+    }
+    const pid_t child = pidIn("pid");
+    EXPECT_TRUE(alive(child));
+    kill(parent, SIGKILL);
+    waitpid(parent, nullptr, 0);
+    EXPECT_TRUE(endsSoon(child));
+    for (const fs::path& left : fs::directory_iterator(temporary())) fs::remove_all(left); // nobody was there to do it
+}
+
+TEST_F(PovRayFailure, ATruncatedImageIsNotAResult) {
+    writePng(file("whole.png"), Image<glm::vec3>(size.x, size.y, glm::vec3(1)));
+    const std::string said = sentence(fake(fmt::format("head -c 100 {} > image.png", file("whole.png").string())));
+    EXPECT_TRUE(contains(said, "without a complete image")) << said;
+}
+
+TEST_F(PovRayFailure, AnImageOfAnotherSizeIsNotAResult) {
+    writePng(file("small.png"), Image<glm::vec3>(size.x, size.y - 1, glm::vec3(1)));
+    EXPECT_TRUE(
+        contains(sentence(fake(fmt::format("cp {} image.png", file("small.png").string()))), "without a complete image"));
+}
+
+TEST_F(PovRayFailure, SuccessWithoutAnImageIsNotAResult) {
+    EXPECT_TRUE(contains(sentence(fake("exit 0")), "without a complete image"));
+}
+
+TEST_F(PovRayFailure, ValuesThatCountNoSamplesAreNotAResult) {
+    writePng(file("grey.png"), Image<glm::vec3>(size.x, size.y, glm::vec3(0.3F))); // 8 samples: 2.4 of them
+    const std::string said = sentence(fake(fmt::format("cp {} image.png", file("grey.png").string())));
+    EXPECT_TRUE(contains(said, "not a count of light samples")) << said;
+}
+
+TEST_F(PovRayFailure, AFullDiskIsNamed) {
+    const fs::path disk = file("disk");
+    fs::create_directory(disk);
+    if (mount("none", disk.c_str(), "tmpfs", 0, "size=128k") != 0) GTEST_SKIP() << "needs the right to mount a small disk";
+    setenv("TMPDIR", disk.c_str(), 1);
+    try {
+        // The scene fits into 128 kB, POV-Ray's state file and image of 256² do not.
+        renderPovRay(overlappingPlates(), {256, 256}, 64);
+        ADD_FAILURE() << "rendered on a full disk";
+    } catch (const Inconclusive& error) {
+        EXPECT_TRUE(contains(error.what(), "disk")) << error.what();
+        EXPECT_TRUE(contains(error.what(), "full")) << error.what();
+    }
+    EXPECT_TRUE(fs::is_empty(disk));
+    umount(disk.c_str());
+}
+
+TEST_F(PovRayFailure, ATemporaryFolderThatDoesNotExistIsNamed) {
+    setenv("TMPDIR", (base_ / "absent").c_str(), 1);
+    EXPECT_TRUE(contains(sentence({}), "TMPDIR"));
+}
+
+TEST_F(PovRayFailure, TheChildSeesAPrivateHomeAndNoInput) {
+    const PovRayOptions options = fake(fmt::format("env > {}; pwd >> {}; cat >> {}; exit 1", file("env").string(),
+                                                   file("env").string(), file("env").string()));
+    setenv("SHADOWBENCH_TEST_SECRET", "visible", 1);
+    sentence(options);
+    unsetenv("SHADOWBENCH_TEST_SECRET");
+    const std::string environment = readFile(file("env"));
+    EXPECT_TRUE(contains(environment, "HOME=" + temporary().string())) << environment;
+    EXPECT_FALSE(contains(environment, "SECRET"));
+}
+
+TEST_F(PovRayFailure, ProgressRisesToOne) {
+    std::vector<double> seen;
+    renderPovRay(overlappingPlates(), size, 16, {}, [&](double done, std::string_view) { seen.push_back(done); });
+    ASSERT_FALSE(seen.empty());
+    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+    EXPECT_EQ(seen.back(), 1.0);
+}
+
+TEST(PovRayScene, HoldsNumbersAndOurOwnWordsOnly) {
+    const std::string text = povrayScene(overlappingPlates(), size, 16);
+    const std::set<std::string> ours{"version",
+                                     "global_settings",
+                                     "assumed_gamma",
+                                     "declare",
+                                     "T",
+                                     "texture",
+                                     "pigment",
+                                     "rgb",
+                                     "finish",
+                                     "ambient",
+                                     "diffuse",
+                                     "brilliance",
+                                     "emission",
+                                     "camera",
+                                     "perspective",
+                                     "location",
+                                     "direction",
+                                     "right",
+                                     "up",
+                                     "mesh2",
+                                     "vertex_vectors",
+                                     "face_indices",
+                                     "object",
+                                     "matrix",
+                                     "double_illuminate",
+                                     "light_source",
+                                     "M0",
+                                     "M1"};
+    const std::regex word("[A-Za-z_][A-Za-z_0-9]*");
+    const std::string words = std::regex_replace(text, std::regex("(^|[^A-Za-z_0-9])[-+]?[0-9.]+(e[-+]?[0-9]+)?"), "$1");
+    for (std::sregex_iterator i(words.begin(), words.end(), word), end; i != end; ++i)
+        EXPECT_TRUE(ours.contains(i->str())) << i->str();
+}
+
+TEST(PovRayScene, RefusesWhatItCannotRender) {
+    const Snapshot scene = overlappingPlates();
+    for (const int samples : {-1, 0, 1, mostLightSamples + 1})
+        EXPECT_THROW(povrayScene(scene, size, samples), BadInput) << samples;
+    EXPECT_THROW(povrayScene(scene, {0, 64}, 16), BadInput);
+    Snapshot point = scene;
+    point.light.kind = LightKind::Point;
+    EXPECT_THROW(povrayScene(point, size, 16), BadInput);
+    Snapshot broken = scene;
+    broken.batches[0].placements[0].world[3].x = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(povrayScene(broken, size, 16), BadInput);
+}
+
+} // namespace
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,78 @@
+// Parameters and variant strings: what is accepted, what is said of the rest.
+#include "harness/scene/error.h"
+#include "techniques/technique.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+namespace shadowbench::techniques {
+namespace {
+
+std::string refusal(const std::string& variant) {
+    try {
+        parseVariant(variant);
+    } catch (const BadInput& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(Variant, DefaultsAreLeftOutAndOrderIsTheDeclaredOne) {
+    EXPECT_EQ(parseVariant("pcss").name, "pcss");
+    EXPECT_EQ(parseVariant("pcss:map=2048,taps=32+32").name, "pcss:taps=32+32,map=2048");
+    EXPECT_EQ(parseVariant("pcss:map=1024,taps=16+16").name, "pcss");
+    EXPECT_EQ(parseVariant("pcss:map=01024").name, "pcss");
+}
+
+TEST(Variant, UnknownTechniqueNamesTheNearMatch) {
+    EXPECT_NE(refusal("psss").find("pcss"), std::string::npos);
+    EXPECT_NE(refusal("psss").find("no technique \"psss\""), std::string::npos);
+}
+
+TEST(Variant, UnknownParameterNamesTheValidOnes) {
+    const std::string sentence = refusal("sm-uniform:maps=512");
+    EXPECT_NE(sentence.find("no parameter \"maps\""), std::string::npos);
+    EXPECT_NE(sentence.find("map, bias, factor, units"), std::string::npos);
+}
+
+TEST(Variant, ValuesOutOfRangeNameTheRange) {
+    EXPECT_NE(refusal("sm-uniform:map=9999999").find("16…8192"), std::string::npos);
+    EXPECT_NE(refusal("sm-uniform:map=-1").find("16…8192"), std::string::npos);
+    EXPECT_NE(refusal("sm-uniform:map=5x").find("16…8192"), std::string::npos);
+    EXPECT_NE(refusal("sm-uniform:bias=big").find("none|constant|slope"), std::string::npos);
+    EXPECT_NE(refusal("sm-history:m=nan").find("not allowed"), std::string::npos);
+    EXPECT_NE(refusal("sm-history:m=inf").find("not allowed"), std::string::npos);
+}
+
+TEST(Variant, HalfAnAssignmentAndARepeatedOneAreRefused) {
+    EXPECT_NE(refusal("pcss:taps").find("needs a value"), std::string::npos);
+    EXPECT_NE(refusal("pcss:map=64,map=128").find("twice"), std::string::npos);
+}
+
+TEST(Variant, GlobsGiveEveryShownVariantOfEachMatch) {
+    std::set<std::string> names;
+    for (const Variant& variant : matchVariants("pc*")) names.insert(variant.name);
+    EXPECT_EQ(names, (std::set<std::string>{"pcf", "pcf:kernel=7", "pcss", "pcss:taps=32+32"}));
+    EXPECT_THROW(matchVariants("zz*"), BadInput);
+}
+
+TEST(Variant, HistoryIsComparedWithItsOwnBaseAtTheSameMapSize) {
+    EXPECT_EQ(baseVariant(parseVariant("sm-history:map=512")), "sm-lispsm:map=512");
+    EXPECT_EQ(baseVariant(parseVariant("sm-history:base=uniform")), "sm-uniform");
+    EXPECT_EQ(baseVariant(parseVariant("pcss")), "");
+}
+
+TEST(Catalogue, IdsAreUniqueAndEveryShownVariantIsCanonical) {
+    std::set<std::string> ids;
+    for (const Entry& entry : catalog()) {
+        EXPECT_TRUE(ids.insert(entry.id).second) << entry.id;
+        EXPECT_FALSE(entry.variants.empty()) << entry.id;
+        for (const std::string& shown : entry.variants) {
+            const std::string text = shown.empty() ? entry.id : entry.id + ":" + shown;
+            EXPECT_EQ(parseVariant(text).name, text);
+        }
+    }
+}
+
+} // namespace
+} // namespace shadowbench::techniques
