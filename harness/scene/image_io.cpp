@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
 
 namespace shadowbench {
 namespace fs = std::filesystem;
@@ -29,6 +31,21 @@ void write(const fs::path& file, const OIIO::ImageSpec& spec, const void* pixels
 
 std::uint8_t byte(float value) {
     return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(std::isnan(value) ? 0.0F : value, 0.0F, 1.0F)));
+}
+
+std::unique_ptr<OIIO::ImageInput> openImage(const fs::path& file) {
+    OIIO::ImageSpec wanted;
+    wanted.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not multiplied by alpha
+    auto input = OIIO::ImageInput::open(file.string(), &wanted);
+    if (!input) throw BadInput(fmt::format("cannot read image {}: {}", file.string(), OIIO::geterror()));
+    return input;
+}
+
+Image<float> read(OIIO::ImageInput& input, const fs::path& file, int channel) {
+    Image<float> image(input.spec().width, input.spec().height);
+    if (!input.read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, image.data()))
+        throw BadInput(fmt::format("cannot read image {}: {}", file.string(), input.geterror()));
+    return image;
 }
 
 } // namespace
@@ -65,18 +82,22 @@ void writePng(const fs::path& file, const Image<glm::vec3>& colour) {
 }
 
 Image<float> readChannel(const fs::path& file, int channel) {
-    OIIO::ImageSpec wanted;
-    wanted.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not multiplied by alpha
-    const auto input = OIIO::ImageInput::open(file.string(), &wanted);
-    if (!input) throw BadInput(fmt::format("cannot read image {}: {}", file.string(), OIIO::geterror()));
+    const auto input = openImage(file);
     const OIIO::ImageSpec& spec = input->spec();
     if (channel < 0 || channel >= spec.nchannels)
         throw BadInput(fmt::format("cannot read channel {} of image {}: it has {} channels, counted from 0", channel,
                                    file.string(), spec.nchannels));
-    Image<float> image(spec.width, spec.height);
-    if (!input->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, image.data()))
-        throw BadInput(fmt::format("cannot read image {}: {}", file.string(), input->geterror()));
-    return image;
+    return read(*input, file, channel);
+}
+
+Image<float> readChannel(const fs::path& file, const std::string& channel) {
+    const auto input = openImage(file);
+    const std::vector<std::string>& names = input->spec().channelnames;
+    const auto found = std::find(names.begin(), names.end(), channel);
+    if (found == names.end())
+        throw BadInput(fmt::format("cannot read channel \"{}\" of image {}: it has {}", channel, file.string(),
+                                   fmt::join(names, ", ")));
+    return read(*input, file, static_cast<int>(found - names.begin()));
 }
 
 } // namespace shadowbench

@@ -28,4 +28,8 @@ void writePng(const std::filesystem::path& file, const Image<glm::vec3>& colour)
 /// Throws BadInput for a missing or unreadable file and for a channel that is not there.
 Image<float> readChannel(const std::filesystem::path& file, int channel);
 
+/// The same by the channel's name: OpenEXR keeps channels sorted by name, so that the order of writing says nothing about
+/// the index.
+Image<float> readChannel(const std::filesystem::path& file, const std::string& channel);
+
 } // namespace shadowbench

@@ -10,6 +10,8 @@
 
 namespace shadowbench {
 
+constexpr int kMostTriangles = 4'000'000; // of one mesh; more is a slip of the finger
+
 /// The meshes of one scene: a generator called twice with the same arguments gives one shared mesh.
 class MeshStore {
 public:

@@ -11,7 +11,6 @@
 namespace shadowbench {
 namespace {
 
-constexpr int kMostTriangles = 4'000'000; // of one mesh; more is a slip of the finger
 constexpr int kMostSides = 4096;
 
 /// A mesh to be made, and the words by which an equal one is found again.

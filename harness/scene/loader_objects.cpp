@@ -45,7 +45,7 @@ std::vector<Level> levelsFromLod(const TomlValue& mesh, const TomlValue& lod, Me
             fmt::format("expected {} distances, one fewer than levels, got {}", triangles.size() - 1, until.size()));
     std::vector<Level> levels;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        levels.push_back({meshes.get(mesh, triangles[i].integer(4, 4'000'000))});
+        levels.push_back({meshes.get(mesh, triangles[i].integer(4, kMostTriangles))});
         if (i < until.size()) levels.back().until = until[i].positive();
     }
     requireGrowing(levels, lod.get("until"));

@@ -1,5 +1,7 @@
 #include "harness/scene/primitives.h"
 
+#include "harness/scene/solids.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -77,26 +79,6 @@ Mesh sphere(double radius, int triangles) {
     return mesh;
 }
 
-Mesh column(double radius, double height, int sides) {
-    Mesh mesh;
-    const auto n = static_cast<std::uint32_t>(sides);
-    for (const double y : {0.0, height}) {
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const double angle = glm::two_pi<double>() * i / n;
-            mesh.positions.emplace_back(radius * std::cos(angle), y, -radius * std::sin(angle));
-        }
-    }
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t next = (i + 1) % n;
-        mesh.triangles.emplace_back(i, next, n + next);
-        mesh.triangles.emplace_back(i, n + next, n + i);
-    }
-    for (std::uint32_t i = 1; i + 1 < n; ++i) {
-        mesh.triangles.emplace_back(0, i + 1, i);
-        mesh.triangles.emplace_back(n, n + i, n + i + 1);
-    }
-    mesh.closed = true;
-    return mesh;
-}
+Mesh column(double radius, double height, int sides) { return rod({0, 0, 0}, {0, height, 0}, radius, radius, sides); }
 
 } // namespace shadowbench

@@ -31,8 +31,8 @@ TEST_F(ImageFiles, AnExrKeepsEveryChannelToTheLastBit) {
     Image<float> distance(7, 5, std::numeric_limits<float>::infinity());
     distance(3, 2) = 1e-30F;
     writeExr(folder_ / "a.exr", {{"V", &visibility}, {"distance", &distance}});
-    EXPECT_EQ(readChannel(folder_ / "a.exr", 0), visibility);
-    EXPECT_EQ(readChannel(folder_ / "a.exr", 1), distance);
+    EXPECT_EQ(readChannel(folder_ / "a.exr", "V"), visibility);
+    EXPECT_EQ(readChannel(folder_ / "a.exr", "distance"), distance);
 }
 
 TEST_F(ImageFiles, TheSameExrHasTheSameBytes) {
@@ -71,6 +71,7 @@ TEST_F(ImageFiles, WhatIsNotThereIsNamed) {
     writeExr(folder_ / "a.exr", {{"V", &image}});
     EXPECT_THROW(readChannel(folder_ / "a.exr", 1), BadInput);
     EXPECT_THROW(readChannel(folder_ / "a.exr", -1), BadInput);
+    EXPECT_THROW(readChannel(folder_ / "a.exr", "v"), BadInput);
     EXPECT_THROW(readChannel(folder_ / "none.exr", 0), BadInput);
     writeFile(folder_ / "broken.png", "no image");
     EXPECT_THROW(readChannel(folder_ / "broken.png", 0), BadInput);
