@@ -175,8 +175,8 @@ Reference hardReference(const Request& request, const Progress& progress) {
 
 } // namespace
 
-std::map<std::string, std::string> toolVersions(const Request& request) {
-    std::map<std::string, std::string> tools = exactTools();
+Tools toolVersions(const Request& request) {
+    Tools tools = exactTools();
     tools["reference"] = std::to_string(referenceCodeVersion);
     if (!request.snapshot.light.isArea()) return tools;
     tools["povray"] = povrayVersion();
@@ -184,16 +184,20 @@ std::map<std::string, std::string> toolVersions(const Request& request) {
     return tools;
 }
 
-Reference compute(const Request& request, const Progress& progress) {
+Reference compute(const Request& request, const Tools& tools, const Progress& progress) {
     requireAnswerable(request);
     const auto start = std::chrono::steady_clock::now();
-    std::string content = key(request); // first: a missing tool is reported before any work
     Reference reference =
         request.snapshot.light.isArea() ? softReference(request, progress) : hardReference(request, progress);
-    reference.provenance.key = std::move(content);
-    reference.provenance.tools = toolVersions(request);
+    reference.provenance.key = key(request, tools);
+    reference.provenance.tools = tools;
     reference.provenance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return reference;
+}
+
+Reference compute(const Request& request, const Progress& progress) {
+    requireAnswerable(request); // a wrong request is told before a missing tool
+    return compute(request, toolVersions(request), progress);
 }
 
 } // namespace shadowbench::groundtruth
