@@ -1,4 +1,4 @@
-#include "groundtruth/reference.h"
+#include "groundtruth/reference_tools.h"
 #include "harness/scene/error.h"
 #include "povray_scene.h"
 
@@ -17,9 +17,11 @@ Request hard() {
     return request;
 }
 
+const Tools tools{{"povray", "3.7"}, {"exact", "1"}};
+
 std::string keyAfter(Request request, const std::function<void(Request&)>& change) {
     change(request);
-    return key(request);
+    return key(request, tools);
 }
 
 Mesh& ownMesh(Request& request, std::size_t batch) {
@@ -30,9 +32,9 @@ Mesh& ownMesh(Request& request, std::size_t batch) {
 }
 
 TEST(ReferenceKey, IsThirtyTwoHexDigitsAndTheSameEachTime) {
-    EXPECT_EQ(key(soft()).size(), 32U);
-    EXPECT_EQ(key(soft()).find_first_not_of("0123456789abcdef"), std::string::npos);
-    EXPECT_EQ(key(soft()), key(soft()));
+    EXPECT_EQ(key(soft(), tools).size(), 32U);
+    EXPECT_EQ(key(soft(), tools).find_first_not_of("0123456789abcdef"), std::string::npos);
+    EXPECT_EQ(key(soft(), tools), key(soft(), tools));
 }
 
 TEST(ReferenceKey, ChangesWithEverythingThatMattersToTheTruth) {
@@ -51,8 +53,16 @@ TEST(ReferenceKey, ChangesWithEverythingThatMattersToTheTruth) {
         {"samples", [](Request& r) { r.samples = 256; }},
         {"oracle", [](Request& r) { r.oracle = Oracle::PovRay; }},
     };
-    for (const auto& [what, change] : changes) EXPECT_NE(keyAfter(soft(), change), key(soft())) << what;
-    EXPECT_NE(key(hard()), key(soft()));
+    for (const auto& [what, change] : changes) EXPECT_NE(keyAfter(soft(), change), key(soft(), tools)) << what;
+    EXPECT_NE(key(hard(), tools), key(soft(), tools));
+}
+
+TEST(ReferenceKey, ChangesWithEveryToolVersion) {
+    EXPECT_NE(key(soft(), {{"povray", "3.8"}, {"exact", "1"}}), key(soft(), tools));
+    EXPECT_NE(key(soft(), {{"povray", "3.7"}, {"exact", "2"}}), key(soft(), tools));
+    const Tools ofSoft = toolVersions(soft()), ofHard = toolVersions(hard());
+    EXPECT_TRUE(ofSoft.contains("povray") && ofSoft.contains("povray recipe") && ofSoft.contains("exact"));
+    EXPECT_TRUE(ofHard.contains("cgal") && ofHard.contains("exact") && !ofHard.contains("povray"));
 }
 
 TEST(ReferenceKey, DoesNotChangeWithWhatTheTruthCannotSee) {
@@ -68,11 +78,11 @@ TEST(ReferenceKey, DoesNotChangeWithWhatTheTruthCannotSee) {
          [](Request& r) { std::swap(r.snapshot.batches[1].placements[0], r.snapshot.batches[1].placements[1]); }},
         {"negative zero", [](Request& r) { r.snapshot.batches[1].placements[0].world[3].x = -0.0; }},
     };
-    for (const auto& [what, change] : changes) EXPECT_EQ(keyAfter(soft(), change), key(soft())) << what;
+    for (const auto& [what, change] : changes) EXPECT_EQ(keyAfter(soft(), change), key(soft(), tools)) << what;
 }
 
 TEST(ReferenceKey, HardShadowsDoNotDependOnTheNumberOfSamples) {
-    EXPECT_EQ(keyAfter(hard(), [](Request& r) { r.samples = 7; }), key(hard()));
+    EXPECT_EQ(keyAfter(hard(), [](Request& r) { r.samples = 7; }), key(hard(), tools));
 }
 
 TEST(ReferenceKey, NeedsPovRayForAreaLightsOnly) {

@@ -80,6 +80,12 @@ TEST(Reference, ALightMovedBehindPovRaysBackWouldBeNoticed) {
     EXPECT_GT(contradictions, size.x * size.y / 100); // the bound of compute
 }
 
+TEST(Reference, OfAnAreaLightNeedsAnUncutView) {
+    Request request{overlappingPlates(), {48, 48}, Oracle::Auto, 16};
+    request.snapshot.camera.far = 9; // the ground goes on behind
+    EXPECT_THROW(compute(request), BadInput);
+}
+
 struct Honesty {
     double error = 0, sigma = 0; // rms over the penumbra
 };
@@ -114,6 +120,26 @@ TEST(Reference, StatedUncertaintyCoversTheErrorWithoutDrowningIt) {
             EXPECT_LE(h.sigma, 5 * h.error) << name(kind) << " " << samples; // nor so bad that no score could be resolved
         }
     }
+}
+
+TEST(Reference, StatedUncertaintyHoldsWherePenumbraeOverlap) {
+    const Reference reference = compute({overlappingPlates(), size, Oracle::Auto, 256});
+    const PovRayImage truth = renderPovRay(overlappingPlates(), size, 4096); // errs about six times less
+    double error = 0, sigma = 0;
+    int penumbra = 0, beyond = 0;
+    for (std::size_t i = 0; i < reference.visibility.size(); ++i) {
+        const float expected = truth.visible[i];
+        if (reference.surface[i] != Surface::Receiver || expected == 0 || expected == 1) continue;
+        const double difference = std::abs(reference.visibility[i] - expected);
+        error += difference * difference;
+        sigma += std::pow(reference.sigma[i], 2);
+        beyond += difference > 3 * reference.sigma[i];
+        ++penumbra;
+    }
+    ASSERT_GT(penumbra, 300);
+    EXPECT_GE(sigma, error);
+    EXPECT_LE(sigma, 25 * error);     // five times in standard deviation, as above
+    EXPECT_LE(beyond, penumbra / 50); // a normal law has 0.3 % beyond 3σ; a window shares its σ among unlike pixels
 }
 
 TEST(Reference, OfAPointLightOnAGroundComesFromThePolygonOracle) {
