@@ -1,6 +1,7 @@
 #include "groundtruth/cache.h"
 
 #include "groundtruth/reference_files.h"
+#include "groundtruth/reference_tools.h"
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
 
@@ -74,8 +75,9 @@ std::optional<Reference> Cache::find(const std::string& key) const {
 void Cache::store(const Reference& reference) const { writeFile(entry(reference.provenance.key), encode(reference)); }
 
 Reference Cache::get(const Request& request, const Progress& progress) const {
-    if (std::optional<Reference> known = find(key(request))) return std::move(*known);
-    Reference reference = compute(request, progress);
+    const Tools tools = toolVersions(request);
+    if (std::optional<Reference> known = find(key(request, tools))) return std::move(*known);
+    Reference reference = compute(request, tools, progress);
     try {
         store(reference);
     } catch (const InternalError& error) {

@@ -81,19 +81,29 @@ double lightMismatch(const Request& request, const PrimaryHits& primary, const I
     return static_cast<double>(differing) / static_cast<double>(visible.size());
 }
 
-void requireAligned(const std::map<std::string, double>& measured) {
-    const double primary = measured.at("primary_mismatch");
-    if (primary > mostPrimaryMismatch)
-        throw InternalError(fmt::format(
-            "POV-Ray and the exact primary hits disagree on {:.2f} % of the pixels (at most {:.1f} %): the cameras "
-            "are misaligned, or the camera's near or far plane cuts through the scene",
-            100 * primary, 100 * mostPrimaryMismatch));
-    const double light = measured.at("light_mismatch");
-    if (light > mostLightMismatch)
+/// POV-Ray has no near and no far plane. Throws BadInput if that explains the mismatch.
+void requireUncutScene(const Request& request, const PovRayImage& image) {
+    Snapshot uncut = request.snapshot;
+    uncut.camera.near *= 1e-6;
+    uncut.camera.far *= 1e6;
+    if (primaryMismatch(image, primaryHits(uncut, request.size)) <= mostPrimaryMismatch)
+        throw BadInput("the camera's near or far plane cuts through the scene, which the povray oracle cannot follow: "
+                       "move the plane");
+}
+
+void requireAligned(const Request& request, const PovRayImage& image, const std::map<std::string, double>& measured) {
+    if (const double share = measured.at("primary_mismatch"); share > mostPrimaryMismatch) {
+        requireUncutScene(request, image);
         throw InternalError(
-            fmt::format("POV-Ray and the exact hard shadow of the light's centre contradict each other on {:.2f} % of the "
-                        "pixels (at most {:.0f} %): the lights are misaligned",
-                        100 * light, 100 * mostLightMismatch));
+            fmt::format("POV-Ray and the exact primary hits disagree on {:.2f} % of the pixels (at most {:.1f} %): "
+                        "their cameras are misaligned; report this scene",
+                        100 * share, 100 * mostPrimaryMismatch));
+    }
+    if (const double share = measured.at("light_mismatch"); share > mostLightMismatch)
+        throw InternalError(fmt::format("POV-Ray and the exact hard shadow of the light's centre contradict each other on "
+                                        "{:.2f} % of the pixels (at most {:.0f} %): occluders too thin for {} samples, or "
+                                        "misaligned lights; ask for more samples",
+                                        100 * share, 100 * mostLightMismatch, request.samples));
 }
 
 Reference softReference(const Request& request, const Progress& progress) {
@@ -108,7 +118,7 @@ Reference softReference(const Request& request, const Progress& progress) {
         {"primary_mismatch", primaryMismatch(image, primary)},
         {"light_mismatch", lightMismatch(request, primary, image.visible, part(progress, 0.95, 1))},
         {"scale", image.scale}};
-    requireAligned(reference.provenance.measured);
+    requireAligned(request, image, reference.provenance.measured);
 
     const Image<float> sigma = samplingUncertainty(image, primary.id, request.samples);
     for (std::size_t i = 0; i < primary.surface.size(); ++i) {
@@ -175,8 +185,8 @@ Reference hardReference(const Request& request, const Progress& progress) {
 
 } // namespace
 
-std::map<std::string, std::string> toolVersions(const Request& request) {
-    std::map<std::string, std::string> tools = exactTools();
+Tools toolVersions(const Request& request) {
+    Tools tools = exactTools();
     tools["reference"] = std::to_string(referenceCodeVersion);
     if (!request.snapshot.light.isArea()) return tools;
     tools["povray"] = povrayVersion();
@@ -184,16 +194,20 @@ std::map<std::string, std::string> toolVersions(const Request& request) {
     return tools;
 }
 
-Reference compute(const Request& request, const Progress& progress) {
+Reference compute(const Request& request, const Tools& tools, const Progress& progress) {
     requireAnswerable(request);
     const auto start = std::chrono::steady_clock::now();
-    std::string content = key(request); // first: a missing tool is reported before any work
     Reference reference =
         request.snapshot.light.isArea() ? softReference(request, progress) : hardReference(request, progress);
-    reference.provenance.key = std::move(content);
-    reference.provenance.tools = toolVersions(request);
+    reference.provenance.key = key(request, tools);
+    reference.provenance.tools = tools;
     reference.provenance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return reference;
+}
+
+Reference compute(const Request& request, const Progress& progress) {
+    requireAnswerable(request); // a wrong request is told before a missing tool
+    return compute(request, toolVersions(request), progress);
 }
 
 } // namespace shadowbench::groundtruth

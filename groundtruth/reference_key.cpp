@@ -89,7 +89,7 @@ std::vector<PlacedMesh> placements(const Snapshot& snapshot) {
 
 } // namespace
 
-std::string key(const Request& request) {
+std::string key(const Request& request, const Tools& tools) {
     const Snapshot& snapshot = request.snapshot;
     Hash hash;
     add(hash, snapshot.camera);
@@ -102,12 +102,14 @@ std::string key(const Request& request) {
     for (const int value : {request.size.x, request.size.y, snapshot.light.isArea() ? request.samples : 0})
         hash.add(static_cast<std::uint64_t>(value));
     hash.add(name(request.oracle));
-    for (const auto& [tool, version] : toolVersions(request)) {
+    for (const auto& [tool, version] : tools) {
         hash.add(tool);
         hash.add(version);
     }
     const XXH128_hash_t digest = hash.digest();
     return fmt::format("{:016x}{:016x}", digest.high64, digest.low64);
 }
+
+std::string key(const Request& request) { return key(request, toolVersions(request)); }
 
 } // namespace shadowbench::groundtruth

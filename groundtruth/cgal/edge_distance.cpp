@@ -70,7 +70,6 @@ public:
                  Image<float>& distance)
         : edges_(edges), winding_(winding), members_(members), distance_(distance),
           cells_(winding.width() - 1, winding.height() - 1) {
-        nearMembers();
         for (std::uint32_t i = 0; i < edges_.size(); ++i) enter(i);
     }
 
@@ -83,21 +82,13 @@ public:
 private:
     static glm::dvec2 centre(int x, int y) { return {x - scanMargin + 0.5, y - scanMargin + 0.5}; }
 
-    /// Cells out of reach of every member need no work.
-    void nearMembers() {
-        near_ = Image<std::uint8_t>(cells_.width(), cells_.height());
-        const int reach = static_cast<int>(edgeReach) + 1;
-        Image<std::uint8_t> rows(cells_.width(), cells_.height()); // dilation along x, then along y
-        for (int y = 0; y < members_.height(); ++y)
-            for (int x = 0; x < members_.width(); ++x)
-                if (members_(x, y))
-                    for (int i = std::max(0, x + scanMargin - reach);
-                         i <= std::min(cells_.width() - 1, x + scanMargin + reach); ++i)
-                        rows(i, y + scanMargin) = 1;
-        for (int y = 0; y < rows.height(); ++y)
-            for (int x = 0; x < rows.width(); ++x)
-                if (rows(x, y))
-                    for (int i = std::max(0, y - reach); i <= std::min(cells_.height() - 1, y + reach); ++i) near_(x, i) = 1;
+    /// Does one of the cell's corners see the receiver?
+    [[nodiscard]] bool seen(int x, int y) const {
+        for (int i = 0; i < 4; ++i) {
+            const int px = x + i % 2 - scanMargin, py = y + i / 2 - scanMargin;
+            if (members_.contains(px, py) && members_(px, py)) return true;
+        }
+        return false;
     }
 
     /// Lists the edge in the cells it may pass through, row by row.
@@ -115,7 +106,7 @@ private:
             const int left = std::max(0, static_cast<int>(std::floor(std::min(x0, x1) - 1e-9)));
             const int right = std::min(cells_.width() - 1, static_cast<int>(std::floor(std::max(x0, x1) + 1e-9)));
             for (int x = left; x <= right; ++x)
-                if (near_(x, y)) cells_(x, y).push_back(index);
+                if (seen(x, y)) cells_(x, y).push_back(index);
         }
     }
 
@@ -170,7 +161,6 @@ private:
     const Image<std::uint8_t>& members_;
     Image<float>& distance_;
     Image<std::vector<std::uint32_t>> cells_;
-    Image<std::uint8_t> near_;
 };
 
 } // namespace

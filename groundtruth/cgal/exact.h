@@ -47,10 +47,10 @@ public:
     [[nodiscard]] std::vector<PlanarReceiver> planarReceivers(const PrimaryHits& primary,
                                                               std::size_t minimumPixels = 256) const;
 
-    /// The labels of `labelByRays` by another derivation, silhouette chains and a scanline, with exact edge distances: to
-    /// the nearest boundary of the union of the shadows on the receiver's plane (parts hidden from the eye included),
-    /// correct to 1e-6 px up to 8 px, infinity beyond. Writes the pixels of `receiver` only; images of `out` that have no
-    /// size yet are made. Costs a pass over all triangles per receiver.
+    /// The labels of `labelByRays` by another derivation, silhouette chains and a scanline, with the distance to the nearest
+    /// visible boundary of the union of the shadows on the receiver's plane: correct to 1e-6 px up to 8 px, infinity beyond.
+    /// A boundary is visible where one of the four pixel centres around it sees the receiver. Writes the pixels of
+    /// `receiver` only; images of `out` that have no size yet are made. Costs a pass over all triangles per receiver.
     void labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
                         const Progress& progress = {}) const;
 

@@ -18,8 +18,8 @@ struct PixelEdge {
     double error;
 };
 
-/// Pixels around the image that are scanned too, so that edges just outside it have distances.
-inline constexpr int scanMargin = 9;
+/// Pixels around the image that are scanned too, so that every pixel has neighbours on all sides.
+inline constexpr int scanMargin = 1;
 
 /// Clips to scanMargin + 1 pixels around the image and to what lies below the light and before the camera.
 std::vector<PixelEdge> toPixels(const std::vector<ShadowEdge>& edges, glm::ivec2 size, double pixelError);

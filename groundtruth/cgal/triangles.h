@@ -60,6 +60,7 @@ public:
     /// returns true; `visit` may lower `last`, the parameter in [0, 1] beyond which nothing is wanted. True if stopped.
     template <typename Visit>
     bool visit(const ApproximateSegment& segment, Visit&& visit) const {
+        if (top_.empty()) return false;
         PaddedSegment top = padded(segment);
         return top_.visit(top, [&](std::uint32_t i) {
             const TriangleInstance& instance = instances_[i];

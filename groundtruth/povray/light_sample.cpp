@@ -32,4 +32,10 @@ glm::dvec2 lightSample(int i, int n) {
     return {unit * mirrored(index) + halfCell, unit * secondDimension(index) + halfCell};
 }
 
+SampleParts sampleParts(int samples) {
+    const int firstHalf = (samples + 1) / 2;
+    const int firstQuarter = (firstHalf + 1) / 2;
+    return {firstQuarter, firstHalf - firstQuarter, samples - firstHalf};
+}
+
 } // namespace shadowbench::groundtruth

@@ -126,30 +126,50 @@ Image<float> fraction(const Image<int>& visible, int samples) {
     return result;
 }
 
+/// Whether the file ends as a PNG must (the IEND chunk): libpng reports a torn one on stderr in its own words.
+bool isWholePng(const std::filesystem::path& file) {
+    using namespace std::string_view_literals;
+    constexpr std::string_view end = "\0\0\0\0IEND\xAE\x42\x60\x82"sv;
+    std::ifstream stream(file, std::ios::binary);
+    std::string tail(end.size(), ' ');
+    stream.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+    stream.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+    return stream && tail == end;
+}
+
 Image<float> readImage(const std::filesystem::path& file, int channel, glm::ivec2 size) {
-    try {
+    if (isWholePng(file)) {
         Image<float> image = readChannel(file, channel);
         if (image.width() == size.x && image.height() == size.y) return image;
-    } catch (const Error&) {
-        // The reader's sentence names a temporary file that will be gone: ours says what the caller can act on.
     }
     if (diskIsFull(file.parent_path())) throwDiskFull(file.parent_path());
     throw Inconclusive("POV-Ray ended without a complete image; run it again");
 }
 
 PovRayImage decode(const std::filesystem::path& file, glm::ivec2 size, int samples) {
-    const int first = (samples + 1) / 2;
-    const int second = samples - first;
-    const double unit = std::bit_ceil(static_cast<unsigned>(first)); // P of povrayScene
-    const Image<int> red = counts(readImage(file, 0, size), unit, first);
-    const Image<int> green = counts(readImage(file, 1, size), unit, second);
+    const SampleParts parts = sampleParts(samples);
+    const double quarter = std::bit_ceil(static_cast<unsigned>(parts.firstQuarter)); // units as in addLights
+    const double half = 2.0 * std::bit_ceil(static_cast<unsigned>(parts.secondHalf));
+    Image<float> blue = readImage(file, 2, size);
+    Image<std::uint8_t> hit(size.x, size.y);
+    for (std::size_t i = 0; i < blue.size(); ++i) {
+        constexpr float hitMask = 0.5F;
+        if (blue[i] < 0.5F * hitMask) continue;
+        hit[i] = 1;
+        blue[i] -= hitMask;
+    }
+    const Image<int> red = counts(readImage(file, 0, size), quarter, parts.firstQuarter);
+    const Image<int> green = counts(readImage(file, 1, size), quarter, parts.secondQuarter);
+    const Image<int> rest = counts(blue, half, parts.secondHalf);
 
     Image<int> all = red;
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] += green[i];
-    PovRayImage result{fraction(all, samples), fraction(red, first), fraction(green, second), {size.x, size.y}, 0};
-    const Image<float> blue = readImage(file, 2, size);
-    for (std::size_t i = 0; i < blue.size(); ++i) result.hit[i] = blue[i] > 0.25F ? 1 : 0;
-    return result;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += green[i] + rest[i];
+    return {fraction(all, samples),
+            fraction(red, parts.firstQuarter),
+            fraction(green, parts.secondQuarter),
+            fraction(rest, parts.secondHalf),
+            std::move(hit),
+            0};
 }
 
 } // namespace

@@ -12,12 +12,19 @@ namespace shadowbench::groundtruth {
 /// To be raised with every change that can alter a pixel: it is part of every key.
 constexpr int povrayCodeVersion = 1;
 
-/// More samples than this could not be told apart in a 16-bit channel.
+/// Every part of the set holds a point; more than the most could not be told apart in a 16-bit channel.
+constexpr int fewestLightSamples = 4;
 constexpr int mostLightSamples = 16384;
 
 /// Point `i` of `n` of the low-discrepancy set in [0, 1)² that the light is sampled at: the first two Sobol dimensions, a
 /// (0,2)-sequence in base 2, moved to the centres of its cells. Every aligned block of 2^k points is a net of its own.
 glm::dvec2 lightSample(int i, int n);
+
+/// How many points of the set each part holds, one after the other.
+struct SampleParts {
+    int firstQuarter, secondQuarter, secondHalf;
+};
+SampleParts sampleParts(int samples);
 
 /// World units → POV-Ray units: the largest power of two ≤ 1024 that keeps every coordinate below 10⁷. POV-Ray ignores
 /// shadow hits nearer than 10⁻³ of its units, so the larger the better; a power of two changes no mantissa.
@@ -36,10 +43,12 @@ struct PovRayOptions {
 };
 
 struct PovRayImage {
-    Image<float> visible;               // fraction of light samples that are visible: exactly k/N, rounded to float
-    Image<float> firstHalf, secondHalf; // the same for the first ⌈N/2⌉ samples and for the others
-    Image<std::uint8_t> hit;            // 1 where the ray hits something
-    double scale = 0;                   // povrayScale
+    Image<float> visible;      // fraction of light samples that are visible: k/N, rounded to float
+    Image<float> firstQuarter; // the same for parts of the set (SampleParts): quarters of the first half …
+    Image<float> secondQuarter;
+    Image<float> secondHalf; // … and the second half
+    Image<std::uint8_t> hit; // 1 where the ray hits something
+    double scale = 0;        // povrayScale
 };
 
 /// Renders; throws Inconclusive when POV-Ray is missing, fails, is killed, runs over the limit or the disk is full. Leaves

@@ -58,12 +58,15 @@ void addPlacement(Text& text, const glm::dmat4& world, std::size_t mesh, double 
     add(text, "> texture {{ T }} double_illuminate }}\n");
 }
 
-/// One point light a sample; the halves of the set in red and green.
+/// One point light a sample; the parts of the set in red, green and blue. Blue shares its range with the hit mask's ½.
 void addLights(Text& text, const Light& light, int samples, double scale) {
-    const int firstHalf = (samples + 1) / 2;
-    const double brightness = 1.0 / std::bit_ceil(static_cast<unsigned>(firstHalf));
+    const SampleParts parts = sampleParts(samples);
+    const double quarter = 1.0 / std::bit_ceil(static_cast<unsigned>(parts.firstQuarter));
+    const double half = 0.5 / std::bit_ceil(static_cast<unsigned>(parts.secondHalf));
     for (int i = 0; i < samples; ++i) {
-        const glm::dvec3 colour = i < firstHalf ? glm::dvec3(brightness, 0, 0) : glm::dvec3(0, brightness, 0);
+        const glm::dvec3 colour = i < parts.firstQuarter                         ? glm::dvec3(quarter, 0, 0)
+                                  : i < parts.firstQuarter + parts.secondQuarter ? glm::dvec3(0, quarter, 0)
+                                                                                 : glm::dvec3(0, 0, half);
         add(text, "light_source {{ {} rgb {} }}\n", vector(scale * light.sample(lightSample(i, samples))), vector(colour));
     }
 }
@@ -72,8 +75,9 @@ void requireRenderable(const Snapshot& snapshot, glm::ivec2 size, int samples) {
     if (!snapshot.light.isArea())
         throw BadInput(fmt::format("the povray oracle samples area lights, and this light is {}: use polygon or rays",
                                    name(snapshot.light.kind)));
-    if (samples < 2 || samples > mostLightSamples)
-        throw BadInput(fmt::format("{} light samples asked for: give 2 to {}", samples, mostLightSamples));
+    if (samples < fewestLightSamples || samples > mostLightSamples)
+        throw BadInput(
+            fmt::format("{} light samples asked for: give {} to {}", samples, fewestLightSamples, mostLightSamples));
     if (size.x < 1 || size.y < 1) throw BadInput(fmt::format("an image of {} × {} pixels has none", size.x, size.y));
 }
 

@@ -29,6 +29,8 @@ Image<std::uint8_t> unresolvedPixels(const Image<float>& visible, const Image<st
     return result;
 }
 
+double square(double value) { return value * value; }
+
 } // namespace
 
 Image<float> samplingUncertainty(const PovRayImage& image, const Image<std::uint32_t>& id, int samples) {
@@ -38,15 +40,16 @@ Image<float> samplingUncertainty(const PovRayImage& image, const Image<std::uint
     for (int y = 0; y < id.height(); ++y) {
         for (int x = 0; x < id.width(); ++x) {
             if (unresolved(x, y) == 0) continue;
-            double sum = 0;
+            double halves = 0, quarters = 0;
             int count = 0;
             forWindow(id, x, y, 2, [&](int nx, int ny) {
                 if (unresolved(nx, ny) == 0) return;
-                const double half = 0.5 * (image.firstHalf(nx, ny) - image.secondHalf(nx, ny));
-                sum += half * half;
+                const double first = image.firstQuarter(nx, ny), second = image.secondQuarter(nx, ny);
+                halves += square(0.5 * (first + second) - image.secondHalf(nx, ny));
+                quarters += square(first - second);
                 ++count;
             });
-            sigma(x, y) = static_cast<float>(std::sqrt(sum / count + rounding));
+            sigma(x, y) = static_cast<float>(std::sqrt(std::max(halves / 4, quarters / 8) / count + rounding));
         }
     }
     return sigma;

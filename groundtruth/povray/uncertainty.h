@@ -7,13 +7,19 @@ namespace shadowbench::groundtruth {
 
 /// Standard uncertainty per pixel of PovRayImage::visible, whose light samples were `samples`.
 ///
-/// The two halves of the sample set are low-discrepancy sets of their own (lightSample), rendered at the same cost in two
-/// channels. Were their errors independent, half of their difference would have the standard deviation of their mean; the
-/// whole set fills the gaps that each half leaves, so it errs less and this errs on the careful side. One pixel's difference
-/// is a single draw: its square is averaged over the unresolved pixels of the same surface in the 5 × 5 window around it. To
-/// that is added the variance of rounding to a whole number of samples, 1/(12 N²). A pixel is resolved, and its uncertainty
-/// 0, if it and all its eight neighbours on the same surface (equal `id`) see the whole light, or all see none of it.
-/// Background (id 0): 0.
+/// The parts of the sample set are low-discrepancy sets of their own (lightSample), rendered at no extra cost in separate
+/// channels, and their differences tell how far such sets err. Were the errors of the two halves independent, half of their
+/// difference d would have the standard deviation of their mean; the whole set fills the gaps that each half leaves, so it
+/// errs less. But one half can mirror the other (a disk's angles a and −a: edges along its axis see no difference), so the
+/// same is asked of the quarters of the first half, with difference e: e/2 is their mean's, and √2 less that of twice as
+/// many samples. One pixel's differences are single draws: their squares are averaged over the unresolved pixels of the same
+/// surface in the 5 × 5 window around it, and the larger of ⟨d²⟩/4 and ⟨e²⟩/8 counts. To it is added the variance of
+/// rounding to a whole number of samples, 1/(12 N²). Simulated for straight edges in 24 directions, 64 to 4,096 samples, on
+/// a square and a disk: 0.6 to 4 times the true rms error, median 2; on 0.9 times or more but for diagonal edges on the
+/// square at 2,048 samples.
+///
+/// A pixel is resolved, and its uncertainty 0, if it and all its eight neighbours on the same surface (equal `id`) see the
+/// whole light, or all see none of it. Background (id 0): 0.
 Image<float> samplingUncertainty(const PovRayImage& image, const Image<std::uint32_t>& id, int samples);
 
 } // namespace shadowbench::groundtruth

@@ -182,7 +182,7 @@ TEST_F(PovRayFailure, SuccessWithoutAnImageIsNotAResult) {
 }
 
 TEST_F(PovRayFailure, ValuesThatCountNoSamplesAreNotAResult) {
-    writePng(file("grey.png"), Image<glm::vec3>(size.x, size.y, glm::vec3(0.3F))); // 8 samples: 2.4 of them
+    writePng(file("grey.png"), Image<glm::vec3>(size.x, size.y, glm::vec3(0.3F))); // 4 samples: 1.2 of them
     const std::string said = sentence(fake(fmt::format("cp {} image.png", file("grey.png").string())));
     EXPECT_TRUE(contains(said, "not a count of light samples")) << said;
 }
@@ -266,7 +266,7 @@ TEST(PovRayScene, HoldsNumbersAndOurOwnWordsOnly) {
 
 TEST(PovRayScene, RefusesWhatItCannotRender) {
     const Snapshot scene = overlappingPlates();
-    for (const int samples : {-1, 0, 1, mostLightSamples + 1})
+    for (const int samples : {-1, 0, fewestLightSamples - 1, mostLightSamples + 1})
         EXPECT_THROW(povrayScene(scene, size, samples), BadInput) << samples;
     EXPECT_THROW(povrayScene(scene, {0, 64}, 16), BadInput);
     Snapshot point = scene;

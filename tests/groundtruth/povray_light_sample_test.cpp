@@ -1,5 +1,7 @@
 #include "groundtruth/povray/povray.h"
 
+#include <algorithm>
+#include <bit>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -22,14 +24,27 @@ TEST(LightSample, FirstPowersOfTwoFormANet) {
     }
 }
 
-TEST(LightSample, EachHalfOfTheSetIsANetToo) {
-    constexpr int n = 1024, k = 9;
-    for (int half = 0; half < 2; ++half) {
+TEST(LightSample, EveryPartOfTheSetIsANetToo) {
+    constexpr int n = 1024;
+    const SampleParts parts = sampleParts(n);
+    ASSERT_EQ(parts.firstQuarter + parts.secondQuarter + parts.secondHalf, n);
+    int start = 0;
+    for (const int count : {parts.firstQuarter, parts.secondQuarter, parts.secondHalf}) {
+        const int k = std::countr_zero(static_cast<unsigned>(count));
         for (int a = 0; a <= k; ++a) {
             std::set<int> cells;
-            for (int i = 0; i < n / 2; ++i) cells.insert(cell(lightSample(half * n / 2 + i, n), a, k - a));
-            EXPECT_EQ(cells.size(), static_cast<std::size_t>(n / 2)) << "half " << half;
+            for (int i = 0; i < count; ++i) cells.insert(cell(lightSample(start + i, n), a, k - a));
+            EXPECT_EQ(cells.size(), static_cast<std::size_t>(count)) << "from point " << start;
         }
+        start += count;
+    }
+}
+
+TEST(LightSample, NoPartOfTheSetIsEverEmpty) {
+    for (int n = fewestLightSamples; n < 100; ++n) {
+        const SampleParts parts = sampleParts(n);
+        EXPECT_EQ(parts.firstQuarter + parts.secondQuarter + parts.secondHalf, n);
+        EXPECT_GT(std::min({parts.firstQuarter, parts.secondQuarter, parts.secondHalf}), 0) << n;
     }
 }
 
@@ -43,7 +58,7 @@ TEST(LightSample, PointsOfAPowerOfTwoAreCentredSoThatTheirMeanIsTheMiddle) {
 }
 
 TEST(LightSample, StaysInsideTheUnitSquareForEveryCount) {
-    for (const int n : {2, 3, 6, 100, 1000, mostLightSamples}) {
+    for (const int n : {4, 6, 7, 100, 1000, mostLightSamples}) {
         for (int i = 0; i < n; ++i) {
             const glm::dvec2 p = lightSample(i, n);
             ASSERT_TRUE(p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1) << i << " of " << n;

@@ -86,14 +86,14 @@ TEST(PovRay, CountsThatAreNoPowerOfTwoGiveExactFractions) {
     EXPECT_GT(penumbra, 1000);
 }
 
-TEST(PovRay, HalvesAverageToTheWhole) {
+TEST(PovRay, PartsAverageToTheWhole) {
     const PovRayImage image = renderPovRay(halfPlane(LightKind::Disk), size, 256);
     int differ = 0;
     for (std::size_t i = 0; i < image.visible.size(); ++i) {
-        EXPECT_EQ(0.5F * (image.firstHalf[i] + image.secondHalf[i]), image.visible[i]);
-        differ += image.firstHalf[i] != image.secondHalf[i];
+        EXPECT_EQ(0.25F * (image.firstQuarter[i] + image.secondQuarter[i]) + 0.5F * image.secondHalf[i], image.visible[i]);
+        differ += image.firstQuarter[i] != image.secondQuarter[i] && image.firstQuarter[i] != image.secondHalf[i];
     }
-    EXPECT_GT(differ, 100); // two sample sets, not one counted twice
+    EXPECT_GT(differ, 100); // three sample sets, not one counted thrice
 }
 
 TEST(PovRay, SameSceneGivesTheSamePixelsOnAnyThreadCount) {

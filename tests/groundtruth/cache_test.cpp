@@ -1,0 +1,225 @@
+#include "groundtruth/cache.h"
+#include "groundtruth/reference_files.h"
+#include "harness/scene/error.h"
+#include "harness/scene/files.h"
+#include "harness/scene/image_io.h"
+#include "povray_scene.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string someKey = "0123456789abcdef0123456789abcdef";
+const std::string otherKey = "0123456789abcdef0123456789abcdee";
+
+/// Numbers of every kind: infinities, subnormals, negative zero, the last id.
+Reference sample(const std::string& key, float first = 0.25F) {
+    constexpr int width = 5, height = 3;
+    Reference r{{width, height, first},
+                {width, height, 1e-41F},
+                {width, height},
+                {width, height, 7},
+                {width, height},
+                {width, height, std::numeric_limits<float>::infinity()},
+                {}};
+    r.surface(4, 2) = Surface::OnEdge;
+    r.id(0, 1) = std::numeric_limits<std::uint32_t>::max();
+    r.position(3, 1) = {-0.0F, 1.0F / 3.0F, -1e30F};
+    r.edgeDistance(1, 0) = 0.125F;
+    r.provenance = {"povray", key, 1024, {{"povray", "3.7.0.10.unofficial"}}, 1.0 / 3.0, {{"scale", 1024}}};
+    return r;
+}
+
+void expectEqual(const Reference& a, const Reference& b) {
+    EXPECT_EQ(encode(a), encode(b)); // bit for bit: -0 and 0 differ here
+    EXPECT_EQ(a.visibility, b.visibility);
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.provenance.tools, b.provenance.tools);
+    EXPECT_EQ(a.provenance.seconds, b.provenance.seconds);
+}
+
+class CacheFolder : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "cache-test-XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        folder_ = name;
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    [[nodiscard]] Cache cache() const { return Cache(folder_ / "references"); }
+
+    /// Stores a sample, changes its file's bytes and expects the entry to be refused, reported in one line, and removed.
+    void expectRefusedAfter(const std::function<std::string(std::string)>& damage) const {
+        cache().store(sample(someKey));
+        const fs::path file = cache().entry(someKey);
+        writeFile(file, damage(readFile(file)));
+        testing::internal::CaptureStderr();
+        EXPECT_FALSE(cache().find(someKey));
+        const std::string said = testing::internal::GetCapturedStderr();
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+        EXPECT_NE(said.find("damaged"), said.npos) << said;
+        EXPECT_FALSE(fs::exists(file));
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(CacheFolder, FindsBitForBitWhatWasStored) {
+    const Reference stored = sample(someKey);
+    cache().store(stored);
+    const auto found = cache().find(someKey);
+    ASSERT_TRUE(found);
+    expectEqual(*found, stored);
+}
+
+TEST_F(CacheFolder, HoldsNothingAtFirstAndSaysNothingAboutIt) {
+    testing::internal::CaptureStderr();
+    EXPECT_FALSE(cache().find(someKey));
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(CacheFolder, RefusesAnyFlippedByte) {
+    const std::size_t size = encode(sample(someKey)).size();
+    for (const std::size_t position : {std::size_t{0}, std::size_t{40}, size / 2, size - 9, size - 1})
+        expectRefusedAfter([&](std::string bytes) {
+            bytes[position] = static_cast<char>(bytes[position] ^ 0x10);
+            return bytes;
+        });
+}
+
+TEST_F(CacheFolder, RefusesATruncatedEntry) {
+    const std::size_t size = encode(sample(someKey)).size();
+    for (const std::size_t kept : {std::size_t{0}, std::size_t{1}, std::size_t{8}, size / 2, size - 1})
+        expectRefusedAfter([&](const std::string& bytes) { return bytes.substr(0, kept); });
+}
+
+TEST_F(CacheFolder, RefusesAnEntryOfAnotherKey) {
+    expectRefusedAfter([](const std::string&) { return encode(sample(otherKey)); });
+}
+
+TEST_F(CacheFolder, RefusesAnAppendedTail) {
+    expectRefusedAfter([](const std::string& bytes) { return bytes + "tail"; });
+}
+
+TEST_F(CacheFolder, KeysAreHexDigitsAndNothingElse) {
+    EXPECT_THROW((void)cache().find("../../etc/passwd"), InternalError);
+    EXPECT_THROW((void)cache().find(""), InternalError);
+}
+
+TEST_F(CacheFolder, ThreadsThatWriteOneKeyLeaveOneWholeEntry) {
+    std::vector<std::thread> writers;
+    for (int i = 0; i < 4; ++i)
+        writers.emplace_back([&, i] {
+            for (int k = 0; k < 25; ++k) cache().store(sample(someKey, 0.25F * static_cast<float>(i)));
+        });
+    int damaged = 0;
+    for (int k = 0; k < 100; ++k) {
+        const auto found = cache().find(someKey);
+        damaged += found && found->visibility[0] != found->visibility[1];
+    }
+    for (std::thread& writer : writers) writer.join();
+    EXPECT_EQ(damaged, 0);
+    EXPECT_TRUE(cache().find(someKey));
+    EXPECT_EQ(std::distance(fs::directory_iterator(cache().entry(someKey).parent_path()), {}), 1); // no temporary file left
+}
+
+TEST_F(CacheFolder, ProcessesThatWriteOneKeyLeaveOneWholeEntry) {
+    std::vector<pid_t> children;
+    for (int i = 0; i < 2; ++i) {
+        const pid_t child = fork();
+        if (child == 0) {
+            for (int k = 0; k < 25; ++k) cache().store(sample(someKey));
+            _exit(0);
+        }
+        children.push_back(child);
+    }
+    for (const pid_t child : children) {
+        int status = -1;
+        waitpid(child, &status, 0);
+        EXPECT_EQ(status, 0);
+    }
+    const auto found = cache().find(someKey);
+    ASSERT_TRUE(found);
+    expectEqual(*found, sample(someKey));
+}
+
+/// Quick to compute: no POV-Ray.
+Request quick() {
+    Request request{overlappingPlates(), {16, 16}};
+    request.snapshot.light = request.snapshot.light.centreOnly();
+    return request;
+}
+
+TEST_F(CacheFolder, GetComputesOnceAndThenReads) {
+    const Reference first = cache().get(quick());
+    EXPECT_TRUE(fs::exists(cache().entry(first.provenance.key)));
+    const Reference second = cache().get(quick());
+    expectEqual(first, second); // the recorded seconds too: it was not computed again
+}
+
+TEST_F(CacheFolder, GetComputesADamagedEntryAgain) {
+    const Reference first = cache().get(quick());
+    writeFile(cache().entry(first.provenance.key), "rubbish");
+    testing::internal::CaptureStderr();
+    const Reference again = cache().get(quick());
+    testing::internal::GetCapturedStderr();
+    EXPECT_EQ(first.visibility, again.visibility);
+    EXPECT_TRUE(cache().find(first.provenance.key));
+}
+
+TEST_F(CacheFolder, ACacheThatCannotBeWrittenCostsOneWarning) {
+    writeFile(folder_ / "file", "in the way");
+    const Cache blocked(folder_ / "file" / "references");
+    EXPECT_THROW(blocked.store(sample(someKey)), InternalError);
+    testing::internal::CaptureStderr();
+    const Reference reference = blocked.get(quick());
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(reference.visibility.width(), 16);
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    EXPECT_EQ(readFile(folder_ / "file"), "in the way");
+}
+
+TEST_F(CacheFolder, WrittenReferenceHoldsTheFourChannelsAndTheProvenance) {
+    Reference reference = sample(someKey);
+    reference.surface(0, 0) = Surface::Receiver;
+    writeReference(reference, folder_ / "out");
+    const std::string provenance = readFile(folder_ / "out" / "provenance.json");
+    for (const char* part : {"povray", "3.7.0.10.unofficial", "1024", someKey.c_str()})
+        EXPECT_NE(provenance.find(part), provenance.npos) << part;
+    const std::vector<std::pair<std::string, float>> firstPixel{
+        {"V", 0.25F}, {"sigma", 1e-41F}, {"mask", 1.0F}, {"edge_distance", std::numeric_limits<float>::infinity()}};
+    for (const auto& [channel, value] : firstPixel)
+        EXPECT_EQ(readChannel(folder_ / "out" / "visibility.exr", channel)(0, 0), value) << channel;
+}
+
+TEST(DefaultCacheFolder, FollowsTheVariablesInOrder) {
+    const auto saved = [](const char* name) {
+        return std::getenv(name) != nullptr ? std::string(std::getenv(name)) : std::string();
+    };
+    const std::string own = saved("SHADOWBENCH_CACHE"), xdg = saved("XDG_CACHE_HOME"), home = saved("HOME");
+    setenv("SHADOWBENCH_CACHE", "/a", 1);
+    setenv("XDG_CACHE_HOME", "/b", 1);
+    setenv("HOME", "/c", 1);
+    EXPECT_EQ(defaultCacheFolder(), "/a");
+    unsetenv("SHADOWBENCH_CACHE");
+    EXPECT_EQ(defaultCacheFolder(), "/b/shadowbench");
+    setenv("XDG_CACHE_HOME", "relative", 1);
+    EXPECT_EQ(defaultCacheFolder(), "/c/.cache/shadowbench");
+    own.empty() ? unsetenv("SHADOWBENCH_CACHE") : setenv("SHADOWBENCH_CACHE", own.c_str(), 1);
+    xdg.empty() ? unsetenv("XDG_CACHE_HOME") : setenv("XDG_CACHE_HOME", xdg.c_str(), 1);
+    home.empty() ? unsetenv("HOME") : setenv("HOME", home.c_str(), 1);
+}
+
+} // namespace
+} // namespace shadowbench::groundtruth

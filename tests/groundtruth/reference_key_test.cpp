@@ -1,0 +1,112 @@
+#include "groundtruth/reference_tools.h"
+#include "harness/scene/error.h"
+#include "povray_scene.h"
+
+#include <cstdlib>
+#include <functional>
+#include <gtest/gtest.h>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+Request soft() { return {overlappingPlates(), {64, 48}}; }
+
+Request hard() {
+    Request request = soft();
+    request.snapshot.light = request.snapshot.light.centreOnly();
+    return request;
+}
+
+const Tools tools{{"povray", "3.7"}, {"exact", "1"}};
+
+std::string keyAfter(Request request, const std::function<void(Request&)>& change) {
+    change(request);
+    return key(request, tools);
+}
+
+Mesh& ownMesh(Request& request, std::size_t batch) {
+    auto copy = std::make_shared<Mesh>(*request.snapshot.batches[batch].mesh);
+    Mesh& mesh = *copy;
+    request.snapshot.batches[batch].mesh = std::move(copy);
+    return mesh;
+}
+
+TEST(ReferenceKey, IsThirtyTwoHexDigitsAndTheSameEachTime) {
+    EXPECT_EQ(key(soft(), tools).size(), 32U);
+    EXPECT_EQ(key(soft(), tools).find_first_not_of("0123456789abcdef"), std::string::npos);
+    EXPECT_EQ(key(soft(), tools), key(soft(), tools));
+}
+
+TEST(ReferenceKey, ChangesWithEverythingThatMattersToTheTruth) {
+    const std::vector<std::pair<const char*, std::function<void(Request&)>>> changes{
+        {"eye", [](Request& r) { r.snapshot.camera.eye.x += 1e-9; }},
+        {"field of view", [](Request& r) { r.snapshot.camera.fovy = 41; }},
+        {"light kind", [](Request& r) { r.snapshot.light.kind = LightKind::Disk; }},
+        {"light side", [](Request& r) { r.snapshot.light.u.x *= 2; }},
+        {"vertex", [](Request& r) { ownMesh(r, 1).positions[3].y += 0.001F; }},
+        {"triangle", [](Request& r) { std::swap(ownMesh(r, 1).triangles[0], ownMesh(r, 1).triangles[1]); }},
+        {"placement", [](Request& r) { r.snapshot.batches[1].placements[1].world[3].z += 0.5; }},
+        {"id", [](Request& r) { r.snapshot.batches[1].placements[1].id = 9; }},
+        {"a placement less", [](Request& r) { r.snapshot.batches[1].placements.pop_back(); }},
+        {"width", [](Request& r) { r.size.x = 65; }},
+        {"sides swapped", [](Request& r) { std::swap(r.size.x, r.size.y); }},
+        {"samples", [](Request& r) { r.samples = 256; }},
+        {"oracle", [](Request& r) { r.oracle = Oracle::PovRay; }},
+    };
+    for (const auto& [what, change] : changes) EXPECT_NE(keyAfter(soft(), change), key(soft(), tools)) << what;
+    EXPECT_NE(key(hard(), tools), key(soft(), tools));
+}
+
+TEST(ReferenceKey, ChangesWithEveryToolVersion) {
+    EXPECT_NE(key(soft(), {{"povray", "3.8"}, {"exact", "1"}}), key(soft(), tools));
+    EXPECT_NE(key(soft(), {{"povray", "3.7"}, {"exact", "2"}}), key(soft(), tools));
+    const Tools ofSoft = toolVersions(soft()), ofHard = toolVersions(hard());
+    EXPECT_TRUE(ofSoft.contains("povray") && ofSoft.contains("povray recipe") && ofSoft.contains("exact"));
+    EXPECT_TRUE(ofHard.contains("cgal") && ofHard.contains("exact") && !ofHard.contains("povray"));
+}
+
+TEST(ReferenceKey, DoesNotChangeWithWhatTheTruthCannotSee) {
+    const std::vector<std::pair<const char*, std::function<void(Request&)>>> changes{
+        {"colour", [](Request& r) { r.snapshot.batches[1].colour = glm::vec3(0.1F); }},
+        {"previous matrix", [](Request& r) { r.snapshot.batches[1].placements[0].previous[3].x = 5; }},
+        {"moving flag", [](Request& r) { r.snapshot.batches[1].moving = true; }},
+        {"frame number", [](Request& r) { r.snapshot.frame = 17; }},
+        {"previous camera", [](Request& r) { r.snapshot.previousCamera.eye.x = 5; }},
+        {"mesh copied", [](Request& r) { ownMesh(r, 1); }},
+        {"batch order", [](Request& r) { std::swap(r.snapshot.batches[0], r.snapshot.batches[1]); }},
+        {"placement order",
+         [](Request& r) { std::swap(r.snapshot.batches[1].placements[0], r.snapshot.batches[1].placements[1]); }},
+        {"negative zero", [](Request& r) { r.snapshot.batches[1].placements[0].world[3].x = -0.0; }},
+    };
+    for (const auto& [what, change] : changes) EXPECT_EQ(keyAfter(soft(), change), key(soft(), tools)) << what;
+}
+
+TEST(ReferenceKey, HardShadowsDoNotDependOnTheNumberOfSamples) {
+    EXPECT_EQ(keyAfter(hard(), [](Request& r) { r.samples = 7; }), key(hard(), tools));
+}
+
+TEST(ReferenceKey, NeedsPovRayForAreaLightsOnly) {
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", "/nonexistent", 1);
+    EXPECT_THROW(key(soft()), Inconclusive);
+    EXPECT_NO_THROW(key(hard()));
+    setenv("PATH", path.c_str(), 1);
+}
+
+TEST(OracleNames, GoThereAndBack) {
+    for (const Oracle oracle : {Oracle::Auto, Oracle::Polygon, Oracle::Rays, Oracle::PovRay})
+        EXPECT_EQ(oracleNamed(name(oracle)), oracle);
+}
+
+TEST(OracleNames, AnUnknownOneNamesItsNearMatchAndAllValidOnes) {
+    try {
+        oracleNamed("povary");
+        FAIL() << "povary is no oracle";
+    } catch (const BadInput& error) {
+        for (const char* part : {"\"povary\"", "did you mean \"povray\"?", "auto, polygon, rays and povray"})
+            EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+}
+
+} // namespace
+} // namespace shadowbench::groundtruth
