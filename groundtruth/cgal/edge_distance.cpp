@@ -9,6 +9,8 @@
 #include <glm/geometric.hpp>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace shadowbench::groundtruth {
 namespace {
@@ -49,19 +51,40 @@ int windingChange(const glm::dvec2& start, const glm::dvec2& end, std::span<cons
     return change;
 }
 
-/// Which share of an edge lies in the unit square at `corner`; empty if none.
-std::pair<double, double> sharesInCell(const PixelEdge& e, const glm::dvec2& corner) {
+/// A point whose winding number is known.
+struct Anchor {
+    glm::dvec2 point;
+    int winding;
+};
+
+struct Square {
+    glm::dvec2 low;
+    double side;
+};
+
+/// From where to where an edge lies in a square; last < first if nowhere.
+std::pair<double, double> sharesIn(const PixelEdge& e, const Square& square) {
     double first = 0, last = 1;
     for (int axis = 0; axis < 2; ++axis) {
-        const double a = e.from[axis] - corner[axis], d = e.to[axis] - e.from[axis];
+        const double a = e.from[axis] - square.low[axis], d = e.to[axis] - e.from[axis];
         if (d == 0) {
-            if (a < 0 || a > 1) return {1, 0};
+            if (a < 0 || a > square.side) return {1, 0};
             continue;
         }
-        first = std::max(first, std::min(-a / d, (1 - a) / d));
-        last = std::min(last, std::max(-a / d, (1 - a) / d));
+        first = std::max(first, std::min(-a / d, (square.side - a) / d));
+        last = std::min(last, std::max(-a / d, (square.side - a) / d));
     }
     return {first, last};
+}
+
+/// The edges that matter to points in the square and next to it.
+std::vector<const PixelEdge*> edgesIn(const Square& square, std::span<const PixelEdge* const> edges) {
+    const double margin = 10 * sideStep;
+    const Square wider{square.low - margin, square.side + 2 * margin};
+    std::vector<const PixelEdge*> result;
+    for (const PixelEdge* edge : edges)
+        if (const auto [first, last] = sharesIn(*edge, wider); first <= last) result.push_back(edge);
+    return result;
 }
 
 class EdgeDistance {
@@ -111,23 +134,38 @@ private:
     }
 
     void visitCell(int x, int y) {
-        std::optional<std::pair<glm::dvec2, int>> corner;
+        std::optional<Anchor> corner;
         for (int i = 0; i < 4 && !corner; ++i)
             if (const int w = winding_(x + i % 2, y + i / 2); w >= 0) corner = {centre(x + i % 2, y + i / 2), w};
         if (!corner) return;
         std::vector<const PixelEdge*> here;
-        int most = 0;
-        for (const std::uint32_t index : cells_(x, y)) {
-            here.push_back(&edges_[index]);
-            most += std::abs(edges_[index].covers);
-        }
-        if (corner->second > most) return; // shadowed throughout
-        for (const PixelEdge* edge : here) visitEdge(*edge, centre(x, y), *corner, here);
+        for (const std::uint32_t index : cells_(x, y)) here.push_back(&edges_[index]);
+        visitSquare({centre(x, y), 1}, *corner, here);
     }
 
-    void visitEdge(const PixelEdge& e, const glm::dvec2& cell, const std::pair<glm::dvec2, int>& corner,
-                   std::span<const PixelEdge* const> here) {
-        const auto [first, last] = sharesInCell(e, cell);
+    /// `anchor` lies in the square or on its border.
+    void visitSquare(const Square& square, const Anchor& anchor, std::span<const PixelEdge* const> here) {
+        int most = 0;
+        for (const PixelEdge* edge : here) most += std::abs(edge->covers);
+        if (anchor.winding > most) return; // shadowed throughout
+
+        constexpr std::size_t fewEdges = 16;
+        constexpr double smallest = 1.0 / 128;
+        if (here.size() <= fewEdges || square.side <= smallest) {
+            for (const PixelEdge* edge : here) visitEdge(*edge, square, anchor, here);
+            return;
+        }
+        const double half = 0.5 * square.side;
+        for (int i = 0; i < 4; ++i) {
+            const Square quarter{square.low + half * glm::dvec2(i % 2, i / 2), half};
+            const glm::dvec2 inside = quarter.low + half * glm::dvec2(0.381, 0.618); // unlikely to lie on an edge
+            const Anchor next{inside, anchor.winding + windingChange(anchor.point, inside, here)};
+            visitSquare(quarter, next, edgesIn(quarter, here));
+        }
+    }
+
+    void visitEdge(const PixelEdge& e, const Square& square, const Anchor& anchor, std::span<const PixelEdge* const> here) {
+        const auto [first, last] = sharesIn(e, square);
         if (first >= last) return;
         std::vector<double> cuts{first, last};
         for (const PixelEdge* other : here)
@@ -138,8 +176,8 @@ private:
         const glm::dvec2 aside = sideStep / glm::length(d) * glm::dvec2(-d.y, d.x);
         for (std::size_t i = 1; i < cuts.size(); ++i) {
             const glm::dvec2 middle = e.from + 0.5 * (cuts[i - 1] + cuts[i]) * d;
-            const bool left = corner.second + windingChange(corner.first, middle + aside, here) > 0;
-            const bool right = corner.second + windingChange(corner.first, middle - aside, here) > 0;
+            const bool left = anchor.winding + windingChange(anchor.point, middle + aside, here) > 0;
+            const bool right = anchor.winding + windingChange(anchor.point, middle - aside, here) > 0;
             if (left != right) spread(e.from + cuts[i - 1] * d, e.from + cuts[i] * d);
         }
     }

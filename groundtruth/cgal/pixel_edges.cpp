@@ -1,7 +1,7 @@
 #include "groundtruth/cgal/pixel_edges.h"
 
 #include <algorithm>
-#include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 namespace shadowbench::groundtruth {
@@ -32,7 +32,7 @@ void spread(Reference& r, glm::dvec2 point, std::uint32_t id) {
     for (int y = top; y <= bottom; ++y) {
         for (int x = left; x <= right; ++x) {
             if (r.id(x, y) != id || !isReceiver(r.surface(x, y))) continue;
-            const double distance = std::hypot(x + 0.5 - point.x, y + 0.5 - point.y);
+            const double distance = glm::distance(glm::dvec2(x + 0.5, y + 0.5), point);
             if (distance > edgeReach) continue;
             r.edgeDistance(x, y) = std::min(r.edgeDistance(x, y), static_cast<float>(std::max(0.5, distance)));
         }

@@ -33,8 +33,14 @@ std::vector<PixelEdge> shadowEdges(const SceneTriangles& scene, const glm::dvec4
     forEachInParallel(static_cast<int>(perInstance.size()), threads, progress, "silhouettes", [&](int i) {
         perInstance[i] = toPixels(silhouette(scene.instances()[i], light, projection), size, projection.pixelError());
     });
+    std::size_t count = 0;
+    for (const std::vector<PixelEdge>& part : perInstance) count += part.size();
     std::vector<PixelEdge> edges;
-    for (const std::vector<PixelEdge>& part : perInstance) edges.insert(edges.end(), part.begin(), part.end());
+    edges.reserve(count);
+    for (std::vector<PixelEdge>& part : perInstance) {
+        edges.insert(edges.end(), part.begin(), part.end());
+        part = {};
+    }
     return edges;
 }
 

@@ -177,7 +177,7 @@ Reference groundLabels(const Snapshot& snapshot, glm::ivec2 image) {
     const ExactScene exact(snapshot);
     const PrimaryHits primary = exact.primaryHits(image);
     Reference out;
-    exact.labelByPolygon(image, primary, exact.planarReceivers(primary).front(), out);
+    exact.labelByPolygon(image, primary, exact.planarReceivers(primary, 1).front(), out);
     return out;
 }
 
@@ -259,6 +259,33 @@ TEST(ExactPolygon, TheSeamOfTouchingShadowsIsNoShadowEdge) {
     expectDistances(
         scene.get(), {101, 97},
         {{{-0.5, -0.5}, {0.5, -0.5}}, {{0.5, -0.5}, {0.5, 0.5}}, {{0.5, 0.5}, {-0.5, 0.5}}, {{-0.5, 0.5}, {-0.5, -0.5}}});
+}
+
+TEST(ExactPolygon, DistancesAreTheSameInACoarseAndInAFineImage) {
+    // Every ninth centre of the fine image is one of the coarse image, whose cells hold many crossing edges each.
+    constexpr int factor = 9;
+    constexpr glm::ivec2 coarse(15, 15);
+    std::mt19937 random(11);
+    SceneBuilder scene;
+    scene.add(plane(30)).pointLight({0.1, 6, 0.2}).cameraAbove(1.9);
+    std::vector<glm::dmat4> places;
+    std::uniform_real_distribution<double> anywhere(-0.5, 0.5);
+    for (int i = 0; i < 40; ++i) places.push_back(at(anywhere(random), 2 + anywhere(random) / 8, anywhere(random)));
+    scene.add(soup(10, {-0.1, 0.1, -0.1}, {0.1, 0.3, 0.1}, random), places);
+    const Reference few = groundLabels(scene.get(), coarse), many = groundLabels(scene.get(), factor * coarse);
+    std::size_t compared = 0;
+    for (int y = 1; y < coarse.y - 1; ++y) // what either image sees beyond its outermost centres differs
+        for (int x = 1; x < coarse.x - 1; ++x) {
+            const float fine = many.edgeDistance(factor * x + factor / 2, factor * y + factor / 2);
+            ASSERT_EQ(few.visibility(x, y), many.visibility(factor * x + factor / 2, factor * y + factor / 2));
+            if (fine == infinity) {
+                ASSERT_GT(factor * few.edgeDistance(x, y), 8);
+                continue;
+            }
+            ASSERT_NEAR(factor * few.edgeDistance(x, y), fine, factor * 1e-6) << x << ", " << y;
+            ++compared;
+        }
+    EXPECT_GT(compared, 50U);
 }
 
 TEST(ExactPolygon, ResultsDoNotDependOnTheNumberOfThreads) {
