@@ -15,7 +15,7 @@ namespace {
 class SampledMaps final : public Technique {
 public:
     explicit SampledMaps(const Parameters& p)
-        : count_(p.integer("n")), grid_(p.text("pattern") == "grid"), map_(p.integer("map"), biasFrom(p), Lookup::Compare),
+        : count_(p.integer("n")), pattern_(p.text("pattern")), map_(p.integer("map"), biasFrom(p), Lookup::Compare),
           test_(gl::Program::screen("maps/single_map.frag")), mean_(gl::Program::screen("sampled/sampled-maps/mean.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
@@ -33,15 +33,14 @@ public:
     }
 
 private:
-    /// Halton points (bases 2 and 3), or the cell centres of a square grid.
     [[nodiscard]] glm::dvec3 sample(int i, const Frame& frame) const {
-        const Light& light = frame.snapshot.light;
-        if (grid_) {
-            const int side = std::max(1, static_cast<int>(std::lround(std::sqrt(count_))));
-            return light.sample({(i % side + 0.5) / side, (i / side % side + 0.5) / side});
+        if (pattern_ == "grid") {
+            const int side = std::max(1, static_cast<int>(std::sqrt(count_)));
+            return frame.snapshot.light.sample({(i % side + 0.5) / side, (i / side % side + 0.5) / side});
         }
         const std::uint32_t index = haltonIndex(i, frame.seed);
-        return light.sample({halton(index, 2), halton(index, 3)});
+        if (pattern_ == "halton") return frame.snapshot.light.sample({halton(index, 2), halton(index, 3)});
+        return frame.snapshot.light.sample({(i + 0.5) / count_, halton(index, 2)});
     }
 
     void addTest(const Frame& frame, const LightView& light, const gl::RenderTarget& sumTarget) {
@@ -56,7 +55,7 @@ private:
     }
 
     int count_;
-    bool grid_;
+    std::string pattern_;
     DepthMap map_;
     gl::Program test_, mean_;
     std::optional<gl::Texture> sum_;
@@ -67,7 +66,8 @@ private:
 Entry sampledMaps() {
     std::vector<Parameter> parameters{
         {"n", "64", IntegerRange{1, 4096}, "light samples, one map each", "Zápotocký 5.2 (64 and 100)"},
-        {"pattern", "halton", OneOf{{"halton", "grid"}}, "where the samples lie; a grid has ⌊√n⌉ a side",
+        {"pattern", "hammersley", OneOf{{"hammersley", "halton", "grid"}},
+         "where the samples lie: Hammersley (its first coordinate is regular in n), Halton, or a grid of ⌊√n⌋ a side",
          "dissertation 4.2"},
     };
     for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
