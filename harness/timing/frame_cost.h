@@ -9,7 +9,7 @@
 namespace shadowbench::timing {
 
 struct CostOptions {
-    int minimumRounds = 5;
+    int minimumRounds = 3;
     int maximumRounds = 25;
     double budgetSeconds = 1.5; // of measuring one cell, once the minimum is done
     bool time = true;           // off: work only, which is the same on every machine

@@ -21,11 +21,13 @@ TEST_P(StandardScene, AFinerUniformMapIsAtLeastTwiceAsGood) {
     EXPECT_LE(fine, 0.5 * coarse);
 }
 
-INSTANTIATE_TEST_SUITE_P(Gate, StandardScene, testing::ValuesIn(builtinScenes()), [](const testing::TestParamInfo<std::string>& info) {
-    std::string name = info.param;
+std::string sceneName(const testing::TestParamInfo<std::string>& tested) {
+    std::string name = tested.param;
     std::erase(name, '-');
     return name;
-});
+}
+
+INSTANTIATE_TEST_SUITE_P(Gate, StandardScene, testing::ValuesIn(builtinScenes()), sceneName);
 
 TEST(DuelingFrusta, WarpingIsNoBetterThanAUniformMap) {
     const Scene scene = stillScene("dueling-frusta");
@@ -47,8 +49,10 @@ TEST(DuelingFrusta, HistoryLeavesAtMostAQuarterOfItsBasesErrorAfterSixtyStillFra
     EXPECT_LT(curve[59], curve[39]);
 }
 
-TEST(OverlappingOccluders, TwoHundredAndFiftySixMapsAreWithinAHundredthOfTheTruth) {
-    EXPECT_LE(*scored(stillScene("overlapping-occluders"), "sampled-maps:n=256").accuracy.rmse, 0.01);
+// At the default 1,024² the texels alone cost 0.009: the sides of bars that the light barely grazes are a texel or two wide, and what
+// covers such a texel's centre is the bar's top.
+TEST(OverlappingOccluders, TwoHundredAndFiftySixMapsOf2048AreWithinAHundredthOfTheTruth) {
+    EXPECT_LE(*scored(stillScene("overlapping-occluders"), "sampled-maps:n=256,map=2048").accuracy.rmse, 0.01);
 }
 
 TEST(OverlappingOccluders, MoreMapsAreBetter) {

@@ -55,10 +55,13 @@ TEST_P(EveryCell, IsInRangeAndTheSameEveryTime) {
     EXPECT_EQ(shortRun(scene, variant.name), images);
 }
 
-std::string caseName(const testing::TestParamInfo<Case>& info) {
-    std::string name = info.param.scene + "_" + info.param.variant;
+std::string testName(std::string name) {
     std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
     return name;
+}
+
+std::string caseName(const testing::TestParamInfo<Case>& tested) {
+    return testName(tested.param.scene + "_" + tested.param.variant);
 }
 
 INSTANTIATE_TEST_SUITE_P(TechniquesTimesScenes, EveryCell, testing::ValuesIn(everyCell()), caseName);
@@ -97,8 +100,11 @@ std::vector<std::string> everyVariant() {
     return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(everyVariant()),
-                         [](const testing::TestParamInfo<std::string>& info) { return caseName({{"", info.param}, 0}).substr(1); });
+std::string variantName(const testing::TestParamInfo<std::string>& tested) {
+    return testName(tested.param);
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(everyVariant()), variantName);
 
 }  // namespace
 }  // namespace shadowbench

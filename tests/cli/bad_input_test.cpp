@@ -74,7 +74,11 @@ TEST_P(BadInput, EndsInOneLineAndTheDocumentedCode) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Run, BadInput, testing::ValuesIn(badCases()), [](const testing::TestParamInfo<BadCase>& info) { return info.param.name; });
+std::string caseName(const testing::TestParamInfo<BadCase>& tested) {
+    return tested.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Run, BadInput, testing::ValuesIn(badCases()), caseName);
 
 TEST(BadCommand, AnUnknownVerbNamesTheNearMatch) {
     const Outcome outcome = shell("shadowbench rnu");
