@@ -86,27 +86,31 @@ double shareChanged(const Image<std::uint8_t>& a, const Image<std::uint8_t>& b, 
     return static_cast<double>(changed) / static_cast<double>(mask.count);
 }
 
-/// Error over the still frames from an empty history.
+/// Error over the still frames from an empty history. Labels are compared with the technique's own truth, graded visibility
+/// with the truth that `rmse` of the record is about.
 class StillCurve {
 public:
-    StillCurve(const Reference& truth, bool hard) : truth_(truth), hard_(hard) {}
+    StillCurve(const Reference& own, const Reference& graded, bool hard) : own_(own), graded_(graded), hard_(hard) {}
 
-    void add(const Image<float>& v, const Mask& mask, Stability& stability) {
-        if (hard_) stability.mismatchByFrame.push_back(metrics::mismatch(v, truth_, mask));
-        stability.rmseByFrame.push_back(metrics::rmse(v, truth_, mask));
-        stability.bad30ByFrame.push_back(metrics::shareAbove(v, truth_.visibility, mask, 30.0 / 255));
+    void add(const Image<float>& v, const Mask& mask, const Mask& gradedMask, Stability& stability) {
+        if (hard_) stability.mismatchByFrame.push_back(metrics::mismatch(v, own_, mask));
+        stability.rmseByFrame.push_back(metrics::rmse(v, graded_, gradedMask));
+        stability.bad30ByFrame.push_back(metrics::shareAbove(v, graded_.visibility, gradedMask, 30.0 / 255));
+        ownError_.push_back(metrics::rmse(v, own_, mask));
         frames_.push_back(toBytes(v));
     }
 
     void finish(const Mask& mask, Stability& stability) const {
         for (const Image<std::uint8_t>& frame : frames_)
             stability.changedByFrame.push_back(shareChanged(frame, frames_.back(), mask));
-        stability.convergence = metrics::convergence(stability.rmseByFrame);
+        stability.convergence = metrics::convergence(ownError_);
     }
 
 private:
-    const Reference& truth_;
+    const Reference& own_;
+    const Reference& graded_;
     bool hard_;
+    std::vector<double> ownError_;
     std::vector<Image<std::uint8_t>> frames_;
 };
 
@@ -176,7 +180,8 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     const int scored = scene.timeline.still - 1;
     const bool temporal = variant.entry->temporal;
 
-    StillCurve curve(truths.at(kind, scored), kind == Truth::Hard);
+    const Reference& graded = truths.at(scene.light.isArea() ? Truth::Soft : Truth::Hard, scored);
+    StillCurve curve(truths.at(kind, scored), graded, kind == Truth::Hard);
     MotionScores motion;
     std::uint64_t bytes = 0;
     for (int frame = temporal ? 0 : scored; frame < scene.timeline.frames(); ++frame) {
@@ -186,7 +191,8 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
         const Reference& truth = truths.at(kind, std::max(frame, scored));
         Mask mask = metrics::receiverMask(truth, stage.drawn(), stage.shown().camera.eye);
         requireSamePrimaryHits(mask.primaryMismatch, scene, frame);
-        if (temporal && frame <= scored) curve.add(v, mask, record.stability);
+        if (temporal && frame <= scored)
+            curve.add(v, mask, metrics::receiverMask(graded, stage.drawn(), stage.shown().camera.eye), record.stability);
         if (frame < scored) continue;
         if (frame == scored) {
             if (temporal) curve.finish(mask, record.stability);

@@ -39,8 +39,9 @@ CasterPass::CasterPass(gl::Program& program, const LightView& light, Bias bias) 
     // The constant part goes into the matrix: polygon offset's unit of a floating-point depth buffer vanishes near depth 0.
     const glm::dmat4 away = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 2 * bias.units * depthStep));
     program.set("clipFromWorld", glm::mat4(away * light.clipFromWorld));
-    // Nothing casts from behind the light or from closer to its plane than a ten-thousandth of the scene's depth. A directional light has
-    // no behind; llvmpipe clips by a written gl_ClipDistance even where it is disabled, so that the distance must be positive there.
+    // Nothing casts from behind the light or from closer to its plane than a ten-thousandth of the scene's depth. A
+    // directional light has no behind; llvmpipe clips by a written gl_ClipDistance even where it is disabled, so that the
+    // distance must be positive there.
     const glm::dvec4 inFront = light.depthFromWorld - glm::dvec4(0, 0, 0, 1e-4 * light.far);
     program.set("lightPlane", glm::vec4(light.perspective ? inFront : glm::dvec4(0, 0, 0, 1)));
     program.use();

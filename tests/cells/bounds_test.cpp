@@ -49,8 +49,8 @@ TEST(DuelingFrusta, HistoryLeavesAtMostAQuarterOfItsBasesErrorAfterSixtyStillFra
     EXPECT_LT(curve[59], curve[39]);
 }
 
-// At the default 1,024² the texels alone cost 0.009: the sides of bars that the light barely grazes are a texel or two wide, and what
-// covers such a texel's centre is the bar's top.
+// At the default 1,024² the texels alone cost 0.009: the sides of bars that the light barely grazes are a texel or two wide,
+// and what covers such a texel's centre is the bar's top.
 TEST(OverlappingOccluders, TwoHundredAndFiftySixMapsOf2048AreWithinAHundredthOfTheTruth) {
     EXPECT_LE(*scored(stillScene("overlapping-occluders"), "sampled-maps:n=256,map=2048").accuracy.rmse, 0.01);
 }
@@ -64,7 +64,7 @@ TEST(OverlappingOccluders, MoreMapsAreBetter) {
     EXPECT_LT(many, sixtyFour);
 }
 
-TEST(OverlappingOccluders, SixtyFramesOfTemporalSamplingBeatBothPcss) {  // dissertation, Fig. 4.9
+TEST(OverlappingOccluders, SixtyFramesOfTemporalSamplingBeatBothPcss) { // dissertation, Fig. 4.9
     const Scene scene = stillScene("overlapping-occluders");
     const double temporal = *scored(scene, "temporal-soft").accuracy.rmse;
     EXPECT_LT(temporal, *scored(scene, "pcss").accuracy.rmse);
@@ -76,5 +76,5 @@ TEST(Records, TheSameSeedGivesTheSameRecordTwice) {
     EXPECT_EQ(toJson(scored(scene, "sm-history")), toJson(scored(scene, "sm-history")));
 }
 
-}  // namespace
-}  // namespace shadowbench
+} // namespace
+} // namespace shadowbench

@@ -42,4 +42,4 @@ inline Record scored(const Scene& scene, const std::string& variant) {
     return record;
 }
 
-}  // namespace shadowbench
+} // namespace shadowbench

@@ -13,6 +13,9 @@ struct Case {
     std::string scene, variant;
 };
 
+/// How a failing case is printed.
+void PrintTo(const Case& cell, std::ostream* out) { *out << cell.variant << " on " << cell.scene; }
+
 std::vector<Case> everyCell() {
     std::vector<Case> cases;
     for (const std::string& scene : builtinScenes())
@@ -39,7 +42,7 @@ class EveryCell : public testing::TestWithParam<Case> {};
 TEST_P(EveryCell, IsInRangeAndTheSameEveryTime) {
     Scene scene = stillScene(GetParam().scene);
     scene.timeline = {2, 2};
-    scene.size = {72, 64};  // not square, small enough for all of them
+    scene.size = {72, 64}; // not square, small enough for all of them
     const techniques::Variant variant = techniques::parseVariant(GetParam().variant);
     if (const auto reason = notApplicable(scene, variant)) {
         EXPECT_NE(reason->find("needs an area light"), std::string::npos);
@@ -56,7 +59,8 @@ TEST_P(EveryCell, IsInRangeAndTheSameEveryTime) {
 }
 
 std::string testName(std::string name) {
-    std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
     return name;
 }
 
@@ -100,11 +104,9 @@ std::vector<std::string> everyVariant() {
     return names;
 }
 
-std::string variantName(const testing::TestParamInfo<std::string>& tested) {
-    return testName(tested.param);
-}
+std::string variantName(const testing::TestParamInfo<std::string>& tested) { return testName(tested.param); }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(everyVariant()), variantName);
 
-}  // namespace
-}  // namespace shadowbench
+} // namespace
+} // namespace shadowbench

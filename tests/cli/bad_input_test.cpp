@@ -11,11 +11,14 @@ namespace fs = std::filesystem;
 
 struct BadCase {
     std::string name;
-    std::string options;   // of run; {scene} is the file below
-    std::string scene;     // its text
+    std::string options; // of run; {scene} is the file below
+    std::string scene;   // its text
     int code;
-    std::string says;      // part of the one line
+    std::string says; // part of the one line
 };
+
+/// How a failing case is printed.
+void PrintTo(const BadCase& bad, std::ostream* out) { *out << bad.name; }
 
 std::string withLine(const std::string& from, const std::string& to) {
     std::string text = tinyScene();
@@ -40,7 +43,8 @@ std::vector<BadCase> badCases() {
          tinyScene("{ kind = \"rectangle\", centre = [0, 6, 0], u = [0, 0, 0], v = [0, 0, 1] }"), 2, "light"},
         {"LightOnSurface", "--scene {scene}", tinyScene("{ kind = \"point\", centre = [3.1, 0, 2.2] }"), 2, "light"},
         {"CameraInsideObject", "--scene {scene}", withLine("eye = [2.1, 6.2, 7.3]", "eye = [0.2, 1.2, 0.2]"), 2, "camera"},
-        {"UnclosedMesh", "--scene {scene}", tinyScene() + "[[object]]\nmesh = { file = \"open.obj\", closed = true }\n", 2, "open.obj"},
+        {"UnclosedMesh", "--scene {scene}", tinyScene() + "[[object]]\nmesh = { file = \"open.obj\", closed = true }\n", 2,
+         "bad.toml:17: object[3].mesh.file: not closed"},
         {"UnreadableMesh", "--scene {scene}", tinyScene() + "[[object]]\nmesh = { file = \"none.obj\" }\n", 2, "none.obj"},
         {"UnknownTechnique", "--scene {scene} --technique sm-unifrom", tinyScene(), 2, "sm-uniform"},
         {"UnknownParameter", "--scene {scene} --technique sm-uniform:size=3", tinyScene(), 2, "no parameter \"size\""},
@@ -74,9 +78,7 @@ TEST_P(BadInput, EndsInOneLineAndTheDocumentedCode) {
     }
 }
 
-std::string caseName(const testing::TestParamInfo<BadCase>& tested) {
-    return tested.param.name;
-}
+std::string caseName(const testing::TestParamInfo<BadCase>& tested) { return tested.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(Run, BadInput, testing::ValuesIn(badCases()), caseName);
 
@@ -86,9 +88,7 @@ TEST(BadCommand, AnUnknownVerbNamesTheNearMatch) {
     EXPECT_NE(outcome.output.find("\"run\""), std::string::npos) << outcome.output;
 }
 
-TEST(BadCommand, NoVerbIsUsage) {
-    EXPECT_EQ(shell("shadowbench ").code, 2);
-}
+TEST(BadCommand, NoVerbIsUsage) { EXPECT_EQ(shell("shadowbench ").code, 2); }
 
 TEST(BadCommand, ARecordThatIsNoneIsNamedByFileAndLine) {
     const Folder folder;
@@ -104,7 +104,8 @@ TEST(FullDisk, ARunOntoAFullDiskEndsInOneLineAndLeavesNoPartialRecord) {
     fs::create_directory(disk);
     if (shell("mount -t tmpfs -o size=16k tmpfs " + disk).code != 0) GTEST_SKIP() << "mounting a small disk needs root";
     shell("dd if=/dev/zero of=" + disk + "/full bs=1k count=12");
-    const Outcome outcome = shell("shadowbench run --quiet --scene " + scene + " --technique 'sm-*' --cache " + folder / "cache" + " --out " + disk);
+    const Outcome outcome = shell("shadowbench run --quiet --scene " + scene + " --technique 'sm-*' --cache " +
+                                  folder / "cache" + " --out " + disk);
     const bool partial = fs::exists(disk + "/results.jsonl") && fs::file_size(disk + "/results.jsonl") == 0;
     shell("umount " + disk);
     EXPECT_EQ(outcome.code, 1) << outcome.output;
@@ -112,5 +113,5 @@ TEST(FullDisk, ARunOntoAFullDiskEndsInOneLineAndLeavesNoPartialRecord) {
     EXPECT_NE(outcome.output.find("No space left"), std::string::npos) << outcome.output;
 }
 
-}  // namespace
-}  // namespace shadowbench
+} // namespace
+} // namespace shadowbench

@@ -13,8 +13,8 @@
 namespace shadowbench {
 
 struct Outcome {
-    int code = -1;       // exit status, or 128 + signal
-    std::string output;  // stdout and stderr together
+    int code = -1;      // exit status, or 128 + signal
+    std::string output; // stdout and stderr together
 };
 
 /// Runs a shell command line in which `shadowbench` stands for the program under test.
@@ -59,13 +59,15 @@ private:
 };
 
 /// A scene that is rendered and scored in a second. `extra` is appended.
-inline std::string tinyScene(const std::string& light = "{ kind = \"point\", centre = [1.7, 6.1, -2.3] }", const std::string& extra = "") {
+inline std::string tinyScene(const std::string& light = "{ kind = \"point\", centre = [1.7, 6.1, -2.3] }",
+                             const std::string& extra = "") {
     return "# A box over a slab.\ntitle = \"Tiny\"\nsize = [48, 48]\nreference_samples = 64\n"
            "camera = { eye = [2.1, 6.2, 7.3], target = [0.1, 0, 0.2], fovy = 45, near = 0.5, far = 40 }\nlight = " +
            light +
-           "\n[timeline]\nstill = 3\nmoving = 1\n[[object]]\nmesh = { box = { size = [12, 0.2, 12] } }\nplace = [{ at = [0, -0.1, 0] }]\n"
+           "\n[timeline]\nstill = 3\nmoving = 1\n[[object]]\nmesh = { box = { size = [12, 0.2, 12] } }\nplace = [{ at = [0, "
+           "-0.1, 0] }]\n"
            "[[object]]\nmesh = { box = { size = [1.6, 0.4, 1.2] } }\nplace = [{ at = [0.13, 1.2, 0.21] }]\n" +
            extra;
 }
 
-}  // namespace shadowbench
+} // namespace shadowbench

@@ -33,7 +33,8 @@ TEST(CommandLine, ListNamesEveryTechniqueWithItsParameters) {
 class Run : public testing::Test {
 protected:
     [[nodiscard]] std::string command(const std::string& options) const {
-        return "shadowbench run --quiet --scene " + scene_ + " --out " + folder_ / "out" + " --cache " + folder_ / "cache" + " " + options;
+        return "shadowbench run --quiet --scene " + scene_ + " --out " + folder_ / "out" + " --cache " + folder_ / "cache" +
+               " " + options;
     }
     [[nodiscard]] std::vector<Record> records() const { return readRecords(folder_ / "out/results.jsonl"); }
 
@@ -48,7 +49,7 @@ TEST_F(Run, WritesRecordsPageAndCharts) {
     ASSERT_EQ(records().size(), 3U);
     EXPECT_EQ(records()[2].variant, "volume-zfail");
     EXPECT_EQ(records()[2].status, Status::Scored);
-    EXPECT_GT(*records()[0].accuracy.mismatch, *records()[1].accuracy.mismatch);  // no shadow is worse than a map
+    EXPECT_GT(*records()[0].accuracy.mismatch, *records()[1].accuracy.mismatch); // no shadow is worse than a map
     EXPECT_TRUE(fs::exists(folder_ / "out/report.md"));
     EXPECT_TRUE(fs::exists(folder_ / "out/pareto-tiny.svg"));
     EXPECT_TRUE(fs::exists(folder_ / "out/images/tiny/sm-uniform/error.png"));
@@ -80,7 +81,7 @@ TEST_F(Run, AResumedRunKeepsWhatIsFinished) {
     const Record before = records()[0];
     ASSERT_EQ(shell(command("--resume --technique sm-uniform --technique none")).code, 0);
     ASSERT_EQ(records().size(), 2U);
-    EXPECT_EQ(toJson(records()[0]), toJson(before));  // times and all: it was not run again
+    EXPECT_EQ(toJson(records()[0]), toJson(before)); // times and all: it was not run again
 }
 
 TEST_F(Run, KilledAtAnyMomentItLeavesWholeRecordsAndResumes) {
@@ -124,5 +125,5 @@ TEST(Reference, WritesVisibilityAndProvenance) {
     EXPECT_TRUE(nlohmann::json::parse(provenance).contains("oracle"));
 }
 
-}  // namespace
-}  // namespace shadowbench
+} // namespace
+} // namespace shadowbench

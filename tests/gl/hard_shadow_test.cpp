@@ -33,7 +33,8 @@ BoxScore scoreOnGround(const Scene& scene, Stage& stage, const Image<float>& v, 
             if (!label && v(x, y) < 0.5F) ++falseShadow;
         }
     return {static_cast<double>(falseShadow + leak) / static_cast<double>(lit + dark),
-            static_cast<double>(falseShadow) / static_cast<double>(lit), static_cast<double>(leak) / static_cast<double>(dark)};
+            static_cast<double>(falseShadow) / static_cast<double>(lit),
+            static_cast<double>(leak) / static_cast<double>(dark)};
 }
 
 TEST(VolumeZfail, ABoxsShadowIsTheExactPolygonToATwentiethOfAPixel) {
@@ -50,13 +51,13 @@ TEST(VolumeZfail, TheFarPlaneAtInfinityGivesTheSameImageAsClampedDepth) {
     const Image<float> clamped = rendered(stage, "volume-zfail"), infinite = rendered(stage, "volume-zfail:far=infinity");
     std::size_t differing = 0;
     for (std::size_t i = 0; i < clamped.size(); ++i) differing += clamped[i] != infinite[i] ? 1 : 0;
-    EXPECT_LE(differing, 3U);  // depth is rounded differently; only pixels on an edge can tell
+    EXPECT_LE(differing, 3U); // depth is rounded differently; only pixels on an edge can tell
 }
 
 TEST(VolumeZfail, HoldsWithTheEyeInsideTheShadow) {
     Scene scene = boxScene(128);
     scene.light.centre = {0.13, 9, 0.21};
-    scene.camera.eye = {0.2, 0.6, 0.3};  // between slab and box
+    scene.camera.eye = {0.2, 0.6, 0.3}; // between slab and box
     scene.camera.target = {2.5, 0, 0.4};
     scene.camera.near = 0.01;
     Stage stage(scene);
@@ -72,7 +73,7 @@ TEST(VolumeZfail, EndsShadowsOfADirectionalLightInAPoint) {
     Stage stage(scene);
     stage.show(0);
     const Image<float> v = rendered(stage, "volume-zfail");
-    scene.light.centre = -1e6 * direction;  // for the closed form
+    scene.light.centre = -1e6 * direction; // for the closed form
     EXPECT_EQ(scoreOnGround(scene, stage, v, 0.05).mismatch, 0);
 }
 
@@ -88,7 +89,7 @@ TEST(SmUniform, ErrorAtLeastHalvesFromMap512To2048) {
 
 TEST(SmUniform, HasAcneWithoutBiasAndNoneWithSlopeBias) {
     Scene scene = boxScene(256);
-    scene.light.centre = {5.5, 1.5, -4.3};  // grazes the slab
+    scene.light.centre = {5.5, 1.5, -4.3}; // grazes the slab
     Stage stage(scene);
     stage.show(0);
     EXPECT_GT(scoreOnGround(scene, stage, rendered(stage, "sm-uniform:map=256,bias=none"), 2).falseShadow, 0.05);
@@ -119,14 +120,15 @@ TEST(SmHistory, SharpensACoarseMapWhileTheCameraStandsStill) {
     const double late = scoreOnGround(scene, stage, rendered(stage, "sm-history:base=uniform,map=128", 60), 0).mismatch;
     EXPECT_LT(early, base);
     EXPECT_LT(late, early);
-    EXPECT_LT(late, 0.25 * base);  // the estimator on straight edges leaves 0.16
+    EXPECT_LT(late, 0.25 * base); // the estimator on straight edges leaves 0.16
 }
 
 TEST(SmHistory, LearnsNothingFromTheSameRasterisationAgain) {
     const Scene scene = boxScene(256);
     Stage stage(scene);
     stage.show(0);
-    const double without = scoreOnGround(scene, stage, rendered(stage, "sm-history:base=uniform,map=128,jitter=none", 60), 0).mismatch;
+    const double without =
+        scoreOnGround(scene, stage, rendered(stage, "sm-history:base=uniform,map=128,jitter=none", 60), 0).mismatch;
     const double with = scoreOnGround(scene, stage, rendered(stage, "sm-history:base=uniform,map=128", 60), 0).mismatch;
     EXPECT_GT(without, 3 * with);
 }
@@ -162,13 +164,14 @@ TEST(Pcf, BilinearAndWiderKernelsSmoothTheEdgeWithoutMovingIt) {
 
 TEST(Pcf, MidpointDepthNeedsNoBiasOnClosedMeshes) {
     Scene scene = boxScene(256);
-    scene.light.centre = {9.5, 3.5, -8.3};  // slanting, but no texel spans more depth than half the slab's thickness
+    scene.light.centre = {9.5, 3.5, -8.3}; // slanting, but no texel spans more depth than half the slab's thickness
     Stage stage(scene);
     stage.show(0);
     // At the slab's rim the second surface is its side, close behind the first.
-    EXPECT_LT(scoreOnGround(scene, stage, rendered(stage, "pcf:kernel=2,depth=midpoint,bias=none,map=256"), 4).falseShadow, 0.002);
+    EXPECT_LT(scoreOnGround(scene, stage, rendered(stage, "pcf:kernel=2,depth=midpoint,bias=none,map=256"), 4).falseShadow,
+              0.002);
     EXPECT_GT(scoreOnGround(scene, stage, rendered(stage, "pcf:kernel=2,bias=none,map=256"), 4).falseShadow, 0.05);
 }
 
-}  // namespace
-}  // namespace shadowbench
+} // namespace
+} // namespace shadowbench

@@ -50,8 +50,8 @@ TEST(SampledMaps, ErrorFallsWithTheNumberOfSamples) {
     const double four = rmsError(scene, stage, rendered(stage, "sampled-maps:n=4"));
     const double sixteen = rmsError(scene, stage, rendered(stage, "sampled-maps:n=16"));
     const double sixtyFour = rmsError(scene, stage, rendered(stage, "sampled-maps:n=64"));
-    EXPECT_LT(sixteen, 0.5 * four);
-    EXPECT_LT(sixtyFour, 0.5 * sixteen);
+    EXPECT_LT(sixteen, 0.4 * four); // regular in x, across the edge: 1/n until the texels' own error shows
+    EXPECT_LT(sixtyFour, 0.7 * sixteen);
 }
 
 TEST(SampledMaps, NSamplesGiveNPlusOneValues) {
@@ -66,7 +66,7 @@ TEST(Pcss, PenumbraUnderAParallelBlockerHasTheWidthOfSimilarTriangles) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
     stage.show(0);
-    const double truth = 1.5 * 2 / 4;  // light size · (receiver − blocker) / blocker
+    const double truth = 1.5 * 2 / 4; // light size · (receiver − blocker) / blocker
     EXPECT_NEAR(rmsError(scene, stage, rendered(stage, "pcss:taps=32+32")), 0, 0.06);
     // 32 taps give steps of 1/32 or more: the inner 60 % of the ramp is known to a tenth.
     EXPECT_NEAR(penumbraWidth(scene, stage, rendered(stage, "pcss:taps=32+32"), 0.2F, 0.8F), 0.6 * truth, 0.1 * truth);
@@ -115,7 +115,8 @@ TEST(TemporalSoft, TheDisplayFilterSmoothsTheFirstFramesOnly) {
 TEST(TemporalSoft, AMovingCastersShadowIsTakenAnewEachFrame) {
     Scene scene = halfPlaneScene();
     scene.timeline = {4, 30};
-    scene.objects[1].motion.shift.keys = {{0, {0, 0, 0}}, {30, {-1.2, 0, 0}}};  // 4 cm a frame, the edge at x = −0.9 at the end
+    scene.objects[1].motion.shift.keys = {{0, {0, 0, 0}},
+                                          {30, {-1.2, 0, 0}}}; // 4 cm a frame, the edge at x = −0.9 at the end
     Stage stage(scene);
     const techniques::Variant variant = techniques::parseVariant("temporal-soft");
     const auto technique = variant.entry->make(variant.parameters);
@@ -138,5 +139,5 @@ TEST(TemporalSoft, AMovingCastersShadowIsTakenAnewEachFrame) {
     EXPECT_LT(umbra / static_cast<double>(count), 0.1);
 }
 
-}  // namespace
-}  // namespace shadowbench
+} // namespace
+} // namespace shadowbench

@@ -59,20 +59,20 @@ inline bool meetsBox(const glm::dvec3& a, const glm::dvec3& b) {
     return enter < leave;
 }
 
-/// The slab under the edge of a large plate at height 2 m: its edge is the line x = 0.3, the plate on the side of larger x. The light is
-/// a rectangle of 1.5 × 1.5 m, 6 m up, its sides along x and z.
+/// The slab under the edge of a large plate at height 2 m: its edge is the line x = 0.3, the plate on the side of larger x.
+/// The light is a rectangle of 1.5 × 1.5 m, 6 m up, its sides along x and z.
 inline Scene halfPlaneScene(int side = 96) {
     Scene scene = groundScene(side);
     scene.light = {LightKind::Rectangle, {0.1, 6, 0.2}, {0, -1, 0}, {1.5, 0, 0}, {0, 0, 1.5}};
-    scene.camera = {{-1.3, 3.1, 4.4}, {-0.2, 0, 0.2}, {0, 1, 0}, 40, 0.5, 40};  // looks under the plate
+    scene.camera = {{-1.3, 3.1, 4.4}, {-0.2, 0, 0.2}, {0, 1, 0}, 40, 0.5, 40}; // looks under the plate
     scene.objects.push_back(object(box({20, 0.002, 40}), {10.3, 2.001, 0}));
     return scene;
 }
 
-/// Visible fraction of that light at `p` on the slab: the share of the light's x range whose segments pass x < 0.3 at the height of the
-/// plate's lower side (its thickness of 2 mm is below every tolerance).
+/// Visible fraction of that light at `p` on the slab: the share of the light's x range whose segments pass x < 0.3 at the
+/// height of the plate's lower side (its thickness of 2 mm is below every tolerance).
 inline double halfPlaneVisibility(const glm::dvec3& p) {
-    const double limit = p.x + (0.3 - p.x) * 6 / 2;  // light x whose segment grazes the edge
+    const double limit = p.x + (0.3 - p.x) * 6 / 2; // light x whose segment grazes the edge
     return std::clamp((limit - (0.1 - 0.75)) / 1.5, 0.0, 1.0);
 }
 
@@ -84,4 +84,4 @@ inline Image<float> rendered(Stage& stage, const std::string& variant, int frame
     return stage.visibility();
 }
 
-}  // namespace shadowbench
+} // namespace shadowbench

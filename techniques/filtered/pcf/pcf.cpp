@@ -32,7 +32,7 @@ public:
         resolve_.set("positions", frame.gbuffer.position())
             .set("mapFromWorld", mapFromWorld(light))
             .set("depthMap", map_ ? map_->texture() : midpoint_->texture());
-        if (!bilinear_)  // its one tap lies in the receiver's own texel
+        if (!bilinear_) // its one tap lies in the receiver's own texel
             resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", slope_ && map_ ? 1.0F : 0.0F);
         resolveInto({&visibility}, resolve_);
     }

@@ -43,9 +43,9 @@ class History final : public Technique {
 public:
     explicit History(const Parameters& p)
         : fit_(p.text("base") == "lispsm" ? lispsmView : uniformView), jitter_(p.text("jitter")),
+          filtered_(p.text("filter") == "pcf"), followPlane_(p.text("bias") == "slope"),
           map_(p.integer("map"), biasFrom(p), Lookup::Compare), schedule_(p.real("m"), p.real("step")),
-          resolve_(gl::Program::screen("maps/sm-history/sm-history.frag",
-                                       {{"PCF_RADIUS", p.text("filter") == "pcf" ? "1" : "0"}})) {}
+          resolve_(gl::Program::screen("maps/sm-history/sm-history.frag", {{"KERNEL", filtered_ ? "3" : "1"}})) {}
 
     void reset() override {
         history_.reset();
@@ -67,6 +67,7 @@ public:
             .set("previousClipFromWorld", glm::mat4(frame.previousClipFromWorld))
             .set("m", static_cast<float>(schedule_.next(frame.cameraMoved())))
             .set("hasHistory", fresh ? 0 : 1);
+        if (filtered_) resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", followPlane_ ? 1.0F : 0.0F);
         resolveInto({&visibility, &history_->write}, resolve_);
         std::swap(history_->read, history_->write);
     }
@@ -90,6 +91,7 @@ private:
 
     FitView fit_;
     std::string jitter_;
+    bool filtered_, followPlane_;
     DepthMap map_;
     MSchedule schedule_;
     gl::Program resolve_;

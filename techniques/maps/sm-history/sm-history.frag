@@ -1,9 +1,13 @@
 // One frame of pixel-correct shadow maps.
 #include "gl/half.glsl"
 #include "gl/receiver.glsl"
-#include "maps/light_space.glsl"
+#include "filtered/pcf.glsl"
 
 uniform sampler2DShadow depthMap;
+#if KERNEL > 1
+uniform sampler2D normals;
+uniform float followPlane;            // 1: filter taps are compared with the receiver's plane
+#endif
 uniform sampler2D previousPositions;  // world position of this pixel's surface point one frame earlier
 uniform sampler2D history;            // smoothed visibility, window depth
 uniform mat4 clipFromWorld;
@@ -21,14 +25,13 @@ vec3 windowPosition(mat4 clip, vec3 world) {
     return h.xyz / h.w * 0.5 + 0.5;
 }
 
-/// f(n): the shadow test of this frame.
-float currentTest(MapPoint point) {
-    float sum = 0.0;
-    vec2 texel = 1.0 / vec2(textureSize(depthMap, 0));
-    for (int y = -PCF_RADIUS; y <= PCF_RADIUS; ++y)
-        for (int x = -PCF_RADIUS; x <= PCF_RADIUS; ++x)
-            sum += shadowTest(depthMap, MapPoint(point.at + vec3(vec2(x, y) * texel, 0.0), point.behind));
-    return sum / float((2 * PCF_RADIUS + 1) * (2 * PCF_RADIUS + 1));
+/// f(n): the shadow test of this frame, filtered or not.
+float currentTest(MapPoint point, vec3 world) {
+    vec2 slope = vec2(0.0);
+#if KERNEL > 1
+    slope = followPlane * receiverPlaneSlope(world, normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz), point.at);
+#endif
+    return percentageCloser(depthMap, point, slope, KERNEL);
 }
 
 /// Eq. 3.6.
@@ -45,7 +48,7 @@ void main() {
         return;
     }
     MapPoint point = mapPoint(receiver.position);
-    visibility = currentTest(point);
+    visibility = currentTest(point, receiver.position);
 
     vec3 before = windowPosition(previousClipFromWorld, texelFetch(previousPositions, ivec2(gl_FragCoord.xy), 0).xyz);  // eq. 3.4
     bool inside = all(greaterThanEqual(before.xy, vec2(0.0))) && all(lessThanEqual(before.xy, vec2(1.0)));
