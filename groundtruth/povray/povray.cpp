@@ -1,7 +1,7 @@
 #include "groundtruth/povray/povray.h"
 
-#include "groundtruth/povray/process.h"
-#include "groundtruth/povray/temporary_folder.h"
+#include "harness/scene/process.h"
+#include "harness/scene/temporary_folder.h"
 #include "harness/scene/error.h"
 #include "harness/scene/image_io.h"
 

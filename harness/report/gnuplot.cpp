@@ -1,7 +1,7 @@
 #include "harness/report/gnuplot.h"
 
-#include "groundtruth/povray/process.h"
-#include "groundtruth/povray/temporary_folder.h"
+#include "harness/scene/process.h"
+#include "harness/scene/temporary_folder.h"
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
 
@@ -25,12 +25,12 @@ std::string header(int width, int height) {
 }
 
 void runGnuplot(const std::filesystem::path& folder, const std::string& script) {
-    const auto program = groundtruth::findProgram("gnuplot");
+    const auto program = findProgram("gnuplot");
     if (!program) throw Inconclusive("drawing charts: gnuplot is not installed; run `apt-get install gnuplot-nox`");
     std::string messages;
-    const groundtruth::Command command{*program, {"--default-settings", script}, folder};
-    const groundtruth::Finished end =
-        groundtruth::runProcess(command, [&](std::string_view line) { messages.append(line).append(" "); });
+    const Command command{*program, {"--default-settings", script}, folder};
+    const Finished end =
+        runProcess(command, [&](std::string_view line) { messages.append(line).append(" "); });
     if (end.timedOut)
         throw Inconclusive("drawing charts: gnuplot ran for more than a minute and was stopped; reinstall gnuplot-nox");
     if (end.signal != 0 || end.exitCode != 0)
@@ -60,7 +60,7 @@ std::vector<Tick> ticks(double low, double high) {
 } // namespace
 
 std::string svgOf(const std::string& script, int width, int height) {
-    const groundtruth::TemporaryFolder folder;
+    const TemporaryFolder folder;
     writeFile(folder.path() / "chart.gp", header(width, height) + script);
     runGnuplot(folder.path(), "chart.gp");
     return readFile(folder.path() / "chart.svg");

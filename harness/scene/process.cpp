@@ -1,4 +1,4 @@
-#include "groundtruth/povray/process.h"
+#include "harness/scene/process.h"
 
 #include "harness/scene/error.h"
 
@@ -17,7 +17,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -241,4 +241,4 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
     return decoded(*status);
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench {
 
 /// The executable that `name` means: itself when it holds a slash, else the first match on PATH; nothing if there is none.
 std::optional<std::filesystem::path> findProgram(const std::filesystem::path& name);
@@ -37,4 +37,4 @@ using OnLine = std::function<void(std::string_view)>;
 /// when this returns or `onLine` throws. Throws Inconclusive when the program cannot be started.
 Finished runProcess(const Command& command, const OnLine& onLine);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench {
 
 /// A new folder under the system's temporary folder ($TMPDIR, else /tmp) that only this user can read. Removed, with all it
 /// holds, by the destructor. Throws Inconclusive when it cannot be made.
@@ -20,4 +20,4 @@ private:
     std::filesystem::path path_;
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench

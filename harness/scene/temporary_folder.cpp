@@ -1,4 +1,4 @@
-#include "groundtruth/povray/temporary_folder.h"
+#include "harness/scene/temporary_folder.h"
 
 #include "harness/scene/error.h"
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench {
 
 TemporaryFolder::TemporaryFolder() {
     std::error_code error;
@@ -26,4 +26,4 @@ TemporaryFolder::~TemporaryFolder() {
     std::filesystem::remove_all(path_, ignored);
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench
