@@ -3,6 +3,8 @@
 #include "harness/report/report.h"
 #include "harness/report/summary.h"
 #include "harness/scene/files.h"
+#include "harness/scene/scene.h"
+#include "techniques/technique.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -94,10 +96,22 @@ std::string sceneSection(const std::vector<Record>& records, const std::string& 
     return text;
 }
 
+/// Words of `chosen` as repeated options; nothing if they are all there are.
+std::string options(const std::string& option, const std::vector<std::string>& chosen, const std::vector<std::string>& all) {
+    if (std::is_permutation(chosen.begin(), chosen.end(), all.begin(), all.end())) return "";
+    std::string text;
+    for (const std::string& word : chosen) text += " " + option + " " + word;
+    return text;
+}
+
 std::string command(const std::vector<Record>& records) {
-    std::string text = "./bench run";
-    for (const std::string& scene : scenes(records)) text += " --scene " + scene;
-    return text + " --profile " + records.front().profile;
+    std::vector<std::string> variants, everyVariant;
+    for (const Record& record : records)
+        if (std::find(variants.begin(), variants.end(), record.variant) == variants.end())
+            variants.push_back(record.variant);
+    for (const techniques::Variant& variant : techniques::matchVariants("*")) everyVariant.push_back(variant.name);
+    return "./bench run" + options("--scene", scenes(records), builtinScenes()) +
+           options("--technique", variants, everyVariant) + " --profile " + records.front().profile;
 }
 
 std::string head(const std::vector<Record>& records) {

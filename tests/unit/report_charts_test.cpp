@@ -123,7 +123,8 @@ TEST_F(ReportFolder, HoldsThePageTheFiguresAndTheCharts) {
     for (const char* part :
          {"## dueling-frusta", "![pareto-dueling-frusta](pareto-dueling-frusta.svg)", "c0ffee", "llvmpipe",
           "exact (polygon) by CGAL 5.5.1", "POV-Ray 1024 samples, σ 0.0006 by povray 3.7.0.10.unofficial",
-          "./bench run --scene dueling-frusta --scene overlapping-occluders --profile gate", "## The columns"})
+          "./bench run --scene dueling-frusta --scene overlapping-occluders --technique ", " --profile gate\n",
+          "## The columns"})
         EXPECT_TRUE(contains(page, part)) << part;
 }
 
