@@ -101,12 +101,20 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
         lines.push_back(fmt::format("cheapest within tolerance ({}{}): {}", metric, shownBound(*limit),
                                     best ? records[*best].variant : "none"));
     }
+    std::vector<std::pair<std::string, std::string>> inapplicable; // reason → variants, in order of first occurrence
     for (const std::size_t i : ofScene(records, scene)) {
         const Record& record = records[i];
-        if (record.status == Status::NotApplicable)
-            lines.push_back(fmt::format("not applicable: {} ({})", record.variant, record.reason));
         if (record.status == Status::Error) lines.push_back(fmt::format("error: {} ({})", record.variant, record.reason));
+        if (record.status != Status::NotApplicable) continue;
+        const auto same = std::find_if(inapplicable.begin(), inapplicable.end(),
+                                       [&](const auto& known) { return known.first == record.reason; });
+        if (same == inapplicable.end())
+            inapplicable.emplace_back(record.reason, record.variant);
+        else
+            same->second += ", " + record.variant;
     }
+    for (const auto& [reason, variants] : inapplicable)
+        lines.push_back(fmt::format("not applicable: {} ({})", variants, reason));
     return lines;
 }
 

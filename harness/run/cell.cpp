@@ -167,7 +167,7 @@ std::string cellId(const Truths& truths, const Scene& scene, const techniques::V
 
 std::optional<std::string> notApplicable(const Scene& scene, const techniques::Variant& variant) {
     if (variant.entry->answer == Answer::Soft && !scene.light.isArea())
-        return fmt::format("{} needs an area light; the light of {} is {}", variant.entry->id, scene.id,
+        return fmt::format("needs an area light; the light of {} is {}", scene.id,
                            scene.light.kind == LightKind::Point ? "a point" : "directional");
     return std::nullopt;
 }

@@ -72,7 +72,11 @@ public:
           finished_(finishedRecords(options)),
           cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache),
           context_(gl::Context::create()) {
-        std::filesystem::create_directories(options.out);
+        std::error_code failed;
+        std::filesystem::create_directories(options.out, failed);
+        if (failed)
+            throw InternalError(fmt::format("making the output folder {} failed: {}; choose another with --out",
+                                            options.out.string(), failed.message()));
     }
 
     RunResult all() {
