@@ -1,6 +1,7 @@
 #include "harness/run/progress_line.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,14 +12,14 @@ namespace {
 constexpr int barWidth = 20;
 
 std::string bar(double share) {
-    const int filled = static_cast<int>(share * barWidth + 0.5);
+    const int filled = static_cast<int>(std::lround(share * barWidth));
     std::string text = "▐";
     for (int i = 0; i < barWidth; ++i) text += i < filled ? "█" : " ";
     return text + "▌";
 }
 
 std::string clock(double seconds) {
-    const int whole = static_cast<int>(seconds + 0.5);
+    const int whole = static_cast<int>(std::lround(seconds));
     return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 

@@ -1,6 +1,8 @@
 // Runs the built program as a user does.
 #pragma once
 
+#include "harness/scene/temporary_folder.h"
+
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -8,7 +10,6 @@
 #include <fstream>
 #include <string>
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace shadowbench {
 
@@ -36,26 +37,15 @@ inline Outcome shell(std::string command) {
 /// A fresh folder that goes away with the object.
 class Folder {
 public:
-    Folder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "shadowbench-cli-XXXXXX").string();
-        path_ = mkdtemp(pattern.data());
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+    [[nodiscard]] std::string operator/(const std::string& name) const { return (folder_.path() / name).string(); }
 
     std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream(path_ / name) << text;
+        std::ofstream(folder_.path() / name) << text;
         return *this / name;
     }
 
 private:
-    std::filesystem::path path_;
+    TemporaryFolder folder_;
 };
 
 /// A scene that is rendered and scored in a second. `extra` is appended.

@@ -3,6 +3,7 @@
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
 #include "harness/scene/image_io.h"
+#include "harness/scene/temporary_folder.h"
 #include "povray_scene.h"
 
 #include <algorithm>
@@ -50,13 +51,6 @@ void expectEqual(const Reference& a, const Reference& b) {
 
 class CacheFolder : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "cache-test-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     [[nodiscard]] Cache cache() const { return Cache(folder_ / "references"); }
 
     /// Stores a sample, changes its file's bytes and expects the entry to be refused, reported in one line, and removed.
@@ -72,7 +66,8 @@ protected:
         EXPECT_FALSE(fs::exists(file));
     }
 
-    fs::path folder_;
+    TemporaryFolder owner_;
+    fs::path folder_ = owner_.path();
 };
 
 TEST_F(CacheFolder, FindsBitForBitWhatWasStored) {

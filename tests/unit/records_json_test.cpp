@@ -1,5 +1,6 @@
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
+#include "harness/scene/temporary_folder.h"
 #include "tests/unit/records_examples.h"
 
 #include <cmath>
@@ -31,11 +32,6 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 class RecordsFile : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string pattern = (std::filesystem::temp_directory_path() / "records-XXXXXX").string();
-        folder_ = mkdtemp(pattern.data());
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
     [[nodiscard]] std::filesystem::path file() const { return folder_ / "results.jsonl"; }
 
     [[nodiscard]] std::string complaintAbout(const std::string& content) const {
@@ -49,7 +45,8 @@ protected:
     }
 
 private:
-    std::filesystem::path folder_;
+    TemporaryFolder owner_;
+    std::filesystem::path folder_ = owner_.path();
 };
 
 TEST(RecordJson, ReadsBackAsTheSameLineForEveryStatus) {

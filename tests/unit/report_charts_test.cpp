@@ -4,6 +4,7 @@
 #include "harness/report/report.h"
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
+#include "harness/scene/temporary_folder.h"
 #include "tests/unit/report_examples.h"
 
 #include <cmath>
@@ -20,15 +21,11 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 class ReportFolder : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string pattern = (std::filesystem::temp_directory_path() / "report-XXXXXX").string();
-        folder_ = mkdtemp(pattern.data());
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
 private:
-    std::filesystem::path folder_;
+    TemporaryFolder owner_;
+    std::filesystem::path folder_ = owner_.path();
 };
 
 /// An environment variable for the length of a scope.
