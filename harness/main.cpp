@@ -101,7 +101,7 @@ void addReference(CLI::App& app, ReferenceOptions& options) {
     verb->add_option("--frame", options.frame, "Frame number (default: the scored one)")->check(CLI::NonNegativeNumber);
     verb->add_option("--oracle", options.oracle, "auto, polygon, rays or povray")->capture_default_str();
     verb->add_option("--samples", options.samples, "Light samples of an area light (default: the scene's)")
-        ->check(CLI::Range(1, 65536));
+        ->check(CLI::Range(4, 16384));
     verb->add_option("--profile", options.profile, "gate, standard or paper")->capture_default_str();
     verb->add_option("--out", options.out, "Folder for visibility.exr and provenance.json")->capture_default_str();
     verb->add_flag("--quiet", options.quiet, "No progress");

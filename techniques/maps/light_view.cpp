@@ -115,9 +115,9 @@ LightView fitOrthographic(const Camera::Basis& basis, std::vector<glm::dvec3> po
             std::move(points)};
 }
 
-/// Cuts the convex polyhedron spanned by `faces` with the half-space dot(plane, (p, 1)) ≥ 0.
 using Polygon = std::vector<glm::dvec3>;
 
+/// The part of a convex polygon where dot(plane, (p, 1)) ≥ 0; new corners are also appended to `cutPoints`.
 Polygon cut(const Polygon& polygon, const glm::dvec4& plane, std::vector<glm::dvec3>& cutPoints) {
     Polygon kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -130,6 +130,31 @@ Polygon cut(const Polygon& polygon, const glm::dvec4& plane, std::vector<glm::dv
         kept.push_back(a + da / (da - db) * (b - a));
         cutPoints.push_back(kept.back());
     }
+    return kept;
+}
+
+/// Sorts points of one plane around their middle, so that they bound a convex polygon.
+void sortAround(Polygon& polygon, const glm::dvec3& normal) {
+    const glm::dvec3 least = std::abs(normal.x) < std::abs(normal.y) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(normal, least));
+    const glm::dvec3 y = glm::cross(glm::normalize(normal), x);
+    glm::dvec3 middle(0);
+    for (const glm::dvec3& p : polygon) middle += p / static_cast<double>(polygon.size());
+    const auto angle = [&](const glm::dvec3& p) { return std::atan2(glm::dot(p - middle, y), glm::dot(p - middle, x)); };
+    std::sort(polygon.begin(), polygon.end(), [&](const glm::dvec3& a, const glm::dvec3& b) { return angle(a) < angle(b); });
+}
+
+/// The convex body bounded by `faces` without what lies behind `plane`; the cut becomes a face.
+std::vector<Polygon> cutBody(const std::vector<Polygon>& faces, const glm::dvec4& plane) {
+    std::vector<Polygon> kept;
+    Polygon lid;
+    for (const Polygon& face : faces) {
+        Polygon rest = cut(face, plane, lid);
+        if (rest.size() >= 3) kept.push_back(std::move(rest));
+    }
+    if (lid.size() < 3) return kept;
+    sortAround(lid, glm::dvec3(plane));
+    kept.push_back(std::move(lid));
     return kept;
 }
 
@@ -173,31 +198,11 @@ LightView fitFromSample(const Light& light, const glm::dvec3& sample, std::vecto
 
 LightView fitToScene(const Light& light, const Snapshot& snapshot) { return fitToPoints(light, boundingCorners(snapshot)); }
 
-std::vector<glm::dvec3> visiblePart(const Bounds& box, const Camera& camera, double aspect) {
+std::vector<glm::dvec3> visiblePart(const Bounds& box, const Camera& camera, double aspect,
+                                    const std::vector<glm::dvec4>& halfSpaces) {
     std::vector<Polygon> faces = boxFaces(box);
-    for (const glm::dvec4& plane : frustumPlanes(camera.projection(aspect) * camera.view())) {
-        std::vector<Polygon> kept;
-        Polygon lid; // the new face; as only its corners are needed later, their order is not
-        for (const Polygon& face : faces) {
-            Polygon rest = cut(face, plane, lid);
-            if (rest.size() >= 3) kept.push_back(std::move(rest));
-        }
-        // Sort the lid around its middle so that the next plane cuts a convex polygon.
-        if (lid.size() >= 3) {
-            const glm::dvec3 normal(plane);
-            const glm::dvec3 x = glm::normalize(
-                glm::cross(normal, std::abs(normal.x) < std::abs(normal.y) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
-            const glm::dvec3 y = glm::cross(glm::normalize(normal), x);
-            glm::dvec3 middle(0);
-            for (const glm::dvec3& p : lid) middle += p / static_cast<double>(lid.size());
-            std::sort(lid.begin(), lid.end(), [&](const glm::dvec3& a, const glm::dvec3& b) {
-                return std::atan2(glm::dot(a - middle, y), glm::dot(a - middle, x)) <
-                       std::atan2(glm::dot(b - middle, y), glm::dot(b - middle, x));
-            });
-            kept.push_back(std::move(lid));
-        }
-        faces = std::move(kept);
-    }
+    for (const glm::dvec4& plane : frustumPlanes(camera.projection(aspect) * camera.view())) faces = cutBody(faces, plane);
+    for (const glm::dvec4& plane : halfSpaces) faces = cutBody(faces, plane);
     std::vector<glm::dvec3> points;
     for (const Polygon& face : faces) points.insert(points.end(), face.begin(), face.end());
     return points;
@@ -228,8 +233,9 @@ double lispsmNear(double d, double z0, double z1) {
 
 LightView fitLispsm(const Light& light, const Snapshot& snapshot, double aspect) {
     LightView view = fitToScene(light.centreOnly(), snapshot);
-    std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), snapshot.camera, aspect);
-    std::erase_if(body, [&](const glm::dvec3& p) { return glm::dot(view.depthFromWorld, glm::dvec4(p, 1)) < view.near; });
+    // Nothing of the scene is nearer to the light than the near plane, though corners of its bounding box may be.
+    const glm::dvec4 nearPlane = view.depthFromWorld - glm::dvec4(0, 0, 0, view.near);
+    std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), snapshot.camera, aspect, {nearPlane});
     if (body.size() < 3) return view; // nothing visible lies in front of the light
 
     // The view axis in light space, seen from the nearest point of the body (post-perspective for a point light).

@@ -36,8 +36,10 @@ LightView fitFromSample(const Light& light, const glm::dvec3& sample, std::vecto
 /// `fitToPoints` over the whole scene.
 LightView fitToScene(const Light& light, const Snapshot& snapshot);
 
-/// Corners of the part of `box` that the camera sees: the box clipped by the view frustum (Scherzer Fig. 2.5, S ∩ V).
-std::vector<glm::dvec3> visiblePart(const Bounds& box, const Camera& camera, double aspect);
+/// Corners of the part of `box` that the camera sees: the box clipped by the view frustum (Scherzer Fig. 2.5, S ∩ V) and by
+/// further half-spaces dot(plane, (p, 1)) ≥ 0.
+std::vector<glm::dvec3> visiblePart(const Bounds& box, const Camera& camera, double aspect,
+                                    const std::vector<glm::dvec4>& halfSpaces = {});
 
 /// Light space perspective shadow map (Wimmer, Scherzer, Purgathofer 2004; Scherzer 2.2.2): light space turned so that the
 /// view direction lies along y, then warped by a perspective along y whose near distance n spreads the error evenly over the

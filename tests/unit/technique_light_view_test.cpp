@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
@@ -142,6 +142,30 @@ TEST(Lispsm, KeepsLightRaysOnOneTexel) {
     const glm::dvec3 above = ground - 3.0 * light.direction;
     EXPECT_NEAR(glm::distance(glm::dvec2(mapped(view, ground)), glm::dvec2(mapped(view, above))), 0, 1e-9);
     EXPECT_LT(mapped(view, above).z, mapped(view, ground).z);
+}
+
+TEST(Lispsm, HoldsEveryVisiblePointOfTheScene) {
+    // A wide ground under a light that is not above its middle, with something tall: the bounding box reaches beyond the
+    // near plane.
+    const Light light{LightKind::Point, {0.2, 8.1, 0.3}, {0, -1, 0}, {}, {}};
+    Snapshot scene = slabScene(light);
+    scene.camera = {{3.1, 4.2, 7.3}, {0, 0.6, 0}, {0, 1, 0}, 40, 0.1, 60};
+    const glm::dmat4 up = glm::translate(glm::dmat4(1), glm::dvec3(-6, 1.2, 5));
+    scene.batches.push_back({std::make_shared<Mesh>(box({1, 2.3, 1})), {}, false, {{up, up, 2}}});
+    const glm::dvec3 low = scene.bounds().low, high = scene.bounds().high;
+    const LightView view = fitLispsm(light, scene, 1);
+    std::size_t seen = 0;
+    for (int i = 0; i < 20 * 20 * 20; ++i) {
+        const glm::dvec3 share = glm::dvec3(i % 20, i / 20 % 20, i / 400) / 19.0;
+        const glm::dvec3 p = low + share * (high - low);
+        const glm::dvec3 pixel = scene.camera.project(p, {100, 100});
+        if (pixel.z < 0.1 || pixel.x < 0 || pixel.x > 100 || pixel.y < 0 || pixel.y > 100) continue;
+        if (glm::dot(view.depthFromWorld, glm::dvec4(p, 1)) < view.near) continue;
+        ++seen;
+        const glm::dvec3 q = mapped(view, p);
+        EXPECT_LE(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}), 1 + 1e-9) << p.x << " " << p.y << " " << p.z;
+    }
+    EXPECT_GT(seen, 1000U);
 }
 
 TEST(Lispsm, IsUnwarpedInDuellingFrusta) {
