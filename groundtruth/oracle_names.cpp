@@ -29,9 +29,8 @@ Oracle oracleNamed(std::string_view name) {
         if (text == name) return value;
         known.emplace_back(text);
     }
-    const std::string near = didYouMean(name, known);
-    throw BadInput(fmt::format("unknown oracle \"{}\": {}{}valid are auto, polygon, rays and povray", name, near,
-                               near.empty() ? "" : " "));
+    throw BadInput(
+        fmt::format("unknown oracle \"{}\"{}; valid are auto, polygon, rays and povray", name, didYouMean(name, known)));
 }
 
 } // namespace shadowbench::groundtruth

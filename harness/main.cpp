@@ -115,7 +115,7 @@ void requireKnownVerb(const CLI::App& app, int argc, char** argv) {
     if (std::find(verbs.begin(), verbs.end(), argv[1]) != verbs.end()) return;
     std::string all;
     for (const std::string& verb : verbs) all += (all.empty() ? "" : ", ") + verb;
-    throw BadInput(fmt::format("there is no verb \"{}\"; {}the verbs are: {}", argv[1], didYouMean(argv[1], verbs), all));
+    throw BadInput(fmt::format("there is no verb \"{}\"{}; the verbs are: {}", argv[1], didYouMean(argv[1], verbs), all));
 }
 
 int dispatch(int argc, char** argv) {

@@ -93,7 +93,7 @@ Parameters parseParameters(std::string_view assignments, const std::vector<Param
         const auto parameter =
             std::find_if(declared.begin(), declared.end(), [&](const Parameter& p) { return p.name == name; });
         if (parameter == declared.end())
-            throw BadInput(fmt::format("technique {} has no parameter \"{}\"; {}it has: {}", technique, name,
+            throw BadInput(fmt::format("technique {} has no parameter \"{}\"{}; it has: {}", technique, name,
                                        didYouMean(name, names(declared)),
                                        declared.empty() ? "none" : fmt::format("{}", fmt::join(names(declared), ", "))));
         if (equals == std::string::npos)

@@ -41,7 +41,7 @@ std::string_view title(Seed seed) {
 const Entry& entryNamed(std::string_view id) {
     for (const Entry& entry : catalog())
         if (entry.id == id) return entry;
-    throw BadInput(fmt::format("there is no technique \"{}\"; {}the techniques are: {}", id, didYouMean(id, ids()),
+    throw BadInput(fmt::format("there is no technique \"{}\"{}; the techniques are: {}", id, didYouMean(id, ids()),
                                fmt::join(ids(), ", ")));
 }
 

@@ -79,16 +79,11 @@ public:
     void refuseUnknown() const {
         std::vector<std::string> known(known_.begin(), known_.end());
         for (const auto& [key, value] : object_.items())
-            if (!known_.contains(key)) refuse(path_ + key, "is unknown" + hint(key, known));
+            if (!known_.contains(key)) refuse(path_ + key, "is unknown" + didYouMean(key, known));
     }
 
 private:
     [[nodiscard]] std::string pathOf(const char* key) const { return path_ + key; }
-
-    static std::string hint(const std::string& key, const std::vector<std::string>& known) {
-        const std::string near = didYouMean(key, known);
-        return near.empty() ? "" : ", " + near;
-    }
 
     const Json* find(const char* key) {
         known_.insert(key);

@@ -127,7 +127,7 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& kn
     std::string words = fmt::format("\"{}\"", near.front().second);
     for (std::size_t i = 1; i < std::min<std::size_t>(near.size(), 3); ++i)
         words += fmt::format(" or \"{}\"", near[i].second);
-    return fmt::format("did you mean {}?", words);
+    return fmt::format(" (did you mean {}?)", words);
 }
 
 } // namespace shadowbench

@@ -201,7 +201,7 @@ Scene loadScene(const std::string& idOrFile, Profile profile) {
     std::error_code ignored;
     if (file.extension() == ".toml" || file.has_parent_path() || fs::exists(file, ignored))
         return parseScene(readFile(file), file, profile);
-    throw BadInput(fmt::format("unknown scene \"{}\"; {} known are {}, or the path of a .toml file", idOrFile,
+    throw BadInput(fmt::format("unknown scene \"{}\"{}; known are {}, or the path of a .toml file", idOrFile,
                                didYouMean(idOrFile, ids), fmt::join(ids, ", ")));
 }
 
@@ -220,7 +220,7 @@ std::string_view name(Profile profile) {
 Profile profileNamed(std::string_view word) {
     for (const Profile profile : {Profile::Gate, Profile::Standard, Profile::Paper})
         if (name(profile) == word) return profile;
-    throw BadInput(fmt::format("unknown profile \"{}\"; {} known are gate, standard, paper", word,
+    throw BadInput(fmt::format("unknown profile \"{}\"{}; known are gate, standard, paper", word,
                                didYouMean(word, {"gate", "standard", "paper"})));
 }
 

@@ -22,12 +22,6 @@ bool isProfileTable(const toml::node& node) {
     return table != nullptr && std::any_of(profileNames().begin(), profileNames().end(), holds);
 }
 
-/// The near matches as the end of a sentence.
-std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
-    const std::string near = didYouMean(word, known);
-    return near.empty() ? "" : "; " + near;
-}
-
 } // namespace
 
 TomlValue::TomlValue(const TomlSource& source, std::string key, const toml::node& node)
@@ -71,7 +65,7 @@ std::string TomlValue::text() const {
 std::string TomlValue::oneOf(const std::vector<std::string>& words) const {
     std::string word = text();
     if (std::find(words.begin(), words.end(), word) == words.end())
-        fail(fmt::format("expected one of {}, got \"{}\"{}", fmt::join(words, ", "), word, suggestion(word, words)));
+        fail(fmt::format("expected one of {}, got \"{}\"{}", fmt::join(words, ", "), word, didYouMean(word, words)));
     return word;
 }
 
@@ -124,8 +118,8 @@ const TomlValue& TomlValue::only(const std::vector<std::string>& known) const {
         if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
         const std::string near = didYouMean(key.str(), known);
         const std::string path = key_.empty() ? std::string(key.str()) : fmt::format("{}.{}", key_, key.str());
-        throw BadInput(fmt::format("{}:{}: {}: unknown key; {}", source_->file, key.source().begin.line, path,
-                                   near.empty() ? fmt::format("known are {}", fmt::join(known, ", ")) : near));
+        throw BadInput(fmt::format("{}:{}: {}: unknown key{}", source_->file, key.source().begin.line, path,
+                                   near.empty() ? fmt::format("; known are {}", fmt::join(known, ", ")) : near));
     }
     return *this;
 }

@@ -81,9 +81,9 @@ TEST_F(Files, ThatCannotBeReadAreNamed) {
 
 TEST(DidYouMean, NamesTheNearestWordsFirst) {
     const std::vector<std::string> known{"pcf", "pcss", "vsm", "esm"};
-    EXPECT_EQ(didYouMean("pcs", known), "did you mean \"pcf\" or \"pcss\"?");
+    EXPECT_EQ(didYouMean("pcs", known), " (did you mean \"pcf\" or \"pcss\"?)");
     EXPECT_EQ(didYouMean("temporal-soft", known), "");
-    EXPECT_EQ(didYouMean("windmil", {"trees", "windmills"}), "did you mean \"windmills\"?");
+    EXPECT_EQ(didYouMean("windmil", {"trees", "windmills"}), " (did you mean \"windmills\"?)");
 }
 
 } // namespace

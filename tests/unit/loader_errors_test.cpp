@@ -49,12 +49,12 @@ const std::vector<Mistake>& mistakes() {
         {"OnlyAComment", "# nothing\n", "scenes/x.toml:1: the file is empty"},
         {"SyntaxError", "title = \"x\"\ncamera = {\n", "scenes/x.toml:2: not valid TOML"},
         {"KeyTwice", "title = \"x\"\ntitle = \"y\"\n", "scenes/x.toml:2: not valid TOML"},
-        {"UnknownKey", withTop("ligth = 3"), "scenes/x.toml:1: ligth: unknown key; did you mean \"light\"?"},
+        {"UnknownKey", withTop("ligth = 3"), "scenes/x.toml:1: ligth: unknown key (did you mean \"light\"?)"},
         {"UnknownKeyWithoutNeighbour", withTop("zebra = 3"), "scenes/x.toml:1: zebra: unknown key; known are title"},
         {"UnknownCameraKey", withCamera("eye = [0, 2, 6], target = [0, 0, 0], fov = 40, near = 0.1, far = 60"),
-         "scenes/x.toml:2: camera.fov: unknown key; did you mean \"fovy\"?"},
+         "scenes/x.toml:2: camera.fov: unknown key (did you mean \"fovy\"?)"},
         {"UnknownToleranceMetric", with(kCamera, kLight, kObject + "[tolerance]\nmissmatch = 0.1\n"),
-         "scenes/x.toml:7: tolerance.missmatch: unknown key; did you mean \"mismatch\"?"},
+         "scenes/x.toml:7: tolerance.missmatch: unknown key (did you mean \"mismatch\"?)"},
         {"MissingTitle", kCamera + kLight + kObject, "scenes/x.toml:1: title: missing"},
         {"MissingCamera", "title = \"x\"\n" + kLight + kObject, "scenes/x.toml:1: camera: missing"},
         {"MissingFovy", withCamera("eye = [0, 2, 6], target = [0, 0, 0], near = 0.1, far = 60"),
@@ -92,9 +92,8 @@ const std::vector<Mistake>& mistakes() {
                     "[0, 2, 6] }, { frame = 4, eye = [1, 0, 9] }]"),
          "scenes/x.toml:2: camera.path[2]: give shift (of eye and target) in every key or in none"},
         {"UnknownLightKind", withLight("kind = \"dsik\", centre = [0, 5, 0]"),
-         "scenes/x.toml:3: light.kind: expected one of point, directional, rectangle, disk, line, got \"dsik\"; did you "
-         "mean "
-         "\"disk\"?"},
+         "scenes/x.toml:3: light.kind: expected one of point, directional, rectangle, disk, line, got \"dsik\" (did "
+         "you mean \"disk\"?)"},
         {"KeyOfAnotherLightKind", withLight("kind = \"point\", centre = [0, 5, 0], u = [1, 0, 0]"),
          "scenes/x.toml:3: light.u: unknown key"},
         {"ZeroDirection", withLight("kind = \"directional\", direction = [0, 0, 0]"),
@@ -119,12 +118,12 @@ const std::vector<Mistake>& mistakes() {
         {"NoObjectInProfile", withObject("mesh = { plane = { half = 2 } }\nprofile = \"paper\""),
          "scenes/x.toml:4: object: no object belongs to profile gate"},
         {"UnknownProfile", withObject("mesh = { plane = { half = 2 } }\nprofile = [\"papre\"]"),
-         "scenes/x.toml:6: object[1].profile[1]: expected one of gate, standard, paper, got \"papre\"; did you mean "
-         "\"paper\"?"},
+         "scenes/x.toml:6: object[1].profile[1]: expected one of gate, standard, paper, got \"papre\" (did you mean "
+         "\"paper\"?)"},
         {"NoValueForProfile", withObject("mesh = { plane = { half = { paper = 2 } } }"),
          "scenes/x.toml:5: object[1].mesh.plane.half: has no value for profile gate"},
         {"UnknownMesh", withObject("mesh = { sphare = { radius = 2 } }"),
-         "scenes/x.toml:5: object[1].mesh.sphare: unknown key; did you mean \"sphere\"?"},
+         "scenes/x.toml:5: object[1].mesh.sphare: unknown key (did you mean \"sphere\"?)"},
         {"TwoMeshes", withObject("mesh = { plane = { half = 2 }, box = { size = [1, 1, 1] } }"),
          "scenes/x.toml:5: object[1].mesh: expected one kind of mesh, got 2"},
         {"NoMesh", withObject("name = \"x\""), "scenes/x.toml:4: object[1].mesh: missing"},

@@ -116,7 +116,7 @@ Entry smHistory() {
             .answer = Answer::Hard,
             .temporal = true,
             .parameters = std::move(parameters),
-            .variants = {"", "base=uniform", "filter=pcf"},
+            .variants = {"", "m=15,step=0", "base=uniform", "filter=pcf"},
             .make = [](const Parameters& p) { return std::make_unique<History>(p); }};
 }
 

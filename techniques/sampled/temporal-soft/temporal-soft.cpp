@@ -137,7 +137,7 @@ Entry temporalSoft() {
             .answer = Answer::Soft,
             .temporal = true,
             .parameters = std::move(parameters),
-            .variants = {""},
+            .variants = {"", "start=0,threshold=1"}, // the second is eq. 4.5 alone (Fig. 4.5, upper row)
             .make = [](const Parameters& p) { return std::make_unique<TemporalSoft>(p); }};
 }
 
