@@ -34,7 +34,9 @@ std::vector<double> quotients(const std::vector<double>& numerators, const std::
     return result;
 }
 
-/// One contestant of the rounds.
+/// The contestants of the rounds, in the order they are made; Base is not always there.
+enum Contestant : std::size_t { Floor, Uniform, Own, Base };
+
 struct Runner {
     std::function<void()> frame;
     std::vector<double> samples;
@@ -57,7 +59,7 @@ Time measureTime(Stage& stage, const techniques::Variant& variant, techniques::T
     if (base) runners.push_back({frameOf(*base), {}});
 
     for (Runner& runner : runners)
-        if (&runner != &runners[2]) runner.frame(); // warm up; the technique itself is warm from being scored
+        if (&runner != &runners[Own]) runner.frame(); // warm up; the technique itself is warm from being scored
     const auto start = Clock::now();
     const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     for (int round = 0; round < options.maximumRounds; ++round) {
@@ -69,15 +71,15 @@ Time measureTime(Stage& stage, const techniques::Variant& variant, techniques::T
         for (Runner* runner : order) runner->samples.push_back(milliseconds(runner->frame));
     }
 
-    const auto& floor = runners[0].samples;
-    const auto& own = runners[2].samples;
+    const auto& floor = runners[Floor].samples;
+    const auto& own = runners[Own].samples;
     Time time;
     time.median = median(own);
     time.p95 = percentile(own, 0.95);
     time.mad = medianDeviation(own);
-    time.ratio = median(quotients(own, runners[1].samples));
+    time.ratio = median(quotients(own, runners[Uniform].samples));
     time.floorRatio = median(quotients(floor, own));
-    if (base) time.baseRatio = median(quotients(own, runners[3].samples));
+    if (base) time.baseRatio = median(quotients(own, runners[Base].samples));
     time.samples = own;
     return time;
 }

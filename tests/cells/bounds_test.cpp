@@ -49,8 +49,8 @@ TEST(DuelingFrusta, HistoryLeavesAtMostAQuarterOfItsBasesErrorAfterSixtyStillFra
     EXPECT_LT(curve[59], curve[39]);
 }
 
-// At the default 1,024² the texels alone cost 0.009: the sides of bars that the light barely grazes are a texel or two wide,
-// and what covers such a texel's centre is the bar's top.
+// Not at the default 1,024² (0.013): the sides of bars that the light barely grazes are a texel or two wide there, and what
+// covers such a texel's centre is the bar's top.
 TEST(OverlappingOccluders, TwoHundredAndFiftySixMapsOf2048AreWithinAHundredthOfTheTruth) {
     EXPECT_LE(*scored(stillScene("overlapping-occluders"), "sampled-maps:n=256,map=2048").accuracy.rmse, 0.01);
 }

@@ -1,6 +1,10 @@
 // Hard-shadow techniques on scenes whose shadow is a known polygon.
 #include "stages.h"
+#include "techniques/maps/light_view.h"
+#include "techniques/maps/sm-history/sm-history.h"
+#include "techniques/sampling.h"
 
+#include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
 namespace shadowbench {
@@ -131,6 +135,36 @@ TEST(SmHistory, LearnsNothingFromTheSameRasterisationAgain) {
         scoreOnGround(scene, stage, rendered(stage, "sm-history:base=uniform,map=128,jitter=none", 60), 0).mismatch;
     const double with = scoreOnGround(scene, stage, rendered(stage, "sm-history:base=uniform,map=128", 60), 0).mismatch;
     EXPECT_GT(without, 3 * with);
+}
+
+TEST(SmHistory,
+     ASecondFrameIsWeightedByTheConfidenceOfItsSample) { // eq. 3.3, 3.6, 3.7: the shader against the free functions
+    const Scene scene = boxScene(128);
+    Stage stage(scene);
+    stage.show(0);
+    const auto twoFrames = [&](const std::string& m) {
+        return rendered(stage, "sm-history:base=uniform,map=64,step=0,m=" + m, 2);
+    };
+    const Image<float> first = rendered(stage, "sm-history:base=uniform,map=64,step=0,m=3");
+    const Image<float> current = twoFrames("0"); // weight 1: this frame's test alone
+    const Image<float> both = twoFrames("3");
+
+    // The second frame's rasterisation, as the technique draws it.
+    using namespace techniques;
+    const std::uint32_t i = haltonIndex(1, 1);
+    const LightView view = jittered(fitToScene(scene.light, stage.shown()), glm::two_pi<double>() * halton(i, 5),
+                                    {halton(i, 2) - 0.5, halton(i, 3) - 0.5}, 64);
+    const metrics::Drawn drawn = stage.drawn();
+    std::size_t weighted = 0;
+    for (std::size_t pixel = 0; pixel < both.size(); ++pixel) {
+        if (drawn.id[pixel] == 0) continue;
+        const glm::dvec4 h = view.clipFromWorld * glm::dvec4(drawn.position[pixel], 1);
+        const double sure = confidence(64.0 * (0.5 * glm::dvec2(h) / h.w + 0.5));
+        EXPECT_NEAR(both[pixel], smoothed(first[pixel], current[pixel], sure, 3),
+                    2e-3); // 16-bit history, 32-bit map position
+        weighted += first[pixel] != current[pixel] ? 1 : 0;
+    }
+    EXPECT_GT(weighted, 100U); // pixels where the weight shows
 }
 
 TEST(SmHistory, ForgetsOnReset) {

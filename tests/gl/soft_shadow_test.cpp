@@ -1,5 +1,6 @@
 // Soft-shadow techniques under a half-plane: the penumbra of a rectangle parallel to the edge is linear.
 #include "stages.h"
+#include "techniques/sampled/temporal-soft/temporal-soft.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ TEST(SampledMaps, ThePenumbraUnderAHalfPlaneIsLinear) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
     stage.show(0);
-    // 256 Halton points err by about 1/256 of star discrepancy · a few; the map's texels add their width.
+    // 256 samples step by 0.004; the rest is left to the map's texels.
     EXPECT_LT(rmsError(scene, stage, rendered(stage, "sampled-maps:n=256")), 0.01);
 }
 
@@ -94,6 +95,26 @@ TEST(TemporalSoft, ConvergesToTheTruthWhileTheCameraStandsStill) {
     EXPECT_LT(sixty, 0.5 * ten);
     EXPECT_LT(many, sixty);
     EXPECT_LT(many, 0.015);
+}
+
+TEST(TemporalSoft, TheSecondFrameIsTheMeanOfTwoSamples) { // eq. 4.5, the shader against the free function
+    const Scene scene = halfPlaneScene();
+    Stage stage(scene);
+    stage.show(0);
+    const techniques::Variant plain = techniques::parseVariant("temporal-soft:start=0,threshold=1");
+    const auto technique = plain.entry->make(plain.parameters);
+    const auto frame = [&](int index, bool fresh) {
+        if (fresh) technique->reset();
+        stage.render(*technique, index, 1);
+        return stage.visibility();
+    };
+    const Image<float> second = frame(1, true), first = frame(0, true), both = frame(1, false);
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < both.size(); ++i) {
+        EXPECT_NEAR(1 - both[i], techniques::occlusionUpdate(1 - first[i], 1, 1 - second[i]), 1e-3); // 16-bit sums
+        differing += first[i] != second[i] ? 1 : 0;
+    }
+    EXPECT_GT(differing, 200U); // the two samples see different edges
 }
 
 TEST(TemporalSoft, StartsFromPcss) {
