@@ -110,7 +110,7 @@ std::string command(const std::vector<Record>& records) {
         if (std::find(variants.begin(), variants.end(), record.variant) == variants.end())
             variants.push_back(record.variant);
     for (const techniques::Variant& variant : techniques::matchVariants("*")) everyVariant.push_back(variant.name);
-    return "./bench run" + options("--scene", scenes(records), builtinScenes()) +
+    return "./bench run" + options("--scene", scenes(records), standardScenes()) +
            options("--technique", variants, everyVariant) + " --profile " + records.front().profile;
 }
 

@@ -26,7 +26,7 @@ std::vector<techniques::Variant> chosenVariants(const std::vector<std::string>& 
 
 std::vector<Scene> chosenScenes(const RunOptions& options) {
     std::vector<Scene> scenes;
-    for (const std::string& id : options.scenes.empty() ? builtinScenes() : options.scenes)
+    for (const std::string& id : options.scenes.empty() ? standardScenes() : options.scenes)
         scenes.push_back(loadScene(id, options.profile));
     return scenes;
 }

@@ -9,7 +9,7 @@
 namespace shadowbench {
 namespace {
 
-/// The five standard scenes come first, hard shadows before soft ones before level of detail; others follow by name.
+/// Hard shadows before soft ones before level of detail.
 constexpr std::array<std::string_view, 5> kStandardScenes{"dueling-frusta", "overlapping-occluders", "simple", "windmills",
                                                           "trees"};
 
@@ -20,6 +20,8 @@ std::size_t rank(std::string_view id) {
 std::string_view stem(std::string_view path) { return path.substr(0, path.rfind('.')); }
 
 } // namespace
+
+std::vector<std::string> standardScenes() { return {kStandardScenes.begin(), kStandardScenes.end()}; }
 
 std::vector<std::string> builtinScenes() {
     std::vector<std::string> ids;

@@ -122,7 +122,10 @@ Scene loadScene(const std::string& idOrFile, Profile profile);
 /// Parses TOML text; `file` is used for the id, for error messages and to resolve mesh files.
 Scene parseScene(std::string_view toml, const std::filesystem::path& file, Profile profile);
 
-/// Ids of the built-in scenes in the order tables print them, and the text of one.
+/// Ids of the five standard scenes, in the order tables print them: what a run without `--scene` renders.
+std::vector<std::string> standardScenes();
+
+/// Ids of all built-in scenes, the standard ones first, and the text of one.
 std::vector<std::string> builtinScenes();
 std::string_view builtinSceneText(const std::string& id);
 

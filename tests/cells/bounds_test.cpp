@@ -27,7 +27,7 @@ std::string sceneName(const testing::TestParamInfo<std::string>& tested) {
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Gate, StandardScene, testing::ValuesIn(builtinScenes()), sceneName);
+INSTANTIATE_TEST_SUITE_P(Gate, StandardScene, testing::ValuesIn(standardScenes()), sceneName);
 
 TEST(DuelingFrusta, WarpingIsNoBetterThanAUniformMap) {
     const Scene scene = stillScene("dueling-frusta");

@@ -18,7 +18,7 @@ void PrintTo(const Case& cell, std::ostream* out) { *out << cell.variant << " on
 
 std::vector<Case> everyCell() {
     std::vector<Case> cases;
-    for (const std::string& scene : builtinScenes())
+    for (const std::string& scene : standardScenes())
         for (const techniques::Variant& variant : techniques::matchVariants("*")) cases.push_back({scene, variant.name});
     return cases;
 }

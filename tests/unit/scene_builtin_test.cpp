@@ -25,19 +25,20 @@ bool sameBatches(const Snapshot& a, const Snapshot& b) {
 }
 
 TEST(SceneBuiltin, TheStandardScenesComeFirstInTheirOrder) {
+    EXPECT_EQ(standardScenes(),
+              (std::vector<std::string>{"dueling-frusta", "overlapping-occluders", "simple", "windmills", "trees"}));
     const std::vector<std::string> ids = builtinScenes();
     ASSERT_GE(ids.size(), 5U);
-    EXPECT_EQ(std::vector<std::string>(ids.begin(), ids.begin() + 5),
-              (std::vector<std::string>{"dueling-frusta", "overlapping-occluders", "simple", "windmills", "trees"}));
+    EXPECT_EQ(std::vector<std::string>(ids.begin(), ids.begin() + 5), standardScenes());
     EXPECT_THROW(builtinSceneText("none"), BadInput);
 }
 
-class BuiltinScenes : public testing::TestWithParam<std::tuple<std::string, Profile>> {
+class StandardScenes : public testing::TestWithParam<std::tuple<std::string, Profile>> {
 protected:
     [[nodiscard]] Scene load() const { return loadScene(std::get<0>(GetParam()), std::get<1>(GetParam())); }
 };
 
-TEST_P(BuiltinScenes, LoadAndSayWhatTheyShow) {
+TEST_P(StandardScenes, LoadAndSayWhatTheyShow) {
     const Scene scene = load();
     EXPECT_EQ(scene.id, std::get<0>(GetParam()));
     EXPECT_EQ(scene.profile, std::get<1>(GetParam()));
@@ -49,7 +50,7 @@ TEST_P(BuiltinScenes, LoadAndSayWhatTheyShow) {
     EXPECT_EQ(scene.timeline.moving, scene.light.isArea() ? 4 : 8);
 }
 
-TEST_P(BuiltinScenes, HaveClosedMeshesOnly) {
+TEST_P(StandardScenes, HaveClosedMeshesOnly) {
     for (const Object& object : load().objects) {
         for (const Level& level : object.levels) {
             EXPECT_TRUE(level.mesh->closed) << object.name;
@@ -58,23 +59,23 @@ TEST_P(BuiltinScenes, HaveClosedMeshesOnly) {
     }
 }
 
-TEST_P(BuiltinScenes, AreTheSameWhenLoadedTwice) { EXPECT_TRUE(sameBatches(snapshot(load(), 63), snapshot(load(), 63))); }
+TEST_P(StandardScenes, AreTheSameWhenLoadedTwice) { EXPECT_TRUE(sameBatches(snapshot(load(), 63), snapshot(load(), 63))); }
 
-TEST_P(BuiltinScenes, HaveTheirTopOfTheGroundInYZero) {
+TEST_P(StandardScenes, HaveTheirTopOfTheGroundInYZero) {
     const Scene scene = load();
     const Bounds ground =
         transformed(scene.objects.front().levels.front().mesh->bounds(), scene.objects.front().instances[0].place);
     EXPECT_NEAR(ground.high.y, 0, 1e-8); // 0.1 as a float is 1.5·10⁻⁹ off
 }
 
-TEST_P(BuiltinScenes, StayBetweenNearAndFar) {
+TEST_P(StandardScenes, StayBetweenNearAndFar) {
     const Scene scene = load();
     const Snapshot frame = snapshot(scene, 0);
     for (const glm::dvec3& corner : frame.bounds().corners())
         EXPECT_LT(frame.camera.project(corner, scene.size).z, scene.camera.far);
 }
 
-TEST_P(BuiltinScenes, KeepTheLightFrustumOverTheWholeSceneModerate) {
+TEST_P(StandardScenes, KeepTheLightFrustumOverTheWholeSceneModerate) {
     const Snapshot frame = snapshot(load(), 0);
     if (frame.light.kind == LightKind::Directional) return;
     const Bounds box = frame.bounds();
@@ -90,8 +91,8 @@ std::string nameOf(const testing::TestParamInfo<std::tuple<std::string, Profile>
     return label;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scene, BuiltinScenes,
-                         testing::Combine(testing::ValuesIn(builtinScenes()),
+INSTANTIATE_TEST_SUITE_P(Scene, StandardScenes,
+                         testing::Combine(testing::ValuesIn(standardScenes()),
                                           testing::Values(Profile::Gate, Profile::Standard, Profile::Paper)),
                          nameOf);
 
@@ -136,7 +137,7 @@ TEST(SceneBuiltin, EveryRotorSitsOnItsTower) {
 }
 
 TEST(SceneBuiltin, TheViewMovesByOneToThreePixelsAFrameInGate) {
-    for (const std::string& id : builtinScenes()) {
+    for (const std::string& id : standardScenes()) {
         const Scene scene = loadScene(id, Profile::Gate);
         const Snapshot now = snapshot(scene, scene.timeline.still), before = snapshot(scene, scene.timeline.still - 1);
         const glm::dvec3 seen = before.camera.target; // in the middle of the image
