@@ -1,0 +1,23 @@
+// The verbs of the command line: each file adds one, with its options, its help and what it does.
+#pragma once
+
+#include "harness/scene/error.h"
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace shadowbench {
+
+/// What the command line asks for: set while it is parsed, run afterwards. Errors are exceptions (harness/scene/error.h).
+using Action = std::function<ExitCode()>;
+
+/// Each adds its verb to `app`; a command line that names the verb sets `action`, which must outlive the parsing.
+void addList(CLI::App& app, Action& action);
+void addRun(CLI::App& app, Action& action);
+void addReference(CLI::App& app, Action& action);
+void addReport(CLI::App& app, Action& action);
+
+} // namespace shadowbench
