@@ -1,5 +1,6 @@
 #include "groundtruth/cache.h"
 
+#include "groundtruth/cache_limits.h"
 #include "groundtruth/reference_files.h"
 #include "groundtruth/reference_tools.h"
 #include "harness/scene/error.h"
@@ -27,11 +28,6 @@ std::filesystem::path home() {
     return user->pw_dir;
 }
 
-bool isKey(std::string_view key) {
-    constexpr std::size_t digits = 32;
-    return key.size() == digits && key.find_first_not_of("0123456789abcdef") == key.npos;
-}
-
 /// Nothing, after a warning, if the file cannot be read (which says nothing of what it holds, so it stays).
 std::optional<std::string> contents(const std::filesystem::path& file) {
     try {
@@ -42,6 +38,12 @@ std::optional<std::string> contents(const std::filesystem::path& file) {
     }
 }
 
+/// The file's time of modification tells the last use. In a cache that others own it cannot be told: they prune theirs.
+void touch(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored);
+}
+
 } // namespace
 
 std::filesystem::path defaultCacheFolder() {
@@ -49,6 +51,22 @@ std::filesystem::path defaultCacheFolder() {
     // The XDG specification has relative paths ignored.
     if (const std::filesystem::path xdg = variable("XDG_CACHE_HOME"); xdg.is_absolute()) return xdg / "shadowbench";
     return home() / ".cache" / "shadowbench";
+}
+
+bool isKey(std::string_view text) {
+    constexpr std::size_t digits = 32;
+    return text.size() == digits && text.find_first_not_of("0123456789abcdef") == text.npos;
+}
+
+std::uintmax_t defaultCacheSize() {
+    constexpr std::uintmax_t size = std::uintmax_t{4} << 30;
+    const char* value = std::getenv("SHADOWBENCH_CACHE_SIZE");
+    if (value == nullptr || *value == '\0') return size;
+    try {
+        return bytesOf(value);
+    } catch (const BadInput& error) {
+        throw BadInput(fmt::format("SHADOWBENCH_CACHE_SIZE: {}", error.what()));
+    }
 }
 
 std::filesystem::path Cache::entry(const std::string& key) const {
@@ -63,7 +81,9 @@ std::optional<Reference> Cache::find(const std::string& key) const {
     const std::optional<std::string> bytes = contents(file);
     if (!bytes) return std::nullopt;
     try {
-        return decode(*bytes, key);
+        Reference reference = decode(*bytes, key);
+        touch(file);
+        return reference;
     } catch (const BadInput& damage) {
         std::filesystem::remove(file, error);
         const std::string_view outcome = error ? "it cannot be removed" : "it was removed and will be computed again";
@@ -72,7 +92,10 @@ std::optional<Reference> Cache::find(const std::string& key) const {
     }
 }
 
-void Cache::store(const Reference& reference) const { writeFile(entry(reference.provenance.key), encode(reference)); }
+void Cache::store(const Reference& reference) const {
+    writeFile(entry(reference.provenance.key), encode(reference));
+    prune({.maxBytes = maxBytes_, .olderThan = {}});
+}
 
 Reference Cache::get(const Request& request, const Progress& progress) const {
     const Tools tools = toolVersions(request);
@@ -81,7 +104,7 @@ Reference Cache::get(const Request& request, const Progress& progress) const {
     try {
         store(reference);
     } catch (const InternalError& error) {
-        fmt::print(stderr, "warning: the reference is not kept for the next run: {}\n", error.what());
+        fmt::print(stderr, "warning: keeping a reference for the next run: {}\n", error.what());
     }
     return reference;
 }

@@ -62,16 +62,26 @@ std::size_t byteCount(const Image<T>& image) {
 }
 
 /// The header line of `bytes`, checked; `bytes` is cut to what follows it.
-Json takeHeader(std::string_view& bytes, std::string_view key) {
+EntryHeader takeHeader(std::string_view& bytes) {
     const std::size_t end = bytes.find('\n');
     if (end == bytes.npos) damaged("it has no header");
-    const Json header = Json::parse(bytes.substr(0, end), nullptr, false);
+    const Json json = Json::parse(bytes.substr(0, end), nullptr, false);
     bytes.remove_prefix(end + 1);
-    if (!header.is_object() || header.value("format", "") != formatName) damaged("its header is not ours");
-    if (header.value("version", 0) != formatVersion) damaged("it has another format version");
-    if (header.value("key", "") != key) damaged("it belongs to another key");
-    return header;
+    if (!json.is_object() || json.value("format", "") != formatName) damaged("its header is not ours");
+    if (json.value("version", 0) != formatVersion) damaged("it has another format version");
+    try {
+        EntryHeader header;
+        json.at("key").get_to(header.key);
+        json.at("width").get_to(header.width);
+        json.at("height").get_to(header.height);
+        header.provenance = provenanceFrom(json.at("provenance"));
+        return header;
+    } catch (const Json::exception&) {
+        damaged("its header lacks a field");
+    }
 }
+
+bool inRange(int side) { return side >= 0 && side <= largestSide; }
 
 void checkSurfaces(const Image<Surface>& surface) {
     for (const Surface s : surface)
@@ -104,27 +114,25 @@ Reference decode(std::string_view bytes, std::string_view key) {
     bytes.remove_suffix(sizeof stored);
     if (checksum(bytes) != stored) damaged("its checksum is wrong");
 
-    try {
-        const Json header = takeHeader(bytes, key);
-        const int width = header.at("width").get<int>(), height = header.at("height").get<int>();
-        if (width < 0 || height < 0 || width > largestSide || height > largestSide) damaged("its size is out of range");
-        Reference reference;
-        reference.provenance = provenanceFrom(header.at("provenance"));
-        forImages(reference, [&](auto& image) {
-            using AnyImage = std::remove_cvref_t<decltype(image)>;
-            const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-            if (bytes.size() < pixels * sizeof(*image.data())) damaged("its images are too short");
-            image = AnyImage(width, height);
-            std::memcpy(image.data(), bytes.data(), byteCount(image));
-            bytes.remove_prefix(byteCount(image));
-        });
-        if (!bytes.empty()) damaged("its images are too long");
-        checkSurfaces(reference.surface);
-        return reference;
-    } catch (const Json::exception&) {
-        damaged("its header lacks a field");
-    }
+    const EntryHeader header = takeHeader(bytes);
+    if (header.key != key) damaged("it belongs to another key");
+    if (!inRange(header.width) || !inRange(header.height)) damaged("its size is out of range");
+    Reference reference;
+    reference.provenance = header.provenance;
+    forImages(reference, [&](auto& image) {
+        using AnyImage = std::remove_cvref_t<decltype(image)>;
+        const std::size_t pixels = static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
+        if (bytes.size() < pixels * sizeof(*image.data())) damaged("its images are too short");
+        image = AnyImage(header.width, header.height);
+        std::memcpy(image.data(), bytes.data(), byteCount(image));
+        bytes.remove_prefix(byteCount(image));
+    });
+    if (!bytes.empty()) damaged("its images are too long");
+    checkSurfaces(reference.surface);
+    return reference;
 }
+
+EntryHeader decodeHeader(std::string_view bytes) { return takeHeader(bytes); }
 
 std::string provenanceJson(const Provenance& provenance) { return toJson(provenance).dump(2) + "\n"; }
 

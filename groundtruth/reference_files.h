@@ -15,6 +15,17 @@ std::string encode(const Reference& reference);
 /// The inverse. Throws BadInput saying what is wrong (too short, checksum, version, another key, sizes) with damaged bytes.
 Reference decode(std::string_view bytes, std::string_view key);
 
+/// What the first line of an entry says.
+struct EntryHeader {
+    std::string key;
+    int width = 0, height = 0; // pixels
+    Provenance provenance;
+};
+
+/// The header of `bytes`, an entry or as much of one as holds its first line. Throws BadInput as `decode` does; the checksum
+/// is not looked at.
+EntryHeader decodeHeader(std::string_view bytes);
+
 /// The provenance as JSON text, indented, ending in a new line.
 std::string provenanceJson(const Provenance& provenance);
 

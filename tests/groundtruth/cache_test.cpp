@@ -5,6 +5,7 @@
 #include "harness/scene/image_io.h"
 #include "harness/scene/temporary_folder.h"
 #include "povray_scene.h"
+#include "reference_samples.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -19,27 +20,6 @@ namespace shadowbench::groundtruth {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::string someKey = "0123456789abcdef0123456789abcdef";
-const std::string otherKey = "0123456789abcdef0123456789abcdee";
-
-/// Numbers of every kind: infinities, subnormals, negative zero, the last id.
-Reference sample(const std::string& key, float first = 0.25F) {
-    constexpr int width = 5, height = 3;
-    Reference r{{width, height, first},
-                {width, height, 1e-41F},
-                {width, height},
-                {width, height, 7},
-                {width, height},
-                {width, height, std::numeric_limits<float>::infinity()},
-                {}};
-    r.surface(4, 2) = Surface::OnEdge;
-    r.id(0, 1) = std::numeric_limits<std::uint32_t>::max();
-    r.position(3, 1) = {-0.0F, 1.0F / 3.0F, -1e30F};
-    r.edgeDistance(1, 0) = 0.125F;
-    r.provenance = {"povray", key, 1024, {{"povray", "3.7.0.10.unofficial"}}, 1.0 / 3.0, {{"scale", 1024}}};
-    return r;
-}
 
 void expectEqual(const Reference& a, const Reference& b) {
     EXPECT_EQ(encode(a), encode(b)); // bit for bit: -0 and 0 differ here
