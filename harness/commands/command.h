@@ -18,6 +18,7 @@ using Action = std::function<ExitCode()>;
 void addList(CLI::App& app, Action& action);
 void addRun(CLI::App& app, Action& action);
 void addReference(CLI::App& app, Action& action);
+void addSweep(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
 

@@ -105,6 +105,14 @@ void fields(auto& visit, Is<ReferenceInfo> auto& r) {
     visit("tools", r.tools);
 }
 
+void fields(auto& visit, Is<SweepStep> auto& s) {
+    visit("axis", s.axis);
+    visit("unit", s.unit);
+    visit("curve", s.curve);
+    visit("value", s.value);
+    visit("break_point", s.breakPoint);
+}
+
 inline bool wasScored(Status status) { return status == Status::Scored || status == Status::ExpectedFailure; }
 
 void fields(auto& visit, Is<Record> auto& r) {
@@ -126,6 +134,7 @@ void fields(auto& visit, Is<Record> auto& r) {
     visit("environment", r.environment);
     visit("reference", r.reference);
     visit("soft_reference", r.softReference);
+    visit("sweep", r.sweep);
     visit.group("accuracy", wasScored(r.status), [&](auto& inner) { fields(inner, r.accuracy); });
     const Stability& s = r.stability;
     const bool stability = s.flicker || s.flipRate || s.convergence || !s.mismatchByFrame.empty() ||

@@ -78,6 +78,14 @@ struct ReferenceInfo {
     std::map<std::string, std::string> tools;
 };
 
+/// The place of a record on a curve over one quantity (`sweep`). All records of a curve have the same scene, axis and curve.
+struct SweepStep {
+    std::string axis, unit;           // "near-plane", "m"
+    std::string curve;                // the variant, without the axis if that is a parameter
+    double value = 0;                 // of the axis, here
+    std::optional<double> breakPoint; // first value of the whole curve at which the scene's tolerance is exceeded
+};
+
 struct Record {
     int schemaVersion = 1;
     std::string scene, technique, variant;
@@ -95,6 +103,7 @@ struct Record {
     Environment environment;
     std::optional<ReferenceInfo> reference;
     std::optional<ReferenceInfo> softReference; // the second truth of a hard technique on an area-light scene
+    std::optional<SweepStep> sweep;             // of `sweep` only
     Accuracy accuracy;
     Stability stability;
     Cost cost;

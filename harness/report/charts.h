@@ -1,4 +1,4 @@
-// The two charts of a scene, as SVG.
+// The charts of a scene, as SVG.
 #pragma once
 
 #include "harness/records/record.h"
@@ -15,5 +15,10 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
 /// Error over the still frames from an empty history: against the truth, and against the technique's own last image; nothing
 /// without curves.
 std::optional<std::string> convergenceChart(const std::vector<Record>& records, const std::string& scene);
+
+/// Error of every technique over the quantity that a sweep moved, in the scene's tolerance metric (its headline metric if it
+/// states none), with the tolerance as a line. `records` are those of one sweep; nothing if none was scored. `logarithmic`: the
+/// quantity's axis is.
+std::optional<std::string> sweepChart(const std::vector<Record>& records, bool logarithmic);
 
 } // namespace shadowbench::report

@@ -9,7 +9,7 @@
 namespace shadowbench::report {
 namespace {
 
-constexpr int width = 960, plotHeight = 400, keyRow = 22; // pixels
+constexpr int width = 960, plotHeight = 400; // pixels
 constexpr double top = 84, bottomMargin = 62;
 
 struct Curve {
@@ -51,10 +51,6 @@ std::vector<Curve> changeCurves(const std::vector<Record>& records, const std::v
     return curves;
 }
 
-std::string lineStyle(std::size_t style) {
-    return fmt::format("lw 2 dt {} lc rgb '{}'", 1 + style / 7, colour(style)); // a new dash once the colours are used up
-}
-
 std::string panelScript(const Panel& panel, std::size_t column, std::size_t columns, double height) {
     const double share = 1.0 / static_cast<double>(columns);
     const double start = static_cast<double>(column) * share;
@@ -79,22 +75,6 @@ std::string panelScript(const Panel& panel, std::size_t column, std::size_t colu
     return script + plots + "\nunset label\nunset arrow\n";
 }
 
-/// Scene name and the legend of all curves, two a row, under the panels.
-std::string furniture(const std::vector<std::string>& variants, const std::string& scene, double height) {
-    std::string script = fmt::format("set label {} at screen 0.085, screen {} left font ',18'\n",
-                                     literal(scene + ": convergence from an empty history"), 1 - 24 / height);
-    for (std::size_t style = 0; style < variants.size(); ++style) {
-        const double x = style % 2 == 0 ? 0.085 : 0.585;
-        const std::size_t row = style / 2;
-        const double y = 1 - (plotHeight + keyRow * (0.7 + static_cast<double>(row))) / height;
-        script += fmt::format("set arrow from screen {0}, screen {1} to screen {2}, screen {1} nohead {3}\n", x, y,
-                              x + 0.035, lineStyle(style));
-        script +=
-            fmt::format("set label {} at screen {}, screen {} left font ',13'\n", literal(variants[style]), x + 0.045, y);
-    }
-    return script;
-}
-
 } // namespace
 
 std::optional<std::string> convergenceChart(const std::vector<Record>& records, const std::string& scene) {
@@ -111,8 +91,10 @@ std::optional<std::string> convergenceChart(const std::vector<Record>& records, 
     std::vector<std::string> variants;
     variants.reserve(shownRecords.size());
     for (const std::size_t i : shownRecords) variants.push_back(records[i].variant);
-    const int height = plotHeight + keyRow * static_cast<int>((variants.size() + 1) / 2) + 14;
-    std::string script = "set multiplot\n" + furniture(variants, scene, height);
+    const Legend legend{variants, plotHeight};
+    const int height = legend.bottom();
+    std::string script =
+        "set multiplot\n" + heading(scene + ": convergence from an empty history", height) + legend.script();
     for (std::size_t i = 0; i < panels.size(); ++i) script += panelScript(panels[i], i, panels.size(), height);
     return svgOf(script + "unset multiplot\n", width, height);
 }

@@ -1,9 +1,9 @@
 #include "harness/report/gnuplot.h"
 
-#include "harness/scene/process.h"
-#include "harness/scene/temporary_folder.h"
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
+#include "harness/scene/process.h"
+#include "harness/scene/temporary_folder.h"
 
 #include <algorithm>
 #include <array>
@@ -29,14 +29,15 @@ void runGnuplot(const std::filesystem::path& folder, const std::string& script) 
     if (!program) throw Inconclusive("drawing charts: gnuplot is not installed; run `apt-get install gnuplot-nox`");
     std::string messages;
     const Command command{*program, {"--default-settings", script}, folder};
-    const Finished end =
-        runProcess(command, [&](std::string_view line) { messages.append(line).append(" "); });
+    const Finished end = runProcess(command, [&](std::string_view line) { messages.append(line).append(" "); });
     if (end.timedOut)
         throw Inconclusive("drawing charts: gnuplot ran for more than a minute and was stopped; reinstall gnuplot-nox");
     if (end.signal != 0 || end.exitCode != 0)
         throw Inconclusive(fmt::format("drawing charts: gnuplot ended with status {}, signal {} ({}); reinstall gnuplot-nox",
                                        end.exitCode, end.signal, messages));
 }
+
+constexpr int legendRow = 22; // pixels
 
 struct Tick {
     double value;
@@ -79,6 +80,28 @@ std::string literal(const std::string& text) {
 std::string colour(std::size_t i) {
     static constexpr std::array palette{blue, vermilion, "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
     return palette[i % palette.size()];
+}
+
+std::string lineStyle(std::size_t i) { return fmt::format("lw 2 dt {} lc rgb '{}'", 1 + i / 7, colour(i)); }
+
+std::string heading(const std::string& title, int height) {
+    return fmt::format("set label {} at screen 0.085, screen {} left font ',18'\n", literal(title), 1 - 24.0 / height);
+}
+
+int Legend::bottom() const { return top + legendRow * static_cast<int>((names.size() + 1) / 2) + 14; }
+
+std::string Legend::script() const {
+    const double height = bottom();
+    std::string script;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const double x = i % 2 == 0 ? 0.085 : 0.585;
+        const std::size_t row = i / 2;
+        const double y = 1 - (top + legendRow * (0.7 + static_cast<double>(row))) / height;
+        script += fmt::format("set arrow from screen {0}, screen {1} to screen {2}, screen {1} nohead {3}\n", x, y,
+                              x + 0.035, lineStyle(i));
+        script += fmt::format("set label {} at screen {}, screen {} left font ',13'\n", literal(names[i]), x + 0.045, y);
+    }
+    return script;
 }
 
 LogAxis::LogAxis(const std::vector<double>& values) {

@@ -19,6 +19,22 @@ inline constexpr const char* blue = "#0072B2";
 inline constexpr const char* vermilion = "#D55E00";
 inline constexpr const char* grey = "#767676";
 
+/// How curve `i` is drawn: its colour, and a new dash once the colours are used up.
+std::string lineStyle(std::size_t i);
+
+/// A chart's title at its upper left, on a canvas `height` pixels high.
+std::string heading(const std::string& title, int height);
+
+/// The names of all curves with their line styles, two a row, below a plot that ends `top` pixels below the canvas' upper
+/// edge.
+struct Legend {
+    const std::vector<std::string>& names;
+    int top;
+
+    [[nodiscard]] int bottom() const; // height of the whole canvas, pixels
+    [[nodiscard]] std::string script() const;
+};
+
 /// A logarithmic axis over values ≥ 0. Zero has no logarithm: it is drawn on a floor, labelled "0", below the smallest other
 /// value.
 class LogAxis {

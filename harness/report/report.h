@@ -16,6 +16,9 @@ std::string terminalTable(const std::vector<Record>& records, const std::string&
 
 std::string markdownTable(const std::vector<Record>& records, const std::string& scene);
 
+/// Markdown: the error of every technique of one sweep at every value, and the value at which it breaks. Not empty.
+std::string sweepTable(const std::vector<Record>& records);
+
 /// One row a record, every metric a column, absent ones empty.
 std::string csv(const std::vector<Record>& records);
 

@@ -1,5 +1,6 @@
 #include "harness/run/cell.h"
 
+#include "harness/run/environment.h"
 #include "harness/scene/error.h"
 #include "techniques/gl/context.h"
 
@@ -155,6 +156,29 @@ void requireSamePrimaryHits(double share, const Scene& scene, int frame) {
 }
 
 } // namespace
+
+Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::uint32_t seed) {
+    Record record;
+    record.scene = scene.id;
+    record.technique = variant.entry->id;
+    record.variant = variant.name;
+    record.parameters = variant.parameters.all();
+    record.profile = name(scene.profile);
+    record.width = scene.size.x;
+    record.height = scene.size.y;
+    record.frames = scene.timeline.frames();
+    record.seed = seed;
+    const Commit commit = builtFrom();
+    record.commit = commit.hash;
+    record.dirty = commit.dirty;
+    record.time = timeNow();
+    record.environment = environmentOf(gl::Context::current().info());
+    if (!scene.tolerance.empty()) {
+        record.toleranceMetric = scene.tolerance.begin()->first;
+        record.tolerance = scene.tolerance.begin()->second;
+    }
+    return record;
+}
 
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed) {
     std::string inputs = fmt::format("schema 1\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,

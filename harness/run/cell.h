@@ -22,6 +22,9 @@ struct CellImages {
     const groundtruth::Reference* reference = nullptr;
 };
 
+/// What is known of a cell before it runs: everything but scores and costs. Needs a GL context.
+Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::uint32_t seed);
+
 /// Hash of everything a cell's scores depend on: truths (hence the scene), variant, frames, seed, schema.
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed);
 

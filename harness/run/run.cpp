@@ -31,31 +31,6 @@ std::vector<Scene> chosenScenes(const RunOptions& options) {
     return scenes;
 }
 
-/// What is known of a cell before it runs.
-Record blankRecord(const Scene& scene, const techniques::Variant& variant, const RunOptions& options,
-                   const gl::ContextInfo& context) {
-    Record record;
-    record.scene = scene.id;
-    record.technique = variant.entry->id;
-    record.variant = variant.name;
-    record.parameters = variant.parameters.all();
-    record.profile = name(scene.profile);
-    record.width = scene.size.x;
-    record.height = scene.size.y;
-    record.frames = scene.timeline.frames();
-    record.seed = options.seed;
-    const Commit commit = builtFrom();
-    record.commit = commit.hash;
-    record.dirty = commit.dirty;
-    record.time = timeNow();
-    record.environment = environmentOf(context);
-    if (!scene.tolerance.empty()) {
-        record.toleranceMetric = scene.tolerance.begin()->first;
-        record.tolerance = scene.tolerance.begin()->second;
-    }
-    return record;
-}
-
 /// The records of an unfinished run that need not be made again.
 std::vector<Record> finishedRecords(const RunOptions& options) {
     const std::filesystem::path file = options.out / "results.jsonl";
@@ -101,7 +76,7 @@ private:
 
     Record cell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
                 const Progress& progress) {
-        Record record = blankRecord(scene, variant, options_, context_->info());
+        Record record = blankRecord(scene, variant, options_.seed);
         if (const auto reason = notApplicable(scene, variant)) {
             record.status = Status::NotApplicable;
             record.reason = *reason;
@@ -120,7 +95,7 @@ private:
             if (options_.images) writeCellImages(options_.out / "images" / scene.id / fileName(variant.name), images);
             return record;
         } catch (const Error& error) {
-            Record failed = blankRecord(scene, variant, options_, context_->info());
+            Record failed = blankRecord(scene, variant, options_.seed);
             failed.cell = record.cell;
             failed.status = Status::Error;
             failed.reason = error.what();

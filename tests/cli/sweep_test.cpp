@@ -1,0 +1,60 @@
+// `shadowbench sweep` as a user runs it.
+#include "harness/records/record.h"
+#include "program.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+class Sweep : public testing::Test {
+protected:
+    [[nodiscard]] Outcome sweep(const std::string& options) const {
+        return shell("shadowbench sweep --quiet --scene " + scene_ + " --out " + folder_ / "out" + " --cache " +
+                     folder_ / "cache" + " " + options);
+    }
+    [[nodiscard]] std::vector<Record> records() const { return readRecords(folder_ / "out/sweep.jsonl"); }
+
+    Folder folder_;
+    std::string scene_ = folder_.write(
+        "tiny.toml", tinyScene("{ kind = \"point\", centre = [1.7, 6.1, -2.3] }", "[tolerance]\nmismatch = 0.01\n"));
+};
+
+TEST_F(Sweep, OfAParameterCurvesAreNamedByTheRestOfTheVariant) {
+    const Outcome outcome = sweep("--axis map --values 512,16 --technique sm-uniform --technique volume-zfail");
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const std::vector<Record> all = records();
+    ASSERT_EQ(all.size(), 2U); // volume-zfail has no map
+    EXPECT_EQ(all[0].variant, "sm-uniform:map=512");
+    EXPECT_EQ(all[1].variant, "sm-uniform:map=16");
+    EXPECT_EQ(all[0].sweep->curve, "sm-uniform");
+    EXPECT_LT(*all[0].accuracy.mismatch, 0.01);
+    EXPECT_GT(*all[1].accuracy.mismatch, 0.01);
+    EXPECT_EQ(all[0].sweep->breakPoint, 16);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out/sweep.svg"));
+    EXPECT_NE(outcome.output.find("| sm-uniform |"), std::string::npos) << outcome.output;
+}
+
+TEST_F(Sweep, OfASceneMovesTheSceneAndTheTruthWithIt) {
+    const Outcome outcome = sweep("--axis light-view-angle --values 0,90 --technique none --technique volume-zfail");
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const std::vector<Record> all = records();
+    ASSERT_EQ(all.size(), 4U);
+    EXPECT_EQ(all[0].variant, "none");
+    // A light beside the eye hides most of its shadows; nearer than the eye, not all of them.
+    EXPECT_LT(*all[0].accuracy.mismatch, 0.5 * *all[1].accuracy.mismatch);
+    EXPECT_EQ(*all[2].accuracy.mismatchOffEdge, 0);
+    EXPECT_EQ(*all[3].accuracy.mismatchOffEdge, 0);
+    EXPECT_NE(all[0].reference->key, all[1].reference->key);
+}
+
+TEST_F(Sweep, WrongWordsAreToldBeforeAnythingIsWritten) {
+    EXPECT_EQ(sweep("--axis light-view-angel").code, 2);
+    EXPECT_EQ(sweep("--axis map --technique none").code, 2);
+    EXPECT_EQ(sweep("--axis map --values 0.5 --technique sm-uniform").code, 2);
+    EXPECT_EQ(sweep("--axis light-size").code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+} // namespace
+} // namespace shadowbench
