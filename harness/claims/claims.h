@@ -1,0 +1,64 @@
+// The seeds' claims as data (claims.json beside this file), and their verdicts, computed from records and never typed in.
+#pragma once
+
+#include "harness/records/record.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shadowbench {
+
+/// A number of one record.
+struct Figure {
+    std::string scene, variant;
+    std::string metric;          // path in the record: "accuracy.mismatch", "cost.time.ratio"
+    std::string axis;            // of a sweep's record, else empty …
+    std::optional<double> value; // … and the place on it
+};
+
+/// left ≤ factor × right, or left ≥ factor × right; without `right`, `factor` alone is the bound.
+struct Check {
+    std::string says; // in words
+    Figure left;
+    bool atMost = true;
+    double factor = 1;
+    std::optional<Figure> right;
+};
+
+struct Claim {
+    std::string id;    // "K4"
+    std::string says;  // in one sentence
+    std::string where; // "P Fig. 4"
+    std::vector<Check> checks;
+    std::string untestable; // why it cannot be tested here; then there are no checks
+};
+
+/// What a check found; nothing where a record is missing or has no such metric.
+struct Finding {
+    std::optional<double> left, right;
+    std::optional<bool> holds;
+};
+
+enum class Verdict { Reproduced, Partly, NotReproduced, NotTestable, NotMeasured };
+std::string_view name(Verdict verdict);
+
+struct Judgement {
+    const Claim* claim;
+    Verdict verdict;               // NotMeasured if a figure of any check is missing
+    std::vector<Finding> findings; // as Claim::checks
+};
+
+/// The claims that come with the program, by number.
+const std::vector<Claim>& claims();
+
+/// Throws BadInput naming claim and key for what is no list of claims.
+std::vector<Claim> parseClaims(std::string_view json);
+
+Judgement judge(const Claim& claim, const std::vector<Record>& records);
+
+/// "text" for a terminal, "md" or "json": every claim with its verdict and the figures it rests on.
+std::string claimsReport(const std::vector<Judgement>& judgements, const std::string& format);
+
+} // namespace shadowbench
