@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace shadowbench {
@@ -16,7 +17,10 @@ struct GoldenName {
     std::string scene; // id
     Truth truth = Truth::Hard;
     int frame = 0;
-    friend auto operator<=>(const GoldenName&, const GoldenName&) = default;
+    friend bool operator==(const GoldenName&, const GoldenName&) = default;
+    friend auto operator<=>(const GoldenName& a, const GoldenName& b) {
+        return std::tie(a.scene, a.truth, a.frame) <=> std::tie(b.scene, b.truth, b.frame);
+    }
 };
 
 struct GoldenEntry {
