@@ -33,19 +33,25 @@ ExitCode run(const ReferenceWords& words) {
     const ReferenceOptions options = resolved(words);
     if (words.verify) return verifyGoldenReferences(options);
     if (words.accept) return acceptGoldenReferences(options);
+    if (!options.report.empty()) return reportOnTruth(options);
     if (options.truth) throw BadInput("--truth chooses among golden references: give it with --verify or --accept");
     return computeReference(options);
 }
 
 } // namespace
 
-ExitCode computeReference(const ReferenceOptions& options) {
-    if (options.scenes.size() != 1) throw BadInput("a reference is of one scene: name it with --scene");
-    const Scene scene = loadScene(options.scenes.front(), options.profile);
+int frameOf(const Scene& scene, const ReferenceOptions& options) {
     const int last = scene.timeline.frames() - 1;
     const int frame = options.frame.value_or(scene.timeline.still - 1);
     if (frame > last)
         throw BadInput(fmt::format("scene {} has frames 0 to {}; --frame {} is not one of them", scene.id, last, frame));
+    return frame;
+}
+
+ExitCode computeReference(const ReferenceOptions& options) {
+    if (options.scenes.size() != 1) throw BadInput("a reference is of one scene: name it with --scene");
+    const Scene scene = loadScene(options.scenes.front(), options.profile);
+    const int frame = frameOf(scene, options);
     const groundtruth::Request request{snapshot(scene, frame), scene.size, groundtruth::oracleNamed(options.oracle),
                                        options.samples > 0 ? options.samples : scene.referenceSamples};
     ProgressLine line(scene.id, 1, options.quiet);
@@ -61,14 +67,16 @@ ExitCode computeReference(const ReferenceOptions& options) {
 void addReference(CLI::App& app, Action& action) {
     const auto words = std::make_shared<ReferenceWords>();
     ReferenceOptions& options = words->options;
-    CLI::App* verb = app.add_subcommand("reference", "Computes the ground truth of one frame, or verifies the golden ones");
+    CLI::App* verb = app.add_subcommand(
+        "reference", "Computes the ground truth of a frame, verifies the golden references, reports on the truth");
     verb->footer(
         "Golden references are those that a run of the gate profile asks for; results/reference/lock.json says what "
         "they are.\n--verify ends with 0 if they are still the same, 4 if not, 5 if a tool is missing.\n"
         "Examples:\n  shadowbench reference --scene overlapping-occluders --samples 256 --out /tmp/truth\n"
-        "  shadowbench reference --verify --truth hard\n  shadowbench reference --accept --scene simple");
+        "  shadowbench reference --verify --truth hard\n  shadowbench reference --accept --scene simple\n"
+        "  shadowbench reference --report results/truth");
     verb->add_option("--scene", options.scenes,
-                     "Scene id or file; with --verify and --accept repeatable (default: the standard scenes)");
+                     "Scene id or file; with --verify, --accept and --report repeatable (default: the standard scenes)");
     verb->add_option("--frame", words->frame, "Frame number (default: the scored one; of golden references all)")
         ->check(CLI::NonNegativeNumber);
     CLI::Option* oracle =
@@ -86,8 +94,13 @@ void addReference(CLI::App& app, Action& action) {
     verb->add_option("--golden", options.golden, "Folder of the golden references")->capture_default_str();
     verb->add_flag("--json", options.json, "What --verify and --accept found, for machines");
     verb->add_flag("--quiet", options.quiet, "No progress");
-    for (CLI::Option* mode : {verify, accept}) mode->excludes(oracle)->excludes(samples)->excludes(out);
-    verify->excludes(accept);
+    CLI::Option* report = verb->add_option("--report", options.report,
+                                           "Folder for pages on the truth: images, uncertainty, agreement of oracles");
+    verb->add_option("--cache", options.cache,
+                     "Folder of references for --report (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
+    for (CLI::Option* mode : {verify, accept, report}) mode->excludes(oracle)->excludes(samples)->excludes(out);
+    verify->excludes(accept)->excludes(report);
+    accept->excludes(report);
     verb->callback([&action, words] { action = [words] { return run(*words); }; });
 }
 

@@ -22,10 +22,16 @@ struct ReferenceOptions {
     bool json = false;
     std::filesystem::path out = "results/latest/reference";
     std::filesystem::path golden = "results/reference";
+    std::filesystem::path report; // empty: none is asked for
+    std::filesystem::path cache;  // empty: the default; for the report only
 };
+
+/// The frame asked for, by default the scored one. Throws BadInput for one that the scene does not have.
+int frameOf(const Scene& scene, const ReferenceOptions& options);
 
 ExitCode computeReference(const ReferenceOptions& options);
 ExitCode verifyGoldenReferences(const ReferenceOptions& options);
 ExitCode acceptGoldenReferences(const ReferenceOptions& options);
+ExitCode reportOnTruth(const ReferenceOptions& options);
 
 } // namespace shadowbench

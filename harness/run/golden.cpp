@@ -110,6 +110,8 @@ GoldenResult compare(const GoldenEntry* before, const GoldenEntry& after, const 
                      const std::filesystem::path& folder) {
     if (before == nullptr) return {after.name, GoldenStatus::New, "not in the lock", ""};
     GoldenResult result{after.name, GoldenStatus::Identical, "", describeChange(before->provenance, after.provenance)};
+    if (result.note.empty() && before->provenance.key != after.provenance.key)
+        result.note = "another key: the scene, the request or the arithmetic behind them changed";
     const bool same = before->hashes == after.hashes;
     if (!same) result.status = GoldenStatus::Changed;
     try {

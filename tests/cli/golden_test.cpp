@@ -177,5 +177,17 @@ TEST_F(GoldenVerb, ALockThatIsNoneIsNamed) {
     }
 }
 
+TEST(TruthReport, IsWrittenOfAnySceneWithItsPictures) {
+    const Folder folder;
+    const std::string scene = folder.write("tiny.toml", tinyScene());
+    const Outcome outcome = shell("shadowbench reference --quiet --scene " + scene + " --report " + folder / "truth" +
+                                  " --cache " + folder / "cache");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    for (const char* file : {"report.md", "tiny.md", "tiny-hard-visibility.png", "tiny-hard-edge-distance.png",
+                             "tiny-histograms.svg", "seconds.svg"})
+        EXPECT_TRUE(fs::exists(folder / (std::string("truth/") + file))) << file;
+    EXPECT_NE(readFile(folder / "truth/report.md").find("polygon, rays: 0 of "), std::string::npos);
+}
+
 } // namespace
 } // namespace shadowbench
