@@ -97,10 +97,11 @@ ExitCode list(const CacheOptions& options) {
         fmt::print("{}\n", json.dump(2));
         return ExitCode::Pass;
     }
-    if (!entries.empty())
+    if (!entries.empty() && !options.quiet)
         fmt::print("{:<34}{:<14}{:>10}{:>9}{:>14}{:>12}{:>10}\n", "key", "oracle", "pixels", "samples", "computed in s",
                    "size", "unused");
-    for (const CacheEntry& entry : entries) fmt::print("{}", row(entry));
+    if (!options.quiet)
+        for (const CacheEntry& entry : entries) fmt::print("{}", row(entry));
     fmt::print("{}: {} references, {} of at most {}\n", cache.folder().string(), entries.size(),
                groundtruth::bytesText(sum(entries)), groundtruth::bytesText(cache.maxBytes()));
     return ExitCode::Pass;

@@ -1,4 +1,4 @@
-#include "groundtruth/reference.h"
+#include "harness/commands/reference.h"
 
 #include "groundtruth/reference_files.h"
 #include "harness/commands/command.h"
@@ -11,22 +11,47 @@
 namespace shadowbench {
 namespace {
 
-struct ReferenceOptions {
-    std::string scene;
+/// The command line's own words, checked by `resolved`.
+struct ReferenceWords {
+    ReferenceOptions options;
     std::string profile = "gate";
-    std::string oracle = "auto";
-    int frame = -1;  // −1: the scored one
-    int samples = 0; // 0: the scene's own
-    bool quiet = false;
-    std::filesystem::path out = "results/latest/reference";
+    std::string truth;
+    int frame = -1; // −1: not named
+    bool verify = false;
+    bool accept = false;
 };
 
-ExitCode computeOne(const ReferenceOptions& options) {
-    const Scene scene = loadScene(options.scene, profileNamed(options.profile));
+ReferenceOptions resolved(const ReferenceWords& words) {
+    ReferenceOptions options = words.options;
+    options.profile = profileNamed(words.profile);
+    if (!words.truth.empty()) options.truth = truthNamed(words.truth);
+    if (words.frame >= 0) options.frame = words.frame;
+    return options;
+}
+
+ExitCode run(const ReferenceWords& words) {
+    const ReferenceOptions options = resolved(words);
+    if (words.verify) return verifyGoldenReferences(options);
+    if (words.accept) return acceptGoldenReferences(options);
+    if (!options.report.empty()) return reportOnTruth(options);
+    if (options.truth) throw BadInput("--truth chooses among golden references: give it with --verify or --accept");
+    return computeReference(options);
+}
+
+} // namespace
+
+int frameOf(const Scene& scene, const ReferenceOptions& options) {
     const int last = scene.timeline.frames() - 1;
-    const int frame = options.frame < 0 ? scene.timeline.still - 1 : options.frame;
+    const int frame = options.frame.value_or(scene.timeline.still - 1);
     if (frame > last)
         throw BadInput(fmt::format("scene {} has frames 0 to {}; --frame {} is not one of them", scene.id, last, frame));
+    return frame;
+}
+
+ExitCode computeReference(const ReferenceOptions& options) {
+    if (options.scenes.size() != 1) throw BadInput("a reference is of one scene: name it with --scene");
+    const Scene scene = loadScene(options.scenes.front(), options.profile);
+    const int frame = frameOf(scene, options);
     const groundtruth::Request request{snapshot(scene, frame), scene.size, groundtruth::oracleNamed(options.oracle),
                                        options.samples > 0 ? options.samples : scene.referenceSamples};
     ProgressLine line(scene.id, 1, options.quiet);
@@ -39,21 +64,44 @@ ExitCode computeOne(const ReferenceOptions& options) {
     return ExitCode::Pass;
 }
 
-} // namespace
-
 void addReference(CLI::App& app, Action& action) {
-    const auto options = std::make_shared<ReferenceOptions>();
-    CLI::App* verb = app.add_subcommand("reference", "Computes the ground truth of one frame");
-    verb->footer("Example:\n  shadowbench reference --scene overlapping-occluders --samples 256 --out /tmp/truth");
-    verb->add_option("--scene", options->scene, "Scene id or file")->required();
-    verb->add_option("--frame", options->frame, "Frame number (default: the scored one)")->check(CLI::NonNegativeNumber);
-    verb->add_option("--oracle", options->oracle, "auto, polygon, rays or povray")->capture_default_str();
-    verb->add_option("--samples", options->samples, "Light samples of an area light (default: the scene's)")
-        ->check(CLI::Range(4, 16384));
-    verb->add_option("--profile", options->profile, "gate, standard or paper")->capture_default_str();
-    verb->add_option("--out", options->out, "Folder for visibility.exr and provenance.json")->capture_default_str();
-    verb->add_flag("--quiet", options->quiet, "No progress");
-    verb->callback([&action, options] { action = [options] { return computeOne(*options); }; });
+    const auto words = std::make_shared<ReferenceWords>();
+    ReferenceOptions& options = words->options;
+    CLI::App* verb = app.add_subcommand(
+        "reference", "Computes the ground truth of a frame, verifies the golden references, reports on the truth");
+    verb->footer(
+        "Golden references are those that a run of the gate profile asks for; results/reference/lock.json says what "
+        "they are.\n--verify ends with 0 if they are still the same, 4 if not, 5 if a tool is missing.\n"
+        "Examples:\n  shadowbench reference --scene overlapping-occluders --samples 256 --out /tmp/truth\n"
+        "  shadowbench reference --verify --truth hard\n  shadowbench reference --accept --scene simple\n"
+        "  shadowbench reference --report results/truth");
+    verb->add_option("--scene", options.scenes,
+                     "Scene id or file; with --verify, --accept and --report repeatable (default: the standard scenes)");
+    verb->add_option("--frame", words->frame, "Frame number (default: the scored one; of golden references all)")
+        ->check(CLI::NonNegativeNumber);
+    CLI::Option* oracle =
+        verb->add_option("--oracle", options.oracle, "auto, polygon, rays or povray")->capture_default_str();
+    CLI::Option* samples =
+        verb->add_option("--samples", options.samples, "Light samples of an area light (default: the scene's)")
+            ->check(CLI::Range(4, 16384));
+    verb->add_option("--profile", words->profile, "gate, standard or paper")->capture_default_str();
+    CLI::Option* out =
+        verb->add_option("--out", options.out, "Folder for visibility.exr and provenance.json")->capture_default_str();
+    CLI::Option* verify = verb->add_flag("--verify", words->verify, "Compute the golden references again and compare");
+    CLI::Option* accept =
+        verb->add_flag("--accept", words->accept, "Compute the golden references again, say what changed, and keep them");
+    verb->add_option("--truth", words->truth, "Golden references of one truth only: hard or soft");
+    verb->add_option("--golden", options.golden, "Folder of the golden references")->capture_default_str();
+    verb->add_flag("--json", options.json, "What --verify and --accept found, for machines");
+    verb->add_flag("--quiet", options.quiet, "No progress");
+    CLI::Option* report = verb->add_option("--report", options.report,
+                                           "Folder for pages on the truth: images, uncertainty, agreement of oracles");
+    verb->add_option("--cache", options.cache,
+                     "Folder of references for --report (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
+    for (CLI::Option* mode : {verify, accept, report}) mode->excludes(oracle)->excludes(samples)->excludes(out);
+    verify->excludes(accept)->excludes(report);
+    accept->excludes(report);
+    verb->callback([&action, words] { action = [words] { return run(*words); }; });
 }
 
 } // namespace shadowbench

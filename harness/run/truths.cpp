@@ -1,26 +1,38 @@
 #include "harness/run/truths.h"
 
+#include "harness/scene/error.h"
+
+#include <fmt/format.h>
+
 namespace shadowbench {
 
-groundtruth::Request Truths::request(Truth truth, int frame) const {
+std::string_view name(Truth truth) { return truth == Truth::Hard ? "hard" : "soft"; }
+
+Truth truthNamed(std::string_view name) {
+    if (name == "hard") return Truth::Hard;
+    if (name == "soft") return Truth::Soft;
+    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard and soft", name));
+}
+
+groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame) {
     groundtruth::Request request;
-    request.snapshot = snapshot(scene_, frame);
-    request.size = scene_.size;
-    request.samples = frame < scene_.timeline.still ? scene_.referenceSamples : scene_.movingReferenceSamples;
+    request.snapshot = snapshot(scene, frame);
+    request.size = scene.size;
+    request.samples = frame < scene.timeline.still ? scene.referenceSamples : scene.movingReferenceSamples;
     if (truth == Truth::Hard) request.snapshot.light = request.snapshot.light.centreOnly();
     return request;
+}
+
+std::vector<int> scoredFrames(const Scene& scene) {
+    std::vector<int> frames;
+    for (int frame = scene.timeline.still - 1; frame < scene.timeline.frames(); ++frame) frames.push_back(frame);
+    return frames;
 }
 
 const groundtruth::Reference& Truths::at(Truth truth, int frame, const Progress& progress) {
     const auto found = known_.find({truth, frame});
     if (found != known_.end()) return found->second;
     return known_.emplace(std::pair{truth, frame}, cache_.get(request(truth, frame), progress)).first->second;
-}
-
-std::vector<int> Truths::scoredFrames() const {
-    std::vector<int> frames;
-    for (int frame = scene_.timeline.still - 1; frame < scene_.timeline.frames(); ++frame) frames.push_back(frame);
-    return frames;
 }
 
 } // namespace shadowbench

@@ -88,6 +88,27 @@ TEST(BadCommand, AnUnknownVerbNamesTheNearMatch) {
     EXPECT_NE(outcome.output.find("\"run\""), std::string::npos) << outcome.output;
 }
 
+TEST(BadCommand, AReferenceThatIsNotNamedWellEndsInOneLine) {
+    const std::vector<std::pair<std::string, std::string>> wrong{
+        {"", "--scene"},
+        {"--scene simple --scene trees", "one scene"},
+        {"--scene simple --frame 99", "frames 0 to 63"},
+        {"--scene simple --truth hard", "--verify or --accept"},
+        {"--verify --truth fuzzy", "hard and soft"},
+        {"--verify --accept", "excludes"},
+        {"--verify --samples 64", "excludes"},
+        {"--report /tmp/x --out /tmp/y", "excludes"},
+        {"--verify --golden /nowhere", "/nowhere/lock.json"},
+        {"--verify --frame 99 --golden " SOURCE_FOLDER "/results/reference", "none of the scenes"},
+    };
+    for (const auto& [options, says] : wrong) {
+        const Outcome outcome = shell("shadowbench reference --quiet " + options);
+        EXPECT_EQ(outcome.code, 2) << options;
+        EXPECT_NE(outcome.output.find(says), std::string::npos) << outcome.output;
+        EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    }
+}
+
 TEST(BadCommand, NoVerbIsUsage) { EXPECT_EQ(shell("shadowbench ").code, 2); }
 
 TEST(BadCommand, ARecordThatIsNoneIsNamedByFileAndLine) {

@@ -1,0 +1,193 @@
+// Golden references: the committed ones, and the commands that verify and replace them.
+#include "harness/run/golden_lock.h"
+#include "harness/scene/files.h"
+#include "program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace shadowbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path committed = fs::path(SOURCE_FOLDER) / "results/reference";
+
+TEST(GoldenReferences, CommittedImagesAreWhatTheLockSays) {
+    std::uintmax_t bytes = 0;
+    for (const GoldenEntry& entry : readLock(committed).entries) {
+        if (entry.file.empty()) continue;
+        const groundtruth::Reference reference = groundtruth::readGolden(committed / entry.file);
+        EXPECT_EQ(contentHashes(reference), entry.hashes) << entry.file;
+        EXPECT_EQ(glm::ivec2(reference.visibility.width(), reference.visibility.height()), entry.size) << entry.file;
+        bytes += fs::file_size(committed / entry.file);
+    }
+    EXPECT_GT(bytes, 0U);
+    EXPECT_LT(bytes, 3U << 20); // every clone pays for them
+}
+
+TEST(GoldenReferences, AreAllThatARunOfTheStandardScenesAsksFor) {
+    const GoldenLock lock = readLock(committed);
+    std::size_t asked = 0;
+    for (const std::string& id : standardScenes()) {
+        const Scene scene = loadScene(id, lock.profile);
+        for (const int frame : scoredFrames(scene)) {
+            for (const Truth truth : {Truth::Hard, Truth::Soft}) {
+                if (truth == Truth::Soft && !scene.light.isArea()) continue;
+                ++asked;
+                const GoldenEntry* entry = lock.find({id, truth, frame});
+                ASSERT_NE(entry, nullptr) << id << " " << name(truth) << " frame " << frame;
+                EXPECT_EQ(entry->file.empty(), frame != scene.timeline.still - 1) << id;
+            }
+        }
+    }
+    EXPECT_EQ(asked, lock.entries.size());
+}
+
+/// Those that take a second each; the soft ones take POV-Ray a minute.
+TEST(GoldenReferences, HardOnesAreStillComputedBitForBit) {
+    const Outcome outcome = shell("shadowbench reference --verify --quiet --truth hard --golden " + committed.string());
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+}
+
+class GoldenVerb : public testing::Test {
+protected:
+    Outcome reference(const std::string& options) const {
+        return shell("shadowbench reference --quiet --scene " + scene_ + " --golden " + folder_ / "golden" + " " + options);
+    }
+    void moveTheBox() const {
+        std::string text = tinyScene();
+        const std::string from = "[0.13, 1.2, 0.21]";
+        text.replace(text.find(from), from.size(), "[0.16, 1.2, 0.21]");
+        (void)folder_.write("tiny.toml", text);
+    }
+    /// Replaces the first `from` in the lock.
+    void edit(const std::string& from, const std::string& to) const {
+        std::string lock = readFile(folder_ / "golden/lock.json");
+        ASSERT_NE(lock.find(from), std::string::npos);
+        writeFile(folder_ / "golden/lock.json", lock.replace(lock.find(from), from.size(), to));
+    }
+    [[nodiscard]] std::string firstHash() const { return readLock(folder_ / "golden").entries.front().hashes.visibility; }
+
+    Folder folder_;
+    std::string scene_ = folder_.write("tiny.toml", tinyScene());
+};
+
+TEST_F(GoldenVerb, AcceptedReferencesVerify) {
+    EXPECT_EQ(reference("--verify").code, 2) << "there is no lock yet";
+    const Outcome accepted = reference("--accept");
+    EXPECT_EQ(accepted.code, 0) << accepted.output;
+    EXPECT_NE(accepted.output.find("tiny hard frame 2: new"), std::string::npos) << accepted.output;
+    EXPECT_TRUE(fs::exists(folder_ / "golden/tiny-hard.exr"));
+    const Outcome verified = reference("--verify");
+    EXPECT_EQ(verified.code, 0) << verified.output;
+    EXPECT_NE(verified.output.find("2 identical"), std::string::npos) << verified.output;
+}
+
+TEST_F(GoldenVerb, AcceptingTheSameAgainChangesNoByte) {
+    reference("--accept");
+    const std::string lock = readFile(folder_ / "golden/lock.json"), image = readFile(folder_ / "golden/tiny-hard.exr");
+    EXPECT_EQ(reference("--accept").code, 0);
+    EXPECT_EQ(readFile(folder_ / "golden/lock.json"), lock);
+    EXPECT_EQ(readFile(folder_ / "golden/tiny-hard.exr"), image);
+}
+
+TEST_F(GoldenVerb, AChangedTruthIsToldInPixelsAndReplacedOnPurposeOnly) {
+    reference("--accept");
+    const std::string before = readFile(folder_ / "golden/lock.json");
+    moveTheBox();
+    const Outcome verified = reference("--verify");
+    EXPECT_EQ(verified.code, 4) << verified.output;
+    for (const char* part : {"tiny hard frame 2: changed: ", " labels, ", "visibility of ", "by up to 1,",
+                             "edge distance of ", "tiny hard frame 3: changed: visibility, ", "--accept"})
+        EXPECT_NE(verified.output.find(part), std::string::npos) << part << " in " << verified.output;
+    EXPECT_EQ(readFile(folder_ / "golden/lock.json"), before);
+
+    const Outcome accepted = reference("--accept");
+    EXPECT_EQ(accepted.code, 0);
+    EXPECT_NE(accepted.output.find("tiny hard frame 2: changed: "), std::string::npos) << accepted.output;
+    EXPECT_EQ(reference("--verify").code, 0);
+}
+
+TEST_F(GoldenVerb, AChangedLockIsDetected) {
+    reference("--accept");
+    const std::string hash = firstHash();
+    std::string other = hash;
+    other[0] = other[0] == '0' ? '1' : '0';
+    edit(hash, other);
+    const Outcome verified = reference("--verify");
+    EXPECT_EQ(verified.code, 4);
+    EXPECT_NE(verified.output.find("1 identical, 1 changed"), std::string::npos) << verified.output;
+    const auto json = nlohmann::json::parse(reference("--verify --json").output);
+    EXPECT_EQ(json[0]["status"], "changed");
+    EXPECT_EQ(json[1]["status"], "identical");
+}
+
+TEST_F(GoldenVerb, ADamagedImageIsDetected) {
+    reference("--accept");
+    const groundtruth::Reference moved = [&] {
+        groundtruth::Reference image = groundtruth::readGolden(folder_ / "golden/tiny-hard.exr");
+        image.visibility[100] = 0.5F;
+        return image;
+    }();
+    writeGolden(moved, folder_ / "golden/tiny-hard.exr");
+    const Outcome verified = reference("--verify");
+    EXPECT_EQ(verified.code, 4);
+    EXPECT_NE(verified.output.find("tiny-hard.exr does not hold"), std::string::npos) << verified.output;
+}
+
+TEST_F(GoldenVerb, OtherToolsThatGiveTheSameImagesAreANote) {
+    reference("--accept");
+    edit("\"cgal\": \"", "\"cgal\": \"0.");
+    const Outcome verified = reference("--verify");
+    EXPECT_EQ(verified.code, 0) << verified.output;
+    EXPECT_NE(verified.output.find("identical; made otherwise: cgal 0."), std::string::npos) << verified.output;
+}
+
+TEST_F(GoldenVerb, AMissingToolIsInconclusiveAndTheOthersAreVerifiedAllTheSame) {
+    scene_ = folder_.write("area.toml",
+                           tinyScene("{ kind = \"rectangle\", centre = [0.2, 6, 0.3], u = [1, 0, 0], v = [0, 0, 1] }"));
+    ASSERT_EQ(reference("--accept --truth hard").code, 0);
+    const Outcome verified = shell("PATH=/nonexistent shadowbench reference --quiet --verify --scene " + scene_ +
+                                   " --golden " + folder_ / "golden");
+    EXPECT_EQ(verified.code, 5) << verified.output;
+    EXPECT_NE(verified.output.find("2 identical, 2 unverified"), std::string::npos) << verified.output;
+    EXPECT_NE(verified.output.find("apt-get install povray"), std::string::npos) << verified.output;
+}
+
+TEST_F(GoldenVerb, AFrameThatNoRunAsksForIsGone) {
+    reference("--accept");
+    edit("\"frame\": 3", "\"frame\": 7");
+    const Outcome verified = reference("--verify");
+    EXPECT_EQ(verified.code, 4);
+    EXPECT_NE(verified.output.find("frame 7: gone"), std::string::npos) << verified.output;
+    EXPECT_NE(verified.output.find("frame 3: new"), std::string::npos) << verified.output;
+    reference("--accept");
+    EXPECT_EQ(reference("--verify").code, 0);
+}
+
+TEST_F(GoldenVerb, ALockThatIsNoneIsNamed) {
+    reference("--accept");
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+             {"\"tiny-hard.exr\"", "\"../tiny-hard.exr\""}, {"\"version\": 1", "\"version\": 9"}, {"{", ""}}) {
+        edit(from, to);
+        const Outcome verified = reference("--verify");
+        EXPECT_EQ(verified.code, 2) << from;
+        EXPECT_NE(verified.output.find("lock.json is no lock file"), std::string::npos) << verified.output;
+    }
+}
+
+TEST(TruthReport, IsWrittenOfAnySceneWithItsPictures) {
+    const Folder folder;
+    const std::string scene = folder.write("tiny.toml", tinyScene());
+    const Outcome outcome = shell("shadowbench reference --quiet --scene " + scene + " --report " + folder / "truth" +
+                                  " --cache " + folder / "cache");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    for (const char* file : {"report.md", "tiny.md", "tiny-hard-visibility.png", "tiny-hard-edge-distance.png",
+                             "tiny-histograms.svg", "seconds.svg"})
+        EXPECT_TRUE(fs::exists(folder / (std::string("truth/") + file))) << file;
+    EXPECT_NE(readFile(folder / "truth/report.md").find("polygon, rays: 0 of "), std::string::npos);
+}
+
+} // namespace
+} // namespace shadowbench
