@@ -30,6 +30,10 @@ LightShape lightShape(LightKind kind) {
 }
 
 VisibleFraction enclosedFraction(const LightAreas& areas, const LightShape& shape) {
+    if (shape.inner == shape.outer) {
+        const double visible = std::clamp(areas.innerVisible / shape.area, 0.0, 1.0);
+        return {visible, visible};
+    }
     const double low = std::max(areas.innerVisible / shape.area, 1 - areas.outerHidden / shape.area);
     const double high = std::min(areas.outerVisible / shape.area, 1 - areas.innerHidden / shape.area);
     return {std::clamp(low, 0.0, 1.0), std::clamp(high, 0.0, 1.0)};
