@@ -7,11 +7,17 @@
 #include "groundtruth/cgal/primary.h"
 #include "harness/scene/error.h"
 
+#include <array>
 #include <limits>
 #include <optional>
 
 namespace shadowbench::groundtruth {
 namespace {
+
+/// What the fast form may err. Edges are first computed with the loosest tolerance; where the bound of the whole comes out
+/// too large, again with a tighter one, the last of which makes all edges rational.
+constexpr double wantedError = 1e-12;
+constexpr std::array tolerances{0x1p-42, 0x1p-46, 0x1p-55};
 
 constexpr VisibleFraction umbra{0, 0}, fullyLit{1, 1};
 
@@ -63,11 +69,20 @@ struct AreaScene::Data {
 
     /// Nothing where the light is seen edge-on.
     [[nodiscard]] std::optional<BoundedFraction> fraction(const SurfacePoint& point) const {
+        std::optional<BoundedFraction> found;
+        for (const double tolerance : tolerances) {
+            found = fraction(point, tolerance);
+            if (!found || found->error <= wantedError) break;
+        }
+        return found;
+    }
+
+    [[nodiscard]] std::optional<BoundedFraction> fraction(const SurfacePoint& point, double tolerance) const {
         if (light.kind == LightKind::Line) {
-            const auto hidden = coverIntervals(triangles, light, point);
+            const auto hidden = coverIntervals(triangles, light, point, tolerance);
             return hidden ? std::optional(lengthFraction(*hidden)) : std::nullopt;
         }
-        const auto edges = coverEdges(triangles, light, point);
+        const auto edges = coverEdges(triangles, light, point, tolerance);
         return edges ? std::optional(areaFraction(*edges, shape)) : std::nullopt;
     }
 };

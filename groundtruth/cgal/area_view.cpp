@@ -18,9 +18,6 @@ namespace {
 using Interval = CGAL::Interval_nt<false>; // rounding set by Interval::Protector
 using Rational = CGAL::Exact_rational;
 
-/// An interval result wider than this to either side is computed again in rational numbers.
-constexpr double widestError = 0x1p-46;
-
 Interval toInterval(const Interval& value) { return value; }
 
 Interval toInterval(const Rational& value) {
@@ -34,16 +31,21 @@ int signOf(const Number& value) {
     return static_cast<int>(CGAL::make_certain(CGAL_NTS sign(value)));
 }
 
-AreaVector<Interval> intervalPoint(const ReceiverPoint& p) {
-    return {Interval(p.low().x, p.high().x), Interval(p.low().y, p.high().y), Interval(p.low().z, p.high().z)};
+LightMap<Interval> intervalMap(const ReceiverPoint& point, const ReceiverPoint::Remainder& rest, const Light& light,
+                               int sense) {
+    return {AreaVector<Interval>::from(point.rounded()),
+            {Interval(rest.low.x, rest.high.x), Interval(rest.low.y, rest.high.y), Interval(rest.low.z, rest.high.z)},
+            light,
+            sense};
 }
 
-AreaVector<Rational> rationalPoint(const SurfacePoint& point) {
+LightMap<Rational> rationalMap(const SurfacePoint& point, const Light& light, int sense) {
     using Vector = AreaVector<Rational>;
     const Vector a = Vector::from(point.receiver[0]), origin = Vector::from(point.ray.origin);
     const Vector direction = Vector::from(point.ray.direction);
     const Vector normal = cross(Vector::from(point.receiver[1]) - a, Vector::from(point.receiver[2]) - a);
-    return origin + Rational(dot(normal, a - origin) / dot(normal, direction)) * direction;
+    const Rational depth = dot(normal, a - origin) / dot(normal, direction);
+    return {origin + depth * direction, Vector::from(glm::dvec3(0)), light, sense};
 }
 
 /// A vertex of something clipped. On the window's borders its coordinates are known: column or row −1 or 1.
@@ -62,7 +64,8 @@ Corner<Number> between(const Corner<Number>& a, const Corner<Number>& b, const N
 class RoughMap {
 public:
     RoughMap(const ReceiverPoint& point, const Light& light, int sense, double reach)
-        : map_(AreaVector<double>::from(point.rounded()), light, sense), window_(lightWindow(light.kind)) {
+        : map_(AreaVector<double>::from(point.rounded()), AreaVector<double>::from(glm::dvec3(0)), light, sense),
+          window_(lightWindow(light.kind)) {
         const auto size = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
         // Every product below is of one component of u or v, and two more of at most `far`: the roundings of all, some 40 of
         // 2⁻⁵³ each, and the point's own error stay below this.
@@ -83,8 +86,8 @@ public:
         const double rows = flat ? 0 : window_;
         Shaft result;
         for (const glm::dvec3& normal : {window_ * w + x, window_ * w - x, rows * w + y, rows * w - y, w})
-            result.add({normal, -glm::dot(normal, plain(map_.eye)), error_});
-        result.add({-w, glm::dot(w, plain(map_.eye)) + map_.distance, error_});
+            result.add({normal, -glm::dot(normal, plain(map_.head)), error_});
+        result.add({-w, glm::dot(w, plain(map_.head)) + map_.distance, error_});
         return result;
     }
 
@@ -116,10 +119,10 @@ private:
 class View {
 public:
     View(const Light& light, const SurfacePoint& point, const ReceiverPoint& receiver)
-        : light_(light), point_(point), receiver_(receiver), sense_(senseOf()) {
+        : light_(light), point_(point), rest_(receiver.remainder()), sense_(senseOf(receiver)) {
         if (sense_ == 0) return;
         const Interval::Protector rounding;
-        intervals_.emplace(intervalPoint(receiver_), light_, sense_);
+        intervals_.emplace(intervalMap(receiver, rest_, light_, sense_));
     }
 
     /// 1 if u × v points away from the surface point, −1 if towards it, 0 if the point lies in the light's plane.
@@ -136,23 +139,23 @@ public:
         } catch (const CGAL::Uncertain_conversion_exception&) {
             // decided below
         }
-        if (!rationals_) rationals_.emplace(rationalPoint(point_), light_, sense_);
+        if (!rationals_) rationals_.emplace(rationalMap(point_, light_, sense_));
         return construct(*rationals_);
     }
 
 private:
-    [[nodiscard]] int senseOf() const {
+    [[nodiscard]] int senseOf(const ReceiverPoint& receiver) const {
         try {
             const Interval::Protector rounding;
-            return signOf(LightMap<Interval>(intervalPoint(receiver_), light_, 1).distance);
+            return signOf(intervalMap(receiver, rest_, light_, 1).distance);
         } catch (const CGAL::Uncertain_conversion_exception&) {
-            return signOf(LightMap<Rational>(rationalPoint(point_), light_, 1).distance);
+            return signOf(rationalMap(point_, light_, 1).distance);
         }
     }
 
     const Light& light_;
     const SurfacePoint& point_;
-    const ReceiverPoint& receiver_;
+    ReceiverPoint::Remainder rest_;
     int sense_;
     std::optional<LightMap<Interval>> intervals_;
     std::optional<LightMap<Rational>> rationals_;
@@ -228,8 +231,10 @@ CoverEdge coverEdge(const Corner<Number>& a, const Corner<Number>& b, int covers
 /// Edges of one construction: a clipped triangle has at most eight.
 using CoverEdges = std::vector<CoverEdge>;
 
-bool tooWide(const CoverEdges& edges) {
-    return std::ranges::any_of(edges, [](const CoverEdge& e) { return !(e.error <= widestError); });
+/// An edge's error is judged by the area that it sweeps.
+bool exceeds(const CoverEdges& edges, double tolerance) {
+    return std::ranges::any_of(
+        edges, [&](const CoverEdge& e) { return !(e.error * (glm::distance(e.from, e.to) + e.error) <= tolerance); });
 }
 
 template <typename Number>
@@ -287,8 +292,9 @@ CoverEdges clippedTriangle(const LightMap<Number>& map, const Triangle& t, int c
 /// Collects the cover edges of all triangles, instance by instance.
 class EdgeCollector {
 public:
-    EdgeCollector(const SceneTriangles& scene, View& view, const RoughMap& rough, const ReceiverPoint& point)
-        : scene_(scene), view_(view), rough_(rough), point_(point) {}
+    EdgeCollector(const SceneTriangles& scene, View& view, const RoughMap& rough, const ReceiverPoint& point,
+                  double tolerance)
+        : scene_(scene), view_(view), rough_(rough), point_(point), tolerance_(tolerance) {}
 
     void add(TriangleName name, const Triangle& triangle) {
         if (name.instance != instance_) flush();
@@ -342,7 +348,7 @@ private:
 
     template <typename Construct>
     void append(const Construct& construct) {
-        const CoverEdges found = view_.filtered(construct, tooWide);
+        const CoverEdges found = view_.filtered(construct, [&](const CoverEdges& e) { return exceeds(e, tolerance_); });
         edges_.insert(edges_.end(), found.begin(), found.end());
     }
 
@@ -350,6 +356,7 @@ private:
     View& view_;
     const RoughMap& rough_;
     const ReceiverPoint& point_;
+    double tolerance_;
     std::uint32_t instance_ = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint64_t> chain_;
     CoverEdges edges_;
@@ -391,19 +398,19 @@ Light widened(Light line, const glm::dvec3& point) {
 
 double lightWindow(LightKind kind) { return kind == LightKind::Disk ? 0.5 + 0x1p-40 : 0.5; }
 
-std::optional<std::vector<CoverEdge>> coverEdges(const SceneTriangles& scene, const Light& light,
-                                                 const SurfacePoint& point) {
+std::optional<std::vector<CoverEdge>> coverEdges(const SceneTriangles& scene, const Light& light, const SurfacePoint& point,
+                                                 double tolerance) {
     const ReceiverPoint receiver(point.ray, point.receiver);
     View view(light, point, receiver);
     if (view.sense() == 0) return std::nullopt;
     const RoughMap rough(receiver, light, view.sense(), scene.reachFrom(receiver.rounded()));
-    EdgeCollector collector(scene, view, rough, receiver);
+    EdgeCollector collector(scene, view, rough, receiver, tolerance);
     scene.visitShaft(rough.shaft(false), [&](TriangleName name, const Triangle& t) { collector.add(name, t); });
     return collector.finish();
 }
 
 std::optional<std::vector<CoverInterval>> coverIntervals(const SceneTriangles& scene, const Light& line,
-                                                         const SurfacePoint& point) {
+                                                         const SurfacePoint& point, double tolerance) {
     const ReceiverPoint receiver(point.ray, point.receiver);
     const Light light = widened(line, receiver.rounded());
     View view(light, point, receiver);
@@ -413,7 +420,7 @@ std::optional<std::vector<CoverInterval>> coverIntervals(const SceneTriangles& s
     scene.visitShaft(rough.shaft(true), [&](TriangleName, const Triangle& t) {
         if (rough.misses({rough(t[0]), rough(t[1]), rough(t[2])}, true) || side(t, receiver) == 0) return;
         const auto part = view.filtered([&](const auto& map) { return hiddenPart(map, t, rough.window()); },
-                                        [](const auto& found) { return found && !(found->error <= widestError); });
+                                        [&](const auto& found) { return found && !(found->error <= tolerance); });
         if (part) hidden.push_back(*part);
     });
     return hidden;

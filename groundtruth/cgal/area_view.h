@@ -33,14 +33,16 @@ struct CoverInterval {
 double lightWindow(LightKind kind);
 
 /// The edges around the hidden part of the window of a rectangle or disk: winding numbers counted from the window's left
-/// border are the numbers of triangles that cover. Nothing if the point lies in the light's plane.
-std::optional<std::vector<CoverEdge>> coverEdges(const SceneTriangles& scene, const Light& light, const SurfacePoint& point);
+/// border are the numbers of triangles that cover. Edges whose error times length would exceed `tolerance` in interval
+/// arithmetic are computed in rational numbers. Nothing if the point lies in the light's plane.
+std::optional<std::vector<CoverEdge>> coverEdges(const SceneTriangles& scene, const Light& light, const SurfacePoint& point,
+                                                 double tolerance);
 
 /// The hidden parts of a line light; they may overlap. Nothing if the point lies on the light's line. Triangles that meet
 /// the plane of point and light in no more than an edge count if they lie on its positive side: those around a shared edge
-/// leave no gap.
+/// leave no gap. Ends whose error would exceed `tolerance` are computed in rational numbers.
 std::optional<std::vector<CoverInterval>> coverIntervals(const SceneTriangles& scene, const Light& light,
-                                                         const SurfacePoint& point);
+                                                         const SurfacePoint& point, double tolerance);
 
 /// The triangles of which some may hide a part of the light from the point.
 std::vector<Triangle> areaCandidates(const SceneTriangles& scene, const Light& light, const SurfacePoint& point);

@@ -222,6 +222,22 @@ const ReceiverPoint::Exact& ReceiverPoint::exact() const {
     return *exact_;
 }
 
+ReceiverPoint::Remainder ReceiverPoint::remainder() const {
+    const Exact& p = exact();
+    const Vector<Ring> rest = p.xyz - p.w * vector<Ring>(rounded());
+    const std::array<std::pair<double, double>, 4> bounds{CGAL_NTS to_interval(rest.x), CGAL_NTS to_interval(rest.y),
+                                                          CGAL_NTS to_interval(rest.z), CGAL_NTS to_interval(p.w)};
+    const Interval::Protector rounding;
+    const Interval w(bounds[3].first, bounds[3].second);
+    Remainder result{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const Interval value = Interval(bounds[axis].first, bounds[axis].second) / w;
+        result.low[axis] = value.inf();
+        result.high[axis] = value.sup();
+    }
+    return result;
+}
+
 int side(const Triangle& triangle, const ReceiverPoint& point) {
     return filteredSign([&](auto tag) {
         using Number = typename decltype(tag)::type;

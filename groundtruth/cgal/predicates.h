@@ -48,6 +48,12 @@ public:
     [[nodiscard]] const glm::dvec3& high() const { return high_; }
     [[nodiscard]] glm::dvec3 rounded() const { return 0.5 * (low_ + high_); }
 
+    /// Certain bounds of the exact point minus `rounded()`, relatively some units in the last place apart.
+    struct Remainder {
+        glm::dvec3 low, high;
+    };
+    [[nodiscard]] Remainder remainder() const;
+
     struct Exact;
     [[nodiscard]] const Exact& exact() const; // made when first needed
 

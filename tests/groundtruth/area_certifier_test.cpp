@@ -47,7 +47,7 @@ protected:
 
 TEST_P(RandomAreaScene, FastAndExactAgree) {
     const Snapshot snapshot = scene();
-    const glm::ivec2 size(14, 14);
+    const glm::ivec2 size(16, 16);
     const PrimaryHits primary = primaryHits(snapshot, size);
     const AreaScene area(snapshot);
     int compared = 0;
@@ -59,7 +59,7 @@ TEST_P(RandomAreaScene, FastAndExactAgree) {
         ASSERT_NEAR(fast.high, exact.high, fastError) << pixel.x << " " << pixel.y;
         ++compared;
     }
-    EXPECT_GE(compared, 70);
+    EXPECT_GE(compared, 85);
 }
 
 TEST_P(RandomAreaScene, TheFractionOfATinyLightIsTheHardLabel) {
@@ -82,7 +82,7 @@ TEST_P(RandomAreaScene, TheFractionOfATinyLightIsTheHardLabel) {
     EXPECT_LE(between, 1); // its penumbra is some 1e-7 m wide, a pixel a tenth of a metre
 }
 
-// 22 scenes of about 100 points.
+// 22 scenes of at least 85 points; with the lattice more than 2,000.
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomAreaScene, ::testing::Range(0, 22));
 
 TEST(AreaLattice, FastAndExactAgreeWhereEdgesCoincideWithEdgesCornersAndTheLight) {
