@@ -135,14 +135,6 @@ Homogeneous<Interval> homogeneous(const ReceiverPoint& p, std::type_identity<Int
 
 Homogeneous<Ring> homogeneous(const ReceiverPoint& p, std::type_identity<Ring>) { return {p.exact().xyz, p.exact().w}; }
 
-int side(const Triangle& triangle, const ReceiverPoint& point) {
-    return filteredSign([&](auto tag) {
-        using Number = typename decltype(tag)::type;
-        const auto p = homogeneous(point, tag);
-        return dot(normal<Number>(triangle), p.xyz - p.w * vector<Number>(triangle[0]));
-    });
-}
-
 /// Seen from the point along the segment to the light: 1 if y lies to the left of x, as the orientation of (point, light, x,
 /// y).
 int turn(const ReceiverPoint& point, const glm::dvec4& light, const glm::dvec3& x, const glm::dvec3& y) {
@@ -228,6 +220,30 @@ const ReceiverPoint::Exact& ReceiverPoint::exact() const {
     exact_ = std::make_unique<Exact>(
         Exact{denominator * vector<Ring>(ray_.origin) + numerator * vector<Ring>(ray_.direction), denominator});
     return *exact_;
+}
+
+ReceiverPoint::Remainder ReceiverPoint::remainder() const {
+    const Exact& p = exact();
+    const Vector<Ring> rest = p.xyz - p.w * vector<Ring>(rounded());
+    const std::array<std::pair<double, double>, 4> bounds{CGAL_NTS to_interval(rest.x), CGAL_NTS to_interval(rest.y),
+                                                          CGAL_NTS to_interval(rest.z), CGAL_NTS to_interval(p.w)};
+    const Interval::Protector rounding;
+    const Interval w(bounds[3].first, bounds[3].second);
+    Remainder result{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const Interval value = Interval(bounds[axis].first, bounds[axis].second) / w;
+        result.low[axis] = value.inf();
+        result.high[axis] = value.sup();
+    }
+    return result;
+}
+
+int side(const Triangle& triangle, const ReceiverPoint& point) {
+    return filteredSign([&](auto tag) {
+        using Number = typename decltype(tag)::type;
+        const auto p = homogeneous(point, tag);
+        return dot(normal<Number>(triangle), p.xyz - p.w * vector<Number>(triangle[0]));
+    });
 }
 
 Blocking blocking(const ReceiverPoint& point, const glm::dvec4& light, const Triangle& t) {

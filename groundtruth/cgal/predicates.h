@@ -48,6 +48,12 @@ public:
     [[nodiscard]] const glm::dvec3& high() const { return high_; }
     [[nodiscard]] glm::dvec3 rounded() const { return 0.5 * (low_ + high_); }
 
+    /// Certain bounds of the exact point minus `rounded()`, relatively some units in the last place apart.
+    struct Remainder {
+        glm::dvec3 low, high;
+    };
+    [[nodiscard]] Remainder remainder() const;
+
     struct Exact;
     [[nodiscard]] const Exact& exact() const; // made when first needed
 
@@ -57,6 +63,9 @@ private:
     glm::dvec3 low_, high_;
     mutable std::unique_ptr<Exact> exact_;
 };
+
+/// Side of the triangle's plane on which the exact point lies.
+int side(const Triangle& triangle, const ReceiverPoint& point);
 
 /// What a triangle does to the open segment from a receiver point to a (homogeneous) light.
 enum class Blocking {
