@@ -89,9 +89,9 @@ std::vector<const PixelEdge*> edgesIn(const Square& square, std::span<const Pixe
 
 class EdgeDistance {
 public:
-    EdgeDistance(const std::vector<PixelEdge>& edges, const Image<int>& winding, const Image<std::uint8_t>& members,
-                 Image<float>& distance)
-        : edges_(edges), winding_(winding), members_(members), distance_(distance),
+    EdgeDistance(const std::vector<PixelEdge>& edges, const Image<int>& winding, const Image<std::uint8_t>& uncertain,
+                 const Image<std::uint8_t>& members, Image<float>& distance)
+        : edges_(edges), winding_(winding), uncertain_(uncertain), members_(members), distance_(distance),
           cells_(winding.width() - 1, winding.height() - 1) {
         for (std::uint32_t i = 0; i < edges_.size(); ++i) enter(i);
     }
@@ -134,13 +134,24 @@ private:
     }
 
     void visitCell(int x, int y) {
-        std::optional<Anchor> corner;
-        for (int i = 0; i < 4 && !corner; ++i)
-            if (const int w = winding_(x + i % 2, y + i / 2); w >= 0) corner = {centre(x + i % 2, y + i / 2), w};
+        const std::optional<Anchor> corner = anchorOf(x, y);
         if (!corner) return;
         std::vector<const PixelEdge*> here;
         for (const std::uint32_t index : cells_(x, y)) here.push_back(&edges_[index]);
         visitSquare({centre(x, y), 1}, *corner, here);
+    }
+
+    /// A corner of the cell, if possible one that no edge passes through.
+    [[nodiscard]] std::optional<Anchor> anchorOf(int x, int y) const {
+        std::optional<Anchor> anchor;
+        for (int i = 0; i < 4; ++i) {
+            const int column = x + i % 2, row = y + i / 2;
+            if (winding_(column, row) < 0) continue;
+            const bool certain = uncertain_(column, row) == 0;
+            if (certain || !anchor) anchor = Anchor{centre(column, row), winding_(column, row)};
+            if (certain) break;
+        }
+        return anchor;
     }
 
     /// `anchor` lies in the square or on its border.
@@ -196,6 +207,7 @@ private:
 
     const std::vector<PixelEdge>& edges_;
     const Image<int>& winding_;
+    const Image<std::uint8_t>& uncertain_;
     const Image<std::uint8_t>& members_;
     Image<float>& distance_;
     Image<std::vector<std::uint32_t>> cells_;
@@ -203,9 +215,9 @@ private:
 
 } // namespace
 
-void lowerToEdgeDistance(const std::vector<PixelEdge>& edges, const Image<int>& winding, const Image<std::uint8_t>& members,
-                         Image<float>& distance) {
-    EdgeDistance(edges, winding, members, distance).run();
+void lowerToEdgeDistance(const std::vector<PixelEdge>& edges, const Image<int>& winding,
+                         const Image<std::uint8_t>& uncertain, const Image<std::uint8_t>& members, Image<float>& distance) {
+    EdgeDistance(edges, winding, uncertain, members, distance).run();
 }
 
 } // namespace shadowbench::groundtruth
