@@ -51,7 +51,7 @@ void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 siz
     const std::vector<PixelEdge> edges = inPixels(occluders, casters, projection, size);
     const PlaneWinding winding(view, occluders, casters, edges);
 
-    forEachInParallel(size.y, occluders.threads(), {}, "labels", [&](int y) {
+    forEachInParallel(size.y, occluders.threads(), progress, "labels", [&](int y) {
         for (int x = 0; x < size.x; ++x) {
             if (!members(x, y)) continue;
             const auto [lowest, highest] = winding.at(x, y);
