@@ -32,7 +32,7 @@ void addGeometry(RTCDevice device, RTCScene scene, const Mesh& mesh, const glm::
     rtcReleaseGeometry(geometry);
 }
 
-bool occluded(RTCScene scene, const glm::vec3& from, const glm::vec3& to) {
+bool occluded(RTCScene scene, const glm::vec3& from, const glm::vec3& to, float tnear) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay ray{};
@@ -42,7 +42,7 @@ bool occluded(RTCScene scene, const glm::vec3& from, const glm::vec3& to) {
     ray.dir_x = to.x - from.x;
     ray.dir_y = to.y - from.y;
     ray.dir_z = to.z - from.z;
-    ray.tnear = 1e-4F;
+    ray.tnear = tnear;
     ray.tfar = 1;
     ray.mask = ~0U;
     rtcOccluded1(scene, &context, &ray);
@@ -72,12 +72,12 @@ EmbreeShadows::EmbreeShadows(const Snapshot& snapshot, int threads) : scene_(std
 
 EmbreeShadows::~EmbreeShadows() = default;
 
-Image<float> EmbreeShadows::visibility(const groundtruth::PrimaryHits& primary, const glm::dvec3& light) const {
+Image<float> EmbreeShadows::visibility(const groundtruth::PrimaryHits& primary, const glm::dvec3& light, float tnear) const {
     Image<float> result(primary.id.width(), primary.id.height());
     groundtruth::forEachInParallel(result.height(), threads_, {}, {}, [&](int y) {
         for (int x = 0; x < result.width(); ++x) {
             if (primary.surface(x, y) != groundtruth::Surface::Receiver) continue;
-            result(x, y) = occluded(scene_->scene.get(), primary.position(x, y), glm::vec3(light)) ? 0.0F : 1.0F;
+            result(x, y) = occluded(scene_->scene.get(), primary.position(x, y), glm::vec3(light), tnear) ? 0.0F : 1.0F;
         }
     });
     return result;

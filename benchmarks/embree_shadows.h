@@ -17,8 +17,10 @@ public:
     EmbreeShadows& operator=(const EmbreeShadows&) = delete;
 
     /// Visibility (1 or 0) of the point light at the receivers of `primary`, 0 elsewhere. Rays run from the receiver point
-    /// in float to the light, one by one (rtcOccluded1), from 1e-4 of the way on, so that a surface does not meet itself.
-    [[nodiscard]] Image<float> visibility(const groundtruth::PrimaryHits& primary, const glm::dvec3& light) const;
+    /// in float to the light, one by one (rtcOccluded1), from the share `tnear` of the way on: above 0, so that a surface
+    /// does not meet itself.
+    [[nodiscard]] Image<float> visibility(const groundtruth::PrimaryHits& primary, const glm::dvec3& light,
+                                          float tnear) const;
 
 private:
     struct Scene;

@@ -62,10 +62,16 @@ std::shared_ptr<const Chains> Occluders::chainsOf(std::size_t index, const Shado
 Casters Occluders::castersOnto(const ShadowProjection& projection, glm::ivec2 size, const Progress& progress) const {
     const std::size_t count = scene_.instances().size();
     std::vector<std::shared_ptr<const Chains>> chains(count);
-    const auto isLarge = [&](std::size_t i) { return scene_.instances()[i].mesh->triangles.size() >= large; };
-    for (std::size_t i = 0; i < count; ++i)
-        if (isLarge(i)) chains[i] = chainsOf(i, projection, size, threads_);
-    forEachInParallel(static_cast<int>(count), threads_, progress, "silhouettes", [&](int i) {
+    const auto trianglesOf = [&](std::size_t i) { return scene_.instances()[i].mesh->triangles.size(); };
+    const auto isLarge = [&](std::size_t i) { return trianglesOf(i) >= large; };
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (isLarge(i))
+            chains[i] = chainsOf(i, projection, size, threads_);
+        else
+            others += trianglesOf(i);
+    }
+    forEachInParallel(static_cast<int>(count), others < large ? 1 : threads_, progress, "silhouettes", [&](int i) {
         if (!isLarge(i)) chains[i] = chainsOf(i, projection, size, 1);
     });
 

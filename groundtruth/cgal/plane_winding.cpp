@@ -12,8 +12,6 @@
 namespace shadowbench::groundtruth {
 namespace {
 
-constexpr int unknown = -1;
-
 [[noreturn]] void inconsistent(int row) {
     throw InternalError("Winding numbers disagree in image row " + std::to_string(row - scanMargin) +
                         ": the silhouettes of this scene are inconsistent; please report it.");
@@ -24,16 +22,13 @@ constexpr int unknown = -1;
 PlaneWinding::PlaneWinding(const PlaneView& view, const Occluders& occluders, const Casters& casters,
                            const std::vector<PixelEdge>& edges)
     : view_(view), occluders_(occluders), casters_(casters), edges_(edges), winding_(scan(edges, view.size)),
-      wanted_(winding_.change.width(), winding_.change.height()), shift_(wanted_.height()),
-      uncertainEdges_(wanted_.height()) {
-    const int rows = wanted_.height(), threads = occluders_.threads();
-    forEachInParallel(rows, threads, {}, {}, [&](int row) {
+      wanted_(winding_.change.width(), winding_.change.height()), shift_(height()), uncertainEdges_(height()) {
+    forEachInParallel(height(), occluders_.threads(), {}, {}, [&](int row) {
         findWanted(row);
         sumRow(row);
     });
     linkRows();
-    forEachInParallel(rows - 1, threads, {}, {}, [&](int i) { checkRow(i + 1); });
-    forEachInParallel(rows, threads, {}, {}, [&](int row) { finishRow(row); });
+    for (int row = 1; row < height(); ++row) checkRow(row);
     listUncertainEdges();
 }
 
@@ -41,10 +36,11 @@ void PlaneWinding::findWanted(int row) {
     const auto member = [&](int x, int y) {
         return view_.members.contains(x - scanMargin, y - scanMargin) && view_.members(x - scanMargin, y - scanMargin) != 0;
     };
-    for (int x = 0; x < wanted_.width(); ++x) {
-        bool near = false;
+    for (int x = 0; x < width(); ++x) {
+        bool near = member(x, row);
+        wanted_(x, row) = near;
         for (int i = 0; i < 9 && !near; ++i) near = member(x + i % 3 - 1, row + i / 3 - 1);
-        wanted_(x, row) = near && (member(x, row) || onPlane(x, row));
+        if (near && !wanted_(x, row)) wanted_(x, row) = onPlane(x, row);
     }
 }
 
@@ -58,25 +54,25 @@ bool PlaneWinding::onPlane(int x, int row) const {
 
 void PlaneWinding::sumRow(int row) {
     int sum = 0;
-    for (int x = 0; x < wanted_.width(); ++x) winding_.change(x, row) = sum += winding_.change(x, row);
+    for (int x = 0; x < width(); ++x) winding_.change(x, row) = sum += winding_.change(x, row);
 }
 
 std::optional<int> PlaneWinding::firstCertain(int row) const {
-    for (int x = 0; x < wanted_.width(); ++x)
+    for (int x = 0; x < width(); ++x)
         if (isCertain(x, row)) return x;
     return std::nullopt;
 }
 
 /// A column in which the step from the row above is certain.
 std::optional<int> PlaneWinding::linkColumn(int row) const {
-    for (int x = 0; x < wanted_.width(); ++x)
+    for (int x = 0; x < width(); ++x)
         if (isCertain(x, row) && isCertain(x, row - 1)) return x;
     return std::nullopt;
 }
 
 /// A row that no certain step leads to starts at an exact number; the last row that a way from there leads to is checked.
 void PlaneWinding::linkRows() {
-    for (int row = 0; row < wanted_.height(); ++row) {
+    for (int row = 0; row < height(); ++row) {
         const bool follows = row > 0 && shift_[row - 1].has_value();
         const std::optional<int> link = follows ? linkColumn(row) : std::nullopt;
         if (link) {
@@ -87,12 +83,12 @@ void PlaneWinding::linkRows() {
         if (follows) requireExact(row - 1);
         if (const std::optional<int> x = firstCertain(row)) shift_[row] = exactNumber(*x, row) - winding_.change(*x, row);
     }
-    if (shift_.back()) requireExact(wanted_.height() - 1);
+    if (shift_.back()) requireExact(height() - 1);
 }
 
 /// Checks the last certain number of a row.
 void PlaneWinding::requireExact(int row) const {
-    for (int x = wanted_.width() - 1; x >= 0; --x) {
+    for (int x = width() - 1; x >= 0; --x) {
         if (!isCertain(x, row)) continue;
         if (exactNumber(x, row) != *shift_[row] + winding_.change(x, row)) inconsistent(row);
         return;
@@ -102,25 +98,19 @@ void PlaneWinding::requireExact(int row) const {
 /// All certain steps down to a row must lead to the same numbers as the steps along it.
 void PlaneWinding::checkRow(int row) const {
     if (!shift_[row] || !shift_[row - 1]) return;
-    for (int x = 0; x < wanted_.width(); ++x) {
+    for (int x = 0; x < width(); ++x) {
         if (!isCertain(x, row) || !isCertain(x, row - 1)) continue;
-        const int above = *shift_[row - 1] + winding_.change(x, row - 1);
-        if (above + winding_.changeDown(x, row) != *shift_[row] + winding_.change(x, row)) inconsistent(row);
+        const int above = *shift_[row - 1] + winding_.change(x, row - 1), here = *shift_[row] + winding_.change(x, row);
+        if (above < 0 || here < 0 || above + winding_.changeDown(x, row) != here) inconsistent(row);
     }
 }
 
-/// Turns sums into numbers.
-void PlaneWinding::finishRow(int row) {
-    for (int x = 0; x < wanted_.width(); ++x) {
-        int& number = winding_.change(x, row);
-        number = shift_[row] && wanted_(x, row) ? number + *shift_[row] : unknown;
-        if (isCertain(x, row) && number < 0) inconsistent(row);
-        number = std::max(number, unknown);
-    }
+int PlaneWinding::number(int x, int row) const {
+    return shift_[row] && wanted_(x, row) ? std::max(*shift_[row] + winding_.change(x, row), unknown) : unknown;
 }
 
 void PlaneWinding::listUncertainEdges() {
-    std::vector<std::uint8_t> needed(wanted_.height(), 0);
+    std::vector<std::uint8_t> needed(height(), 0);
     for (int y = 0; y < view_.size.y; ++y)
         for (int x = 0; x < view_.size.x; ++x)
             if (view_.members(x, y) && winding_.uncertain(x + scanMargin, y + scanMargin)) needed[y + scanMargin] = 1;
@@ -153,8 +143,7 @@ int PlaneWinding::exactNumber(int x, int row) const {
 WindingAround::Range PlaneWinding::at(int x, int y) const {
     const int column = x + scanMargin, row = y + scanMargin;
     if (winding_.uncertain(column, row)) return exactAround(column, row);
-    const int number = winding_.change(column, row);
-    return {number, number};
+    return {number(column, row), number(column, row)};
 }
 
 WindingAround::Range PlaneWinding::exactAround(int x, int row) const {
@@ -171,7 +160,7 @@ WindingAround::Range PlaneWinding::exactAround(int x, int row) const {
             if (std::min(near.from.x, near.to.x) - 2 * near.error > high) continue;
             around.add(edge(near.source));
         }
-        return around.range(winding_.change(*start, row));
+        return around.range(number(*start, row));
     }
     WindingAround around(point, view_.plane, occluders_.light());
     for (std::uint32_t i = 0; i < casters_.edges.size(); ++i) around.add(edge(i));
@@ -199,7 +188,7 @@ std::vector<TriangleName> PlaneWinding::groundedAt(const ReceiverPoint& point) c
 /// In the same row.
 std::optional<int> PlaneWinding::nearestCertain(int x, int row) const {
     if (!shift_[row]) return std::nullopt;
-    for (int distance = 1; distance < wanted_.width(); ++distance)
+    for (int distance = 1; distance < width(); ++distance)
         for (const int other : {x - distance, x + distance})
             if (wanted_.contains(other, row) && isCertain(other, row)) return other;
     return std::nullopt;

@@ -29,19 +29,23 @@ public:
     /// Winding numbers around the centre of a member.
     [[nodiscard]] WindingAround::Range at(int x, int y) const;
 
-    /// Indexed by pixel + scanMargin; −1 where not known: only members and their neighbours on the plane are.
-    [[nodiscard]] const Image<int>& numbers() const { return winding_.change; }
-    [[nodiscard]] const Image<std::uint8_t>& uncertain() const { return winding_.uncertain; }
+    /// The following are indexed by pixel + scanMargin: `width` × `height` centres.
+    [[nodiscard]] int width() const { return wanted_.width(); }
+    [[nodiscard]] int height() const { return wanted_.height(); }
+
+    static constexpr int unknown = -1;
+    /// `unknown` where no label is wanted: only members and their neighbours on the plane are known.
+    [[nodiscard]] int number(int x, int row) const;
+    /// Is the number known, and does no edge pass so near the centre that only exact arithmetic can tell on which side?
+    [[nodiscard]] bool isCertain(int x, int row) const { return wanted_(x, row) != 0 && winding_.uncertain(x, row) == 0; }
 
 private:
     void findWanted(int row);
     void sumRow(int row);
     void linkRows();
     void checkRow(int row) const;
-    void finishRow(int row);
     void listUncertainEdges();
     [[nodiscard]] bool onPlane(int x, int row) const;
-    [[nodiscard]] bool isCertain(int x, int row) const { return wanted_(x, row) != 0 && winding_.uncertain(x, row) == 0; }
     [[nodiscard]] std::optional<int> firstCertain(int row) const;
     [[nodiscard]] std::optional<int> linkColumn(int row) const;
     void requireExact(int row) const;
@@ -56,7 +60,7 @@ private:
     const Occluders& occluders_;
     const Casters& casters_;
     const std::vector<PixelEdge>& edges_;
-    Winding winding_;                                        // `change` becomes the winding number
+    Winding winding_;                                        // `change` is summed up along rows
     Image<std::uint8_t> wanted_;                             // members and their neighbours on the plane
     std::vector<std::optional<int>> shift_;                  // winding number before a row's first change
     std::vector<std::vector<std::uint32_t>> uncertainEdges_; // of rows with members whose number is uncertain

@@ -16,9 +16,16 @@ namespace {
 /// The pixels that see the receiver.
 Image<std::uint8_t> membersOf(const PlanarReceiver& receiver, const PrimaryHits& primary) {
     Image<std::uint8_t> members(primary.id.width(), primary.id.height());
-    for (std::size_t i = 0; i < members.size(); ++i)
-        members[i] = primary.surface[i] == Surface::Receiver && primary.id[i] == receiver.id &&
-                     std::ranges::binary_search(receiver.triangles, primary.triangle[i]);
+    std::uint32_t last = receiver.triangles.front(); // neighbours mostly see the same triangle
+    bool lastBelongs = true;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        if (primary.surface[i] != Surface::Receiver || primary.id[i] != receiver.id) continue;
+        if (primary.triangle[i] != last) {
+            last = primary.triangle[i];
+            lastBelongs = std::ranges::binary_search(receiver.triangles, last);
+        }
+        members[i] = lastBelongs;
+    }
     return members;
 }
 
@@ -61,7 +68,7 @@ void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 siz
             out.edgeDistance(x, y) = onEdge ? 0.0F : std::numeric_limits<float>::infinity();
         }
     });
-    lowerToEdgeDistance(edges, winding.numbers(), winding.uncertain(), members, out.edgeDistance);
+    lowerToEdgeDistance(edges, winding, members, occluders.threads(), out.edgeDistance);
 }
 
 } // namespace shadowbench::groundtruth
