@@ -155,6 +155,7 @@ private:
 
     template <typename Visit>
     void forEachCell(const PixelEdge& e, const Visit& visit) const {
+        if (e.covers == 0) return;
         const glm::dvec2 offset(scanMargin - 0.5);
         glm::dvec2 a = e.from + offset, b = e.to + offset;
         if (a.y > b.y) std::swap(a, b);

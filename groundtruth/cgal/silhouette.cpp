@@ -128,9 +128,17 @@ private:
             const glm::uvec3 t = turned(i);
             addContact(t, heights_, EdgePointKind::PlaneContact);
             addContact(t, levels_, EdgePointKind::LightContact);
-            if (heights_[t.x] <= 0 || heights_[t.y] <= 0 || heights_[t.z] <= 0)
-                chains_.grounded.push_back(static_cast<std::uint32_t>(i));
+            if (heights_[t.x] > 0 && heights_[t.y] > 0 && heights_[t.z] > 0) continue;
+            chains_.grounded.push_back(static_cast<std::uint32_t>(i));
+            for (int k = 0; k < 3; ++k) markResting(t[k], t[(k + 1) % 3]);
         }
+    }
+
+    /// Where triangles rest on the plane without passing through it, their edges may cancel; centres there are to be noticed
+    /// all the same.
+    void markResting(std::uint32_t a, std::uint32_t b) {
+        if (heights_[a] != 0) return;
+        chains_.edges.push_back({vertex(a), vertex(heights_[b] == 0 ? b : a), 0, false});
     }
 
     /// The line in which a triangle that passes through the receiver's plane or the light's level meets it closes the part

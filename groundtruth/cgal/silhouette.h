@@ -16,7 +16,8 @@ struct ChainPoint {
 };
 
 /// A directed edge: to its left, seen from the light, `covers` more triangles lie than to its right. Edges at the light's
-/// level have their shadow at infinity.
+/// level have their shadow at infinity. Where a mesh rests on the receiver's plane there are edges (and points: both ends
+/// the same) that cover 0: points of the plane on them lie on the triangles there, which do not cover them.
 struct ChainEdge {
     ChainPoint from, to;
     int covers;
