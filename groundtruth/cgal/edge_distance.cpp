@@ -2,6 +2,7 @@
 // number on both sides of a piece is that of a corner plus the edges crossed on the way.
 #include "groundtruth/cgal/edge_distance.h"
 
+#include "groundtruth/cgal/parallel.h"
 #include "groundtruth/cgal/pixel_edges.h"
 
 #include <algorithm>
@@ -19,11 +20,12 @@ constexpr double sideStep = 1e-7; // pixels from a piece at which its two sides 
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-double distanceToSegment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+double squaredDistance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 d = b - a;
     const double length2 = glm::dot(d, d);
     const double share = length2 > 0 ? std::clamp(glm::dot(p - a, d) / length2, 0.0, 1.0) : 0.0;
-    return glm::length(a + share * d - p);
+    const glm::dvec2 offset = a + share * d - p;
+    return glm::dot(offset, offset);
 }
 
 /// Share of `e` at which it crosses `other`, if it does.
@@ -87,19 +89,33 @@ std::vector<const PixelEdge*> edgesIn(const Square& square, std::span<const Pixe
     return result;
 }
 
-class EdgeDistance {
+/// A piece of an edge that bounds the union of shadows, by shares of the edge.
+struct Piece {
+    std::uint32_t edge;
+    double first, last;
+};
+
+struct Segment {
+    glm::dvec2 from, to;
+};
+
+/// Finds the pieces cell by cell.
+class VisibleBoundary {
 public:
-    EdgeDistance(const std::vector<PixelEdge>& edges, const Image<int>& winding, const Image<std::uint8_t>& members,
-                 Image<float>& distance)
-        : edges_(edges), winding_(winding), members_(members), distance_(distance),
-          cells_(winding.width() - 1, winding.height() - 1) {
-        for (std::uint32_t i = 0; i < edges_.size(); ++i) enter(i);
+    VisibleBoundary(const std::vector<PixelEdge>& edges, const PlaneWinding& winding, const Image<std::uint8_t>& members)
+        : edges_(edges), winding_(winding), members_(members), width_(winding.width() - 1), height_(winding.height() - 1),
+          first_(static_cast<std::size_t>(width_) * height_ + 1, 0) {
+        listEdges();
     }
 
-    void run() {
-        for (int y = 0; y < cells_.height(); ++y)
-            for (int x = 0; x < cells_.width(); ++x)
-                if (!cells_(x, y).empty()) visitCell(x, y);
+    [[nodiscard]] int rows() const { return height_; }
+
+    /// The pieces in one row of cells.
+    [[nodiscard]] std::vector<Piece> piecesIn(int row) const {
+        std::vector<Piece> pieces;
+        for (int x = 0; x < width_; ++x)
+            if (!edgesOf(x, row).empty()) visitCell(x, row, pieces);
+        return pieces;
     }
 
 private:
@@ -114,37 +130,73 @@ private:
         return false;
     }
 
-    /// Lists the edge in the cells it may pass through, row by row.
-    void enter(std::uint32_t index) {
-        const PixelEdge& e = edges_[index];
+    [[nodiscard]] std::uint32_t indexOf(const PixelEdge& edge) const {
+        return static_cast<std::uint32_t>(&edge - edges_.data());
+    }
+
+    [[nodiscard]] std::size_t cell(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
+
+    [[nodiscard]] std::span<const std::uint32_t> edgesOf(int x, int y) const {
+        return {listed_.data() + first_[cell(x, y)], listed_.data() + first_[cell(x, y) + 1]};
+    }
+
+    /// Lists every edge in the seen cells it may pass through, by a counting sort.
+    void listEdges() {
+        std::vector<std::uint32_t> next(first_.size() - 1, 0);
+        for (const PixelEdge& edge : edges_) forEachCell(edge, [&](std::size_t c) { ++next[c]; });
+        for (std::size_t c = 0; c < next.size(); ++c) {
+            first_[c + 1] = first_[c] + next[c];
+            next[c] = first_[c];
+        }
+        listed_.resize(first_.back());
+        for (std::uint32_t i = 0; i < edges_.size(); ++i)
+            forEachCell(edges_[i], [&](std::size_t c) { listed_[next[c]++] = i; });
+    }
+
+    template <typename Visit>
+    void forEachCell(const PixelEdge& e, const Visit& visit) const {
+        if (e.covers == 0) return;
         const glm::dvec2 offset(scanMargin - 0.5);
         glm::dvec2 a = e.from + offset, b = e.to + offset;
         if (a.y > b.y) std::swap(a, b);
         const int top = std::max(0, static_cast<int>(std::floor(a.y)));
-        const int bottom = std::min(cells_.height() - 1, static_cast<int>(std::floor(b.y)));
+        const int bottom = std::min(height_ - 1, static_cast<int>(std::floor(b.y)));
         for (int y = top; y <= bottom; ++y) {
             const double first = b.y > a.y ? std::clamp((y - a.y) / (b.y - a.y), 0.0, 1.0) : 0;
             const double last = b.y > a.y ? std::clamp((y + 1 - a.y) / (b.y - a.y), 0.0, 1.0) : 1;
             const double x0 = a.x + first * (b.x - a.x), x1 = a.x + last * (b.x - a.x);
             const int left = std::max(0, static_cast<int>(std::floor(std::min(x0, x1) - 1e-9)));
-            const int right = std::min(cells_.width() - 1, static_cast<int>(std::floor(std::max(x0, x1) + 1e-9)));
+            const int right = std::min(width_ - 1, static_cast<int>(std::floor(std::max(x0, x1) + 1e-9)));
             for (int x = left; x <= right; ++x)
-                if (seen(x, y)) cells_(x, y).push_back(index);
+                if (seen(x, y)) visit(cell(x, y));
         }
     }
 
-    void visitCell(int x, int y) {
-        std::optional<Anchor> corner;
-        for (int i = 0; i < 4 && !corner; ++i)
-            if (const int w = winding_(x + i % 2, y + i / 2); w >= 0) corner = {centre(x + i % 2, y + i / 2), w};
+    void visitCell(int x, int y, std::vector<Piece>& pieces) const {
+        const std::optional<Anchor> corner = anchorOf(x, y);
         if (!corner) return;
         std::vector<const PixelEdge*> here;
-        for (const std::uint32_t index : cells_(x, y)) here.push_back(&edges_[index]);
-        visitSquare({centre(x, y), 1}, *corner, here);
+        for (const std::uint32_t index : edgesOf(x, y)) here.push_back(&edges_[index]);
+        visitSquare({centre(x, y), 1}, *corner, here, pieces);
+    }
+
+    /// A corner of the cell, if possible one that no edge passes through.
+    [[nodiscard]] std::optional<Anchor> anchorOf(int x, int y) const {
+        std::optional<Anchor> anchor;
+        for (int i = 0; i < 4; ++i) {
+            const int column = x + i % 2, row = y + i / 2;
+            const int number = winding_.number(column, row);
+            if (number == PlaneWinding::unknown) continue;
+            const bool certain = winding_.isCertain(column, row);
+            if (certain || !anchor) anchor = Anchor{centre(column, row), number};
+            if (certain) break;
+        }
+        return anchor;
     }
 
     /// `anchor` lies in the square or on its border.
-    void visitSquare(const Square& square, const Anchor& anchor, std::span<const PixelEdge* const> here) {
+    void visitSquare(const Square& square, const Anchor& anchor, std::span<const PixelEdge* const> here,
+                     std::vector<Piece>& pieces) const {
         int most = 0;
         for (const PixelEdge* edge : here) most += std::abs(edge->covers);
         if (anchor.winding > most) return; // shadowed throughout
@@ -152,7 +204,7 @@ private:
         constexpr std::size_t fewEdges = 16;
         constexpr double smallest = 1.0 / 128;
         if (here.size() <= fewEdges || square.side <= smallest) {
-            for (const PixelEdge* edge : here) visitEdge(*edge, square, anchor, here);
+            for (const PixelEdge* edge : here) visitEdge(*edge, square, anchor, here, pieces);
             return;
         }
         const double half = 0.5 * square.side;
@@ -160,11 +212,12 @@ private:
             const Square quarter{square.low + half * glm::dvec2(i % 2, i / 2), half};
             const glm::dvec2 inside = quarter.low + half * glm::dvec2(0.381, 0.618); // unlikely to lie on an edge
             const Anchor next{inside, anchor.winding + windingChange(anchor.point, inside, here)};
-            visitSquare(quarter, next, edgesIn(quarter, here));
+            visitSquare(quarter, next, edgesIn(quarter, here), pieces);
         }
     }
 
-    void visitEdge(const PixelEdge& e, const Square& square, const Anchor& anchor, std::span<const PixelEdge* const> here) {
+    void visitEdge(const PixelEdge& e, const Square& square, const Anchor& anchor, std::span<const PixelEdge* const> here,
+                   std::vector<Piece>& pieces) const {
         const auto [first, last] = sharesIn(e, square);
         if (first >= last) return;
         std::vector<double> cuts{first, last};
@@ -178,34 +231,82 @@ private:
             const glm::dvec2 middle = e.from + 0.5 * (cuts[i - 1] + cuts[i]) * d;
             const bool left = anchor.winding + windingChange(anchor.point, middle + aside, here) > 0;
             const bool right = anchor.winding + windingChange(anchor.point, middle - aside, here) > 0;
-            if (left != right) spread(e.from + cuts[i - 1] * d, e.from + cuts[i] * d);
-        }
-    }
-
-    void spread(const glm::dvec2& a, const glm::dvec2& b) {
-        const glm::ivec2 low(glm::floor(glm::min(a, b) - 0.5 - edgeReach)),
-            high(glm::ceil(glm::max(a, b) - 0.5 + edgeReach));
-        for (int y = std::max(0, low.y); y <= std::min(members_.height() - 1, high.y); ++y) {
-            for (int x = std::max(0, low.x); x <= std::min(members_.width() - 1, high.x); ++x) {
-                if (!members_(x, y)) continue;
-                const double d = distanceToSegment({x + 0.5, y + 0.5}, a, b);
-                if (d <= edgeReach) distance_(x, y) = std::min(distance_(x, y), static_cast<float>(d));
-            }
+            if (left != right) pieces.push_back({indexOf(e), cuts[i - 1], cuts[i]});
         }
     }
 
     const std::vector<PixelEdge>& edges_;
-    const Image<int>& winding_;
+    const PlaneWinding& winding_;
     const Image<std::uint8_t>& members_;
-    Image<float>& distance_;
-    Image<std::vector<std::uint32_t>> cells_;
+    int width_, height_;               // in cells
+    std::vector<std::uint32_t> first_; // of the edges listed for a cell
+    std::vector<std::uint32_t> listed_;
 };
+
+/// Joins what the cells have cut: fewer and longer segments are quicker to measure from.
+std::vector<Segment> joined(std::vector<Piece>& pieces, const std::vector<PixelEdge>& edges) {
+    std::ranges::sort(pieces, {}, [](const Piece& p) { return std::pair(p.edge, p.first); });
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i < pieces.size();) {
+        const PixelEdge& edge = edges[pieces[i].edge];
+        const glm::dvec2 d = edge.to - edge.from;
+        const double gap = 1e-9 / glm::length(d); // pixels; rounding leaves less
+        const std::size_t begin = i++;
+        double last = pieces[begin].last;
+        for (; i < pieces.size() && pieces[i].edge == pieces[begin].edge && pieces[i].first <= last + gap; ++i)
+            last = std::max(last, pieces[i].last);
+        segments.push_back({edge.from + pieces[begin].first * d, edge.from + last * d});
+    }
+    return segments;
+}
+
+/// Lowers the distances of one row of pixels to that to a segment.
+void lowerRow(int y, const Segment& segment, const Image<std::uint8_t>& members, Image<float>& distance) {
+    const double low = std::min(segment.from.x, segment.to.x), high = std::max(segment.from.x, segment.to.x);
+    const int first = std::max(0, static_cast<int>(std::floor(low - 0.5 - edgeReach)));
+    const int last = std::min(members.width() - 1, static_cast<int>(std::ceil(high - 0.5 + edgeReach)));
+    constexpr double rounding = 1 + 1e-12;
+    for (int x = first; x <= last; ++x) {
+        if (!members(x, y)) continue;
+        const double known = std::min(static_cast<double>(distance(x, y)), edgeReach);
+        const double squared = squaredDistance({x + 0.5, y + 0.5}, segment.from, segment.to);
+        if (squared > known * known * rounding) continue;
+        const double d = std::sqrt(squared);
+        if (d <= edgeReach) distance(x, y) = std::min(distance(x, y), static_cast<float>(d));
+    }
+}
+
+/// May the segment lie within reach of the centres of rows `first` to `last`?
+bool near(const Segment& segment, int first, int last) {
+    return last + 0.5 >= std::min(segment.from.y, segment.to.y) - edgeReach &&
+           first + 0.5 <= std::max(segment.from.y, segment.to.y) + edgeReach;
+}
+
+void lowerBand(int first, int last, const std::vector<Segment>& segments, const Image<std::uint8_t>& members,
+               Image<float>& distance) {
+    for (const Segment& segment : segments) {
+        if (!near(segment, first, last)) continue;
+        for (int y = first; y <= last; ++y)
+            if (near(segment, y, y)) lowerRow(y, segment, members, distance);
+    }
+}
 
 } // namespace
 
-void lowerToEdgeDistance(const std::vector<PixelEdge>& edges, const Image<int>& winding, const Image<std::uint8_t>& members,
-                         Image<float>& distance) {
-    EdgeDistance(edges, winding, members, distance).run();
+void lowerToEdgeDistance(const std::vector<PixelEdge>& edges, const PlaneWinding& winding,
+                         const Image<std::uint8_t>& members, int threads, Image<float>& distance) {
+    const VisibleBoundary boundary(edges, winding, members);
+    std::vector<std::vector<Piece>> rows(boundary.rows());
+    forEachInParallel(boundary.rows(), threads, {}, {}, [&](int row) { rows[row] = boundary.piecesIn(row); });
+    std::vector<Piece> pieces;
+    for (const std::vector<Piece>& row : rows) pieces.insert(pieces.end(), row.begin(), row.end());
+    const std::vector<Segment> segments = joined(pieces, edges);
+
+    constexpr int band = 16;
+    const int height = members.height();
+    forEachInParallel((height + band - 1) / band, threads, {}, {}, [&](int i) {
+        lowerBand(i * band, std::min((i + 1) * band, height) - 1, segments, members, distance);
+    });
 }
 
 } // namespace shadowbench::groundtruth

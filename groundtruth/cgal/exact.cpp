@@ -29,10 +29,9 @@ void prepare(const PrimaryHits& primary, Reference& out) {
     out.edgeDistance = Image<float>(width, height, std::numeric_limits<float>::infinity());
 }
 
-glm::dvec4 hardLight(const Light& light) {
+void requireHardLight(const Light& light) {
     if (light.isArea())
         throw InternalError("Hard shadow labels were asked for an area light; use Light::centreOnly for its centre.");
-    return light.homogeneous();
 }
 
 void requireSize(const PrimaryHits& primary, glm::ivec2 size) {
@@ -43,14 +42,18 @@ void requireSize(const PrimaryHits& primary, glm::ivec2 size) {
 } // namespace
 
 struct ExactScene::Data {
+    Data(const Snapshot& snapshot, int threadCount)
+        : camera(snapshot.camera), light(snapshot.light), triangles(snapshot),
+          occluders(triangles, snapshot.light.centreOnly().homogeneous(), threadCount), threads(threadCount) {}
+
     Camera camera;
     Light light;
     SceneTriangles triangles;
+    Occluders occluders;
     int threads;
 };
 
-ExactScene::ExactScene(const Snapshot& snapshot, int threads)
-    : data_(new Data{snapshot.camera, snapshot.light, SceneTriangles(snapshot), threads}) {}
+ExactScene::ExactScene(const Snapshot& snapshot, int threads) : data_(std::make_unique<Data>(snapshot, threads)) {}
 
 ExactScene::~ExactScene() = default;
 
@@ -60,9 +63,9 @@ PrimaryHits ExactScene::primaryHits(glm::ivec2 size, const Progress& progress) c
 
 void ExactScene::labelByRays(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress) const {
     requireSize(primary, size);
-    const glm::dvec4 light = hardLight(data_->light);
+    requireHardLight(data_->light);
     prepare(primary, out);
-    traceShadows(data_->triangles, data_->camera, light, size, primary, data_->threads, out, progress);
+    traceShadows(data_->triangles, data_->camera, data_->light.homogeneous(), size, primary, data_->threads, out, progress);
     edgeDistanceFromLabels(out);
 }
 
@@ -73,11 +76,11 @@ std::vector<PlanarReceiver> ExactScene::planarReceivers(const PrimaryHits& prima
 void ExactScene::labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
                                 const Progress& progress) const {
     requireSize(primary, size);
-    const glm::dvec4 light = hardLight(data_->light);
+    requireHardLight(data_->light);
     if (receiver.triangles.empty())
         throw InternalError("Polygon labels were asked for a planar receiver without triangles.");
     prepare(primary, out);
-    labelPlane(data_->triangles, data_->camera, light, size, primary, receiver, data_->threads, out, progress);
+    labelPlane(data_->occluders, data_->camera, size, primary, receiver, out, progress);
 }
 
 PrimaryHits primaryHits(const Snapshot& snapshot, glm::ivec2 size, const Progress& progress) {

@@ -3,7 +3,9 @@
 
 #include "harness/scene/progress.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -35,6 +37,16 @@ void forEachInParallel(int count, int threads, const Progress& progress, std::st
     loop(true);
     for (std::thread& other : others) other.join();
     if (failure) std::rethrow_exception(failure);
+}
+
+/// Runs `work(begin, end)` over consecutive parts of 0 … count − 1.
+template <typename Work>
+void forEachPart(std::size_t count, int threads, const Work& work) {
+    constexpr std::size_t least = 1U << 13U; // items that are worth a thread
+    const std::size_t parts = std::clamp<std::size_t>(count / least, 1, 8 * static_cast<std::size_t>(threads));
+    if (threads == 1 || parts == 1) return work(std::size_t{0}, count);
+    forEachInParallel(static_cast<int>(parts), threads, {}, {},
+                      [&](int i) { work(count * i / parts, count * (i + 1) / parts); });
 }
 
 } // namespace shadowbench::groundtruth

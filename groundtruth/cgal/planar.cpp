@@ -13,19 +13,25 @@ struct SeenTriangle {
     std::size_t pixels;
 };
 
+bool same(const SeenTriangle& a, const SeenTriangle& b) { return a.id == b.id && a.triangle == b.triangle; }
+
 std::vector<SeenTriangle> seenTriangles(const PrimaryHits& primary) {
-    std::vector<std::uint64_t> names;
-    for (std::size_t i = 0; i < primary.id.size(); ++i)
-        if (primary.surface[i] == Surface::Receiver)
-            names.push_back((static_cast<std::uint64_t>(primary.id[i]) << 32U) | primary.triangle[i]);
-    std::ranges::sort(names);
-    std::vector<SeenTriangle> seen;
-    for (const std::uint64_t name : names) {
-        const SeenTriangle next{static_cast<std::uint32_t>(name >> 32U), static_cast<std::uint32_t>(name), 1};
-        if (!seen.empty() && seen.back().id == next.id && seen.back().triangle == next.triangle)
-            ++seen.back().pixels;
+    std::vector<SeenTriangle> runs; // of neighbouring pixels that see the same triangle
+    for (std::size_t i = 0; i < primary.id.size(); ++i) {
+        if (primary.surface[i] != Surface::Receiver) continue;
+        const SeenTriangle next{primary.id[i], primary.triangle[i], 1};
+        if (!runs.empty() && same(runs.back(), next))
+            ++runs.back().pixels;
         else
-            seen.push_back(next);
+            runs.push_back(next);
+    }
+    std::ranges::sort(runs, {}, [](const SeenTriangle& s) { return std::pair(s.id, s.triangle); });
+    std::vector<SeenTriangle> seen;
+    for (const SeenTriangle& run : runs) {
+        if (!seen.empty() && same(seen.back(), run))
+            seen.back().pixels += run.pixels;
+        else
+            seen.push_back(run);
     }
     return seen;
 }

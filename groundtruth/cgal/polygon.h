@@ -2,13 +2,12 @@
 #pragma once
 
 #include "groundtruth/cgal/exact.h"
-#include "groundtruth/cgal/triangles.h"
+#include "groundtruth/cgal/occluders.h"
 
 namespace shadowbench::groundtruth {
 
-/// Fills visibility, surface and edgeDistance of the pixels that see `receiver`. `light` is homogeneous.
-void labelPlane(const SceneTriangles& scene, const Camera& camera, const glm::dvec4& light, glm::ivec2 size,
-                const PrimaryHits& primary, const PlanarReceiver& receiver, int threads, Reference& out,
-                const Progress& progress);
+/// Fills visibility, surface and edgeDistance of the pixels that see `receiver`.
+void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 size, const PrimaryHits& primary,
+                const PlanarReceiver& receiver, Reference& out, const Progress& progress);
 
 } // namespace shadowbench::groundtruth

@@ -1,74 +1,15 @@
 #include "groundtruth/cgal/predicates.h"
 
-#include <CGAL/Exact_kernel_selector.h>
-#include <CGAL/Interval_nt.h>
+#include "groundtruth/cgal/arithmetic.h"
 
 #include <algorithm>
-#include <type_traits>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <vector>
 
 namespace shadowbench::groundtruth {
 namespace {
-
-using Interval = CGAL::Interval_nt<false>;                      // rounding set by Interval::Protector
-using Ring = CGAL::internal::Exact_ring_selector<double>::Type; // no division is needed anywhere
-
-template <typename Number>
-struct Vector {
-    Number x, y, z;
-};
-
-template <typename Number>
-Vector<Number> vector(const glm::dvec3& v) {
-    return {Number(v.x), Number(v.y), Number(v.z)};
-}
-
-template <typename Number>
-Vector<Number> operator-(const Vector<Number>& a, const Vector<Number>& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-template <typename Number>
-Vector<Number> operator*(const Number& s, const Vector<Number>& v) {
-    return {s * v.x, s * v.y, s * v.z};
-}
-
-template <typename Number>
-Vector<Number> operator+(const Vector<Number>& a, const Vector<Number>& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-template <typename Number>
-Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-template <typename Number>
-Number dot(const Vector<Number>& a, const Vector<Number>& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-/// (b − a) × (c − a).
-template <typename Number>
-Vector<Number> normal(const Triangle& t) {
-    const Vector<Number> a = vector<Number>(t[0]);
-    return cross(vector<Number>(t[1]) - a, vector<Number>(t[2]) - a);
-}
-
-CGAL::Uncertain<CGAL::Sign> signOf(const Interval& value) { return CGAL_NTS sign(value); }
-
-int signOf(const Ring& value) { return static_cast<int>(CGAL_NTS sign(value)); }
-
-/// The sign of `polynomial`, a function of the number type (as std::type_identity) to compute in.
-template <typename Polynomial>
-int filteredSign(const Polynomial& polynomial) {
-    {
-        const Interval::Protector rounding;
-        const CGAL::Uncertain<CGAL::Sign> sign = signOf(polynomial(std::type_identity<Interval>()));
-        if (CGAL::is_certain(sign)) return static_cast<int>(CGAL::get_certain(sign));
-    }
-    return signOf(polynomial(std::type_identity<Ring>()));
-}
 
 /// Numerator and denominator of the parameter at which a ray meets a triangle's plane.
 template <typename Number>
@@ -93,6 +34,19 @@ DepthBounds depthBounds(const Ray& ray, const Triangle& triangle) {
     return {t.inf(), t.sup()};
 }
 
+/// Side of the plane in rounded arithmetic; 0 where rounding could have changed it. Bound: Shewchuk, "Adaptive Precision
+/// Floating-Point Arithmetic and Fast Robust Geometric Predicates" (1997), orient3d, stage A; (7 + 56 ε) ε rounded up.
+int roundedSide(const Triangle& t, const glm::dvec4& point) {
+    const glm::dvec3 u = t[1] - t[0], v = t[2] - t[0];
+    const glm::dvec3 p = point.w == 0 ? glm::dvec3(point) : glm::dvec3(point) - t[0];
+    const glm::dvec3 plus(u.y * v.z, u.z * v.x, u.x * v.y), minus(u.z * v.y, u.x * v.z, u.y * v.x);
+    const double determinant = glm::dot(plus - minus, p);
+    const double bound = 8 * 0x1p-53 * glm::dot(glm::abs(plus) + glm::abs(minus), glm::abs(p));
+    constexpr double underflow = 1e-200; // far above what lost subnormal products can add up to
+    if (!(bound > underflow && std::abs(determinant) > bound)) return 0;
+    return determinant > 0 ? 1 : -1;
+}
+
 /// Side on which the ray passes the directed edge from a to b.
 int passes(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b) {
     return filteredSign([&](auto tag) {
@@ -111,36 +65,12 @@ bool meets(const Ray& ray, const Triangle& t) {
     return s0 != 0 || s1 != 0 || s2 != 0; // all zero: the triangle is seen edge-on
 }
 
-} // namespace
-
-/// The point (x, y, z) / w, w > 0.
-struct ReceiverPoint::Exact {
-    Vector<Ring> xyz;
-    Ring w;
-};
-
-namespace {
-
-/// A receiver point in homogeneous coordinates of either number type.
-template <typename Number>
-struct Homogeneous {
-    Vector<Number> xyz;
-    Number w;
-};
-
-Homogeneous<Interval> homogeneous(const ReceiverPoint& p, std::type_identity<Interval>) {
-    return {{Interval(p.low().x, p.high().x), Interval(p.low().y, p.high().y), Interval(p.low().z, p.high().z)},
-            Interval(1)};
-}
-
-Homogeneous<Ring> homogeneous(const ReceiverPoint& p, std::type_identity<Ring>) { return {p.exact().xyz, p.exact().w}; }
-
 /// Seen from the point along the segment to the light: 1 if y lies to the left of x, as the orientation of (point, light, x,
 /// y).
 int turn(const ReceiverPoint& point, const glm::dvec4& light, const glm::dvec3& x, const glm::dvec3& y) {
     return filteredSign([&](auto tag) {
         using Number = typename decltype(tag)::type;
-        const auto p = homogeneous(point, tag);
+        const auto& p = homogeneous(point, tag);
         const Vector<Number> l = vector<Number>(glm::dvec3(light));
         const Vector<Number> axis = light.w == 0 ? l : p.w * l - p.xyz;
         return dot(axis, cross(p.w * vector<Number>(x) - p.xyz, p.w * vector<Number>(y) - p.xyz));
@@ -190,6 +120,7 @@ int compareDepth(const Ray& ray, const Triangle& triangle, double t) {
 }
 
 int side(const Triangle& triangle, const glm::dvec4& point) {
+    if (const int sign = roundedSide(triangle, point)) return sign;
     return filteredSign([&](auto tag) {
         using Number = typename decltype(tag)::type;
         const Vector<Number> p = vector<Number>(glm::dvec3(point));
@@ -218,12 +149,12 @@ const ReceiverPoint::Exact& ReceiverPoint::exact() const {
         denominator = -denominator;
     }
     exact_ = std::make_unique<Exact>(
-        Exact{denominator * vector<Ring>(ray_.origin) + numerator * vector<Ring>(ray_.direction), denominator});
+        Exact{{denominator * vector<Ring>(ray_.origin) + numerator * vector<Ring>(ray_.direction), denominator}});
     return *exact_;
 }
 
 ReceiverPoint::Remainder ReceiverPoint::remainder() const {
-    const Exact& p = exact();
+    const Homogeneous<Ring>& p = exact().point;
     const Vector<Ring> rest = p.xyz - p.w * vector<Ring>(rounded());
     const std::array<std::pair<double, double>, 4> bounds{CGAL_NTS to_interval(rest.x), CGAL_NTS to_interval(rest.y),
                                                           CGAL_NTS to_interval(rest.z), CGAL_NTS to_interval(p.w)};
@@ -241,7 +172,7 @@ ReceiverPoint::Remainder ReceiverPoint::remainder() const {
 int side(const Triangle& triangle, const ReceiverPoint& point) {
     return filteredSign([&](auto tag) {
         using Number = typename decltype(tag)::type;
-        const auto p = homogeneous(point, tag);
+        const auto& p = homogeneous(point, tag);
         return dot(normal<Number>(triangle), p.xyz - p.w * vector<Number>(triangle[0]));
     });
 }

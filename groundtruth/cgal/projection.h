@@ -26,6 +26,9 @@ public:
     ShadowProjection(const ShadowProjection&) = delete;
     ShadowProjection& operator=(const ShadowProjection&) = delete;
 
+    /// The receiver's triangle, turned to face the light.
+    [[nodiscard]] const Triangle& receiver() const { return receiver_; }
+
     /// Exact sign of the height above the receiver's plane, positive on the light's side.
     [[nodiscard]] int height(const glm::dvec3& vertex) const;
 

@@ -38,7 +38,81 @@ double pixelUncertainty(const ShadowEdge& edge, const glm::dvec3& p) {
     return 2 * (x + y);
 }
 
-std::optional<PixelEdge> clipped(const ShadowEdge& edge, glm::ivec2 size, double pixelError) {
+/// First and last line of centres across `axis` that the edge may meet.
+std::pair<int, int> linesNear(const PixelEdge& edge, int axis, glm::ivec2 size) {
+    const double low = std::min(edge.from[axis], edge.to[axis]) - edge.error,
+                 high = std::max(edge.from[axis], edge.to[axis]) + edge.error;
+    return {std::max(0, static_cast<int>(std::ceil(low - 0.5)) + scanMargin),
+            std::min(size[axis] - 1 + scanMargin, static_cast<int>(std::floor(high - 0.5))) + scanMargin};
+}
+
+class Scanline {
+public:
+    explicit Scanline(glm::ivec2 size)
+        : imageSize_(size),
+          size_(size + 2 * scanMargin), winding_{Image<int>(size_.x, size_.y), Image<int>(size_.x, size_.y),
+                                                 Image<std::uint8_t>(size_.x, size_.y)} {}
+
+    void add(const PixelEdge& edge) {
+        const auto [top, bottom] = linesNear(edge, 1, imageSize_);
+        for (int row = top; row <= bottom; ++row) {
+            if (const auto x = crossing(edge, 1, row))
+                winding_.change(*x, row) += runsOn(edge, 1) ? edge.covers : -edge.covers;
+            markUncertain(edge, row);
+        }
+        // Turned by a quarter, an edge that ran down runs left.
+        const auto [left, right] = linesNear(edge, 0, imageSize_);
+        for (int column = left; column <= right; ++column)
+            if (const auto y = crossing(edge, 0, column))
+                winding_.changeDown(column, *y) += runsOn(edge, 0) ? -edge.covers : edge.covers;
+    }
+
+    Winding take() { return std::move(winding_); }
+
+private:
+    static double centre(int index) { return index - scanMargin + 0.5; }
+
+    /// First pixel along `axis` whose centre is not before the coordinate.
+    [[nodiscard]] int firstFrom(double coordinate, int axis) const {
+        return std::clamp(static_cast<int>(std::ceil(coordinate - 0.5)) + scanMargin, 0, size_[axis]);
+    }
+
+    /// The other coordinate of the edge's point at `coordinate` along `axis`.
+    static double otherAt(const PixelEdge& edge, int axis, double coordinate) {
+        const double share = std::clamp((coordinate - edge.from[axis]) / (edge.to[axis] - edge.from[axis]), 0.0, 1.0);
+        return edge.from[1 - axis] + share * (edge.to[1 - axis] - edge.from[1 - axis]);
+    }
+
+    static bool runsOn(const PixelEdge& edge, int axis) { return edge.from[axis] < edge.to[axis]; }
+
+    /// Where on a line of centres across `axis` the winding number changes because of the edge.
+    [[nodiscard]] std::optional<int> crossing(const PixelEdge& edge, int axis, int line) const {
+        const double at = centre(line);
+        if ((edge.from[axis] <= at) == (edge.to[axis] <= at)) return std::nullopt;
+        const int index = firstFrom(otherAt(edge, axis, at), 1 - axis);
+        return index < size_[1 - axis] ? std::optional(index) : std::nullopt;
+    }
+
+    /// Marks the centres of the row that lie within `error` of the edge.
+    void markUncertain(const PixelEdge& edge, int row) {
+        const double y = centre(row);
+        double a = edge.from.x, b = edge.to.x;
+        if (std::abs(edge.from.y - edge.to.y) > 2 * edge.error) {
+            a = otherAt(edge, 1, y - edge.error);
+            b = otherAt(edge, 1, y + edge.error);
+        }
+        const int last = firstFrom(std::max(a, b) + 2 * edge.error, 0);
+        for (int x = firstFrom(std::min(a, b) - 2 * edge.error, 0); x < last; ++x) winding_.uncertain(x, row) = 1;
+    }
+
+    glm::ivec2 imageSize_;
+    glm::ivec2 size_; // with the margin
+    Winding winding_;
+};
+
+} // namespace
+
+std::optional<PixelEdge> toPixels(const ShadowEdge& edge, glm::ivec2 size, double pixelError, std::uint32_t source) {
     const double low = -(scanMargin + 1);
     const glm::dvec2 high(size.x + scanMargin + 1, size.y + scanMargin + 1);
     const glm::dvec3 &a = edge.from.position, &b = edge.to.position;
@@ -53,72 +127,11 @@ std::optional<PixelEdge> clipped(const ShadowEdge& edge, glm::ivec2 size, double
     const double rounding = 64 * 0x1p-53 * (high.x + high.y);
     const double error = std::max(pixelUncertainty(edge, from), pixelUncertainty(edge, to)) + pixelError + rounding;
     const double everything = high.x + high.y; // also stands for an unbounded error
-    return PixelEdge{glm::dvec2(from) / from.z, glm::dvec2(to) / to.z, edge.covers, error < everything ? error : everything};
+    return PixelEdge{glm::dvec2(from) / from.z, glm::dvec2(to) / to.z, edge.covers, error < everything ? error : everything,
+                     source};
 }
 
-class Scanline {
-public:
-    explicit Scanline(glm::ivec2 size)
-        : size_(size + 2 * scanMargin), winding_{Image<int>(size_.x, size_.y), Image<std::uint8_t>(size_.x, size_.y)} {}
-
-    void add(const PixelEdge& edge) {
-        const double top = std::min(edge.from.y, edge.to.y) - edge.error,
-                     bottom = std::max(edge.from.y, edge.to.y) + edge.error;
-        const int first = std::max(0, static_cast<int>(std::ceil(top - 0.5)) + scanMargin);
-        const int last = std::min(size_.y - 1, static_cast<int>(std::floor(bottom - 0.5)) + scanMargin);
-        for (int row = first; row <= last; ++row) {
-            cross(edge, row);
-            markUncertain(edge, row);
-        }
-    }
-
-    Winding take() { return std::move(winding_); }
-
-private:
-    static double centre(int index) { return index - scanMargin + 0.5; }
-
-    /// First pixel whose centre is not left of x.
-    [[nodiscard]] int firstFrom(double x) const {
-        return std::clamp(static_cast<int>(std::ceil(x - 0.5)) + scanMargin, 0, size_.x);
-    }
-
-    static double xAt(const PixelEdge& edge, double y) {
-        const double share = std::clamp((y - edge.from.y) / (edge.to.y - edge.from.y), 0.0, 1.0);
-        return edge.from.x + share * (edge.to.x - edge.from.x);
-    }
-
-    void cross(const PixelEdge& edge, int row) {
-        const double y = centre(row);
-        const bool fromAbove = edge.from.y <= y, toAbove = edge.to.y <= y;
-        if (fromAbove == toAbove) return;
-        const int x = firstFrom(xAt(edge, y));
-        if (x < size_.x) winding_.change(x, row) += fromAbove ? edge.covers : -edge.covers;
-    }
-
-    /// Marks the centres of the row that lie within `error` of the edge.
-    void markUncertain(const PixelEdge& edge, int row) {
-        const double y = centre(row);
-        double a = edge.from.x, b = edge.to.x;
-        if (std::abs(edge.from.y - edge.to.y) > 2 * edge.error) {
-            a = xAt(edge, y - edge.error);
-            b = xAt(edge, y + edge.error);
-        }
-        const int last = firstFrom(std::max(a, b) + 2 * edge.error);
-        for (int x = firstFrom(std::min(a, b) - 2 * edge.error); x < last; ++x) winding_.uncertain(x, row) = 1;
-    }
-
-    glm::ivec2 size_;
-    Winding winding_;
-};
-
-} // namespace
-
-std::vector<PixelEdge> toPixels(const std::vector<ShadowEdge>& edges, glm::ivec2 size, double pixelError) {
-    std::vector<PixelEdge> result;
-    for (const ShadowEdge& edge : edges)
-        if (const std::optional<PixelEdge> inside = clipped(edge, size, pixelError)) result.push_back(*inside);
-    return result;
-}
+std::pair<int, int> rowsNear(const PixelEdge& edge, glm::ivec2 size) { return linesNear(edge, 1, size); }
 
 Winding scan(const std::vector<PixelEdge>& edges, glm::ivec2 size) {
     Scanline scanline(size);

@@ -1,6 +1,9 @@
 #include "groundtruth/cgal/silhouette.h"
 
+#include "groundtruth/cgal/parallel.h"
+
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -13,35 +16,51 @@ struct Chain {
     int covers;
 };
 
-class SilhouetteBuilder {
+class ChainBuilder {
 public:
-    SilhouetteBuilder(const TriangleInstance& instance, const glm::dvec4& light, const ShadowProjection& projection)
-        : mesh_(*instance.mesh), light_(light), projection_(projection) {
-        vertices_.reserve(mesh_.positions.size());
-        for (const glm::vec3& position : mesh_.positions) vertices_.push_back(worldVertex(instance.world, position));
-        heights_.reserve(vertices_.size());
-        for (const glm::dvec3& vertex : vertices_) heights_.push_back(static_cast<std::int8_t>(projection.height(vertex)));
+    ChainBuilder(const TriangleInstance& instance, const glm::dvec4& light, int threads)
+        : mesh_(*instance.mesh), light_(light), threads_(threads), vertices_(mesh_.positions.size()) {
+        forEachPart(vertices_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) vertices_[i] = worldVertex(instance.world, mesh_.positions[i]);
+        });
     }
 
-    std::vector<ShadowEdge> build() {
-        if (std::ranges::none_of(heights_, [](int h) { return h > 0; })) return {};
-        turnTowardsLight();
+    /// Only what lies above the plane and below the light is to remain.
+    void clip(const Triangle& plane) {
+        const int front = side(plane, light_);
+        heights_.resize(vertices_.size());
+        levels_.resize(vertices_.size());
+        forEachPart(vertices_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                heights_[i] = static_cast<std::int8_t>(front * side(plane, glm::dvec4(vertices_[i], 1)));
+                levels_[i] = static_cast<std::int8_t>(belowLight(plane, light_, vertices_[i]));
+            }
+        });
+    }
+
+    Chains build() {
+        findFacing();
         sumChains();
-        for (const glm::uvec3& t : triangles_) addContact(t);
-        return std::move(edges_);
+        if (!heights_.empty()) addContacts();
+        return std::move(chains_);
     }
 
 private:
-    /// The triangles that can occlude, counter-clockwise seen from the light; those seen edge-on cover nothing.
-    void turnTowardsLight() {
-        triangles_.reserve(mesh_.triangles.size());
-        for (glm::uvec3 t : mesh_.triangles) {
-            if (heights_[t.x] <= 0 && heights_[t.y] <= 0 && heights_[t.z] <= 0) continue;
-            const int facing = side({vertices_[t.x], vertices_[t.y], vertices_[t.z]}, light_);
-            if (facing == 0) continue;
-            if (facing < 0) std::swap(t.y, t.z);
-            triangles_.push_back(t);
-        }
+    /// Which triangles the light sees counter-clockwise (1) or clockwise (−1); 0 for those that cannot occlude, and for
+    /// those seen edge-on, which cover nothing.
+    void findFacing() {
+        facing_.resize(mesh_.triangles.size());
+        forEachPart(facing_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const glm::uvec3& t = mesh_.triangles[i];
+                if (!reaches(heights_, t) || !reaches(levels_, t)) continue;
+                facing_[i] = static_cast<std::int8_t>(side({vertices_[t.x], vertices_[t.y], vertices_[t.z]}, light_));
+            }
+        });
+    }
+
+    static bool reaches(const std::vector<std::int8_t>& signs, const glm::uvec3& t) {
+        return signs.empty() || signs[t.x] > 0 || signs[t.y] > 0 || signs[t.z] > 0;
     }
 
     /// Adds ±1 per directed edge, bucketed by the lower vertex index, and keeps what does not cancel.
@@ -66,54 +85,135 @@ private:
 
     template <typename Visit>
     void forEachEdge(const Visit& visit) const {
-        for (const glm::uvec3& t : triangles_)
-            for (int i = 0; i < 3; ++i) {
-                const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+        for (std::size_t i = 0; i < facing_.size(); ++i) {
+            if (facing_[i] == 0) continue;
+            const glm::uvec3 t = turned(i);
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t a = t[k], b = t[(k + 1) % 3];
                 visit(std::min(a, b), std::max(a, b), a < b ? 1 : -1);
             }
+        }
     }
 
-    /// The part of an edge that is not below the plane.
+    /// Counter-clockwise seen from the light.
+    [[nodiscard]] glm::uvec3 turned(std::size_t triangle) const {
+        const glm::uvec3& t = mesh_.triangles[triangle];
+        return facing_[triangle] > 0 ? t : glm::uvec3(t.x, t.z, t.y);
+    }
+
+    /// The part of an edge that is neither below the plane nor above the light.
     void addChain(std::uint32_t low, const Chain& chain) {
-        const int a = heights_[low], b = heights_[chain.high];
-        if (a + b < 0) return;
-        const ShadowVertex from = a < 0 ? contact(low, chain.high) : projection_.project(vertices_[low]);
-        const ShadowVertex to = b < 0 ? contact(low, chain.high) : projection_.project(vertices_[chain.high]);
-        edges_.push_back({from, to, chain.covers});
+        const std::uint32_t high = chain.high;
+        if (heights_.empty()) {
+            chains_.edges.push_back({vertex(low), vertex(high), chain.covers, false});
+            return;
+        }
+        if (heights_[low] + heights_[high] < 0 || levels_[low] + levels_[high] < 0) return;
+        const bool atLightLevel = levels_[low] == 0 && levels_[high] == 0;
+        chains_.edges.push_back({end(low, high), end(high, low), chain.covers, atLightLevel});
     }
 
-    /// The line in which a triangle that passes through the plane meets it closes the part above.
-    void addContact(const glm::uvec3& t) {
-        if (heights_[t.x] >= 0 && heights_[t.y] >= 0 && heights_[t.z] >= 0) return;
-        ShadowVertex leaves{}, returns{};
+    /// The end of the edge from `here` to `there` at the side of `here`.
+    [[nodiscard]] ChainPoint end(std::uint32_t here, std::uint32_t there) const {
+        if (heights_[here] < 0) return {there, here, EdgePointKind::PlaneContact};
+        if (levels_[here] < 0) return {there, here, EdgePointKind::LightContact};
+        return vertex(here);
+    }
+
+    static ChainPoint vertex(std::uint32_t index) { return {index, index, EdgePointKind::Vertex}; }
+
+    void addContacts() {
+        for (std::size_t i = 0; i < facing_.size(); ++i) {
+            if (facing_[i] == 0) continue;
+            const glm::uvec3 t = turned(i);
+            addContact(t, heights_, EdgePointKind::PlaneContact);
+            addContact(t, levels_, EdgePointKind::LightContact);
+            if (heights_[t.x] > 0 && heights_[t.y] > 0 && heights_[t.z] > 0) continue;
+            chains_.grounded.push_back(static_cast<std::uint32_t>(i));
+            for (int k = 0; k < 3; ++k) markResting(t[k], t[(k + 1) % 3]);
+        }
+    }
+
+    /// Where triangles rest on the plane without passing through it, their edges may cancel; centres there are to be noticed
+    /// all the same.
+    void markResting(std::uint32_t a, std::uint32_t b) {
+        if (heights_[a] != 0) return;
+        chains_.edges.push_back({vertex(a), vertex(heights_[b] == 0 ? b : a), 0, false});
+    }
+
+    /// The line in which a triangle that passes through the receiver's plane or the light's level meets it closes the part
+    /// that remains.
+    void addContact(const glm::uvec3& t, const std::vector<std::int8_t>& signs, EdgePointKind kind) {
+        if (signs[t.x] >= 0 && signs[t.y] >= 0 && signs[t.z] >= 0) return;
+        ChainPoint leaves{}, returns{};
         for (int i = 0; i < 3; ++i) {
             const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-            if (heights_[a] > 0 && heights_[b] < 0) leaves = contact(a, b);
-            if (heights_[a] < 0 && heights_[b] > 0) returns = contact(a, b);
-            if (heights_[a] > 0 && heights_[b] == 0) leaves = projection_.project(vertices_[b]);
-            if (heights_[a] == 0 && heights_[b] > 0) returns = projection_.project(vertices_[a]);
+            if (signs[a] > 0 && signs[b] < 0) leaves = {a, b, kind};
+            if (signs[a] < 0 && signs[b] > 0) returns = {b, a, kind};
+            if (signs[a] > 0 && signs[b] == 0) leaves = vertex(b);
+            if (signs[a] == 0 && signs[b] > 0) returns = vertex(a);
         }
-        edges_.push_back({leaves, returns, 1});
-    }
-
-    [[nodiscard]] ShadowVertex contact(std::uint32_t a, std::uint32_t b) const {
-        return projection_.contact(vertices_[std::min(a, b)], vertices_[std::max(a, b)]);
+        chains_.edges.push_back({leaves, returns, 1, kind == EdgePointKind::LightContact});
     }
 
     const Mesh& mesh_;
     const glm::dvec4& light_;
-    const ShadowProjection& projection_;
+    int threads_;
     std::vector<glm::dvec3> vertices_;
-    std::vector<std::int8_t> heights_; // exact signs
-    std::vector<glm::uvec3> triangles_;
-    std::vector<ShadowEdge> edges_;
+    std::vector<std::int8_t> heights_, levels_; // exact signs above the plane and below the light; empty: not clipped
+    std::vector<std::int8_t> facing_;
+    Chains chains_;
 };
+
+ShadowVertex shadowVertex(const TriangleInstance& instance, const ChainPoint& point, const ShadowProjection& projection) {
+    const auto world = [&](std::uint32_t i) { return worldVertex(instance.world, instance.mesh->positions[i]); };
+    if (point.kind == EdgePointKind::PlaneContact) // in one order, for edges to stay joined bit for bit
+        return projection.contact(world(std::min(point.a, point.b)), world(std::max(point.a, point.b)));
+    return projection.project(world(point.b));
+}
+
+EdgePoint edgePoint(const TriangleInstance& instance, const ChainPoint& point) {
+    const std::vector<glm::vec3>& positions = instance.mesh->positions;
+    return {worldVertex(instance.world, positions[point.a]), worldVertex(instance.world, positions[point.b]), point.kind};
+}
 
 } // namespace
 
+Chains wholeChains(const TriangleInstance& instance, const glm::dvec4& light, int threads) {
+    return ChainBuilder(instance, light, threads).build();
+}
+
+Chains clippedChains(const TriangleInstance& instance, const glm::dvec4& light, const Triangle& plane, int threads) {
+    ChainBuilder builder(instance, light, threads);
+    builder.clip(plane);
+    return builder.build();
+}
+
+SpatialEdge spatialEdge(const TriangleInstance& instance, const ChainEdge& edge) {
+    return {edgePoint(instance, edge.from), edgePoint(instance, edge.to), edge.covers};
+}
+
+std::vector<SpatialEdge> borderOf(const TriangleInstance& instance, std::uint32_t triangle, const glm::dvec4& light,
+                                  const Triangle& plane) {
+    const std::vector<glm::vec3>& positions = instance.mesh->positions;
+    const glm::uvec3& t = instance.mesh->triangles[triangle];
+    TriangleInstance alone = instance;
+    alone.mesh = std::make_shared<Mesh>(Mesh{{positions[t.x], positions[t.y], positions[t.z]}, {{0, 1, 2}}, false});
+    std::vector<SpatialEdge> border;
+    for (const ChainEdge& edge : clippedChains(alone, light, plane, 1).edges) border.push_back(spatialEdge(alone, edge));
+    return border;
+}
+
+ShadowEdge shadowEdge(const TriangleInstance& instance, const ChainEdge& edge, const ShadowProjection& projection) {
+    return {shadowVertex(instance, edge.from, projection), shadowVertex(instance, edge.to, projection), edge.covers};
+}
+
 std::vector<ShadowEdge> silhouette(const TriangleInstance& instance, const glm::dvec4& light,
                                    const ShadowProjection& projection) {
-    return SilhouetteBuilder(instance, light, projection).build();
+    std::vector<ShadowEdge> edges;
+    for (const ChainEdge& edge : clippedChains(instance, light, projection.receiver(), 1).edges)
+        if (!edge.atLightLevel) edges.push_back(shadowEdge(instance, edge, projection));
+    return edges;
 }
 
 } // namespace shadowbench::groundtruth

@@ -60,9 +60,24 @@ FloatBox worldBox(const FloatBox& box, const glm::dmat4& world) {
     return {{below(low.x), below(low.y), below(low.z)}, {above(high.x), above(high.y), above(high.z)}};
 }
 
+FloatBox meshBox(const Mesh& mesh) {
+    FloatBox box{mesh.positions.front(), mesh.positions.front()};
+    for (const glm::vec3& position : mesh.positions) {
+        box.low = glm::min(box.low, position);
+        box.high = glm::max(box.high, position);
+    }
+    return box;
+}
+
 TriangleInstance makeInstance(const Batch& batch, const Placement& placement, std::size_t tree, const FloatBox& box) {
-    TriangleInstance instance{batch.mesh, tree, placement.world, placement.id, glm::inverse(glm::dmat3(placement.world)),
-                              {},         {}};
+    TriangleInstance instance{batch.mesh,
+                              tree,
+                              placement.world,
+                              placement.id,
+                              glm::inverse(glm::dmat3(placement.world)),
+                              {},
+                              {},
+                              worldBox(box, placement.world)};
     instance.shift = -(instance.toObject * glm::dvec3(placement.world[3]));
     instance.slack = inverseSlack(instance, largestCoordinates(box));
     if (!std::isfinite(instance.slack.x + instance.slack.y + instance.slack.z))
@@ -79,16 +94,26 @@ SceneTriangles::SceneTriangles(const Snapshot& snapshot) {
     for (const Batch& batch : snapshot.batches) {
         if (batch.mesh->triangles.empty()) continue;
         const auto [found, isNew] = treeOf.try_emplace(batch.mesh.get(), trees_.size());
-        if (isNew) trees_.emplace_back(triangleBoxes(*batch.mesh));
-        const FloatBox& box = trees_[found->second].bounds();
+        if (isNew) {
+            MeshTree& added = trees_.emplace_back();
+            added.mesh = batch.mesh;
+            added.box = meshBox(*batch.mesh);
+        }
+        const FloatBox& box = trees_[found->second].box;
         for (const Placement& placement : batch.placements) {
             if (!indexOf_.try_emplace(placement.id, static_cast<std::uint32_t>(instances_.size())).second)
                 throw InternalError("Two placements of the snapshot share surface id " + std::to_string(placement.id) + ".");
             instances_.push_back(makeInstance(batch, placement, found->second, box));
-            boxes.push_back(worldBox(box, placement.world));
+            boxes.push_back(instances_.back().box);
         }
     }
     top_ = Bvh(boxes);
+}
+
+const Bvh& SceneTriangles::tree(std::size_t index) const {
+    MeshTree& entry = trees_[index];
+    std::call_once(entry.built, [&] { entry.tree = Bvh(triangleBoxes(*entry.mesh)); });
+    return entry.tree;
 }
 
 std::uint32_t SceneTriangles::instanceOf(std::uint32_t id) const {
@@ -121,7 +146,7 @@ PaddedSegment SceneTriangles::padded(const ApproximateSegment& segment, const Tr
     const glm::dvec3 to = instance.toObject * segment.to + instance.shift;
     const glm::dmat3 magnitude = absolute(instance.toObject);
     const glm::dvec3 mapping = magnitude * (glm::abs(segment.from) + glm::abs(segment.to)) + 2.0 * glm::abs(instance.shift);
-    const glm::dvec3 reach = glm::abs(from) + glm::abs(to) + largestCoordinates(trees_[instance.tree].bounds());
+    const glm::dvec3 reach = glm::abs(from) + glm::abs(to) + largestCoordinates(trees_[instance.tree].box);
     return {from, to, instance.slack + 2.0 * (magnitude * segment.error) + 32 * unit * (mapping + reach)};
 }
 

@@ -7,8 +7,10 @@
 #include "harness/scene/scene.h"
 
 #include <cstdint>
+#include <deque>
 #include <glm/mat3x3.hpp>
 #include <memory>
+#include <mutex>
 #include <unordered_map>
 #include <vector>
 
@@ -31,7 +33,7 @@ struct TriangleName {
 };
 
 /// An instance and the map back to object space. `slack` bounds, per axis, the distance between a mesh position and
-/// toObject · worldVertex + shift.
+/// toObject · worldVertex + shift. `box` contains all world vertices.
 struct TriangleInstance {
     std::shared_ptr<const Mesh> mesh;
     std::size_t tree;
@@ -40,6 +42,7 @@ struct TriangleInstance {
     glm::dmat3 toObject;
     glm::dvec3 shift;
     glm::dvec3 slack;
+    FloatBox box;
 };
 
 /// A segment whose every point is known to within `error` per axis.
@@ -48,6 +51,7 @@ struct ApproximateSegment {
     glm::dvec3 error;
 };
 
+/// Const use is thread-safe.
 class SceneTriangles {
 public:
     explicit SceneTriangles(const Snapshot& snapshot);
@@ -67,7 +71,7 @@ public:
             const TriangleInstance& instance = instances_[i];
             PaddedSegment local = padded(segment, instance);
             local.last = top.last;
-            const bool stopped = trees_[instance.tree].visit(local, [&](std::uint32_t index) {
+            const bool stopped = tree(instance.tree).visit(local, [&](std::uint32_t index) {
                 const TriangleName name{i, index};
                 return visit(name, triangle(name), local.last);
             });
@@ -95,7 +99,16 @@ private:
     [[nodiscard]] PaddedSegment padded(const ApproximateSegment& segment) const;
     [[nodiscard]] PaddedSegment padded(const ApproximateSegment& segment, const TriangleInstance& instance) const;
 
-    std::vector<Bvh> trees_; // one per distinct mesh
+    /// The triangles of a distinct mesh. The tree is built when a segment first comes near.
+    struct MeshTree {
+        std::shared_ptr<const Mesh> mesh;
+        FloatBox box;
+        std::once_flag built;
+        Bvh tree;
+    };
+    const Bvh& tree(std::size_t index) const;
+
+    mutable std::deque<MeshTree> trees_;
     std::vector<TriangleInstance> instances_;
     std::unordered_map<std::uint32_t, std::uint32_t> indexOf_; // surface id → instance
     Bvh top_;

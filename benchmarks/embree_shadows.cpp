@@ -1,0 +1,86 @@
+#include "benchmarks/embree_shadows.h"
+
+#include "groundtruth/cgal/parallel.h"
+#include "groundtruth/cgal/triangles.h"
+#include "harness/scene/error.h"
+
+#include <algorithm>
+#include <embree3/rtcore.h>
+#include <string>
+
+namespace shadowbench::benchmarks {
+namespace {
+
+struct Release {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>;
+using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
+
+void addGeometry(RTCDevice device, RTCScene scene, const Mesh& mesh, const glm::dmat4& world) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                      sizeof(glm::vec3), mesh.positions.size()));
+    std::ranges::transform(mesh.positions, positions,
+                           [&](const glm::vec3& position) { return glm::vec3(groundtruth::worldVertex(world, position)); });
+    auto* triangles = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                       sizeof(glm::uvec3), mesh.triangles.size()));
+    std::ranges::copy(mesh.triangles, triangles);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+}
+
+bool occluded(RTCScene scene, const glm::vec3& from, const glm::vec3& to, float tnear) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray{};
+    ray.org_x = from.x;
+    ray.org_y = from.y;
+    ray.org_z = from.z;
+    ray.dir_x = to.x - from.x;
+    ray.dir_y = to.y - from.y;
+    ray.dir_z = to.z - from.z;
+    ray.tnear = tnear;
+    ray.tfar = 1;
+    ray.mask = ~0U;
+    rtcOccluded1(scene, &context, &ray);
+    return ray.tfar < 0; // Embree's mark of an occluded ray
+}
+
+} // namespace
+
+struct EmbreeShadows::Scene {
+    Device device;
+    SceneHandle scene;
+};
+
+EmbreeShadows::EmbreeShadows(const Snapshot& snapshot, int threads) : scene_(std::make_unique<Scene>()), threads_(threads) {
+    scene_->device.reset(rtcNewDevice(("threads=" + std::to_string(threads)).c_str()));
+    if (!scene_->device) throw InternalError("Embree gave no device.");
+    const RTCDevice device = scene_->device.get();
+    scene_->scene.reset(rtcNewScene(device));
+    rtcSetSceneFlags(scene_->scene.get(), RTC_SCENE_FLAG_ROBUST);
+    for (const Batch& batch : snapshot.batches)
+        for (const Placement& placement : batch.placements)
+            addGeometry(device, scene_->scene.get(), *batch.mesh, placement.world);
+    rtcCommitScene(scene_->scene.get());
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+        throw InternalError("Embree failed with error " + std::to_string(error) + ".");
+}
+
+EmbreeShadows::~EmbreeShadows() = default;
+
+Image<float> EmbreeShadows::visibility(const groundtruth::PrimaryHits& primary, const glm::dvec3& light, float tnear) const {
+    Image<float> result(primary.id.width(), primary.id.height());
+    groundtruth::forEachInParallel(result.height(), threads_, {}, {}, [&](int y) {
+        for (int x = 0; x < result.width(); ++x) {
+            if (primary.surface(x, y) != groundtruth::Surface::Receiver) continue;
+            result(x, y) = occluded(scene_->scene.get(), primary.position(x, y), glm::vec3(light), tnear) ? 0.0F : 1.0F;
+        }
+    });
+    return result;
+}
+
+} // namespace shadowbench::benchmarks
