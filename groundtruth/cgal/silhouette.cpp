@@ -15,15 +15,16 @@ struct Chain {
 
 class SilhouetteBuilder {
 public:
-    SilhouetteBuilder(const TriangleInstance& instance, const glm::dvec4& light, const ShadowProjection& projection)
-        : mesh_(*instance.mesh), light_(light), projection_(projection) {
+    SilhouetteBuilder(const TriangleInstance& instance, const glm::dvec4& light,
+                      const std::function<int(const glm::dvec3&)>& height)
+        : mesh_(*instance.mesh), light_(light) {
         vertices_.reserve(mesh_.positions.size());
         for (const glm::vec3& position : mesh_.positions) vertices_.push_back(worldVertex(instance.world, position));
         heights_.reserve(vertices_.size());
-        for (const glm::dvec3& vertex : vertices_) heights_.push_back(static_cast<std::int8_t>(projection.height(vertex)));
+        for (const glm::dvec3& vertex : vertices_) heights_.push_back(static_cast<std::int8_t>(height(vertex)));
     }
 
-    std::vector<ShadowEdge> build() {
+    std::vector<SilhouetteEdge> build() {
         if (std::ranges::none_of(heights_, [](int h) { return h > 0; })) return {};
         turnTowardsLight();
         sumChains();
@@ -77,43 +78,57 @@ private:
     void addChain(std::uint32_t low, const Chain& chain) {
         const int a = heights_[low], b = heights_[chain.high];
         if (a + b < 0) return;
-        const ShadowVertex from = a < 0 ? contact(low, chain.high) : projection_.project(vertices_[low]);
-        const ShadowVertex to = b < 0 ? contact(low, chain.high) : projection_.project(vertices_[chain.high]);
+        const SilhouettePoint from = a < 0 ? contact(low, chain.high) : vertex(low);
+        const SilhouettePoint to = b < 0 ? contact(low, chain.high) : vertex(chain.high);
         edges_.push_back({from, to, chain.covers});
     }
 
     /// The line in which a triangle that passes through the plane meets it closes the part above.
     void addContact(const glm::uvec3& t) {
         if (heights_[t.x] >= 0 && heights_[t.y] >= 0 && heights_[t.z] >= 0) return;
-        ShadowVertex leaves{}, returns{};
+        SilhouettePoint leaves{}, returns{};
         for (int i = 0; i < 3; ++i) {
             const std::uint32_t a = t[i], b = t[(i + 1) % 3];
             if (heights_[a] > 0 && heights_[b] < 0) leaves = contact(a, b);
             if (heights_[a] < 0 && heights_[b] > 0) returns = contact(a, b);
-            if (heights_[a] > 0 && heights_[b] == 0) leaves = projection_.project(vertices_[b]);
-            if (heights_[a] == 0 && heights_[b] > 0) returns = projection_.project(vertices_[a]);
+            if (heights_[a] > 0 && heights_[b] == 0) leaves = vertex(b);
+            if (heights_[a] == 0 && heights_[b] > 0) returns = vertex(a);
         }
         edges_.push_back({leaves, returns, 1});
     }
 
-    [[nodiscard]] ShadowVertex contact(std::uint32_t a, std::uint32_t b) const {
-        return projection_.contact(vertices_[std::min(a, b)], vertices_[std::max(a, b)]);
+    [[nodiscard]] SilhouettePoint vertex(std::uint32_t a) const { return {vertices_[a], std::nullopt}; }
+
+    [[nodiscard]] SilhouettePoint contact(std::uint32_t a, std::uint32_t b) const {
+        return {vertices_[std::min(a, b)], vertices_[std::max(a, b)]};
     }
 
     const Mesh& mesh_;
     const glm::dvec4& light_;
-    const ShadowProjection& projection_;
     std::vector<glm::dvec3> vertices_;
     std::vector<std::int8_t> heights_; // exact signs
     std::vector<glm::uvec3> triangles_;
-    std::vector<ShadowEdge> edges_;
+    std::vector<SilhouetteEdge> edges_;
 };
+
+ShadowVertex project(const SilhouettePoint& point, const ShadowProjection& projection) {
+    return point.other ? projection.contact(point.vertex, *point.other) : projection.project(point.vertex);
+}
 
 } // namespace
 
+std::vector<SilhouetteEdge> silhouetteEdges(const TriangleInstance& instance, const glm::dvec4& light,
+                                            const std::function<int(const glm::dvec3&)>& height) {
+    return SilhouetteBuilder(instance, light, height).build();
+}
+
 std::vector<ShadowEdge> silhouette(const TriangleInstance& instance, const glm::dvec4& light,
                                    const ShadowProjection& projection) {
-    return SilhouetteBuilder(instance, light, projection).build();
+    const auto height = [&](const glm::dvec3& vertex) { return projection.height(vertex); };
+    std::vector<ShadowEdge> shadow;
+    for (const SilhouetteEdge& edge : silhouetteEdges(instance, light, height))
+        shadow.push_back({project(edge.from, projection), project(edge.to, projection), edge.covers});
+    return shadow;
 }
 
 } // namespace shadowbench::groundtruth
