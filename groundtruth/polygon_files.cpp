@@ -63,10 +63,11 @@ Box boxOf(const ReceiverRegion& region) {
 
 std::string descriptionOf(const PlaneAxes& axes) {
     constexpr std::string_view names = "xyz";
-    const char u = names[static_cast<std::size_t>(axes.u)], v = names[static_cast<std::size_t>(axes.v)];
-    return fmt::format("Metres; {} to the right, {} {}; {} = {:.9g} + {:.9g} {} + {:.9g} {}", u, v,
-                       axes.v == 1 ? "up" : "down", names[static_cast<std::size_t>(axes.dropped)], axes.height.x,
-                       axes.height.y, u, axes.height.z, v);
+    const auto name = [&](int axis) { return names[static_cast<std::size_t>(axis)]; };
+    const glm::dvec3 height = axes.height + 0.0; // no negative zero
+    return fmt::format("Metres; {} to the right, {} {}; {} = {:.9g} {:+.9g} {} {:+.9g} {}", name(axes.u), name(axes.v),
+                       axes.v == 1 ? "up" : "down", name(axes.dropped), height.x, height.y, name(axes.u), height.z,
+                       name(axes.v));
 }
 
 /// Names without extension: one per receiver, numbered where a surface has several.
@@ -116,9 +117,9 @@ std::string svg(const PolygonPicture& picture) {
     text += fmt::format("<g fill-rule=\"evenodd\"{}>\n", flipped ? " transform=\"scale(1 -1)\"" : "");
     text += fmt::format("<path fill=\"#f4f1ea\" stroke=\"#888\" stroke-width=\"{:.3g}\" d=\"{}\"/>\n", 0.1 * margin,
                         pathOf(picture.receiver));
-    text += fmt::format("<path fill=\"#4a5568\" d=\"{}\"/>\n", pathOf(picture.region));
+    text += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", picture.fill, pathOf(picture.region));
     if (picture.lightFoot && box.holds(*picture.lightFoot))
-        text += fmt::format("<circle fill=\"#e0a000\" cx=\"{:.9g}\" cy=\"{:.9g}\" r=\"{:.3g}\"/>\n", picture.lightFoot->x,
+        text += fmt::format("<circle fill=\"#c05000\" cx=\"{:.9g}\" cy=\"{:.9g}\" r=\"{:.3g}\"/>\n", picture.lightFoot->x,
                             picture.lightFoot->y, 0.4 * margin);
     return text + "</g>\n</svg>\n";
 }
@@ -135,8 +136,8 @@ std::vector<std::filesystem::path> writeShadowPolygons(const Snapshot& snapshot,
     std::vector<std::filesystem::path> written;
     for (std::size_t i = 0; i < receivers.size(); ++i)
         writePicture(folder / names[i],
-                     {fmt::format("Shadow on surface {}", receivers[i].id), shadows[i].receiver, shadows[i].shadow,
-                      shadows[i].lightFoot},
+                     {fmt::format("Shadow on surface {}", receivers[i].id), "#4a5568", shadows[i].receiver,
+                      shadows[i].shadow, shadows[i].lightFoot},
                      written);
     return written;
 }
@@ -150,10 +151,10 @@ std::vector<std::filesystem::path> writeVisiblePolygons(const Snapshot& snapshot
     std::vector<std::filesystem::path> written;
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         const PlanView view = planView(snapshot, receivers[i]);
-        writePicture(
-            folder / names[i],
-            {fmt::format("Seen by the light on surface {}", receivers[i].id), view.receiver, view.visible, view.light},
-            written);
+        writePicture(folder / names[i],
+                     {fmt::format("Seen by the light on surface {}", receivers[i].id), "#ffd966", view.receiver,
+                      view.visible, view.light},
+                     written);
     }
     return written;
 }

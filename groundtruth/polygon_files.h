@@ -15,11 +15,12 @@ namespace shadowbench::groundtruth {
 /// ring closed by its first point, outer rings counter-clockwise and holes clockwise.
 std::string wkt(const std::vector<PlanarPolygon>& polygons);
 
-/// What a picture of a receiver shows, and its title.
+/// What a picture of a receiver shows.
 struct PolygonPicture {
     std::string title;
+    std::string fill; // colour of `region`
     const ReceiverRegion& receiver;
-    const ReceiverRegion& region;        // filled
+    const ReceiverRegion& region;
     std::optional<glm::dvec2> lightFoot; // a dot, if it lies in the receiver's box
 };
 

@@ -51,8 +51,8 @@ struct ShadowPolygons {
 };
 
 /// One per receiver, in the same order. Point and directional lights, else InternalError; the light must lie in front of the
-/// receivers, as it does for those of ExactScene::planarReceivers. Costs a pass over all triangles per receiver and about
-/// 20 µs per silhouette edge and crossing.
+/// receivers, as it does for those of ExactScene::planarReceivers. Costs a pass over all triangles per receiver and some
+/// 10 µs per silhouette edge and crossing: 0.1 s for a bumpy mesh of 70,000 triangles.
 std::vector<ShadowPolygons> shadowPolygons(const Snapshot& snapshot, const std::vector<PlanarReceiver>& receivers);
 
 /// Area (in u, v) of the points that lie in one region of a plane but not in the other: 0 exactly if they are equal.

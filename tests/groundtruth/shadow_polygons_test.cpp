@@ -336,13 +336,13 @@ TEST(PolygonFiles, PicturesHoldReceiverShadowAndLight) {
     SceneBuilder scene = ground();
     scene.add(plate(-0.5F, 0.5F, 2, -0.5F, 0.5F));
     const ShadowPolygons shadows = groundShadow(scene.get());
-    const std::string picture = svg({"Shadow", shadows.receiver, shadows.shadow, shadows.lightFoot});
+    const std::string picture = svg({"Shadow", "navy", shadows.receiver, shadows.shadow, shadows.lightFoot});
     EXPECT_NE(picture.find("viewBox=\"-8.32 -8.32 16.64 16.64\""), std::string::npos) << picture;
     EXPECT_NE(picture.find("d=\"M-8 -8L8 -8L8 8L-8 8Z\""), std::string::npos);
-    EXPECT_NE(picture.find("d=\"M-1 -1L1 -1L1 1L-1 1Z\""), std::string::npos);
+    EXPECT_NE(picture.find("fill=\"navy\" d=\"M-1 -1L1 -1L1 1L-1 1Z\""), std::string::npos);
     EXPECT_NE(picture.find("cx=\"0\" cy=\"0\""), std::string::npos);
-    EXPECT_NE(picture.find("x to the right, z down; y = 0"), std::string::npos);
-    const std::string without = svg({"Shadow", shadows.receiver, shadows.shadow, glm::dvec2(9, 0)});
+    EXPECT_NE(picture.find("x to the right, z down; y = 0 +0 x +0 z<"), std::string::npos);
+    const std::string without = svg({"Shadow", "navy", shadows.receiver, shadows.shadow, glm::dvec2(9, 0)});
     EXPECT_EQ(without.find("circle"), std::string::npos);
 }
 
