@@ -270,11 +270,40 @@ ShadowPolygons shadowsOn(const SceneTriangles& scene, const Snapshot& snapshot, 
             rounded(receiver.id, frame.axes, plane.where(inShadow)), footOf(snapshot.light, frame)};
 }
 
-/// Where the pixel's ray meets the receiver's plane.
-ExactPoint receiverPoint(const Ray& ray, const Vector& normal, const Vector& origin, const PlaneAxes& axes) {
-    const Vector from = vector(ray.origin), direction = vector(ray.direction);
-    const ExactNumber depth = dot(normal, origin - from) / dot(normal, direction);
-    return {from[axes.u] + depth * direction[axes.u], from[axes.v] + depth * direction[axes.v]};
+/// Where the rays of pixel centres meet a plane.
+class ExactPixels {
+public:
+    ExactPixels(const Camera& camera, glm::ivec2 size, const Triangle& plane, const PlaneAxes& axes)
+        : camera_(camera), size_(size), axes_(axes), normal_(normalOf(plane)), origin_(vector(plane[0])) {}
+
+    [[nodiscard]] ExactPoint receiverPoint(int x, int y) const {
+        const Ray ray = pixelRay(camera_, x, y, size_);
+        const Vector from = vector(ray.origin), direction = vector(ray.direction);
+        const ExactNumber depth = dot(normal_, origin_ - from) / dot(normal_, direction);
+        return {from[axes_.u] + depth * direction[axes_.u], from[axes_.v] + depth * direction[axes_.v]};
+    }
+
+private:
+    const Camera& camera_;
+    glm::ivec2 size_;
+    PlaneAxes axes_;
+    Vector normal_, origin_;
+};
+
+bool sees(const PrimaryHits& primary, int x, int y, const PlanarReceiver& receiver) {
+    return primary.surface(x, y) == Surface::Receiver && primary.id(x, y) == receiver.id &&
+           std::ranges::binary_search(receiver.triangles, primary.triangle(x, y));
+}
+
+void label(const std::vector<glm::ivec2>& pixels, const ExactPixels& exact, const ReceiverRegion& shadow, Reference& out) {
+    std::vector<ExactPoint> points;
+    for (const glm::ivec2& pixel : pixels) points.push_back(exact.receiverPoint(pixel.x, pixel.y));
+    const std::vector<Location> locations = locate(*shadow.exact, points);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const auto [x, y] = std::pair(pixels[i].x, pixels[i].y);
+        out.visibility(x, y) = locations[i] == Location::Inside ? 0.0F : 1.0F;
+        out.surface(x, y) = locations[i] == Location::OnBorder ? Surface::OnEdge : Surface::Receiver;
+    }
 }
 
 } // namespace
@@ -302,22 +331,14 @@ void labelByRegion(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits&
     if (!out.visibility.sameSize(primary.id) || !out.surface.sameSize(primary.id) || primary.id.width() != size.x ||
         primary.id.height() != size.y)
         throw InternalError("Labels by polygons were asked for images of different sizes.");
-    const Triangle plane = receiverTriangles(snapshot, receiver).front();
-    const Vector normal = normalOf(plane), origin = vector(plane[0]);
-    std::vector<glm::ivec2> pixels;
-    std::vector<ExactPoint> points;
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            if (primary.surface(x, y) != Surface::Receiver || primary.id(x, y) != receiver.id ||
-                !std::ranges::binary_search(receiver.triangles, primary.triangle(x, y)))
-                continue;
-            pixels.emplace_back(x, y);
-            points.push_back(receiverPoint(pixelRay(snapshot.camera, x, y, size), normal, origin, shadow.axes));
-        }
-    const std::vector<Location> locations = locate(*shadow.exact, points);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        out.visibility(pixels[i].x, pixels[i].y) = locations[i] == Location::Inside ? 0.0F : 1.0F;
-        out.surface(pixels[i].x, pixels[i].y) = locations[i] == Location::OnBorder ? Surface::OnEdge : Surface::Receiver;
+    const ExactPixels exact(snapshot.camera, size, receiverTriangles(snapshot, receiver).front(), shadow.axes);
+    constexpr int band = 64; // rows: bounds the memory that exact points take
+    for (int top = 0; top < size.y; top += band) {
+        std::vector<glm::ivec2> pixels;
+        for (int y = top; y < std::min(size.y, top + band); ++y)
+            for (int x = 0; x < size.x; ++x)
+                if (sees(primary, x, y, receiver)) pixels.emplace_back(x, y);
+        label(pixels, exact, shadow, out);
     }
 }
 

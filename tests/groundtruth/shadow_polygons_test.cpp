@@ -302,6 +302,16 @@ TEST(ShadowPolygons, AnAreaLightHasNone) {
     EXPECT_THROW((void)shadowPolygons(scene.get(), receivers), InternalError);
 }
 
+TEST(ShadowPolygons, LabelsNeedTheirImages) {
+    SceneBuilder scene = ground();
+    const PrimaryHits primary = primaryHits(scene.get(), size);
+    const PlanarReceiver receiver = receiversOf(scene.get()).front();
+    const ReceiverRegion shadow = groundShadow(scene.get()).shadow;
+    Reference none, all = rayLabels(ExactScene(scene.get()), size, primary);
+    EXPECT_THROW(labelByRegion(scene.get(), size, primary, receiver, shadow, none), InternalError);
+    EXPECT_THROW(labelByRegion(scene.get(), {24, 24}, primary, receiver, shadow, all), InternalError);
+}
+
 /// Area from text: each ring's shoelace sum, outer rings positive.
 double wktArea(const std::string& text) {
     double area = 0;
