@@ -66,8 +66,8 @@ public:
     std::vector<CoverEdge> take() { return std::move(edges_); }
 
 private:
-    /// Seen from outside and cut from below, a counter-clockwise triangle has the inside to the left of the way from the
-    /// edge that goes up to the edge that goes down.
+    /// Drawn with x right and z up, the inside lies to the left of the way from the edge that goes up to the one that goes
+    /// down, if the triangle is counter-clockwise seen from outside.
     void addCut(const Triangle& t, bool mirrored, std::uint32_t id) {
         ExactPoint up, down;
         bool crosses = false;
