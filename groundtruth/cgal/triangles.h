@@ -85,13 +85,13 @@ public:
     void visitShaft(const Shaft& shaft, Visit&& visit) const {
         top_.visitBoxes([&](const FloatBox& box) { return shaft.meets(box); },
                         [&](std::uint32_t i) {
-                            const Bvh& tree = trees_[instances_[i].tree];
-                            const Shaft local = shaft.inObject(instances_[i].world, tree.bounds());
-                            tree.visitBoxes([&](const FloatBox& box) { return local.meets(box); },
-                                            [&](std::uint32_t index) {
-                                                const TriangleName name{i, index};
-                                                visit(name, triangle(name));
-                                            });
+                            const Bvh& triangles = tree(instances_[i].tree);
+                            const Shaft local = shaft.inObject(instances_[i].world, triangles.bounds());
+                            triangles.visitBoxes([&](const FloatBox& box) { return local.meets(box); },
+                                                 [&](std::uint32_t index) {
+                                                     const TriangleName name{i, index};
+                                                     visit(name, triangle(name));
+                                                 });
                         });
     }
 
