@@ -21,6 +21,8 @@ LightPolygon regular(double radius, double offset) {
 
 } // namespace
 
+double lightWindow(LightKind kind) { return kind == LightKind::Disk ? 0.5 + 0x1p-40 : 0.5; }
+
 LightShape lightShape(LightKind kind) {
     if (kind == LightKind::Disk)
         return {regular(0.5 * (1 - margin), 0), regular(0.5 / std::cos(std::numbers::pi / sides) * (1 + margin), 0.5),

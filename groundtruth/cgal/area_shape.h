@@ -8,6 +8,9 @@
 
 namespace shadowbench::groundtruth {
 
+/// Half the side of the square in light coordinates around a light's shape. A circumscribed polygon reaches beyond the disk.
+double lightWindow(LightKind kind);
+
 /// A convex polygon of double coordinates, counter-clockwise.
 using LightPolygon = std::vector<glm::dvec2>;
 

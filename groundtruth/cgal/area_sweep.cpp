@@ -43,8 +43,7 @@ public:
             heights_.push_back(edge.high.y);
         }
         std::ranges::sort(heights_);
-        const auto repeated = std::ranges::unique(heights_);
-        heights_.erase(repeated.begin(), repeated.end());
+        heights_.erase(std::unique(heights_.begin(), heights_.end()), heights_.end());
     }
 
     LightAreas run() {
@@ -128,12 +127,13 @@ private:
     LightAreas areas_{};
 };
 
-/// An edge whose ends move by e per coordinate sweeps at most (length + 2 e) · 3 e; in every row that it crosses its place
+/// Edges meet in the same rows as the true ones, each end moved by e per coordinate at most: an edge sweeps at most
+/// (length + 3 e) · 3 e; in every row that it crosses its place
 /// is rounded by some units, and so is the sum over the gaps; each row's height by one, the running sums by one.
 double errorBound(const std::vector<CoverEdge>& edges, const LightShape& shape, std::size_t rows) {
     double error = 0;
     for (const CoverEdge& edge : edges) {
-        error += 3 * edge.error * (glm::distance(edge.from, edge.to) + 2 * edge.error);
+        error += 3 * edge.error * (glm::distance(edge.from, edge.to) + 3 * edge.error);
         error += 16 * unit * std::abs(edge.to.y - edge.from.y);
     }
     const double shapeEdges = shape.area < 1 ? 4 : 2; // that a row crosses

@@ -1,6 +1,7 @@
 #include "groundtruth/cgal/area_view.h"
 
 #include "groundtruth/cgal/area_light_map.h"
+#include "groundtruth/cgal/area_rough.h"
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Interval_nt.h>
@@ -53,67 +54,13 @@ template <typename Number>
 struct Corner {
     AreaVector<Number> at;
     int column = 0, row = 0;
+    int end = -1; // 0 or 1 if this is an end of the edge that is clipped
 };
 
 template <typename Number>
 Corner<Number> between(const Corner<Number>& a, const Corner<Number>& b, const Number& share) {
     return {a.at + share * (b.at - a.at), a.column == b.column ? a.column : 0, a.row == b.row ? a.row : 0};
 }
-
-/// Approximate homogeneous light coordinates with a bound of their error: culls what certainly hides nothing.
-class RoughMap {
-public:
-    RoughMap(const ReceiverPoint& point, const Light& light, int sense, double reach)
-        : map_(AreaVector<double>::from(point.rounded()), AreaVector<double>::from(glm::dvec3(0)), light, sense),
-          window_(lightWindow(light.kind)) {
-        const auto size = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
-        // Every product below is of one component of u or v, and two more of at most `far`: the roundings of all, some 40 of
-        // 2⁻⁵³ each, and the point's own error stay below this.
-        const double far = reach + size(light.centre) + size(point.rounded()) + size(light.u) + size(light.v);
-        const double sides = size(light.u) + size(light.v);
-        const double pointError = size(point.high() - point.low());
-        error_ = sides * far * (0x1p-45 * far + 8 * pointError);
-    }
-
-    [[nodiscard]] AreaVector<double> operator()(const glm::dvec3& world) const { return map_(world); }
-    [[nodiscard]] double error() const { return error_; }
-    [[nodiscard]] double distance() const { return map_.distance; }
-    [[nodiscard]] double window() const { return window_; }
-
-    /// The pyramid from the point to the window; for a line light the flat triangle.
-    [[nodiscard]] Shaft shaft(bool flat) const {
-        const glm::dvec3 x = plain(map_.rowX), y = plain(map_.rowY), w = plain(map_.rowW);
-        const double rows = flat ? 0 : window_;
-        Shaft result;
-        for (const glm::dvec3& normal : {window_ * w + x, window_ * w - x, rows * w + y, rows * w - y, w})
-            result.add({normal, -glm::dot(normal, plain(map_.head)), error_});
-        result.add({-w, glm::dot(w, plain(map_.head)) + map_.distance, error_});
-        return result;
-    }
-
-    /// Whether the triangle certainly misses the pyramid.
-    [[nodiscard]] bool misses(const std::array<AreaVector<double>, 3>& t, bool flat) const {
-        const double rows = flat ? 0 : window_;
-        const auto allBelow = [&](auto&& value) { return std::max({value(t[0]), value(t[1]), value(t[2])}) < -error_; };
-        return allBelow([&](const auto& p) { return window_ * p.z + p.x; }) ||
-               allBelow([&](const auto& p) { return window_ * p.z - p.x; }) ||
-               allBelow([&](const auto& p) { return rows * p.z + p.y; }) ||
-               allBelow([&](const auto& p) { return rows * p.z - p.y; }) || allBelow([](const auto& p) { return p.z; }) ||
-               allBelow([&](const auto& p) { return map_.distance - p.z; });
-    }
-
-    /// Whether the triangle certainly lies strictly between the point and the light's plane.
-    [[nodiscard]] bool between(const std::array<AreaVector<double>, 3>& t) const {
-        return std::ranges::all_of(t, [&](const auto& p) { return p.z > error_ && p.z < map_.distance - error_; });
-    }
-
-private:
-    static glm::dvec3 plain(const AreaVector<double>& v) { return {v.x, v.y, v.z}; }
-
-    LightMap<double> map_;
-    double window_;
-    double error_;
-};
 
 /// The exact view of the light's plane from one point, in intervals and, made when first needed, in rational numbers.
 class View {
@@ -134,7 +81,7 @@ public:
     auto filtered(const Construct& construct, const TooWide& tooWide) {
         try {
             const Interval::Protector rounding;
-            const auto result = construct(*intervals_);
+            auto result = construct(*intervals_);
             if (!tooWide(result)) return result;
         } catch (const CGAL::Uncertain_conversion_exception&) {
             // decided below
@@ -172,6 +119,7 @@ std::vector<Corner<Number>> clip(const std::vector<Corner<Number>>& corners, boo
         const Number va = value(a.at);
         const int sa = signOf(va);
         if (sa >= 0) result.push_back(a);
+        if (sa == 0) mark(result.back());
         if (open && i + 1 == count) break;
         const Corner<Number>& b = corners[(i + 1) % count];
         const Number vb = value(b.at);
@@ -228,27 +176,36 @@ CoverEdge coverEdge(const Corner<Number>& a, const Corner<Number>& b, int covers
             std::max(std::max(ax.error, ay.error), std::max(bx.error, by.error))};
 }
 
+/// A cover edge and which ends of the mesh's edge it still has.
+struct ClippedEdge {
+    CoverEdge edge;
+    int fromEnd = -1, toEnd = -1;
+};
+
 /// Edges of one construction: a clipped triangle has at most eight.
-using CoverEdges = std::vector<CoverEdge>;
+using ClippedEdges = std::vector<ClippedEdge>;
 
 /// An edge's error is judged by the area that it sweeps.
-bool exceeds(const CoverEdges& edges, double tolerance) {
-    return std::ranges::any_of(
-        edges, [&](const CoverEdge& e) { return !(e.error * (glm::distance(e.from, e.to) + e.error) <= tolerance); });
+bool exceeds(const ClippedEdges& edges, double tolerance) {
+    return std::ranges::any_of(edges, [&](const ClippedEdge& clipped) {
+        const CoverEdge& e = clipped.edge;
+        return !(e.error * (glm::distance(e.from, e.to) + e.error) <= tolerance);
+    });
 }
 
 template <typename Number>
-void addEdge(const Corner<Number>& a, const Corner<Number>& b, int covers, double window, CoverEdges& edges) {
+void addEdge(const Corner<Number>& a, const Corner<Number>& b, int covers, double window, ClippedEdges& edges) {
     const bool alongRow = a.row != 0 && a.row == b.row; // bounds no row of the window
-    if (!alongRow) edges.push_back(coverEdge(a, b, covers, window));
+    if (alongRow) return;
+    edges.push_back({coverEdge(a, b, covers, window), a.row == 0 ? a.end : -1, b.row == 0 ? b.end : -1});
 }
 
 /// The part of an edge with w > 0 that lies in the window's rows; what is left of the window moves onto its left border, and
 /// what is right of it bounds nothing inside.
 template <typename Number>
-CoverEdges clippedEdge(const AreaVector<Number>& a, const AreaVector<Number>& b, int covers, double window) {
+ClippedEdges clippedEdge(const AreaVector<Number>& a, const AreaVector<Number>& b, int covers, double window) {
     const Number border(window);
-    std::vector<Corner<Number>> edge = clipRows<Number>({{a}, {b}}, true, border);
+    std::vector<Corner<Number>> edge = clipRows<Number>({{a, 0, 0, 0}, {b, 0, 0, 1}}, true, border);
     edge = clip(
         edge, true, [&](const auto& p) { return Number(border * p.z - p.x); }, [](auto& corner) { corner.column = 1; });
     if (edge.size() < 2) return {};
@@ -259,7 +216,7 @@ CoverEdges clippedEdge(const AreaVector<Number>& a, const AreaVector<Number>& b,
         return c;
     };
     const int from = leftSide(edge[0]), to = leftSide(edge[1]);
-    CoverEdges result;
+    ClippedEdges result;
     if (from >= 0 && to >= 0) {
         addEdge(edge[0], edge[1], covers, window, result);
     } else if (from <= 0 && to <= 0) {
@@ -276,13 +233,13 @@ CoverEdges clippedEdge(const AreaVector<Number>& a, const AreaVector<Number>& b,
 
 /// The border of the part of a triangle that is seen in the window and lies before the light's plane.
 template <typename Number>
-CoverEdges clippedTriangle(const LightMap<Number>& map, const Triangle& t, int covers, double window) {
+ClippedEdges clippedTriangle(const LightMap<Number>& map, const Triangle& t, int covers, double window) {
     std::vector<Corner<Number>> corners{{map(t[0])}, {map(t[1])}, {map(t[2])}};
     corners = clipAtLight(corners, false, map.distance);
     if (corners.size() < 3) return {};
     const Number border(window);
     corners = clipRows(clipColumns(std::move(corners), false, border), false, border);
-    CoverEdges result;
+    ClippedEdges result;
     if (corners.size() < 3) return result;
     for (std::size_t i = 0; i < corners.size(); ++i)
         addEdge(corners[i], corners[(i + 1) % corners.size()], covers, window, result);
@@ -306,10 +263,12 @@ public:
         if (rough_.between(seen))
             addToChain(name, covers);
         else
-            append([&](const auto& map) { return clippedTriangle(map, triangle, covers, rough_.window()); });
+            for (const ClippedEdge& clipped :
+                 filtered([&](const auto& map) { return clippedTriangle(map, triangle, covers, rough_.window()); }))
+                edges_.push_back(clipped.edge);
     }
 
-    CoverEdges finish() {
+    std::vector<CoverEdge> finish() {
         flush();
         return std::move(edges_);
     }
@@ -343,13 +302,31 @@ private:
         const TriangleInstance& instance = scene_.instances()[instance_];
         const glm::dvec3 a = worldVertex(instance.world, instance.mesh->positions[from]);
         const glm::dvec3 b = worldVertex(instance.world, instance.mesh->positions[to]);
-        append([&](const auto& map) { return clippedEdge(map(a), map(b), covers, rough_.window()); });
+        const ClippedEdges found =
+            filtered([&](const auto& map) { return clippedEdge(map(a), map(b), covers, rough_.window()); });
+        for (ClippedEdge clipped : found) {
+            if (clipped.fromEnd >= 0) moveToRowOf(clipped.fromEnd == 0 ? a : b, clipped.edge.from, clipped.edge);
+            if (clipped.toEnd >= 0) moveToRowOf(clipped.toEnd == 0 ? a : b, clipped.edge.to, clipped.edge);
+            edges_.push_back(clipped.edge);
+        }
+    }
+
+    /// Edges that share a vertex must meet in one row, however each was computed: between two rows the winding would be
+    /// wrong across the whole window.
+    void moveToRowOf(const glm::dvec3& vertex, glm::dvec2& end, CoverEdge& edge) {
+        const Coordinate row = view_.filtered(
+            [&](const auto& map) {
+                const auto p = map(vertex);
+                return coordinate(p.y, p.z, 0, rough_.window());
+            },
+            [&](const Coordinate& c) { return !(c.error <= tolerance_); });
+        end.y = row.value;
+        edge.error = std::max(edge.error, row.error);
     }
 
     template <typename Construct>
-    void append(const Construct& construct) {
-        const CoverEdges found = view_.filtered(construct, [&](const CoverEdges& e) { return exceeds(e, tolerance_); });
-        edges_.insert(edges_.end(), found.begin(), found.end());
+    ClippedEdges filtered(const Construct& construct) {
+        return view_.filtered(construct, [&](const ClippedEdges& e) { return exceeds(e, tolerance_); });
     }
 
     const SceneTriangles& scene_;
@@ -359,7 +336,7 @@ private:
     double tolerance_;
     std::uint32_t instance_ = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint64_t> chain_;
-    CoverEdges edges_;
+    std::vector<CoverEdge> edges_;
 };
 
 /// The part of a line light that a triangle hides, by where it meets the plane y = 0 of point and light. A corner in that
@@ -395,8 +372,6 @@ Light widened(Light line, const glm::dvec3& point) {
 }
 
 } // namespace
-
-double lightWindow(LightKind kind) { return kind == LightKind::Disk ? 0.5 + 0x1p-40 : 0.5; }
 
 std::optional<std::vector<CoverEdge>> coverEdges(const SceneTriangles& scene, const Light& light, const SurfacePoint& point,
                                                  double tolerance) {

@@ -29,9 +29,6 @@ struct CoverInterval {
     double error;
 };
 
-/// Half the side of the square in light coordinates around a light's shape. A circumscribed polygon reaches beyond the disk.
-double lightWindow(LightKind kind);
-
 /// The edges around the hidden part of the window of a rectangle or disk: winding numbers counted from the window's left
 /// border are the numbers of triangles that cover. Edges whose error times length would exceed `tolerance` in interval
 /// arithmetic are computed in rational numbers. Nothing if the point lies in the light's plane.

@@ -123,8 +123,8 @@ Image<double> rayFractions(const Snapshot& snapshot, glm::ivec2 size, const Prim
     Snapshot at = snapshot;
     for (int i = 0; i < side * side; ++i) {
         const bool line = snapshot.light.kind == LightKind::Line;
-        const int column = line ? i : i % side, columns = line ? side * side : side;
-        const glm::dvec2 cell((column + 0.5) / columns, (i / side + 0.5) / side);
+        const int column = line ? i : i % side, columns = line ? side * side : side, row = i / side;
+        const glm::dvec2 cell((column + 0.5) / columns, (row + 0.5) / side);
         at.light = snapshot.light.centreOnly();
         at.light.centre = snapshot.light.sample(cell);
         const Reference labels = rayLabels(ExactScene(at, 1), size, primary);
