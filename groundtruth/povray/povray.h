@@ -26,29 +26,43 @@ struct SampleParts {
 };
 SampleParts sampleParts(int samples);
 
-/// World units → POV-Ray units: the largest power of two ≤ 1024 that keeps every coordinate below 10⁷. POV-Ray ignores
-/// shadow hits nearer than 10⁻³ of its units, so the larger the better; a power of two changes no mantissa.
-double povrayScale(const Snapshot& snapshot);
+/// How POV-Ray is asked. The defaults are the recipe of every reference; other values are known faults, there so that a test
+/// can show a certificate refuse them.
+struct PovRayRecipe {
+    enum class Lights {
+        Points,       // a point light at every lightSample
+        Grid,         // POV-Ray's area_light of n × n lights; rectangles and n² samples, n ≥ 4, only
+        AdaptiveGrid, // the same with `adaptive 1`: divided further only where the corners of a cell differ
+    };
+    Lights lights = Lights::Points;
+    bool doubleIlluminate = true; // a light counts whichever side of the surface the rounded normal puts it on
+    double largestScale = 1024;   // POV-Ray units per world unit; a power of two changes no mantissa
+};
 
-/// The scene text for one snapshot: numbers only, world scaled by povrayScale, one point light per light sample. Red and
-/// green count the visible samples of the first and the second half of the set in units of 1/P, P the power of two ≥ the
-/// larger half, so that sums are exact; blue is the hit mask. Throws BadInput for a light without area, samples outside [2,
+/// World units → POV-Ray units: the recipe's largest scale, halved until every coordinate is below 10⁷. POV-Ray ignores
+/// shadow hits nearer than 10⁻³ of its units, so the larger the better.
+double povrayScale(const Snapshot& snapshot, const PovRayRecipe& recipe = {});
+
+/// The scene text for one snapshot: numbers only, world scaled by povrayScale. With point lights, red, green and blue count
+/// the visible samples of the three parts of the set in units of 1/P (blue: ½ P), P the power of two ≥ the part, so that
+/// sums are exact; with a grid they hold the visible fractions for grids of n/2 × n/2, n/2 × n and n × n lights (blue: half
+/// of it). Blue also has the hit mask's ½. Throws BadInput for a light without area, samples outside [fewestLightSamples,
 /// mostLightSamples] and values that are not finite.
-std::string povrayScene(const Snapshot& snapshot, glm::ivec2 size, int samples);
+std::string povrayScene(const Snapshot& snapshot, glm::ivec2 size, int samples, const PovRayRecipe& recipe = {});
 
 struct PovRayOptions {
     std::filesystem::path program = "povray";   // looked up on PATH
     std::chrono::milliseconds limit{1'800'000}; // wall clock of one render
     int threads = 2;                            // pixels do not depend on it
+    PovRayRecipe recipe{};
 };
 
 struct PovRayImage {
     Image<float> visible;      // fraction of light samples that are visible: k/N, rounded to float
-    Image<float> firstQuarter; // the same for parts of the set (SampleParts): quarters of the first half …
-    Image<float> secondQuarter;
-    Image<float> secondHalf; // … and the second half
-    Image<std::uint8_t> hit; // 1 where the ray hits something
-    double scale = 0;        // povrayScale
+    Image<float> firstHalf;    // the same of the first half of the set (SampleParts) …
+    Image<float> firstQuarter; // … and of its first quarter: what fewer samples would have given
+    Image<std::uint8_t> hit;   // 1 where the ray hits something
+    double scale = 0;          // povrayScale
 };
 
 /// Renders; throws Inconclusive when POV-Ray is missing, fails, is killed, runs over the limit or the disk is full. Leaves
