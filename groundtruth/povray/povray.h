@@ -10,14 +10,16 @@
 namespace shadowbench::groundtruth {
 
 /// To be raised with every change that can alter a pixel: it is part of every key.
-constexpr int povrayCodeVersion = 1;
+constexpr int povrayCodeVersion = 2;
 
 /// Every part of the set holds a point; more than the most could not be told apart in a 16-bit channel.
 constexpr int fewestLightSamples = 4;
 constexpr int mostLightSamples = 16384;
 
 /// Point `i` of `n` of the low-discrepancy set in [0, 1)² that the light is sampled at: the first two Sobol dimensions, a
-/// (0,2)-sequence in base 2, moved to the centres of its cells. Every aligned block of 2^k points is a net of its own.
+/// (0,2)-sequence in base 2, scrambled by Owen's nested permutations and moved to the centres of its cells. Every aligned
+/// block of 2^k points is a net of its own. Unscrambled, the points lie on diagonals: a straight edge along them left an rms
+/// error of 0.0067 at 1,024 points and 0.0041 at 4,096, against 0.0025 and 0.0007; other edges gain or lose little.
 glm::dvec2 lightSample(int i, int n);
 
 /// How many points of the set each part holds, one after the other.
