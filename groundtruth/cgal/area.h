@@ -2,9 +2,9 @@
 // (GROUNDTRUTH.md: "exact area fraction"). The geometry is that of groundtruth/cgal/exact.h.
 //
 // A surface point P is the exact point where a pixel's ray meets its triangle's plane. Whatever lies strictly between P and
-// the light's plane hides what is behind it; a triangle whose plane contains P hides nothing. Seen from P, each mesh leaves a
-// chain of directed edges at which the number of covering triangles changes; projected from P onto the light they bound the
-// hidden part, where that winding number is positive.
+// the light's plane hides what is behind it; a triangle whose plane contains P hides nothing. Seen from P, each mesh leaves
+// a chain of directed edges at which the number of covering triangles changes; projected from P onto the light they bound
+// the hidden part, where that winding number is positive.
 #pragma once
 
 #include "groundtruth/reference.h"

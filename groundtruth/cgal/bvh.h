@@ -72,6 +72,24 @@ public:
         return false;
     }
 
+    /// Calls `visit(primitive)` for every leaf whose box passes `meets(box)`, as do those of all nodes above it.
+    template <typename Meets, typename Visit>
+    void visitBoxes(const Meets& meets, Visit&& visit) const {
+        if (nodes_.empty() || !meets(nodes_.front().box)) return;
+        std::uint32_t pending[maxDepth];
+        int count = 0;
+        pending[count++] = 0;
+        while (count > 0) {
+            const Node& node = nodes_[pending[--count]];
+            if (node.count > 0) {
+                for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(order_[i]);
+                continue;
+            }
+            for (std::uint32_t child = node.first; child < node.first + 2; ++child)
+                if (meets(nodes_[child].box)) pending[count++] = child;
+        }
+    }
+
 private:
     struct Node {
         FloatBox box;

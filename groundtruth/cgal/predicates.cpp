@@ -135,14 +135,6 @@ Homogeneous<Interval> homogeneous(const ReceiverPoint& p, std::type_identity<Int
 
 Homogeneous<Ring> homogeneous(const ReceiverPoint& p, std::type_identity<Ring>) { return {p.exact().xyz, p.exact().w}; }
 
-int side(const Triangle& triangle, const ReceiverPoint& point) {
-    return filteredSign([&](auto tag) {
-        using Number = typename decltype(tag)::type;
-        const auto p = homogeneous(point, tag);
-        return dot(normal<Number>(triangle), p.xyz - p.w * vector<Number>(triangle[0]));
-    });
-}
-
 /// Seen from the point along the segment to the light: 1 if y lies to the left of x, as the orientation of (point, light, x,
 /// y).
 int turn(const ReceiverPoint& point, const glm::dvec4& light, const glm::dvec3& x, const glm::dvec3& y) {
@@ -228,6 +220,14 @@ const ReceiverPoint::Exact& ReceiverPoint::exact() const {
     exact_ = std::make_unique<Exact>(
         Exact{denominator * vector<Ring>(ray_.origin) + numerator * vector<Ring>(ray_.direction), denominator});
     return *exact_;
+}
+
+int side(const Triangle& triangle, const ReceiverPoint& point) {
+    return filteredSign([&](auto tag) {
+        using Number = typename decltype(tag)::type;
+        const auto p = homogeneous(point, tag);
+        return dot(normal<Number>(triangle), p.xyz - p.w * vector<Number>(triangle[0]));
+    });
 }
 
 Blocking blocking(const ReceiverPoint& point, const glm::dvec4& light, const Triangle& t) {

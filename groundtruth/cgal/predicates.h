@@ -58,6 +58,9 @@ private:
     mutable std::unique_ptr<Exact> exact_;
 };
 
+/// Side of the triangle's plane on which the exact point lies.
+int side(const Triangle& triangle, const ReceiverPoint& point);
+
 /// What a triangle does to the open segment from a receiver point to a (homogeneous) light.
 enum class Blocking {
     None,    // misses it, or its plane contains the point or the light

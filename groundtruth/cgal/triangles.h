@@ -1,6 +1,7 @@
 // The scene's triangles behind two levels of trees: one per mesh in object space, one over the instances in the world.
 #pragma once
 
+#include "groundtruth/cgal/area_shaft.h"
 #include "groundtruth/cgal/bvh.h"
 #include "groundtruth/cgal/predicates.h"
 #include "harness/scene/scene.h"
@@ -73,6 +74,21 @@ public:
             top.last = local.last;
             return stopped;
         });
+    }
+
+    /// Calls `visit(name, triangle)` for every triangle that may meet the shaft, all of one instance in a row.
+    template <typename Visit>
+    void visitShaft(const Shaft& shaft, Visit&& visit) const {
+        top_.visitBoxes([&](const FloatBox& box) { return shaft.meets(box); },
+                        [&](std::uint32_t i) {
+                            const Bvh& tree = trees_[instances_[i].tree];
+                            const Shaft local = shaft.inObject(instances_[i].world, tree.bounds());
+                            tree.visitBoxes([&](const FloatBox& box) { return local.meets(box); },
+                                            [&](std::uint32_t index) {
+                                                const TriangleName name{i, index};
+                                                visit(name, triangle(name));
+                                            });
+                        });
     }
 
 private:
