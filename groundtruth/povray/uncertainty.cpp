@@ -14,7 +14,13 @@ void forWindow(const Image<std::uint32_t>& id, int cx, int cy, int radius, const
             if (id(x, y) == id(cx, cy)) visit(x, y);
 }
 
-/// 1 where a pixel or a neighbour on the same surface sees a part of the light, or they differ.
+double square(double value) { return value * value; }
+
+/// The mean over `many` + `rest` samples is `all`, that over the first `many` is `first`: the mean over the rest.
+double restOf(double all, double first, int many, int rest) { return all + (all - first) * many / rest; }
+
+} // namespace
+
 Image<std::uint8_t> unresolvedPixels(const Image<float>& visible, const Image<std::uint32_t>& id) {
     Image<std::uint8_t> result(visible.width(), visible.height());
     for (int y = 0; y < visible.height(); ++y) {
@@ -28,13 +34,6 @@ Image<std::uint8_t> unresolvedPixels(const Image<float>& visible, const Image<st
     }
     return result;
 }
-
-double square(double value) { return value * value; }
-
-/// The mean over `many` + `rest` samples is `all`, that over the first `many` is `first`: the mean over the rest.
-double restOf(double all, double first, int many, int rest) { return all + (all - first) * many / rest; }
-
-} // namespace
 
 Image<float> samplingUncertainty(const PovRayImage& image, const Image<std::uint32_t>& id, int samples) {
     const Image<std::uint8_t> unresolved = unresolvedPixels(image.visible, id);
