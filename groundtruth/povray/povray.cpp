@@ -187,9 +187,12 @@ PovRayImage decodePoints(const Image<float>& red, const Image<float>& green, con
             0};
 }
 
-/// Channels that hold visible fractions.
+/// Channels that hold visible fractions. What 16 bits leave of nothing and of all is made exact again.
 PovRayImage decodeGrid(Image<float> red, Image<float> green, Image<float> blue) {
+    constexpr float rounding = 1e-4F;
     for (float& value : blue) value *= 2;
+    for (Image<float>* image : {&red, &green, &blue})
+        for (float& value : *image) value = value < rounding ? 0 : value > 1 - rounding ? 1 : value;
     return {std::move(blue), std::move(green), std::move(red), {}, 0};
 }
 
