@@ -58,7 +58,7 @@ double resolvedTolerance(int samples);
 /// * the rms error is at most 1.5 times that of independent samples (measured for straight edges, bars, combs and foliage on
 ///   squares and disks, N = 16 to 4,096: 0.02 to 1.1 times), the bias at most half of it (measured: 0.3);
 /// * the error at least halves from the first quarter of the samples to all. Both rms are single draws, so what is asked is
-///   0.75 times, or two thirds of what independent samples leave (measured: 0.2 to 0.6; combs, whose pixels all see the same
+///   0.75 times, or two thirds of what independent samples leave (measured: 0.1 to 0.6; combs, whose pixels all see the same
 ///   pattern, up to 0.9 with an error below the latter).
 /// 1/N and the bracket are added to each bound. With fewer than 32 points in the penumbra only the first two are asked:
 /// there is too little to judge by, and little that could be wrong.
