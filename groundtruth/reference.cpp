@@ -1,5 +1,6 @@
 #include "groundtruth/reference.h"
 
+#include "groundtruth/certificate.h"
 #include "groundtruth/cgal/exact.h"
 #include "groundtruth/povray/povray.h"
 #include "groundtruth/povray/uncertainty.h"
@@ -16,7 +17,7 @@ namespace shadowbench::groundtruth {
 namespace {
 
 constexpr int referenceCodeVersion =
-    1; // of this file and the uncertainty: raise it with every change that can alter a number
+    2; // of this file, the uncertainty and the certificate: raise it with every change that can alter a number
 
 /// Two oracles that see the same geometry differ on isolated silhouette pixels only (METRICS.md: primary_mismatch).
 constexpr double mostPrimaryMismatch = 0.001;
@@ -109,18 +110,24 @@ void requireAligned(const Request& request, const PovRayImage& image, const std:
 Reference softReference(const Request& request, const Progress& progress) {
     const PrimaryHits primary = primaryHits(request.snapshot, request.size, part(progress, 0, 0.05));
     const PovRayImage image =
-        renderPovRay(request.snapshot, request.size, request.samples, {.threads = threads()}, part(progress, 0.05, 0.95));
+        renderPovRay(request.snapshot, request.size, request.samples, {.threads = threads()}, part(progress, 0.05, 0.85));
 
     Reference reference = unlabelled(primary);
     reference.provenance.oracle = "povray";
     reference.provenance.samples = request.samples;
     reference.provenance.measured = {
         {"primary_mismatch", primaryMismatch(image, primary)},
-        {"light_mismatch", lightMismatch(request, primary, image.visible, part(progress, 0.95, 1))},
+        {"light_mismatch", lightMismatch(request, primary, image.visible, part(progress, 0.85, 0.9))},
         {"scale", image.scale}};
     requireAligned(request, image, reference.provenance.measured);
 
-    const Image<float> sigma = samplingUncertainty(image, primary.id, request.samples);
+    const Certificate certificate =
+        certify(request, image, primary, certificatePointCount, threads(), part(progress, 0.9, 1));
+    requireCertified(certificate, request.samples);
+    reference.provenance.measured.merge(measured(certificate));
+
+    const Image<float> sigma =
+        calibrated(samplingUncertainty(image, primary.id, request.samples), certificate, request.samples);
     for (std::size_t i = 0; i < primary.surface.size(); ++i) {
         if (primary.surface[i] != Surface::Receiver) continue;
         reference.visibility[i] = image.visible[i];

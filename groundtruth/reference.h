@@ -36,15 +36,19 @@ struct Provenance {
     int samples = 0;                          // light samples; 0 for exact oracles
     std::map<std::string, std::string> tools; // tool → version
     double seconds = 0;                       // wall time it took to compute
-    std::map<std::string, double> measured;   // povray: "primary_mismatch" (share of pixels where its hit mask and the exact
-                                              // primary hits differ), "light_mismatch" (share of pixels seen as fully lit or
-                                              // fully shadowed whose exact label for the light's centre says otherwise),
-                                              // "scale" (POV-Ray units per world unit)
+    /// povray: "primary_mismatch" (share of pixels where its hit mask and the exact primary hits differ), "light_mismatch"
+    /// (share of pixels seen as fully lit or fully shadowed whose exact label for the light's centre says otherwise),
+    /// "scale" (POV-Ray units per world unit), and its errors against the exact visible fraction, members of Certificate
+    /// (groundtruth/certificate.h): "certificate_points", "…_penumbra" and "…_wrong" (how many), "…_bias", "…_rms" and
+    /// "…_largest" (over the penumbra points), "…_rms_half" and "…_rms_quarter" (with the first half and quarter of the
+    /// samples), "…_independent" (what independent random samples would leave), "…_uneven", "…_bracket".
+    std::map<std::string, double> measured;
 };
 
 struct Reference {
     Image<float> visibility; // visible fraction of the light in [0, 1] (0 or 1 for point and directional lights)
-    Image<float> sigma;      // its standard uncertainty; 0 where exact. povray: groundtruth/povray/uncertainty.h
+    Image<float> sigma;      // its standard uncertainty; 0 where exact. povray: estimated from the samples
+                             // (groundtruth/povray/uncertainty.h), scaled to the certificate's rms error
     Image<Surface> surface;
     Image<std::uint32_t> id;
     Image<glm::vec3> position;
@@ -67,8 +71,8 @@ struct Request {
 
 /// Computes a reference, without looking at a cache. Visibility is 0 off the receivers. With an explicit `Polygon`,
 /// receivers that are not planar become OnEdge: there is no label for them. Throws BadInput for an oracle that cannot answer
-/// for this light or scene (`Polygon` with no planar receiver), Inconclusive if a tool is missing or fails, InternalError if
-/// two oracles see different geometry.
+/// for this light or scene (`Polygon` with no planar receiver), Inconclusive if a tool is missing or fails or its render is
+/// not certified, InternalError if two oracles see different geometry.
 Reference compute(const Request& request, const Progress& progress = {});
 
 /// Content hash (32 hex digits, XXH3-128) of all that the reference depends on: camera, light, mesh bytes, placements and

@@ -1,6 +1,8 @@
 // The points at which POV-Ray samples an area light.
 #include "groundtruth/povray/povray.h"
 
+#include "harness/scene/random.h"
+
 #include <bit>
 #include <cstdint>
 
@@ -23,13 +25,29 @@ std::uint32_t secondDimension(std::uint32_t i) {
     return result;
 }
 
+/// Owen's nested scrambling (1995) of the leading `bits`: each is flipped or not by a hash of those above it. That permutes
+/// the halves of every elementary interval, so nets stay nets.
+std::uint32_t scrambled(std::uint32_t x, int bits, std::uint64_t dimension) {
+    std::uint64_t above = 1; // the bits so far after a leading one, which tells 0 from 00
+    std::uint32_t result = 0;
+    for (int bit = 0; bit < bits; ++bit) {
+        const std::uint32_t mine = (x >> (31 - bit)) & 1U;
+        result |= (mine ^ static_cast<std::uint32_t>(mixBits((dimension << 32) | above) & 1U)) << (31 - bit);
+        above = (above << 1) | mine;
+    }
+    return result;
+}
+
 } // namespace
 
 glm::dvec2 lightSample(int i, int n) {
     const double unit = 0x1p-32;
-    const double halfCell = 0.5 / std::bit_ceil(static_cast<unsigned>(n));
+    const unsigned cells = std::bit_ceil(static_cast<unsigned>(n));
+    const int bits = std::countr_zero(cells);
+    const double halfCell = 0.5 / cells;
     const auto index = static_cast<std::uint32_t>(i);
-    return {unit * mirrored(index) + halfCell, unit * secondDimension(index) + halfCell};
+    return {unit * scrambled(mirrored(index), bits, 0) + halfCell,
+            unit * scrambled(secondDimension(index), bits, 1) + halfCell};
 }
 
 SampleParts sampleParts(int samples) {

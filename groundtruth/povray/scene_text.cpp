@@ -18,7 +18,7 @@ namespace {
 using Text = fmt::memory_buffer;
 
 constexpr double largestCoordinate = 1e7; // POV-Ray's MAX_DISTANCE
-constexpr double largestScale = 1024;
+constexpr double hitMask = 0.5;           // of blue: the light has the other half
 
 template <typename... Arguments>
 void add(Text& text, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
@@ -49,20 +49,20 @@ void addMesh(Text& text, const Mesh& mesh, std::size_t number) {
 }
 
 /// POV-Ray multiplies row vectors, so its twelve numbers are the columns of our matrix one after the other.
-void addPlacement(Text& text, const glm::dmat4& world, std::size_t mesh, double scale) {
+void addPlacement(Text& text, const glm::dmat4& world, std::size_t mesh, double scale, const PovRayRecipe& recipe) {
     add(text, "object {{ M{} matrix <", mesh);
     for (int column = 0; column < 4; ++column) {
         const std::string numbers = vector(scale * glm::dvec3(world[column]));
         add(text, "{}{}", column == 0 ? "" : ",", numbers.substr(1, numbers.size() - 2));
     }
-    add(text, "> texture {{ T }} double_illuminate }}\n");
+    add(text, "> texture {{ T }}{} }}\n", recipe.doubleIlluminate ? " double_illuminate" : "");
 }
 
-/// One point light a sample; the parts of the set in red, green and blue. Blue shares its range with the hit mask's ½.
-void addLights(Text& text, const Light& light, int samples, double scale) {
+/// One point light a sample; the parts of the set in red, green and blue.
+void addPoints(Text& text, const Light& light, int samples, double scale) {
     const SampleParts parts = sampleParts(samples);
     const double quarter = 1.0 / std::bit_ceil(static_cast<unsigned>(parts.firstQuarter));
-    const double half = 0.5 / std::bit_ceil(static_cast<unsigned>(parts.secondHalf));
+    const double half = hitMask / std::bit_ceil(static_cast<unsigned>(parts.secondHalf));
     for (int i = 0; i < samples; ++i) {
         const glm::dvec3 colour = i < parts.firstQuarter                         ? glm::dvec3(quarter, 0, 0)
                                   : i < parts.firstQuarter + parts.secondQuarter ? glm::dvec3(0, quarter, 0)
@@ -71,7 +71,36 @@ void addLights(Text& text, const Light& light, int samples, double scale) {
     }
 }
 
-void requireRenderable(const Snapshot& snapshot, glm::ivec2 size, int samples) {
+/// Lights along a side of a square grid.
+int gridSide(int samples) { return static_cast<int>(std::lround(std::sqrt(samples))); }
+
+/// An area_light spans its own outermost lights: (n − 1)/n puts them at the centres of n × n cells.
+void addGrid(Text& text, const Light& light, glm::ivec2 lights, const glm::dvec3& colour, double scale, bool adaptive) {
+    const glm::dvec2 share = 1.0 - 1.0 / glm::dvec2(lights);
+    add(text, "light_source {{ {} rgb {} area_light {}, {}, {}, {}{} }}\n", vector(scale * light.centre), vector(colour),
+        vector(scale * share.x * light.u), vector(scale * share.y * light.v), lights.x, lights.y,
+        adaptive ? " adaptive 1" : "");
+}
+
+void addLights(Text& text, const Light& light, int samples, double scale, const PovRayRecipe& recipe) {
+    if (recipe.lights == PovRayRecipe::Lights::Points) return addPoints(text, light, samples, scale);
+    const bool adaptive = recipe.lights == PovRayRecipe::Lights::AdaptiveGrid;
+    const int n = gridSide(samples);
+    addGrid(text, light, {n / 2, n / 2}, {1, 0, 0}, scale, adaptive);
+    addGrid(text, light, {n / 2, n}, {0, 1, 0}, scale, adaptive);
+    addGrid(text, light, {n, n}, {0, 0, 1 - hitMask}, scale, adaptive);
+}
+
+void requireGrid(const Light& light, int samples) {
+    constexpr int fewestAlongASide = 4;
+    const int n = gridSide(samples);
+    if (light.kind != LightKind::Rectangle || n * n != samples || n < fewestAlongASide)
+        throw BadInput(fmt::format("a grid of {} light samples on a {} light: give a rectangle and a square number of at "
+                                   "least {} samples",
+                                   samples, name(light.kind), fewestAlongASide * fewestAlongASide));
+}
+
+void requireRenderable(const Snapshot& snapshot, glm::ivec2 size, int samples, const PovRayRecipe& recipe) {
     if (!snapshot.light.isArea())
         throw BadInput(fmt::format("the povray oracle samples area lights, and this light is {}: use polygon or rays",
                                    name(snapshot.light.kind)));
@@ -79,40 +108,44 @@ void requireRenderable(const Snapshot& snapshot, glm::ivec2 size, int samples) {
         throw BadInput(
             fmt::format("{} light samples asked for: give {} to {}", samples, fewestLightSamples, mostLightSamples));
     if (size.x < 1 || size.y < 1) throw BadInput(fmt::format("an image of {} × {} pixels has none", size.x, size.y));
+    if (recipe.lights != PovRayRecipe::Lights::Points) requireGrid(snapshot.light, samples);
 }
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 } // namespace
 
-double povrayScale(const Snapshot& snapshot) {
+double povrayScale(const Snapshot& snapshot, const PovRayRecipe& recipe) {
     const Light& light = snapshot.light;
     double world =
         std::max(largest(snapshot.camera.eye), largest(light.centre) + 0.5 * (largest(light.u) + largest(light.v)));
     if (const Bounds bounds = snapshot.bounds(); !bounds.empty())
         world = std::max({world, largest(bounds.low), largest(bounds.high)});
-    double scale = largestScale;
+    double scale = recipe.largestScale;
     while (scale * world >= largestCoordinate && std::isfinite(world)) scale /= 2;
     return scale;
 }
 
-std::string povrayScene(const Snapshot& snapshot, glm::ivec2 size, int samples) {
-    requireRenderable(snapshot, size, samples);
-    const double scale = povrayScale(snapshot);
+std::string povrayScene(const Snapshot& snapshot, glm::ivec2 size, int samples, const PovRayRecipe& recipe) {
+    requireRenderable(snapshot, size, samples, recipe);
+    const double scale = povrayScale(snapshot, recipe);
     Text text;
-    // brilliance 0 makes the diffuse term constant; double_illuminate lets a light count whichever side the surface shows.
+    // brilliance 0 makes the diffuse term constant.
     add(text, "#version 3.7;\nglobal_settings {{ assumed_gamma 1.0 }}\n");
-    add(text, "#declare T = texture {{ pigment {{ rgb 1 }} "
-              "finish {{ ambient 0 diffuse 1 brilliance 0 emission rgb <0,0,0.5> }} }}\n");
+    add(text,
+        "#declare T = texture {{ pigment {{ rgb 1 }} "
+        "finish {{ ambient 0 diffuse 1 brilliance 0 emission rgb <0,0,{}> }} }}\n",
+        hitMask);
     addCamera(text, snapshot.camera, size, scale);
 
     std::map<const Mesh*, std::size_t> numbers;
     for (const Batch& batch : snapshot.batches) {
         const auto [entry, isNew] = numbers.try_emplace(batch.mesh.get(), numbers.size());
         if (isNew) addMesh(text, *batch.mesh, entry->second);
-        for (const Placement& placement : batch.placements) addPlacement(text, placement.world, entry->second, scale);
+        for (const Placement& placement : batch.placements)
+            addPlacement(text, placement.world, entry->second, scale, recipe);
     }
-    addLights(text, snapshot.light, samples, scale);
+    addLights(text, snapshot.light, samples, scale, recipe);
     return fmt::to_string(text);
 }
 

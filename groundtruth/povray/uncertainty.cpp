@@ -14,7 +14,13 @@ void forWindow(const Image<std::uint32_t>& id, int cx, int cy, int radius, const
             if (id(x, y) == id(cx, cy)) visit(x, y);
 }
 
-/// 1 where a pixel or a neighbour on the same surface sees a part of the light, or they differ.
+double square(double value) { return value * value; }
+
+/// The mean over `many` + `rest` samples is `all`, that over the first `many` is `first`: the mean over the rest.
+double restOf(double all, double first, int many, int rest) { return all + (all - first) * many / rest; }
+
+} // namespace
+
 Image<std::uint8_t> unresolvedPixels(const Image<float>& visible, const Image<std::uint32_t>& id) {
     Image<std::uint8_t> result(visible.width(), visible.height());
     for (int y = 0; y < visible.height(); ++y) {
@@ -29,12 +35,9 @@ Image<std::uint8_t> unresolvedPixels(const Image<float>& visible, const Image<st
     return result;
 }
 
-double square(double value) { return value * value; }
-
-} // namespace
-
 Image<float> samplingUncertainty(const PovRayImage& image, const Image<std::uint32_t>& id, int samples) {
     const Image<std::uint8_t> unresolved = unresolvedPixels(image.visible, id);
+    const SampleParts parts = sampleParts(samples);
     const double rounding = 1.0 / (12.0 * samples * samples);
     Image<float> sigma(id.width(), id.height());
     for (int y = 0; y < id.height(); ++y) {
@@ -44,9 +47,10 @@ Image<float> samplingUncertainty(const PovRayImage& image, const Image<std::uint
             int count = 0;
             forWindow(id, x, y, 2, [&](int nx, int ny) {
                 if (unresolved(nx, ny) == 0) return;
-                const double first = image.firstQuarter(nx, ny), second = image.secondQuarter(nx, ny);
-                halves += square(0.5 * (first + second) - image.secondHalf(nx, ny));
-                quarters += square(first - second);
+                const double quarter = image.firstQuarter(nx, ny), half = image.firstHalf(nx, ny);
+                const int many = parts.firstQuarter + parts.secondQuarter;
+                halves += square(half - restOf(image.visible(nx, ny), half, many, parts.secondHalf));
+                quarters += square(quarter - restOf(half, quarter, parts.firstQuarter, parts.secondQuarter));
                 ++count;
             });
             sigma(x, y) = static_cast<float>(std::sqrt(std::max(halves / 4, quarters / 8) / count + rounding));

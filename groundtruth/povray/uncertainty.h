@@ -1,9 +1,14 @@
-// How far a sampled visible fraction may be from the true one, measured on the render itself.
+// How far a sampled visible fraction may be from the true one, estimated from the render itself: where it is better known
+// than elsewhere. How large it is over all, a certificate tells (groundtruth/certificate.h).
 #pragma once
 
 #include "groundtruth/povray/povray.h"
 
 namespace shadowbench::groundtruth {
+
+/// 1 where the light is not resolved: the pixel, or one of its eight neighbours on the same surface (equal `id`), sees a
+/// part of the light, or they differ. 0 where all see the whole light or all see none of it, and on the background (id 0).
+Image<std::uint8_t> unresolvedPixels(const Image<float>& visible, const Image<std::uint32_t>& id);
 
 /// Standard uncertainty per pixel of PovRayImage::visible, whose light samples were `samples`.
 ///
@@ -18,8 +23,7 @@ namespace shadowbench::groundtruth {
 /// a square and a disk: 0.6 to 4 times the true rms error, median 2; on 0.9 times or more but for diagonal edges on the
 /// square at 2,048 samples.
 ///
-/// A pixel is resolved, and its uncertainty 0, if it and all its eight neighbours on the same surface (equal `id`) see the
-/// whole light, or all see none of it. Background (id 0): 0.
+/// 0 where the light is resolved (unresolvedPixels).
 Image<float> samplingUncertainty(const PovRayImage& image, const Image<std::uint32_t>& id, int samples);
 
 } // namespace shadowbench::groundtruth

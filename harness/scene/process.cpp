@@ -1,6 +1,7 @@
 #include "harness/scene/process.h"
 
 #include "harness/scene/error.h"
+#include "harness/scene/interrupts.h"
 
 #include <algorithm>
 #include <array>
@@ -23,6 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t longestLine = 4096; // a child that never ends a line must not fill our memory
+constexpr rlim_t mostOpenFiles = 64;      // its own, its libraries' and a few of its work
 
 /// A file descriptor that closes itself.
 class Descriptor {
@@ -82,6 +84,8 @@ struct Launch {
         limit(RLIMIT_CORE, 0);
         limit(RLIMIT_CPU, static_cast<rlim_t>(command.cpuLimit.count()));
         limit(RLIMIT_FSIZE, command.fileLimit);
+        limit(RLIMIT_AS, command.memoryLimit);
+        limit(RLIMIT_NOFILE, mostOpenFiles);
         sigset_t none;
         sigemptyset(&none);
         sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -230,6 +234,8 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
         else if (readable(output.get(), tick))
             open = readSome(output.get(), lines);
         status = child.poll();
+        if (!status && DeferredInterrupts::pending())
+            throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()));
         if (!status && Clock::now() >= end) {
             Finished late = decoded(child.kill());
             late.timedOut = true;

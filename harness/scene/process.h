@@ -1,4 +1,4 @@
-// Runs one external program: no shell, an environment of our own, bounded in time, memory dumps and file size.
+// Runs one external program: no shell, an environment of our own, bounded in time, memory and files, no core dumps.
 #pragma once
 
 #include <chrono>
@@ -18,10 +18,11 @@ std::optional<std::filesystem::path> findProgram(const std::filesystem::path& na
 struct Command {
     std::filesystem::path program; // as findProgram returns it
     std::vector<std::string> arguments;
-    std::filesystem::path folder;            // working directory, HOME and TMPDIR of the child
-    std::chrono::milliseconds limit{60'000}; // wall clock; the child's whole process group is killed after it
-    std::chrono::seconds cpuLimit{120};      // of all its threads
-    std::uintmax_t fileLimit = 64 << 20;     // bytes, largest file the child may write
+    std::filesystem::path folder;                         // working directory, HOME and TMPDIR of the child
+    std::chrono::milliseconds limit{60'000};              // wall clock; the child's whole process group is killed after it
+    std::chrono::seconds cpuLimit{120};                   // of all its threads
+    std::uintmax_t fileLimit = 64 << 20;                  // bytes, largest file the child may write
+    std::uintmax_t memoryLimit = std::uintmax_t{4} << 30; // bytes of address space, more than is ever used of it
 };
 
 struct Finished {
@@ -34,7 +35,8 @@ struct Finished {
 using OnLine = std::function<void(std::string_view)>;
 
 /// Runs to the end. The child has its own process group and dies with the calling thread; no member of the group is left
-/// when this returns or `onLine` throws. Throws Inconclusive when the program cannot be started.
+/// when this returns or `onLine` throws. Throws Inconclusive when the program cannot be started, and when the user
+/// interrupts while a DeferredInterrupts is held.
 Finished runProcess(const Command& command, const OnLine& onLine);
 
 } // namespace shadowbench

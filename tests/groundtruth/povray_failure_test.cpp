@@ -3,96 +3,25 @@
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
 #include "harness/scene/image_io.h"
-#include "povray_scene.h"
+#include "povray_stand_in.h"
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <sys/mount.h>
-#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
 namespace shadowbench::groundtruth {
 namespace {
 
-namespace fs = std::filesystem;
-using namespace std::chrono_literals;
-
-constexpr glm::ivec2 size{64, 64};
-
-/// Alive and not a zombie that nobody has collected yet.
-bool alive(pid_t pid) {
-    std::string stat;
-    try {
-        stat = readFile(fmt::format("/proc/{}/stat", pid));
-    } catch (const Error&) {
-        return false;
-    }
-    const std::size_t state = stat.rfind(')') + 2;
-    return state < stat.size() && stat[state] != 'Z';
-}
-
-bool endsSoon(pid_t pid) {
-    for (int i = 0; i < 200 && alive(pid); ++i) std::this_thread::sleep_for(10ms);
-    return !alive(pid);
-}
-
-/// Temporary folders go to a place of the test's own, where whatever is left can be seen.
-class PovRayFailure : public testing::Test {
-protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "povray-test-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        base_ = name;
-        fs::create_directory(temporary());
-        if (const char* before = std::getenv("TMPDIR")) before_ = before;
-        setenv("TMPDIR", temporary().c_str(), 1);
-    }
-    void TearDown() override {
-        EXPECT_TRUE(fs::is_empty(temporary())) << "a temporary folder was left behind";
-        before_.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", before_.c_str(), 1);
-        fs::remove_all(base_);
-    }
-
-    [[nodiscard]] fs::path temporary() const { return base_ / "tmp"; }
-    [[nodiscard]] fs::path file(const std::string& name) const { return base_ / name; }
-
-    /// A stand-in for POV-Ray: a shell script with this body.
-    PovRayOptions fake(const std::string& body, std::chrono::milliseconds limit = 30s) const {
-        writeFile(file("povray"), "#!/bin/sh\n" + body + "\n");
-        fs::permissions(file("povray"), fs::perms::owner_all);
-        return {file("povray"), limit, 1};
-    }
-
-    /// The sentence with which rendering is inconclusive.
-    static std::string sentence(const PovRayOptions& options, const Progress& progress = {}) {
-        try {
-            renderPovRay(overlappingPlates(), size, 16, options, progress);
-        } catch (const Inconclusive& error) {
-            return error.what();
-        }
-        ADD_FAILURE() << "rendering did not end as inconclusive";
-        return "";
-    }
-
-    [[nodiscard]] pid_t pidIn(const std::string& name) const {
-        for (int i = 0; i < 500 && !(fs::exists(file(name)) && fs::file_size(file(name)) > 0); ++i)
-            std::this_thread::sleep_for(10ms);
-        return std::stoi(readFile(file(name)));
-    }
-
-    fs::path base_;
-    std::string before_;
-};
-
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != text.npos; }
+class PovRayFailure : public PovRayStandIn {};
 
 TEST_F(PovRayFailure, AMissingProgramNamesThePackage) {
     const std::string said = sentence({.program = "no-such-povray"});
@@ -139,30 +68,6 @@ TEST_F(PovRayFailure, AHangEndsAtTheLimitAndTakesItsChildrenAlong) {
 TEST_F(PovRayFailure, AChildThatOutlivesAFailedRenderIsEnded) {
     sentence(fake(fmt::format("sleep 100 & echo $! > {}; exit 1", file("pid").string())));
     EXPECT_TRUE(endsSoon(pidIn("pid")));
-}
-
-TEST_F(PovRayFailure, AnInterruptedCallerLeavesNothingBehind) {
-    struct Interrupted {};
-    const PovRayOptions options =
-        fake(fmt::format("echo $$ > {}; echo 'Rendered 1024 of 4096 pixels (25%)' >&2; sleep 100", file("pid").string()));
-    const Progress interrupt = [](double, std::string_view) { throw Interrupted{}; };
-    EXPECT_THROW(renderPovRay(overlappingPlates(), size, 16, options, interrupt), Interrupted);
-    EXPECT_TRUE(endsSoon(pidIn("pid")));
-}
-
-TEST_F(PovRayFailure, TheRenderDiesWithItsParent) {
-    const PovRayOptions options = fake(fmt::format("echo $$ > {}; exec sleep 100", file("pid").string()));
-    const pid_t parent = fork();
-    if (parent == 0) {
-        renderPovRay(overlappingPlates(), size, 16, options);
-        _exit(0);
-    }
-    const pid_t child = pidIn("pid");
-    EXPECT_TRUE(alive(child));
-    kill(parent, SIGKILL);
-    waitpid(parent, nullptr, 0);
-    EXPECT_TRUE(endsSoon(child));
-    for (const fs::path& left : fs::directory_iterator(temporary())) fs::remove_all(left); // nobody was there to do it
 }
 
 TEST_F(PovRayFailure, ATruncatedImageIsNotAResult) {
@@ -220,6 +125,27 @@ TEST_F(PovRayFailure, TheChildSeesAPrivateHomeAndNoInput) {
     EXPECT_FALSE(contains(environment, "SECRET"));
 }
 
+TEST_F(PovRayFailure, TheChildIsLimitedInMemoryFilesAndDumps) {
+    const PovRayOptions options =
+        fake(fmt::format("(ulimit -v; ulimit -n; ulimit -c; ulimit -t; ulimit -f) > {}; exit 1", file("limits").string()));
+    sentence(options);
+    std::istringstream limits(readFile(file("limits")));
+    long memory = 0, files = 0, dump = -1, seconds = 0, blocks = 0; // "unlimited" would not be read as a number
+    limits >> memory >> files >> dump >> seconds >> blocks;
+    EXPECT_GE(memory, 1 << 20); // KiB: POV-Ray needs half a GiB of address space for an empty scene …
+    EXPECT_LE(memory, 2 << 20); // … and twenty bytes for each of this one's text do not make it two
+    EXPECT_EQ(files, 64);
+    EXPECT_EQ(dump, 0);
+    EXPECT_EQ(seconds, 31); // 30 s with one thread
+    EXPECT_GT(blocks, 0);
+}
+
+TEST_F(PovRayFailure, AChildThatTakesAllMemoryIsEnded) {
+    // dash keeps a variable in memory: doubled until the address space is full.
+    const std::string said = sentence(fake("x=aaaaaaaaaaaaaaaa; while :; do x=$x$x; done"));
+    EXPECT_TRUE(contains(said, "Out of space") || contains(said, "killed by signal")) << said;
+}
+
 TEST_F(PovRayFailure, ProgressRisesToOne) {
     std::vector<double> seen;
     renderPovRay(overlappingPlates(), size, 16, {}, [&](double done, std::string_view) { seen.push_back(done); });
@@ -262,6 +188,21 @@ TEST(PovRayScene, HoldsNumbersAndOurOwnWordsOnly) {
     const std::string words = std::regex_replace(text, std::regex("(^|[^A-Za-z_0-9])[-+]?[0-9.]+(e[-+]?[0-9]+)?"), "$1");
     for (std::sregex_iterator i(words.begin(), words.end(), word), end; i != end; ++i)
         EXPECT_TRUE(ours.contains(i->str())) << i->str();
+}
+
+TEST(PovRayScene, HoldsNoStringOfTheUsers) {
+    constexpr std::string_view text = R"(
+title = "T\" #include \"/etc/passwd\""
+camera = { eye = [3.1, 4.2, 7.3], target = [0, 0.6, 0], fovy = 40, near = 0.1, far = 60 }
+light = { kind = "rectangle", centre = [0.2, 8.1, 0.3], u = [1.8, 0, 0.1], v = [-0.1, 0, 1.8] }
+[[object]]
+name = "} #include \"injected.inc\" // injected"
+mesh = { box = { size = [2, 1, 1] } }
+)";
+    const Scene scene = parseScene(text, "injected \"#include\".toml", Profile::Gate);
+    ASSERT_TRUE(contains(scene.objects.at(0).name, "#include")); // it was read …
+    const std::string written = povrayScene(snapshot(scene, 0), size, 16);
+    for (const char* part : {"include", "injected", "passwd", "\"", "//"}) EXPECT_FALSE(contains(written, part)) << part;
 }
 
 TEST(PovRayScene, RefusesWhatItCannotRender) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -11,6 +14,14 @@ namespace {
 /// Number of the box of an elementary interval 2^-a × 2^-b that holds the point.
 int cell(glm::dvec2 point, int a, int b) {
     return (static_cast<int>(point.x * (1 << a)) << b) + static_cast<int>(point.y * (1 << b));
+}
+
+/// Area of the part of the square [−½, ½]² where dot(p, normal) < offset: the CDF of a sum of two uniform variables.
+double belowEdge(glm::dvec2 normal, double offset) {
+    const double a = std::abs(normal.x), b = std::abs(normal.y), t = offset + 0.5 * (a + b);
+    if (std::min(a, b) < 1e-9) return std::clamp(t / std::max(a, b), 0.0, 1.0);
+    const auto square = [](double x) { return x > 0 ? x * x : 0; };
+    return (square(t) - square(t - a) - square(t - b) + square(t - a - b)) / (2 * a * b);
 }
 
 TEST(LightSample, FirstPowersOfTwoFormANet) {
@@ -54,6 +65,24 @@ TEST(LightSample, PointsOfAPowerOfTwoAreCentredSoThatTheirMeanIsTheMiddle) {
         for (int i = 0; i < n; ++i) sum += lightSample(i, n);
         EXPECT_DOUBLE_EQ(sum.x / n, 0.5) << n;
         EXPECT_DOUBLE_EQ(sum.y / n, 0.5) << n;
+    }
+}
+
+TEST(LightSample, EdgesInAnyDirectionLeaveTheErrorOfANet) {
+    // Share of the unit square below a straight edge, counted and exact (a sum of clipped triangles).
+    constexpr int n = 1024;
+    for (int degrees = 0; degrees < 180; degrees += 5) {
+        const glm::dvec2 normal(std::cos(glm::radians(1.0 * degrees)), std::sin(glm::radians(1.0 * degrees)));
+        double squares = 0;
+        constexpr int edges = 200;
+        for (int i = 0; i < edges; ++i) {
+            const double offset = (i + 0.5) / edges - 0.5;
+            int count = 0;
+            for (int j = 0; j < n; ++j) count += glm::dot(lightSample(j, n) - 0.5, normal) < offset;
+            squares += std::pow(static_cast<double>(count) / n - belowEdge(normal, offset), 2);
+        }
+        EXPECT_LE(std::sqrt(squares / edges), 0.003)
+            << degrees << "°"; // what a reference may err; unscrambled 0.0067 at 45°
     }
 }
 

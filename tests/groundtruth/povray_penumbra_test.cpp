@@ -86,12 +86,16 @@ TEST(PovRay, CountsThatAreNoPowerOfTwoGiveExactFractions) {
     EXPECT_GT(penumbra, 1000);
 }
 
-TEST(PovRay, PartsAverageToTheWhole) {
+TEST(PovRay, PartsOfTheSetAreWhatFewerSamplesSee) {
     const PovRayImage image = renderPovRay(halfPlane(LightKind::Disk), size, 256);
     int differ = 0;
     for (std::size_t i = 0; i < image.visible.size(); ++i) {
-        EXPECT_EQ(0.25F * (image.firstQuarter[i] + image.secondQuarter[i]) + 0.5F * image.secondHalf[i], image.visible[i]);
-        differ += image.firstQuarter[i] != image.secondQuarter[i] && image.firstQuarter[i] != image.secondHalf[i];
+        const float quarter = image.firstQuarter[i], half = image.firstHalf[i], all = image.visible[i];
+        const float secondQuarter = 2 * half - quarter, secondHalf = 2 * all - half;
+        ASSERT_TRUE(secondQuarter >= 0 && secondQuarter <= 1 && secondHalf >= 0 && secondHalf <= 1);
+        EXPECT_EQ(64 * quarter, std::rint(64 * quarter));
+        EXPECT_EQ(128 * half, std::rint(128 * half));
+        differ += quarter != secondQuarter && quarter != secondHalf;
     }
     EXPECT_GT(differ, 100); // three sample sets, not one counted thrice
 }

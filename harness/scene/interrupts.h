@@ -1,0 +1,20 @@
+// Holds back an interrupt until what must not be left behind is gone.
+#pragma once
+
+namespace shadowbench {
+
+/// While one is alive, the first SIGINT, SIGTERM or SIGHUP is only noted; it takes effect, in the way it would have before,
+/// when the last one is destroyed. A second one of the same kind takes effect at once. Signals that were ignored before stay
+/// so. May be nested; the process is expected to hold them on one thread at a time.
+class DeferredInterrupts {
+public:
+    DeferredInterrupts();
+    ~DeferredInterrupts();
+    DeferredInterrupts(const DeferredInterrupts&) = delete;
+    DeferredInterrupts& operator=(const DeferredInterrupts&) = delete;
+
+    /// Whether one was noted: whoever waits for something should give up.
+    [[nodiscard]] static bool pending();
+};
+
+} // namespace shadowbench
