@@ -22,8 +22,8 @@ struct PlanarReceiver {
     std::size_t pixels = 0;               // that see it
 };
 
-/// A snapshot prepared for queries: one tree per mesh and one over the instances. Make it once and use it for several images
-/// of the same snapshot; const use is thread-safe.
+/// A snapshot prepared for queries. What several images or receivers share (trees, edges of meshes, silhouettes that no
+/// receiver cuts) is made when first needed and kept; const use is thread-safe.
 class ExactScene {
 public:
     /// `threads`: how many work on an image; results do not depend on it.
@@ -47,10 +47,12 @@ public:
     [[nodiscard]] std::vector<PlanarReceiver> planarReceivers(const PrimaryHits& primary,
                                                               std::size_t minimumPixels = 256) const;
 
-    /// The labels of `labelByRays` by another derivation, silhouette chains and a scanline, with the distance to the nearest
+    /// The labels of `labelByRays` by a derivation that shares no decision with it, exact winding numbers of silhouette
+    /// chains (no tree, no shadow ray), with the distance to the nearest
     /// visible boundary of the union of the shadows on the receiver's plane: correct to 1e-6 px up to 8 px, infinity beyond.
     /// A boundary is visible where one of the four pixel centres around it sees the receiver. Writes the pixels of
-    /// `receiver` only; images of `out` that have no size yet are made. Costs a pass over all triangles per receiver.
+    /// `receiver` only; images of `out` that have no size yet are made. InternalError if winding numbers found on different
+    /// ways disagree.
     void labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
                         const Progress& progress = {}) const;
 

@@ -39,7 +39,13 @@ bool missesImage(const Corners& corners, const ShadowProjection& projection, glm
 } // namespace
 
 Occluders::Occluders(const SceneTriangles& scene, const glm::dvec4& light, int threads)
-    : scene_(scene), light_(light), threads_(threads), whole_(scene.instances().size()) {}
+    : scene_(scene), light_(light), threads_(threads), edges_(scene.meshes()), whole_(scene.instances().size()) {}
+
+const MeshEdges& Occluders::edgesOf(const TriangleInstance& instance) const {
+    Edges& entry = edges_[instance.tree];
+    std::call_once(entry.found, [&] { entry.edges = MeshEdges(*instance.mesh); });
+    return entry.edges;
+}
 
 std::shared_ptr<const Chains> Occluders::chainsOf(std::size_t index, const ShadowProjection& projection, glm::ivec2 size,
                                                   int threads) const {
@@ -53,9 +59,11 @@ std::shared_ptr<const Chains> Occluders::chainsOf(std::size_t index, const Shado
     if (std::ranges::max(levels) <= 0 || missesImage(corners, projection, size)) return nullptr;
 
     if (std::ranges::min(heights) <= 0 || std::ranges::min(levels) <= 0)
-        return std::make_shared<Chains>(clippedChains(instance, light_, projection.receiver(), threads));
+        return std::make_shared<Chains>(clippedChains(instance, edgesOf(instance), light_, projection.receiver(), threads));
     Whole& whole = whole_[index];
-    std::call_once(whole.made, [&] { whole.chains = std::make_shared<Chains>(wholeChains(instance, light_, threads)); });
+    std::call_once(whole.made, [&] {
+        whole.chains = std::make_shared<Chains>(wholeChains(instance, edgesOf(instance), light_, threads));
+    });
     return whole.chains;
 }
 

@@ -41,12 +41,19 @@ private:
         std::once_flag made;
         std::shared_ptr<const Chains> chains;
     };
+    /// Edges of a distinct mesh, found when first needed.
+    struct Edges {
+        std::once_flag found;
+        MeshEdges edges;
+    };
+    const MeshEdges& edgesOf(const TriangleInstance& instance) const;
     std::shared_ptr<const Chains> chainsOf(std::size_t instance, const ShadowProjection& projection, glm::ivec2 size,
                                            int threads) const;
 
     const SceneTriangles& scene_;
     glm::dvec4 light_;
     int threads_;
+    mutable std::deque<Edges> edges_; // one per TriangleInstance::tree
     mutable std::deque<Whole> whole_; // one per instance
 };
 

@@ -10,37 +10,31 @@
 namespace shadowbench::groundtruth {
 namespace {
 
-/// An undirected mesh edge with the covers of its direction from the lower to the higher vertex index, kept by lower index.
-struct Chain {
-    std::uint32_t high;
-    int covers;
-};
-
 class ChainBuilder {
 public:
-    ChainBuilder(const TriangleInstance& instance, const glm::dvec4& light, int threads)
-        : mesh_(*instance.mesh), light_(light), threads_(threads), vertices_(mesh_.positions.size()) {
+    ChainBuilder(const TriangleInstance& instance, const MeshEdges& edges, const glm::dvec4& light, int threads)
+        : mesh_(*instance.mesh), edges_(edges), light_(light), threads_(threads), vertices_(mesh_.positions.size()) {
         forEachPart(vertices_.size(), threads_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) vertices_[i] = worldVertex(instance.world, mesh_.positions[i]);
         });
     }
 
     /// Only what lies above the plane and below the light is to remain.
-    void clip(const Triangle& plane) {
+    void clip(const Triangle& plane, bool reachesLight) {
         const int front = side(plane, light_);
         heights_.resize(vertices_.size());
-        levels_.resize(vertices_.size());
+        levels_.resize(vertices_.size(), 1);
         forEachPart(vertices_.size(), threads_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 heights_[i] = static_cast<std::int8_t>(front * side(plane, glm::dvec4(vertices_[i], 1)));
-                levels_[i] = static_cast<std::int8_t>(belowLight(plane, light_, vertices_[i]));
+                if (reachesLight) levels_[i] = static_cast<std::int8_t>(belowLight(plane, light_, vertices_[i]));
             }
         });
     }
 
     Chains build() {
         findFacing();
-        sumChains();
+        edges_.forEachSum(facing_, [&](const MeshEdges::Edge& edge, int covers) { addChain(edge.low, edge.high, covers); });
         if (!heights_.empty()) addContacts();
         return std::move(chains_);
     }
@@ -63,38 +57,6 @@ private:
         return signs.empty() || signs[t.x] > 0 || signs[t.y] > 0 || signs[t.z] > 0;
     }
 
-    /// Adds ±1 per directed edge, bucketed by the lower vertex index, and keeps what does not cancel.
-    void sumChains() {
-        std::vector<std::uint32_t> first(vertices_.size() + 1, 0);
-        forEachEdge([&](std::uint32_t low, std::uint32_t, int) { ++first[low + 1]; });
-        for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-        std::vector<std::uint32_t> last(first.begin(), first.end() - 1);
-        std::vector<Chain> chains(first.back());
-        forEachEdge([&](std::uint32_t low, std::uint32_t high, int covers) {
-            const auto begin = chains.begin() + first[low], end = chains.begin() + last[low];
-            const auto found = std::find_if(begin, end, [&](const Chain& c) { return c.high == high; });
-            if (found == end)
-                chains[last[low]++] = {high, covers};
-            else
-                found->covers += covers;
-        });
-        for (std::uint32_t low = 0; low < vertices_.size(); ++low)
-            for (std::uint32_t i = first[low]; i < last[low]; ++i)
-                if (chains[i].covers != 0) addChain(low, chains[i]);
-    }
-
-    template <typename Visit>
-    void forEachEdge(const Visit& visit) const {
-        for (std::size_t i = 0; i < facing_.size(); ++i) {
-            if (facing_[i] == 0) continue;
-            const glm::uvec3 t = turned(i);
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-                visit(std::min(a, b), std::max(a, b), a < b ? 1 : -1);
-            }
-        }
-    }
-
     /// Counter-clockwise seen from the light.
     [[nodiscard]] glm::uvec3 turned(std::size_t triangle) const {
         const glm::uvec3& t = mesh_.triangles[triangle];
@@ -102,15 +64,14 @@ private:
     }
 
     /// The part of an edge that is neither below the plane nor above the light.
-    void addChain(std::uint32_t low, const Chain& chain) {
-        const std::uint32_t high = chain.high;
+    void addChain(std::uint32_t low, std::uint32_t high, int covers) {
         if (heights_.empty()) {
-            chains_.edges.push_back({vertex(low), vertex(high), chain.covers, false});
+            chains_.edges.push_back({vertex(low), vertex(high), covers, false});
             return;
         }
         if (heights_[low] + heights_[high] < 0 || levels_[low] + levels_[high] < 0) return;
         const bool atLightLevel = levels_[low] == 0 && levels_[high] == 0;
-        chains_.edges.push_back({end(low, high), end(high, low), chain.covers, atLightLevel});
+        chains_.edges.push_back({end(low, high), end(high, low), covers, atLightLevel});
     }
 
     /// The end of the edge from `here` to `there` at the side of `here`.
@@ -157,6 +118,7 @@ private:
     }
 
     const Mesh& mesh_;
+    const MeshEdges& edges_;
     const glm::dvec4& light_;
     int threads_;
     std::vector<glm::dvec3> vertices_;
@@ -179,13 +141,17 @@ EdgePoint edgePoint(const TriangleInstance& instance, const ChainPoint& point) {
 
 } // namespace
 
-Chains wholeChains(const TriangleInstance& instance, const glm::dvec4& light, int threads) {
-    return ChainBuilder(instance, light, threads).build();
+Chains wholeChains(const TriangleInstance& instance, const MeshEdges& edges, const glm::dvec4& light, int threads) {
+    return ChainBuilder(instance, edges, light, threads).build();
 }
 
-Chains clippedChains(const TriangleInstance& instance, const glm::dvec4& light, const Triangle& plane, int threads) {
-    ChainBuilder builder(instance, light, threads);
-    builder.clip(plane);
+Chains clippedChains(const TriangleInstance& instance, const MeshEdges& edges, const glm::dvec4& light,
+                     const Triangle& plane, int threads) {
+    const auto corners = Bounds{glm::dvec3(instance.box.low), glm::dvec3(instance.box.high)}.corners();
+    const bool reachesLight =
+        std::ranges::any_of(corners, [&](const glm::dvec3& c) { return belowLight(plane, light, c) <= 0; });
+    ChainBuilder builder(instance, edges, light, threads);
+    builder.clip(plane, reachesLight);
     return builder.build();
 }
 
@@ -200,7 +166,8 @@ std::vector<SpatialEdge> borderOf(const TriangleInstance& instance, std::uint32_
     TriangleInstance alone = instance;
     alone.mesh = std::make_shared<Mesh>(Mesh{{positions[t.x], positions[t.y], positions[t.z]}, {{0, 1, 2}}, false});
     std::vector<SpatialEdge> border;
-    for (const ChainEdge& edge : clippedChains(alone, light, plane, 1).edges) border.push_back(spatialEdge(alone, edge));
+    for (const ChainEdge& edge : clippedChains(alone, MeshEdges(*alone.mesh), light, plane, 1).edges)
+        border.push_back(spatialEdge(alone, edge));
     return border;
 }
 
@@ -211,7 +178,7 @@ ShadowEdge shadowEdge(const TriangleInstance& instance, const ChainEdge& edge, c
 std::vector<ShadowEdge> silhouette(const TriangleInstance& instance, const glm::dvec4& light,
                                    const ShadowProjection& projection) {
     std::vector<ShadowEdge> edges;
-    for (const ChainEdge& edge : clippedChains(instance, light, projection.receiver(), 1).edges)
+    for (const ChainEdge& edge : clippedChains(instance, MeshEdges(*instance.mesh), light, projection.receiver(), 1).edges)
         if (!edge.atLightLevel) edges.push_back(shadowEdge(instance, edge, projection));
     return edges;
 }

@@ -1,6 +1,7 @@
 // Silhouette chains: of all edges of an occluder only those remain at which the number of covering triangles changes.
 #pragma once
 
+#include "groundtruth/cgal/mesh_edges.h"
 #include "groundtruth/cgal/projection.h"
 #include "groundtruth/cgal/triangles.h"
 #include "groundtruth/cgal/winding.h"
@@ -31,11 +32,12 @@ struct Chains {
     std::vector<std::uint32_t> grounded; // triangles of the mesh that occlude and touch or cross the receiver's plane
 };
 
-/// Of an instance between the receiver's plane and the light's level.
-Chains wholeChains(const TriangleInstance& instance, const glm::dvec4& light, int threads);
+/// Of an instance between the receiver's plane and the light's level. `edges` are those of its mesh.
+Chains wholeChains(const TriangleInstance& instance, const MeshEdges& edges, const glm::dvec4& light, int threads);
 
 /// Of the part of an instance that lies between the plane of `plane` and the light's level.
-Chains clippedChains(const TriangleInstance& instance, const glm::dvec4& light, const Triangle& plane, int threads);
+Chains clippedChains(const TriangleInstance& instance, const MeshEdges& edges, const glm::dvec4& light,
+                     const Triangle& plane, int threads);
 
 /// The border of one occluding triangle as far as it lies between the plane and the light's level.
 std::vector<SpatialEdge> borderOf(const TriangleInstance& instance, std::uint32_t triangle, const glm::dvec4& light,

@@ -57,7 +57,8 @@ public:
     explicit SceneTriangles(const Snapshot& snapshot);
 
     [[nodiscard]] const std::vector<TriangleInstance>& instances() const { return instances_; }
-    [[nodiscard]] std::uint32_t instanceOf(std::uint32_t id) const; // index of the placement with that surface id
+    [[nodiscard]] std::size_t meshes() const { return trees_.size(); } // distinct ones: TriangleInstance::tree is below
+    [[nodiscard]] std::uint32_t instanceOf(std::uint32_t id) const;    // index of the placement with that surface id
     [[nodiscard]] Triangle triangle(TriangleName name) const;
     [[nodiscard]] double reachFrom(const glm::dvec3& point) const; // all of the scene lies nearer to the point than this
 
