@@ -122,7 +122,7 @@ ExactRing tidy(const ExactRing& ring) {
         const ExactPoint &before = ring[(i + ring.size() - 1) % ring.size()], &after = ring[(i + 1) % ring.size()];
         if (!CGAL::collinear(before, ring[i], after)) result.push_back(ring[i]);
     }
-    std::ranges::rotate(result, std::min_element(result.begin(), result.end()));
+    std::rotate(result.begin(), std::min_element(result.begin(), result.end()), result.end());
     return result;
 }
 

@@ -109,8 +109,9 @@ TEST(ShadowPolygons, AbuttingPlatesHaveNoSeam) {
 TEST(ShadowPolygons, PlatesThatTouchInCornersShareNoRing) {
     SceneBuilder scene = ground();
     for (int i = 0; i < 36; ++i) {
-        const float x = 0.5F * static_cast<float>(i % 6 - 3), z = 0.5F * static_cast<float>(i / 6 - 3);
-        if ((i % 6 + i / 6) % 2 != 0) scene.add(plate(x, x + 0.5F, 2, z, z + 0.5F));
+        const int column = i % 6, row = i / 6;
+        const float x = 0.5F * static_cast<float>(column - 3), z = 0.5F * static_cast<float>(row - 3);
+        if ((column + row) % 2 != 0) scene.add(plate(x, x + 0.5F, 2, z, z + 0.5F));
     }
     const ReceiverRegion chequered = groundShadow(scene.get()).shadow;
     EXPECT_EQ(chequered.polygons.size(), 18U);
