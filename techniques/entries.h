@@ -6,6 +6,9 @@
 namespace shadowbench::techniques {
 
 Entry none();
+Entry planarHard();
+Entry planarSoft();
+Entry planarFake();
 Entry smUniform();
 Entry smLispsm();
 Entry smHistory();
