@@ -5,8 +5,9 @@
 namespace shadowbench::techniques {
 
 std::span<const Entry> catalog() {
-    static const std::array entries{none(), smUniform(), smLispsm(),    smHistory(),   volumeZfail(),
-                                    pcf(),  pcss(),      sampledMaps(), temporalSoft()};
+    static const std::array entries{none(),     planarHard(), planarSoft(),  planarFake(),  smUniform(),
+                                    smLispsm(), smHistory(),  volumeZpass(), volumeZfail(), volumeXor(),
+                                    pcf(),      pcss(),       sampledMaps(), temporalSoft()};
     return entries;
 }
 

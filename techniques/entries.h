@@ -6,10 +6,15 @@
 namespace shadowbench::techniques {
 
 Entry none();
+Entry planarHard();
+Entry planarSoft();
+Entry planarFake();
 Entry smUniform();
 Entry smLispsm();
 Entry smHistory();
+Entry volumeZpass();
 Entry volumeZfail();
+Entry volumeXor();
 Entry pcf();
 Entry pcss();
 Entry sampledMaps();

@@ -11,6 +11,7 @@
 #include <functional>
 #include <glm/mat4x4.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -66,6 +67,9 @@ struct Entry {
     Source source;
     Answer answer = Answer::Hard;
     bool temporal = false; // keeps history: its frames must be rendered in order
+    /// Why the technique has nothing to do on a scene; nothing if it has. Empty: it takes every scene with a light that it
+    /// can answer for.
+    std::function<std::optional<std::string>(const Scene&)> notApplicable = {};
     std::vector<Parameter> parameters;
     std::vector<std::string> variants; // what a run of all techniques shows: parameter strings, "" = all defaults
     std::function<std::unique_ptr<Technique>(const Parameters&)> make;

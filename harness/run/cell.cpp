@@ -193,6 +193,7 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
     if (variant.entry->answer == Answer::Soft && !scene.light.isArea())
         return fmt::format("needs an area light; the light of {} is {}", scene.id,
                            scene.light.kind == LightKind::Point ? "a point" : "directional");
+    if (variant.entry->notApplicable) return variant.entry->notApplicable(scene);
     return std::nullopt;
 }
 

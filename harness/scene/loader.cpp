@@ -1,4 +1,5 @@
-// Scene files: the sections that every scene has. Meshes and objects are read in loader_meshes.cpp and loader_objects.cpp.
+// Scene files: the sections that every scene has. Meshes, objects and bounds are read in loader_meshes.cpp,
+// loader_objects.cpp and loader_bounds.cpp.
 #include "harness/scene/loader.h"
 
 #include "harness/scene/error.h"
@@ -113,12 +114,6 @@ void readTimeline(const TomlValue& value, Timeline& timeline) {
     if (const auto moving = value.find("moving")) timeline.moving = moving->integer(0, kMostFrames);
 }
 
-void readTolerances(const TomlValue& value, std::map<std::string, double>& tolerance) {
-    value.only({"mismatch", "mismatch_off_edge", "false_shadow", "leak", "edge_error", "bad30", "bad8", "mae", "rmse",
-                "penumbra_rmse", "penumbra_width_error", "umbra_leak", "flicker", "flip_rate", "convergence", "pop"});
-    for (const TomlValue& entry : value.members()) tolerance[std::string(entry.lastKey())] = entry.positive();
-}
-
 void readObjects(const TomlValue& root, Scene& scene, const fs::path& file) {
     const auto objects = root.find("object");
     if (!objects) root.fail("the scene has no objects; add an [[object]]");
@@ -170,7 +165,7 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile) {
     const TomlValue root(source, "", table);
     if (table.empty()) root.fail("the file is empty; a scene has a title, a camera, a light and objects");
     root.only({"title", "profile", "size", "reference_samples", "moving_reference_samples", "camera", "light", "timeline",
-               "object", "tolerance"});
+               "object", "tolerance", "expect"});
 
     Scene scene;
     scene.id = file.stem().string();
@@ -187,7 +182,8 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile) {
     readCamera(root.get("camera"), scene);
     readLight(root.get("light"), scene);
     if (const auto timeline = root.find("timeline")) readTimeline(*timeline, scene.timeline);
-    if (const auto tolerance = root.find("tolerance")) readTolerances(*tolerance, scene.tolerance);
+    if (const auto tolerance = root.find("tolerance")) scene.tolerance = readTolerances(*tolerance);
+    if (const auto expect = root.find("expect")) readExpectations(*expect, scene);
     readObjects(root, scene, file);
     requireNoProblem(root, scene);
     return scene;

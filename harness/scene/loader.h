@@ -35,6 +35,12 @@ Object readObject(const TomlValue& value, int number, const glm::dvec3& eye, Mes
 /// A list of key frames, `[{ frame = 0, <name> = [x, y, z] }, …]`; keys without `name` are left out.
 Track readTrack(const TomlValue& path, const std::string& name);
 
+/// `[tolerance]`: metric name → worst value that a viewer accepts.
+std::map<std::string, double> readTolerances(const TomlValue& value);
+
+/// `[expect]`: the techniques that the scene breaks and those that hold.
+void readExpectations(const TomlValue& value, Scene& scene);
+
 /// Whether an object or scene belongs to `profile`: its `profile` key names it, or it has none.
 bool belongsTo(const TomlValue& value, Profile profile);
 

@@ -69,6 +69,14 @@ struct Timeline {
     [[nodiscard]] int frames() const { return still + moving; }
 };
 
+/// What a scene is there to show of one technique: a bound on one metric.
+struct Expectation {
+    std::string technique; // a variant; may name a technique that the catalogue does not have yet
+    std::string metric;    // one that `tolerance` may name
+    double bound = 0;      // of an expected failure: the metric lies above; of a technique that holds: below
+    std::string reason;
+};
+
 struct Scene {
     std::string id; // file stem: the one word for it everywhere
     std::string title;
@@ -82,6 +90,8 @@ struct Scene {
     Track lightCentre, lightDirection;
     std::vector<Object> objects;
     std::map<std::string, double> tolerance; // metric name → worst value a viewer of this scene accepts
+    std::vector<Expectation> fails;          // techniques that the scene breaks: one that stops failing is an error too
+    std::vector<Expectation> holds;          // techniques that it does not break
     int referenceSamples = 1024;             // light samples of an area light's reference on the scored frame …
     int movingReferenceSamples = 256;        // … and on the moving frames
 };

@@ -48,17 +48,26 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> silhouette(const EdgeMesh& 
     return result;
 }
 
-void appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, std::vector<std::uint32_t>& indices) {
-    const std::vector<bool> facing = mesh.facing(light);
-    const auto vertexCount = static_cast<std::uint32_t>(mesh.mesh().positions.size());
-    const bool endsInPoint = light.w == 0;
+namespace {
 
+void appendCaps(const EdgeMesh& mesh, const std::vector<bool>& facing, bool atInfinity,
+                std::vector<std::uint32_t>& indices) {
+    const auto vertexCount = static_cast<std::uint32_t>(mesh.mesh().positions.size());
     for (std::size_t t = 0; t < facing.size(); ++t) {
-        if (!facing[t] && endsInPoint) continue;
+        if (!facing[t] && !atInfinity) continue;
         const std::uint32_t far = facing[t] ? 0 : vertexCount;
         const glm::uvec3& i = mesh.mesh().triangles[t];
         indices.insert(indices.end(), {i.x + far, i.y + far, i.z + far});
     }
+}
+
+} // namespace
+
+void appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, Caps caps, std::vector<std::uint32_t>& indices) {
+    const std::vector<bool> facing = mesh.facing(light);
+    const auto vertexCount = static_cast<std::uint32_t>(mesh.mesh().positions.size());
+    const bool endsInPoint = light.w == 0;
+    if (caps == Caps::Both) appendCaps(mesh, facing, !endsInPoint, indices);
     for (const auto& [a, b] : silhouette(mesh, facing)) {
         indices.insert(indices.end(), {b, a, a + vertexCount});
         if (!endsInPoint) indices.insert(indices.end(), {b, a + vertexCount, b + vertexCount});

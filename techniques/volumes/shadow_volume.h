@@ -39,10 +39,13 @@ private:
 /// of a facing triangle is one too.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> silhouette(const EdgeMesh& mesh, const std::vector<bool>& facing);
 
+/// What closes a volume's sides at both ends.
+enum class Caps { None, Both };
+
 /// Triangles of the shadow volume as indices into the mesh's vertices; index + vertexCount is the same vertex projected to
-/// infinity away from the light. Facing triangles close it at the front; averted ones, projected, close it at infinity,
-/// except for a directional light, whose volume ends in a point there.
-void appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, std::vector<std::uint32_t>& indices);
+/// infinity away from the light. With caps, facing triangles close it at the front; averted ones, projected, close it at
+/// infinity, except for a directional light, whose volume ends in a point there.
+void appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, Caps caps, std::vector<std::uint32_t>& indices);
 
 /// The projection `projection` (perspective) with its far plane moved to infinity: P_inf (Everitt–Kilgard 3.2.1).
 glm::dmat4 infiniteProjection(const glm::dmat4& projection, double near);

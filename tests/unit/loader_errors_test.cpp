@@ -39,6 +39,11 @@ std::string withLight(const std::string& inside) { return with(kCamera, "light =
 
 std::string withCamera(const std::string& inside) { return with("camera = { " + inside + " }\n", kLight, kObject); }
 
+/// An `expect.fails` with one entry, on line 7.
+std::string withExpectedFailure(const std::string& entry) {
+    return with(kCamera, kLight, kObject + "[expect]\nfails = [{ " + entry + " }]\n");
+}
+
 std::string withTop(const std::string& line) {
     return line + "\n" + with(kCamera, kLight, kObject); // on line 1
 }
@@ -168,6 +173,23 @@ const std::vector<Mistake>& mistakes() {
          "scenes/x.toml:6: object[1].path[1].shift: missing"},
         {"NegativeTolerance", with(kCamera, kLight, kObject + "[tolerance]\nmismatch = -0.1\n"),
          "scenes/x.toml:7: tolerance.mismatch: expected a number above 0, got -0.1"},
+        {"UnknownExpectation", with(kCamera, kLight, kObject + "[expect]\nfail = []\n"),
+         "scenes/x.toml:7: expect.fail: unknown key (did you mean \"fails\"?)"},
+        {"ExpectationOfNoTechnique", withExpectedFailure("metric = \"leak\", above = 0.1, reason = \"x\""),
+         "scenes/x.toml:7: expect.fails[1].technique: missing"},
+        {"ExpectationOfAnUnknownMetric",
+         withExpectedFailure("technique = \"vsm\", metric = \"laek\", above = 0.1, reason = \"x\""),
+         "scenes/x.toml:7: expect.fails[1].metric: expected one of mismatch, mismatch_off_edge, false_shadow, leak, "},
+        {"ExpectedFailureBelowABound",
+         withExpectedFailure("technique = \"vsm\", metric = \"leak\", below = 0.1, reason = \"x\""),
+         "scenes/x.toml:7: expect.fails[1].below: unknown key; known are technique, metric, above, reason"},
+        {"ExpectationWithoutABound", withExpectedFailure("technique = \"vsm\", metric = \"leak\", reason = \"x\""),
+         "scenes/x.toml:7: expect.fails[1].above: missing"},
+        {"ExpectationAboveZero", withExpectedFailure("technique = \"vsm\", metric = \"leak\", above = 0, reason = \"x\""),
+         "scenes/x.toml:7: expect.fails[1].above: expected a number above 0, got 0"},
+        {"ExpectationWithoutAReason",
+         withExpectedFailure("technique = \"vsm\", metric = \"leak\", above = 0.1, reason = \"\""),
+         "scenes/x.toml:7: expect.fails[1].reason: is empty"},
         {"NoStillFrame", with(kCamera, kLight, kObject + "[timeline]\nstill = 0\n"),
          "scenes/x.toml:7: timeline.still: expected a whole number from 1"},
         {"NoPixels", withTop("size = 0"), "scenes/x.toml:1: size: expected a whole number from 1 to 8192, got 0"},

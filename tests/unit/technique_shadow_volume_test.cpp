@@ -1,4 +1,5 @@
 // Silhouettes and shadow volumes of meshes whose answer is known.
+#include "harness/scene/camera.h"
 #include "harness/scene/primitives.h"
 #include "techniques/volumes/shadow_volume.h"
 
@@ -73,7 +74,7 @@ int openEdges(const std::vector<std::uint32_t>& indices) {
 TEST(ShadowVolume, OfAClosedMeshUnderAPointLightIsClosed) {
     for (const Mesh& mesh : {cube(), bumpy(1, 0.3, 2000, 3)}) {
         std::vector<std::uint32_t> indices;
-        appendShadowVolume(EdgeMesh(mesh), {4, 5, -3, 1}, indices);
+        appendShadowVolume(EdgeMesh(mesh), {4, 5, -3, 1}, Caps::Both, indices);
         EXPECT_EQ(openEdges(indices), 0);
     }
 }
@@ -81,15 +82,41 @@ TEST(ShadowVolume, OfAClosedMeshUnderAPointLightIsClosed) {
 TEST(ShadowVolume, OfAnOpenMeshLeaks) {
     const Mesh mesh = plane(1);
     std::vector<std::uint32_t> indices;
-    appendShadowVolume(EdgeMesh(mesh), {0, 3, 0, 1}, indices);
+    appendShadowVolume(EdgeMesh(mesh), {0, 3, 0, 1}, Caps::Both, indices);
     EXPECT_GT(openEdges(indices), 0); // no averted triangle closes it at infinity
 }
 
 TEST(ShadowVolume, UnderADirectionalLightEndsInAPointAtInfinity) {
     const Mesh mesh = cube();
     std::vector<std::uint32_t> indices;
-    appendShadowVolume(EdgeMesh(mesh), {0, 1, 0, 0}, indices);
+    appendShadowVolume(EdgeMesh(mesh), {0, 1, 0, 0}, Caps::Both, indices);
     EXPECT_EQ(indices.size() / 3, 2U + 4U); // the top's two triangles, one triangle a silhouette edge
+}
+
+TEST(ShadowVolume, WithoutCapsHasTwoTrianglesAnEdgeOfTheSilhouette) {
+    const Mesh mesh = cube();
+    std::vector<std::uint32_t> indices;
+    appendShadowVolume(EdgeMesh(mesh), {5, 6, 7, 1}, Caps::None, indices);
+    EXPECT_EQ(indices.size() / 3, 2U * 6U);
+}
+
+TEST(InfiniteProjection, CostsAHundredthOfTheDepthPrecisionFromOneToAHundred) { // course, Everitt–Kilgard 3.2.1
+    Camera camera;
+    camera.near = 1;
+    camera.far = 100;
+    const glm::dmat4 finite = camera.projection(1), infinite = infiniteProjection(finite, camera.near);
+    const auto window = [](const glm::dmat4& projection, double distance) {
+        const glm::dvec4 clip = projection * glm::dvec4(0, 0, -distance, 1);
+        return 0.5 + 0.5 * clip.z / clip.w;
+    };
+    for (const double distance : {1.5, 7.0, 60.0}) {
+        const double ratio = (window(infinite, distance + 0.1) - window(infinite, distance)) /
+                             (window(finite, distance + 0.1) - window(finite, distance));
+        EXPECT_NEAR(ratio, 0.99, 1e-9); // (far − near) / far, at every distance
+    }
+    EXPECT_EQ(window(infinite, 1), 0);
+    const glm::dvec4 atInfinity = infinite * glm::dvec4(0, 0, -1, 0);
+    EXPECT_EQ(atInfinity.z, atInfinity.w); // depth 1: not clipped
 }
 
 } // namespace

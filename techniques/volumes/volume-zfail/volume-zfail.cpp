@@ -2,65 +2,34 @@
 // Zápotocký 2.4.4). Back faces that fail the depth test increment, front faces decrement, both in one pass with wrapping
 // two-sided stencil; a pixel whose count ends at zero is lit. Vertices at infinity are homogeneous; `far=clamp` keeps the
 // camera's far plane and clamps depth (the paper's section 3.4), `far=infinity` draws depth again under P_inf.
+// Departure: at most 255 placements are counted together, since 256 volumes around a point wrap to a count of none; the
+// paper asks for a stencil of as many bits as the scene needs (its section 3.1).
 #include "techniques/entries.h"
 #include "techniques/gl/api.h"
-#include "techniques/gl/context.h"
-#include "techniques/resolve.h"
-#include "techniques/volumes/shadow_volume.h"
+#include "techniques/volumes/stencil_volumes.h"
 
 #include <memory>
 #include <optional>
-#include <unordered_map>
 
 namespace shadowbench::techniques {
 namespace {
 
-/// A mesh's vertices twice, at w = 1 and at w = 0, and its edges.
-struct VolumeMesh {
-    explicit VolumeMesh(std::shared_ptr<const Mesh> mesh) : source(std::move(mesh)), edges(*source) {
-        std::vector<glm::vec4> doubled;
-        for (const float w : {1.0F, 0.0F})
-            for (const glm::vec3& p : source->positions) doubled.emplace_back(p, w);
-        vertices.upload(doubled.data(), doubled.size() * sizeof(glm::vec4));
-    }
-    std::shared_ptr<const Mesh> source;
-    EdgeMesh edges;
-    gl::Buffer vertices;
-    gl::VertexArray layout;
-};
-
 class VolumeZfail final : public Technique {
 public:
     explicit VolumeZfail(const Parameters& p)
-        : infinite_(p.text("far") == "infinity"), depth_("volumes/volume-zfail/depth.vert", "maps/depth_map.frag"),
-          volume_("volumes/volume-zfail/volume.vert", "maps/depth_map.frag"),
-          resolve_(gl::Program::screen("volumes/volume-zfail/volume-zfail.frag")) {}
+        : infinite_(p.text("far") == "infinity"), volumes_(VolumeTest::DepthFail),
+          depth_("volumes/volume-zfail/depth.vert", "maps/depth_map.frag") {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const gl::Texture* depthStencil = &frame.gbuffer.depthStencil();
-        glm::mat4 clipFromWorld(frame.clipFromWorld);
-        if (infinite_) {
-            clipFromWorld = glm::mat4(infiniteClip(frame));
-            depthStencil = &drawDepth(frame, clipFromWorld);
+        if (!infinite_) {
+            volumes_.render(frame, glm::mat4(frame.clipFromWorld), frame.gbuffer.depthStencil(), visibility);
+            return;
         }
-        const gl::RenderTarget target({&visibility, depthStencil});
-        target.clearColour(0, glm::vec4(0));
-        target.clearStencil();
-        countVolumes(frame, clipFromWorld, target);
-
-        glStencilFunc(GL_EQUAL, 0, 0xFF);
-        glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-        target.bind();
-        resolve_.drawScreen();
-        glDisable(GL_STENCIL_TEST);
+        const glm::mat4 clipFromWorld(infiniteClip(frame));
+        volumes_.render(frame, clipFromWorld, drawDepth(frame, clipFromWorld), visibility);
     }
 
 private:
-    struct Draw {
-        const VolumeMesh* mesh;
-        std::size_t first, count;
-    };
-
     static glm::dmat4 infiniteClip(const Frame& frame) {
         const Camera& camera = frame.snapshot.camera;
         const double aspect = static_cast<double>(frame.size.x) / frame.size.y;
@@ -80,74 +49,9 @@ private:
         return *ownDepth_;
     }
 
-    const VolumeMesh& volumeMesh(const std::shared_ptr<const Mesh>& mesh, const gl::SceneBuffers& scene) {
-        auto& entry = meshes_[mesh.get()];
-        if (entry) return *entry;
-        entry = std::make_unique<VolumeMesh>(mesh);
-        entry->layout.bind();
-        glBindBuffer(GL_ARRAY_BUFFER, entry->vertices.id());
-        glEnableVertexAttribArray(0);
-        glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(glm::vec4), nullptr);
-        scene.bindInstances();
-        return *entry;
-    }
-
-    /// The volumes of all placements, each with its own light position in object space.
-    std::vector<Draw> buildVolumes(const Frame& frame) {
-        const glm::dvec4 light = frame.snapshot.light.centreOnly().homogeneous();
-        std::vector<Draw> draws;
-        corners_.clear();
-        for (const Batch& batch : frame.snapshot.batches) {
-            const VolumeMesh& mesh = volumeMesh(batch.mesh, frame.scene);
-            for (const Placement& placement : batch.placements) {
-                const std::size_t first = corners_.size();
-                appendShadowVolume(mesh.edges, glm::inverse(placement.world) * light, corners_);
-                draws.push_back({&mesh, first, corners_.size() - first});
-            }
-        }
-        return draws;
-    }
-
-    void countVolumes(const Frame& frame, const glm::mat4& clipFromWorld, const gl::RenderTarget& target) {
-        const std::vector<Draw> draws = buildVolumes(frame);
-        indices_.upload(corners_.data(), corners_.size() * sizeof(std::uint32_t));
-
-        target.bind();
-        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        glEnable(GL_DEPTH_TEST);
-        glDepthFunc(GL_LESS);
-        glDepthMask(GL_FALSE);
-        glEnable(GL_DEPTH_CLAMP);
-        glDisable(GL_CULL_FACE);
-        glEnable(GL_STENCIL_TEST);
-        glStencilMask(0xFF);
-        glStencilFunc(GL_ALWAYS, 0, 0xFF);
-        glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
-        glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);
-
-        volume_.set("clipFromWorld", clipFromWorld)
-            .set("light", glm::vec4(frame.snapshot.light.centreOnly().homogeneous()))
-            .use();
-        for (std::size_t placement = 0; placement < draws.size(); ++placement) {
-            const Draw& draw = draws[placement];
-            draw.mesh->layout.bind();
-            glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
-            glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(draw.count), GL_UNSIGNED_INT,
-                                                reinterpret_cast<const void*>(draw.first * sizeof(std::uint32_t)), 1,
-                                                static_cast<GLuint>(placement));
-        }
-        gl::Context::current().tally().draws += draws.size();
-
-        glDisable(GL_DEPTH_CLAMP);
-        glDepthMask(GL_TRUE);
-        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    }
-
     bool infinite_;
-    gl::Program depth_, volume_, resolve_;
-    std::unordered_map<const Mesh*, std::unique_ptr<VolumeMesh>> meshes_;
-    std::vector<std::uint32_t> corners_;
-    gl::Buffer indices_;
+    StencilVolumes volumes_;
+    gl::Program depth_;
     std::optional<gl::Texture> ownDepth_;
 };
 

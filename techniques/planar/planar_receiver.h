@@ -1,0 +1,33 @@
+// The plane that planar shadows fall on, and Blinn's projection onto it (Zápotocký 2.2). No GL.
+#pragma once
+
+#include "harness/scene/scene.h"
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowbench::techniques {
+
+/// A flat face of one placement.
+struct PlanarReceiver {
+    std::uint32_t id = 0;            // the placement's
+    glm::dvec4 plane{0};             // unit normal towards the light; dot(plane, (p, 1)) = metres above the plane
+    std::vector<glm::dvec3> corners; // of the face's triangles, in the world
+};
+
+/// The largest flat face (two triangles or more) that the light's centre is in front of, with the middle of every other
+/// placement; nothing if there is none.
+std::optional<PlanarReceiver> planarReceiver(const Snapshot& snapshot);
+
+/// Why a scene has no use for a planar shadow; nothing if it has one.
+std::optional<std::string> noPlanarReceiver(const Scene& scene);
+
+/// Projection of the world onto `plane` away from the homogeneous `light` (eq. 2.3, for column vectors). w is positive for
+/// points that are nearer to the plane than the light is.
+glm::dmat4 projectionOnto(const glm::dvec4& plane, const glm::dvec4& light);
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,7 @@
+uniform float value;
+
+out float result;
+
+void main() {
+    result = value;
+}

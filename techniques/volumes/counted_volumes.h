@@ -1,0 +1,20 @@
+// A technique that counts volumes against the G-buffer's own depth, with no parameter of its own.
+#pragma once
+
+#include "techniques/volumes/stencil_volumes.h"
+
+namespace shadowbench::techniques {
+
+class CountedVolumes final : public Technique {
+public:
+    explicit CountedVolumes(VolumeTest test) : volumes_(test) {}
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        volumes_.render(frame, glm::mat4(frame.clipFromWorld), frame.gbuffer.depthStencil(), visibility);
+    }
+
+private:
+    StencilVolumes volumes_;
+};
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,130 @@
+#include "techniques/volumes/stencil_volumes.h"
+
+#include "techniques/gl/api.h"
+#include "techniques/gl/context.h"
+
+#include <algorithm>
+
+namespace shadowbench::techniques {
+namespace {
+
+// The stencil holds 8 bits: 256 volumes around a point would count as none. So many placements at most are counted together;
+// a point within 256 layers of so many placements, some of which then shade it more than once, is not told from a lit one.
+constexpr std::size_t countedTogether = 255;
+
+void setStencilOperations(VolumeTest test) {
+    glStencilMask(test == VolumeTest::ExclusiveOr ? 0x01 : 0xFF);
+    glStencilFunc(GL_ALWAYS, 0, 0xFF);
+    switch (test) {
+    case VolumeTest::DepthFail:
+        glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
+        glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);
+        return;
+    case VolumeTest::DepthPass:
+        glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, GL_INCR_WRAP);
+        glStencilOpSeparate(GL_BACK, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
+        return;
+    case VolumeTest::ExclusiveOr:
+        glStencilOp(GL_KEEP, GL_KEEP, GL_INVERT);
+        return;
+    }
+}
+
+} // namespace
+
+StencilVolumes::VolumeMesh::VolumeMesh(std::shared_ptr<const Mesh> mesh) : source(std::move(mesh)), edges(*source) {
+    std::vector<glm::vec4> doubled;
+    for (const float w : {1.0F, 0.0F})
+        for (const glm::vec3& p : source->positions) doubled.emplace_back(p, w);
+    vertices.upload(doubled.data(), doubled.size() * sizeof(glm::vec4));
+}
+
+StencilVolumes::StencilVolumes(VolumeTest test)
+    : test_(test), volume_("volumes/volume.vert", "maps/depth_map.frag"),
+      shadowed_(gl::Program::screen("volumes/shadowed.frag")) {}
+
+void StencilVolumes::render(const Frame& frame, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,
+                            const gl::Texture& visibility) {
+    const std::vector<Draw> draws = buildVolumes(frame);
+    indices_.upload(corners_.data(), corners_.size() * sizeof(std::uint32_t));
+    volume_.set("clipFromWorld", clipFromWorld).set("light", glm::vec4(frame.snapshot.light.centreOnly().homogeneous()));
+
+    const gl::RenderTarget target({&visibility, &depthStencil});
+    target.clearColour(0, glm::vec4(1));
+    // A parity has no range that it could leave.
+    const std::size_t group = test_ == VolumeTest::ExclusiveOr ? draws.size() : countedTogether;
+    for (std::size_t first = 0; first < draws.size(); first += group) {
+        target.clearStencil();
+        target.bind();
+        count(draws, first, std::min(first + group, draws.size()));
+        darken(target);
+    }
+    gl::Context::current().tally().draws += draws.size();
+}
+
+const StencilVolumes::VolumeMesh& StencilVolumes::volumeMesh(const std::shared_ptr<const Mesh>& mesh,
+                                                             const gl::SceneBuffers& scene) {
+    auto& entry = meshes_[mesh.get()];
+    if (entry) return *entry;
+    entry = std::make_unique<VolumeMesh>(mesh);
+    entry->layout.bind();
+    glBindBuffer(GL_ARRAY_BUFFER, entry->vertices.id());
+    glEnableVertexAttribArray(0);
+    glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(glm::vec4), nullptr);
+    scene.bindInstances();
+    return *entry;
+}
+
+/// The volumes of all placements, each with its own light position in object space.
+std::vector<StencilVolumes::Draw> StencilVolumes::buildVolumes(const Frame& frame) {
+    const glm::dvec4 light = frame.snapshot.light.centreOnly().homogeneous();
+    const Caps caps = test_ == VolumeTest::DepthFail ? Caps::Both : Caps::None;
+    std::vector<Draw> draws;
+    corners_.clear();
+    for (const Batch& batch : frame.snapshot.batches) {
+        const VolumeMesh& mesh = volumeMesh(batch.mesh, frame.scene);
+        for (const Placement& placement : batch.placements) {
+            const std::size_t first = corners_.size();
+            appendShadowVolume(mesh.edges, glm::inverse(placement.world) * light, caps, corners_);
+            draws.push_back({&mesh, first, corners_.size() - first});
+        }
+    }
+    return draws;
+}
+
+void StencilVolumes::count(const std::vector<Draw>& draws, std::size_t first, std::size_t last) const {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_DEPTH_CLAMP);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_STENCIL_TEST);
+    setStencilOperations(test_);
+
+    volume_.use();
+    for (std::size_t placement = first; placement < last; ++placement) {
+        const Draw& draw = draws[placement];
+        draw.mesh->layout.bind();
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
+        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(draw.count), GL_UNSIGNED_INT,
+                                            reinterpret_cast<const void*>(draw.first * sizeof(std::uint32_t)), 1,
+                                            static_cast<GLuint>(placement));
+    }
+
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_DEPTH_CLAMP);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+void StencilVolumes::darken(const gl::RenderTarget& target) const {
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_NOTEQUAL, 0, 0xFF);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    target.bind();
+    shadowed_.drawScreen();
+    glDisable(GL_STENCIL_TEST);
+}
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,58 @@
+// Shadow volumes counted in the stencil buffer: what the techniques of this folder share.
+#pragma once
+
+#include "techniques/gl/program.h"
+#include "techniques/technique.h"
+#include "techniques/volumes/shadow_volume.h"
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace shadowbench::techniques {
+
+/// Which of a volume's surfaces change a pixel's stencil value, and how (Zápotocký 2.4.3–2.4.5).
+enum class VolumeTest {
+    DepthFail,   // those behind the pixel's surface: back faces + 1, front faces − 1; the volume is closed by caps
+    DepthPass,   // those before it: front faces + 1, back faces − 1; needs no caps
+    ExclusiveOr, // those before it invert one bit
+};
+
+class StencilVolumes {
+public:
+    explicit StencilVolumes(VolumeTest test);
+
+    /// Writes 0 where the pixel's surface lies in the shadow volume of a placement, else 1. `depthStencil` holds the depth
+    /// of what `clipFromWorld` shows; its stencil is overwritten.
+    void render(const Frame& frame, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,
+                const gl::Texture& visibility);
+
+private:
+    /// A mesh's vertices twice, at w = 1 and at w = 0, and its edges.
+    struct VolumeMesh {
+        explicit VolumeMesh(std::shared_ptr<const Mesh> mesh);
+        std::shared_ptr<const Mesh> source;
+        EdgeMesh edges;
+        gl::Buffer vertices;
+        gl::VertexArray layout;
+    };
+
+    /// The volume of one placement, as a range of `corners_`.
+    struct Draw {
+        const VolumeMesh* mesh;
+        std::size_t first, count;
+    };
+
+    const VolumeMesh& volumeMesh(const std::shared_ptr<const Mesh>& mesh, const gl::SceneBuffers& scene);
+    std::vector<Draw> buildVolumes(const Frame& frame);
+    void count(const std::vector<Draw>& draws, std::size_t first, std::size_t last) const;
+    void darken(const gl::RenderTarget& target) const;
+
+    VolumeTest test_;
+    gl::Program volume_, shadowed_;
+    std::unordered_map<const Mesh*, std::unique_ptr<VolumeMesh>> meshes_;
+    std::vector<std::uint32_t> corners_;
+    gl::Buffer indices_;
+};
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,95 @@
+// Every scene's expectations in the gate profile: techniques that it breaks must break, and the others hold.
+#include "cell_stage.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <iostream>
+#include <map>
+
+namespace shadowbench {
+namespace {
+
+std::vector<std::string> scenesWithExpectations() {
+    std::vector<std::string> ids;
+    for (const std::string& id : builtinScenes()) {
+        const Scene scene = loadScene(id, Profile::Gate);
+        if (!scene.fails.empty() || !scene.holds.empty()) ids.push_back(id);
+    }
+    return ids;
+}
+
+bool inCatalogue(const std::string& variant) {
+    const std::string id = variant.substr(0, variant.find(':'));
+    const auto catalog = techniques::catalog();
+    return std::any_of(catalog.begin(), catalog.end(), [&](const techniques::Entry& entry) { return entry.id == id; });
+}
+
+/// A metric that scenes may put a bound on; nothing where the cell has none.
+std::optional<double> metricOf(const Record& record, const std::string& metric) {
+    const auto& stability = record.stability;
+    if (metric == "flicker") return stability.flicker ? std::optional(stability.flicker->mean) : std::nullopt;
+    if (metric == "flip_rate") return stability.flipRate;
+    if (metric == "convergence" && stability.convergence) return *stability.convergence;
+    if (metric == "edge_error" && record.accuracy.edgeError) return record.accuracy.edgeError->mean;
+    return accuracyMetric(record.accuracy, metric);
+}
+
+bool needsMovingFrames(const Scene& scene) {
+    const auto aboutMotion = [](const Expectation& e) { return e.metric == "flicker" || e.metric == "flip_rate"; };
+    return std::any_of(scene.fails.begin(), scene.fails.end(), aboutMotion) ||
+           std::any_of(scene.holds.begin(), scene.holds.end(), aboutMotion);
+}
+
+class FailureScene : public testing::TestWithParam<std::string> {
+protected:
+    void SetUp() override {
+        testContext();
+        scene_ = loadScene(GetParam(), Profile::Gate);
+        if (!needsMovingFrames(scene_)) scene_.timeline.moving = 0;
+    }
+
+    /// The metric that an expectation is about; nothing, with a note, for a technique that is not in the catalogue.
+    std::optional<double> measured(const Expectation& expectation) {
+        if (!inCatalogue(expectation.technique)) {
+            std::cout << fmt::format("[     NOTE ] {}: {} is not in the catalogue, its expectation is not checked\n",
+                                     scene_.id, expectation.technique);
+            return std::nullopt;
+        }
+        auto known = records_.find(expectation.technique);
+        if (known == records_.end())
+            known = records_.emplace(expectation.technique, scored(scene_, expectation.technique)).first;
+        const std::optional<double> value = metricOf(known->second, expectation.metric);
+        EXPECT_TRUE(value.has_value()) << expectation.technique << " has no " << expectation.metric << " on this scene";
+        return value;
+    }
+
+    Scene scene_;
+    std::map<std::string, Record> records_;
+};
+
+TEST_P(FailureScene, BreaksAndSparesTheTechniquesThatItSays) {
+    for (const Expectation& expected : scene_.fails) {
+        const auto value = measured(expected);
+        if (!value) continue;
+        EXPECT_GT(*value, expected.bound) << expected.technique << " has stopped failing (" << expected.metric
+                                          << "), though " << expected.reason;
+    }
+    for (const Expectation& expected : scene_.holds) {
+        const auto value = measured(expected);
+        if (!value) continue;
+        EXPECT_LT(*value, expected.bound) << expected.technique << " does not hold (" << expected.metric << "), though "
+                                          << expected.reason;
+    }
+}
+
+std::string sceneName(const testing::TestParamInfo<std::string>& tested) {
+    std::string name = tested.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Gate, FailureScene, testing::ValuesIn(scenesWithExpectations()), sceneName);
+
+} // namespace
+} // namespace shadowbench
