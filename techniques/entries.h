@@ -11,6 +11,7 @@ Entry smLispsm();
 Entry smHistory();
 Entry volumeZfail();
 Entry pcf();
+Entry pcfPoisson();
 Entry pcss();
 Entry sampledMaps();
 Entry temporalSoft();
