@@ -13,6 +13,7 @@ std::span<const Entry> catalog() {
         volumeZfail(),  //
         pcf(),          //
         pcfPoisson(),   //
+        vsm(),          //
         pcss(),         //
         sampledMaps(),  //
         temporalSoft(), //

@@ -12,6 +12,7 @@ Entry smHistory();
 Entry volumeZfail();
 Entry pcf();
 Entry pcfPoisson();
+Entry vsm();
 Entry pcss();
 Entry sampledMaps();
 Entry temporalSoft();

@@ -5,6 +5,7 @@
 #include "stages.h"
 
 #include <algorithm>
+#include <gtest/gtest.h>
 #include <vector>
 
 namespace shadowbench {
@@ -18,6 +19,13 @@ inline Scene edgeScene(double height, int side = 192) {
     scene.light = {LightKind::Directional, {}, {0, -1, 0}, {}, {}};
     scene.camera = {{edgeAt, 0.9, 6}, {edgeAt, 0, 0}, {0, 1, 0}, 20, 0.5, 40}; // looks along the edge, under the plate
     scene.objects.push_back(object(box({6, 0.1, 12}), {edgeAt + 3, height + 0.05, 0}));
+    return scene;
+}
+
+/// The same with a second plate below that shades all of the slab: the ground is dark whatever the upper plate does.
+inline Scene stackedScene(double lower, double upper, int side = 192) {
+    Scene scene = edgeScene(upper, side);
+    scene.objects.push_back(object(box({12, 0.1, 12}), {0, lower + 0.05, 0}));
     return scene;
 }
 
@@ -54,6 +62,34 @@ inline double greyWidth(const std::vector<GroundPoint>& points, double margin = 
         high = std::max(high, point.at.x);
     }
     return std::max(0.0, high - low);
+}
+
+/// Where the points that are nearly half lit lie along x.
+inline double middleOf(const std::vector<GroundPoint>& points) {
+    double sum = 0, count = 0;
+    for (const GroundPoint& point : points)
+        if (std::abs(point.visibility - 0.5) < 0.1) {
+            sum += point.at.x;
+            ++count;
+        }
+    EXPECT_GT(count, 0) << "no penumbra";
+    return sum / count;
+}
+
+/// The greatest difference between the points' visibilities and a ramp of `width` metres around their own middle, lit at
+/// smaller x: what a box of that width makes of an edge.
+inline double fromRamp(const std::vector<GroundPoint>& points, double width) {
+    const double middle = middleOf(points);
+    double worst = 0;
+    for (const GroundPoint& point : points)
+        worst = std::max(worst, std::abs(point.visibility - std::clamp(0.5 - (point.at.x - middle) / width, 0.0, 1.0)));
+    return worst;
+}
+
+inline double brightest(const std::vector<GroundPoint>& points) {
+    double most = 0;
+    for (const GroundPoint& point : points) most = std::max(most, point.visibility);
+    return most;
 }
 
 } // namespace shadowbench
