@@ -14,6 +14,7 @@ std::span<const Entry> catalog() {
         pcf(),          //
         pcfPoisson(),   //
         vsm(),          //
+        lvsm(),         //
         pcss(),         //
         sampledMaps(),  //
         temporalSoft(), //

@@ -13,6 +13,7 @@ Entry volumeZfail();
 Entry pcf();
 Entry pcfPoisson();
 Entry vsm();
+Entry lvsm();
 Entry pcss();
 Entry sampledMaps();
 Entry temporalSoft();

@@ -25,7 +25,7 @@ out vec4 mean;
 
 void main() {
     vec4 sum = texelAt(0) * min(width, 1.0);
-    for (int offset = 1; offset <= 4; ++offset) {
+    for (int offset = 1; float(offset) < 0.5 * width + 0.5; ++offset) {
         float weight = clamp(0.5 * width + 0.5 - float(offset), 0.0, 1.0);
         sum += weight * (texelAt(-offset) + texelAt(offset));
     }

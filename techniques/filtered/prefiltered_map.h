@@ -48,6 +48,9 @@ public:
     /// `parameters` hold prefilteredMapParameters.
     PrefilteredMap(const Parameters& parameters, const Basis& basis);
 
+    /// The basis's program, for uniforms of its own.
+    gl::Program& basis() { return basis_; }
+
     /// Draws the frame's scene into a map of linear depth fitted to all of it, stores the basis of each depth and filters.
     void draw(const Frame& frame);
 

@@ -27,6 +27,11 @@ double withoutBleeding(double visibility, double amount) {
     return std::clamp((visibility - amount) / (1 - amount), 0.0, 1.0);
 }
 
+Parameter leastVarianceParameter() {
+    return {"variance", "1e-06", RealRange{0, 1}, "least variance of depths in [0, 1]: above what rounding leaves of none",
+            ""};
+}
+
 namespace {
 
 class Vsm final : public Technique {
@@ -53,8 +58,7 @@ private:
 
 Entry vsm() {
     std::vector<Parameter> parameters = prefilteredMapParameters();
-    parameters.push_back({"variance", "1e-06", RealRange{0, 1},
-                          "least variance, of depths in [0, 1]: above what rounding leaves of none", ""});
+    parameters.push_back(leastVarianceParameter());
     parameters.push_back({"bleeding", "0", RealRange{0, 0.99}, "visibility taken for a leak, and removed", ""});
     return {.id = "vsm",
             .title = "Variance shadow map",

@@ -1,6 +1,8 @@
 // The mathematics of variance shadow maps, as filtered/moments.glsl computes it.
 #pragma once
 
+#include "techniques/parameters.h"
+
 namespace shadowbench::techniques {
 
 /// Mean of the depths and of their squares over a filter kernel.
@@ -15,5 +17,8 @@ double chebyshevBound(const Moments& moments, double depth, double leastVariance
 /// Maps [amount, 1] to [0, 1] and what lies below to 0: hides the leaks up to `amount` and darkens the penumbra by as much
 /// (Lauritzen, GPU Gems 3, chapter 8).
 double withoutBleeding(double visibility, double amount);
+
+/// `variance`: the least variance of every technique over moments of depths in [0, 1].
+Parameter leastVarianceParameter();
 
 } // namespace shadowbench::techniques
