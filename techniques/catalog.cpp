@@ -15,6 +15,7 @@ std::span<const Entry> catalog() {
         pcfPoisson(),   //
         vsm(),          //
         lvsm(),         //
+        esm(),          //
         pcss(),         //
         sampledMaps(),  //
         temporalSoft(), //

@@ -14,6 +14,7 @@ Entry pcf();
 Entry pcfPoisson();
 Entry vsm();
 Entry lvsm();
+Entry esm();
 Entry pcss();
 Entry sampledMaps();
 Entry temporalSoft();
