@@ -16,6 +16,7 @@ std::span<const Entry> catalog() {
         vsm(),          //
         lvsm(),         //
         esm(),          //
+        csmFourier(),   //
         pcss(),         //
         sampledMaps(),  //
         temporalSoft(), //

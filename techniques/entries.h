@@ -15,6 +15,7 @@ Entry pcfPoisson();
 Entry vsm();
 Entry lvsm();
 Entry esm();
+Entry csmFourier();
 Entry pcss();
 Entry sampledMaps();
 Entry temporalSoft();
