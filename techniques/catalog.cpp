@@ -17,6 +17,7 @@ std::span<const Entry> catalog() {
         lvsm(),         //
         esm(),          //
         csmFourier(),   //
+        deepSm(),       //
         pcss(),         //
         sampledMaps(),  //
         temporalSoft(), //

@@ -16,6 +16,7 @@ Entry vsm();
 Entry lvsm();
 Entry esm();
 Entry csmFourier();
+Entry deepSm();
 Entry pcss();
 Entry sampledMaps();
 Entry temporalSoft();
