@@ -112,4 +112,11 @@ void PrefilteredMap::bindTo(gl::Program& resolve, const Frame& frame) const {
         .set("maps", filtered_);
 }
 
+void PrefilteredMap::bindDepthsTo(gl::Program& resolve) const {
+    resolve.set("linearDepth", depth_.texture())
+        .set("depthRange", glm::vec2(light_.near, light_.far))
+        .set("level", box_.level)
+        .set("width", static_cast<float>(box_.width));
+}
+
 } // namespace shadowbench::techniques

@@ -57,6 +57,9 @@ public:
     /// Sets what filtered/prefiltered_map.glsl reads.
     void bindTo(gl::Program& resolve, const Frame& frame) const;
 
+    /// Sets the uniforms of the unfiltered depths: linearDepth, depthRange, and the box's level and width.
+    void bindDepthsTo(gl::Program& resolve) const;
+
 private:
     void filter(int layer);
 

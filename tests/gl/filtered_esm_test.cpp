@@ -55,6 +55,7 @@ TEST(Esm, AKernelThatReachesBehindTheReceiverIsLit) { // the other failure: one 
     stage.show(0);
     const metrics::Drawn drawn = stage.drawn();
     const Image<float> exponential = rendered(stage, "esm:map=256"), filtered = rendered(stage, "pcf:map=256,kernel=7");
+    const Image<float> remedied = rendered(stage, "esm:map=256,beyond=pcf");
     const double texel = texelOf(scene, 256);
     std::size_t found = 0;
     for (std::size_t i = 0; i < drawn.id.size(); ++i) {
@@ -63,8 +64,19 @@ TEST(Esm, AKernelThatReachesBehindTheReceiverIsLit) { // the other failure: one 
         ++found;
         ASSERT_GT(exponential[i], 0.99); // all of it is in shadow, and at most two of seven columns are open
         ASSERT_LT(filtered[i], 0.5);
+        ASSERT_LT(remedied[i], 0.5); // the paper's remedy
     }
     EXPECT_GT(found, 50U);
+}
+
+TEST(Esm, ComparingDepthsBeyondTheTestLeavesSlantedSurfacesLit) { // whose kernels exceed 1 as well
+    Scene scene = groundScene(128);
+    scene.light.centre = {9.5, 2.5, -8.3};
+    Stage stage(scene);
+    stage.show(0);
+    for (const char* variant : {"esm:map=256", "esm:map=256,beyond=pcf", "esm:map=256,kernel=20,beyond=pcf"})
+        for (const GroundPoint& point : groundPoints(stage, rendered(stage, variant)))
+            ASSERT_EQ(point.visibility, 1) << variant;
 }
 
 } // namespace
