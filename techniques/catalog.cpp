@@ -5,9 +5,28 @@
 namespace shadowbench::techniques {
 
 std::span<const Entry> catalog() {
-    static const std::array entries{none(),     planarHard(), planarSoft(),  planarFake(),  smUniform(),
-                                    smLispsm(), smHistory(),  volumeZpass(), volumeZfail(), volumeXor(),
-                                    pcf(),      pcss(),       sampledMaps(), temporalSoft()};
+    static const std::array entries{
+        none(),         //
+        planarHard(),   //
+        planarSoft(),   //
+        planarFake(),   //
+        smUniform(),    //
+        smLispsm(),     //
+        smHistory(),    //
+        volumeZpass(),  //
+        volumeZfail(),  //
+        volumeXor(),    //
+        pcf(),          //
+        pcfPoisson(),   //
+        vsm(),          //
+        lvsm(),         //
+        esm(),          //
+        csmFourier(),   //
+        deepSm(),       //
+        pcss(),         //
+        sampledMaps(),  //
+        temporalSoft(), //
+    };
     return entries;
 }
 

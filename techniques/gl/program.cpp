@@ -69,6 +69,7 @@ GLuint link(GLuint vertex, GLuint fragment, const std::string& title) {
 bool isSampler(GLenum type) {
     switch (type) {
     case GL_SAMPLER_2D:
+    case GL_SAMPLER_2D_ARRAY:
     case GL_SAMPLER_2D_SHADOW:
     case GL_UNSIGNED_INT_SAMPLER_2D:
         return true;
@@ -151,11 +152,21 @@ Program& Program::set(const std::string& name, std::span<const glm::vec2> values
 }
 
 Program& Program::set(const std::string& sampler, const Texture& texture) {
+    activateUnit(sampler);
+    glBindTexture(GL_TEXTURE_2D, texture.id());
+    return *this;
+}
+
+Program& Program::set(const std::string& sampler, const TextureArray& array) {
+    activateUnit(sampler);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, array.id());
+    return *this;
+}
+
+void Program::activateUnit(const std::string& sampler) const {
     const Uniform& found = uniform(sampler);
     glProgramUniform1i(id_, found.location, found.unit);
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(found.unit));
-    glBindTexture(GL_TEXTURE_2D, texture.id());
-    return *this;
 }
 
 void Program::use() const { glUseProgram(id_); }

@@ -16,6 +16,7 @@
 namespace shadowbench::gl {
 
 class Texture;
+class TextureArray;
 
 /// Preprocessor definitions put before the source.
 using Defines = std::vector<std::pair<std::string, std::string>>;
@@ -43,6 +44,7 @@ public:
 
     /// Binds the texture to the sampler of that name.
     Program& set(const std::string& sampler, const Texture& texture);
+    Program& set(const std::string& sampler, const TextureArray& array);
 
     [[nodiscard]] bool uses(const std::string& uniform) const { return uniforms_.contains(uniform); }
     void use() const;
@@ -58,6 +60,7 @@ private:
         int location;
         int unit; // texture unit of a sampler, else −1
     };
+    void activateUnit(const std::string& sampler) const;
     void drawTriangle() const;
     [[nodiscard]] const Uniform& uniform(const std::string& name) const;
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <glm/common.hpp>
 #include <utility>
 #include <vector>
 
@@ -21,10 +23,14 @@ FormatFacts facts(Format format) {
     switch (format) {
     case Format::R8:
         return {GL_R8, 1};
+    case Format::RGBA8:
+        return {GL_RGBA8, 4};
     case Format::R32F:
         return {GL_R32F, 4};
     case Format::RG16F:
         return {GL_RG16F, 4};
+    case Format::RG32F:
+        return {GL_RG32F, 8};
     case Format::RGBA16F:
         return {GL_RGBA16F, 8};
     case Format::RGBA32F:
@@ -39,6 +45,9 @@ FormatFacts facts(Format format) {
     throw InternalError("unknown texture format");
 }
 
+/// Levels down to 1 × 1.
+int fullChain(glm::ivec2 size) { return std::bit_width(static_cast<unsigned>(std::max(size.x, size.y))); }
+
 bool isDepth(Format format) { return format == Format::Depth32F || format == Format::Depth32FStencil8; }
 
 /// GL's row 0 is at the bottom, ours at the top.
@@ -52,6 +61,13 @@ Image<T> readPixels(unsigned framebuffer, glm::ivec2 size, GLenum buffer, GLenum
     Image<T> image(size.x, size.y);
     for (int y = 0; y < size.y; ++y) std::copy_n(&upsideDown(0, size.y - 1 - y), size.x, &image(0, y));
     return image;
+}
+
+/// Checks the framebuffer that is bound.
+void requireComplete() {
+    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw InternalError("a framebuffer is incomplete (status " + std::to_string(status) + ")");
 }
 
 } // namespace
@@ -103,6 +119,34 @@ std::size_t Texture::bytes() const {
     return facts(format_).bytes * static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);
 }
 
+TextureArray::TextureArray(Format format, glm::ivec2 size, int layers) : size_(size), layers_(layers), bytes_(0) {
+    const int levels = fullChain(size);
+    glGenTextures(1, &id_);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, id_);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, levels, facts(format).internal, size.x, size.y, layers);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    for (int level = 0; level < levels; ++level) {
+        const glm::ivec2 part = glm::max(size >> level, glm::ivec2(1));
+        bytes_ += facts(format).bytes * static_cast<std::size_t>(part.x * part.y) * static_cast<std::size_t>(layers);
+    }
+    Context::current().tally().bytes += bytes_;
+    Context::current().check("allocating " + std::to_string(layers) + " layers of " + std::to_string(size.x) + "×" +
+                             std::to_string(size.y));
+}
+
+TextureArray::~TextureArray() {
+    Context::current().tally().bytes -= bytes_;
+    glDeleteTextures(1, &id_);
+}
+
+void TextureArray::makeMipmaps() {
+    glBindTexture(GL_TEXTURE_2D_ARRAY, id_);
+    glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+}
+
 RenderTarget::RenderTarget(std::initializer_list<const Texture*> attachments) {
     glGenFramebuffers(1, &id_);
     glBindFramebuffer(GL_FRAMEBUFFER, id_);
@@ -121,9 +165,14 @@ RenderTarget::RenderTarget(std::initializer_list<const Texture*> attachments) {
     } else {
         glDrawBuffers(static_cast<GLsizei>(colours.size()), colours.data());
     }
-    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw InternalError("a framebuffer is incomplete (status " + std::to_string(status) + ")");
+    requireComplete();
+}
+
+RenderTarget::RenderTarget(const TextureArray& array, int layer) : size_(array.size()) {
+    glGenFramebuffers(1, &id_);
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, array.id(), 0, layer);
+    requireComplete();
 }
 
 RenderTarget::~RenderTarget() { release(); }

@@ -11,7 +11,7 @@
 
 namespace shadowbench::gl {
 
-enum class Format { R8, R32F, RG16F, RGBA16F, RGBA32F, R32UI, Depth32F, Depth32FStencil8 };
+enum class Format { R8, RGBA8, R32F, RG16F, RG32F, RGBA16F, RGBA32F, R32UI, Depth32F, Depth32FStencil8 };
 
 /// How a sampler reads between texels and outside [0, 1]².
 enum class Filter { Nearest, Linear };
@@ -42,10 +42,35 @@ private:
     glm::ivec2 size_;
 };
 
+/// Layers of one colour format and size, each with its mipmaps; read trilinearly and clamped to the edge.
+class TextureArray {
+public:
+    TextureArray(Format format, glm::ivec2 size, int layers);
+    ~TextureArray();
+    TextureArray(const TextureArray&) = delete;
+    TextureArray& operator=(const TextureArray&) = delete;
+
+    /// Every level from the one before it, by 2 × 2 means.
+    void makeMipmaps();
+
+    [[nodiscard]] unsigned id() const { return id_; }
+    [[nodiscard]] glm::ivec2 size() const { return size_; }
+    [[nodiscard]] int layers() const { return layers_; }
+
+private:
+    unsigned id_ = 0;
+    glm::ivec2 size_;
+    int layers_;
+    std::size_t bytes_; // all levels
+};
+
 /// A framebuffer over textures that outlive it: colour attachments in order, and at most one depth(-stencil) texture.
 class RenderTarget {
 public:
     explicit RenderTarget(std::initializer_list<const Texture*> attachments);
+
+    /// Draws into the largest level of one layer.
+    RenderTarget(const TextureArray& array, int layer);
     ~RenderTarget();
     RenderTarget(RenderTarget&& other) noexcept;
     RenderTarget& operator=(RenderTarget&& other) noexcept;

@@ -1,8 +1,9 @@
 // Percentage-closer filtering (Reeves, Salesin, Cook 1987): the share of k×k shadow tests around the receiver that pass.
-// Scherzer 2.2.1, Zápotocký 3.2; `kernel=2` is the hardware's bilinear 2×2. With `depth=midpoint` the map holds the mean of
-// first and second surface (Woo; Zápotocký 4.4.2) and needs no bias on closed meshes. Departure: with bias=slope each tap is
-// compared with the depth of the receiver's plane at the tap (course, "Bias": the offset follows the surface slope, here
-// over the whole kernel), else a k×k kernel darkens every slanted surface.
+// Scherzer 2.2.1, Zápotocký 3.2; `kernel=2` is the hardware's bilinear 2×2 (course, "Shadow Silhouette Maps"). With
+// `depth=midpoint` the map holds the mean of first and second surface (Woo; Zápotocký 4.4.2), which is drawn without any
+// bias. Departure: with bias=slope each tap is compared with the depth of the receiver's plane at the tap (course, "Bias":
+// the offset follows the surface slope, here over the whole kernel), else a k×k kernel darkens every slanted surface. As the
+// sources admit, the penumbra is k texels wide wherever the occluder is.
 #include "techniques/entries.h"
 #include "techniques/maps/midpoint_map.h"
 #include "techniques/maps/single_map.h"
@@ -33,7 +34,7 @@ public:
             .set("mapFromWorld", mapFromWorld(light))
             .set("depthMap", map_ ? map_->texture() : midpoint_->texture());
         if (!bilinear_) // its one tap lies in the receiver's own texel
-            resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", slope_ && map_ ? 1.0F : 0.0F);
+            resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", slope_ ? 1.0F : 0.0F);
         resolveInto({&visibility}, resolve_);
     }
 

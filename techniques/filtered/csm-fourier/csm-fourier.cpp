@@ -1,0 +1,91 @@
+// Convolution shadow maps (Annen, Mertens, Bekaert, Seidel, Kautz 2007; Scherzer 2.2.1): the shadow test as a function of
+// occluder and receiver depth is a step, and a step is a Fourier series, each of whose terms is a product of a factor of the
+// receiver and one of the occluder: ½ + 2 Σ 1/c_k (cos(c_k d) sin(c_k z) − sin(c_k d) cos(c_k z)), c_k = π (2k − 1). Sines
+// and cosines of the occluder's depth are stored, 8 bits each as in the paper, and filtered; the test is linear in them, so
+// that several occluders do not leak as under a variance shadow map. Few terms are the known failure: the step has a width
+// of about 1/M of the depth range, within which an occluder is transparent, and rings beside it (Gibbs); the paper's damping
+// of high frequencies trades one for the other. Departures: the offset that lifts surfaces off their own half-lit step is
+// given in units of half the shortest wave, and the small gain that it needs is computed; depths use a little less than the
+// wave's half period; for the rest (footprint, box, linear depth) see vsm.cpp.
+#include "techniques/filtered/csm-fourier/csm-fourier.h"
+
+#include "techniques/entries.h"
+#include "techniques/filtered/prefiltered_map.h"
+#include "techniques/resolve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace shadowbench::techniques {
+
+double fourierFrequency(int k) { return glm::pi<double>() * (2 * k - 1); }
+
+double fourierDamping(int k, int terms, double damping) {
+    const double share = static_cast<double>(k) / terms;
+    return std::exp(-damping * share * share);
+}
+
+double fourierStep(double x, int terms, double damping) {
+    double sum = 0.5;
+    for (int k = 1; k <= terms; ++k)
+        sum += fourierDamping(k, terms, damping) * 2 / fourierFrequency(k) * std::sin(fourierFrequency(k) * x);
+    return sum;
+}
+
+double usedDepth(int terms) { return 1 - 1.0 / terms; }
+
+double litGain(int terms, double damping, double offset) {
+    constexpr double room = 1.03; // rounding to 8 bits moves the sum of the terms by less
+    return std::max(1.0, room / fourierStep(offset, terms, damping));
+}
+
+namespace {
+
+class CsmFourier final : public Technique {
+public:
+    explicit CsmFourier(const Parameters& p)
+        : terms_(p.integer("terms")), map_(p, {"filtered/csm-fourier/basis.frag", {}, gl::Format::RGBA8, terms_ / 2}),
+          resolve_(gl::Program::screen("filtered/csm-fourier/csm-fourier.frag", {{"TERMS", p.text("terms")}})) {
+        const double damping = p.real("damping");
+        const double offset = 0.5 * p.real("offset") / terms_;
+        const auto used = static_cast<float>(usedDepth(terms_));
+        map_.basis().set("usedDepth", used);
+        resolve_.set("usedDepth", used)
+            .set("offset", static_cast<float>(offset))
+            .set("damping", static_cast<float>(damping))
+            .set("gain", static_cast<float>(litGain(terms_, damping, offset)));
+    }
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        map_.draw(frame);
+        map_.bindTo(resolve_, frame);
+        resolveInto({&visibility}, resolve_);
+    }
+
+private:
+    int terms_;
+    PrefilteredMap map_;
+    gl::Program resolve_;
+};
+
+} // namespace
+
+Entry csmFourier() {
+    std::vector<Parameter> parameters = prefilteredMapParameters();
+    parameters.push_back(
+        {"terms", "16", OneOf{{"2", "4", "8", "16", "32"}}, "M, of the Fourier series", "dissertation 2.2.1"});
+    parameters.push_back(
+        {"damping", "1", RealRange{0, 8}, "of high frequencies: term k weighs exp(-damping (k/M)^2)", "Annen et al. 2007"});
+    parameters.push_back(
+        {"offset", "1", RealRange{0.25, 1}, "of receivers towards the light, in 1/(2M) of the depth range", ""});
+    return {.id = "csm-fourier",
+            .title = "Convolution shadow map",
+            .source = {Seed::Dissertation, "2.2.1"},
+            .answer = Answer::Filtered,
+            .parameters = std::move(parameters),
+            .variants = {""},
+            .make = [](const Parameters& p) { return std::make_unique<CsmFourier>(p); }};
+}
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,52 @@
+#include "filtered/prefiltered_map.glsl"
+
+uniform float c;
+
+#ifdef PCF_BEYOND
+uniform sampler2D linearDepth;  // metres, negative: moving caster
+uniform vec2 depthRange;       // near and far
+uniform float tolerance;       // of the exponential test above 1
+uniform int level;             // of the box's texels: 2^level of the map's
+uniform float width;           // of the box in those
+
+/// Change of unit depth along the receiver's plane per unit of map x and y; zero where the plane is seen edge-on.
+vec2 planeSlope(vec3 world, vec3 normal) {
+    vec3 u = normalize(abs(normal.x) < 0.5 ? cross(normal, vec3(1, 0, 0)) : cross(normal, vec3(0, 1, 0)));
+    vec3 v = cross(normal, u);
+    mat2 tangents = projectedTangents(mapFromWorld, world, u, v);
+    if (abs(determinant(tangents)) < 1e-12) return vec2(0.0);
+    return vec2(dot(unitDepthFromWorld.xyz, u), dot(unitDepthFromWorld.xyz, v)) * inverse(tangents);
+}
+
+/// The share of the box's texels that are not before the receiver's plane.
+float percentageCloser(FilteredReceiver r) {
+    vec3 normal = normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);
+    vec2 slope = planeSlope(receiverAt(gl_FragCoord.xy).position, normal);
+    vec2 size = vec2(textureSize(linearDepth, 0));
+    ivec2 middle = ivec2(floor(r.at * size));
+    int reach = int(0.5 * width);
+    float passed = 0.0;
+    for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x) {
+            vec2 texel = (vec2(middle + ivec2(x, y) * (1 << level)) + 0.5) / size;
+            vec2 offset = texel - r.at;  // to where the texel's depth was taken
+            float depth = abs(texture(linearDepth, texel).r);
+            float unit = (depth - depthRange.x) / (depthRange.y - depthRange.x);
+            passed += unit >= r.depth + dot(slope, offset) ? 1.0 : 0.0;
+        }
+    return passed / float((2 * reach + 1) * (2 * reach + 1));
+}
+#endif
+
+out float visibility;
+
+void main() {
+    FilteredReceiver receiver = filteredReceiver();
+    visibility = 1.0;
+    if (!receiver.known) return;
+    float test = exp(-c * receiver.depth) * filtered(receiver, 0).r;
+    visibility = min(test, 1.0);
+#ifdef PCF_BEYOND
+    if (test > 1.0 + tolerance) visibility = percentageCloser(receiver);
+#endif
+}

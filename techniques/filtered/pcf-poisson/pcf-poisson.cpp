@@ -1,0 +1,63 @@
+// Percentage-closer filtering over a Poisson disk (Reeves, Salesin, Cook 1987; Scherzer 2.2.1): the share of a disk's shadow
+// tests that pass, the disk turned by an angle of each pixel's own, so that too few taps show as noise instead of bands. The
+// angle is a hash of pixel and seed: the noise stands still with the camera. Departures: the disk is a round of texels
+// around the receiver, where the paper projects the pixel into the map; as for `pcf`, with bias=slope each tap is compared
+// with the depth of the receiver's plane at the tap.
+#include "techniques/entries.h"
+#include "techniques/maps/single_map.h"
+#include "techniques/resolve.h"
+#include "techniques/sampling.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+class PcfPoisson final : public Technique {
+public:
+    explicit PcfPoisson(const Parameters& p)
+        : taps_(poissonTaps(p.integer("taps"), Region::Disk)), radius_(static_cast<float>(p.real("radius"))),
+          turned_(p.text("rotate") == "pixel"), followPlane_(p.text("bias") == "slope"),
+          map_(p.integer("map"), biasFrom(p), Lookup::Compare),
+          resolve_(gl::Program::screen("filtered/pcf-poisson/pcf-poisson.frag", {{"TAPS", p.text("taps")}})) {}
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        const LightView light = uniformView(frame);
+        map_.draw(light, frame.scene);
+        resolve_.set("positions", frame.gbuffer.position())
+            .set("normals", frame.gbuffer.normal())
+            .set("mapFromWorld", mapFromWorld(light))
+            .set("depthMap", map_.texture())
+            .set("followPlane", followPlane_ ? 1.0F : 0.0F)
+            .set("disk", taps_)
+            .set("radius", radius_)
+            .set("turned", turned_ ? 1 : 0)
+            .set("seed", static_cast<int>(frame.seed));
+        resolveInto({&visibility}, resolve_);
+    }
+
+private:
+    std::vector<glm::vec2> taps_;
+    float radius_;
+    bool turned_, followPlane_;
+    DepthMap map_;
+    gl::Program resolve_;
+};
+
+} // namespace
+
+Entry pcfPoisson() {
+    std::vector<Parameter> parameters{
+        {"taps", "16", IntegerRange{4, 64}, "taps of the disk", "dissertation 2.2.1"},
+        {"radius", "3.5", RealRange{0.5, 32}, "of the disk in texels; 3.5 reaches as far as pcf:kernel=7", ""},
+        {"rotate", "pixel", OneOf{{"none", "pixel"}}, "turn the disk by an angle of each pixel's own", ""},
+    };
+    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    return {.id = "pcf-poisson",
+            .title = "Percentage-closer filtering over a Poisson disk",
+            .source = {Seed::Dissertation, "2.2.1"},
+            .answer = Answer::Filtered,
+            .parameters = std::move(parameters),
+            .variants = {""},
+            .make = [](const Parameters& p) { return std::make_unique<PcfPoisson>(p); }};
+}
+
+} // namespace shadowbench::techniques

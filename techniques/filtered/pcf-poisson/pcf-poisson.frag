@@ -1,0 +1,40 @@
+#include "gl/receiver.glsl"
+#include "maps/light_space.glsl"
+
+uniform sampler2DShadow depthMap;
+uniform sampler2D normals;
+uniform float followPlane;  // 1: taps are compared with the receiver's plane, 0: with the receiver's depth
+uniform vec2 disk[TAPS];    // in the unit disk
+uniform float radius;       // texels
+uniform int turned;
+uniform int seed;
+
+out float visibility;
+
+/// An even spread over [0, 2π) that neighbouring pixels do not share (PCG hash, Jarzynski and Olano 2020).
+float angleOf(uvec2 pixel) {
+    uint state = (pixel.x + 65536u * pixel.y + 2654435769u * uint(seed)) * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return float((word >> 22u) ^ word) * (6.28318530718 / 4294967296.0);
+}
+
+float diskVisibility(MapPoint point, vec2 slope, mat2 turn) {
+    vec2 texel = radius / vec2(textureSize(depthMap, 0));
+    float passed = 0.0;
+    for (int i = 0; i < TAPS; ++i) {
+        vec2 offset = turn * disk[i] * texel;
+        passed += texture(depthMap, point.at + vec3(offset, dot(slope, offset)));
+    }
+    return passed / float(TAPS);
+}
+
+void main() {
+    Receiver receiver = receiverAt(gl_FragCoord.xy);
+    MapPoint point = mapPoint(receiver.position);
+    visibility = 1.0;
+    if (!receiver.seen || point.behind) return;
+    vec3 normal = normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);
+    vec2 slope = followPlane * receiverPlaneSlope(receiver.position, normal, point.at);
+    float angle = turned != 0 ? angleOf(uvec2(gl_FragCoord.xy)) : 0.0;
+    visibility = diskVisibility(point, slope, mat2(cos(angle), sin(angle), -sin(angle), cos(angle)));
+}
