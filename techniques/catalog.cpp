@@ -5,8 +5,19 @@
 namespace shadowbench::techniques {
 
 std::span<const Entry> catalog() {
-    static const std::array entries{none(), smUniform(), smLispsm(),    smHistory(),   volumeZfail(),
-                                    pcf(),  pcss(),      sampledMaps(), temporalSoft()};
+    static const std::array entries{
+        none(),         //
+        smUniform(),    //
+        smMidpoint(),   //
+        smFocused(),    //
+        smLispsm(),     //
+        smHistory(),    //
+        volumeZfail(),  //
+        pcf(),          //
+        pcss(),         //
+        sampledMaps(),  //
+        temporalSoft(), //
+    };
     return entries;
 }
 

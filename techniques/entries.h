@@ -7,6 +7,8 @@ namespace shadowbench::techniques {
 
 Entry none();
 Entry smUniform();
+Entry smMidpoint();
+Entry smFocused();
 Entry smLispsm();
 Entry smHistory();
 Entry volumeZfail();

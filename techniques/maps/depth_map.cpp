@@ -6,9 +6,14 @@
 
 namespace shadowbench::techniques {
 
+Parameter mapParameter(int defaultSide) {
+    return {"map", std::to_string(defaultSide), IntegerRange{16, 8192}, "texels per side of the shadow map",
+            "EGSR paper, 4"};
+}
+
 std::vector<Parameter> depthMapParameters(int defaultSide) {
     return {
-        {"map", std::to_string(defaultSide), IntegerRange{16, 8192}, "texels per side of the shadow map", "EGSR paper, 4"},
+        mapParameter(defaultSide),
         {"bias", "slope", OneOf{{"none", "constant", "slope"}}, "depth bias while the map is drawn", "course, Bias"},
         // Half a texel in x and in y changes depth by at most ½(|∂z/∂x| + |∂z/∂y|) ≤ 1 · max slope: the factor that
         // suffices.

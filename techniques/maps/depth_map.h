@@ -23,6 +23,9 @@ struct Bias {
     float units = 0;
 };
 
+/// `map`: the side of a technique's one map, or of one with as many texels as all its maps together.
+Parameter mapParameter(int defaultSide = 1024);
+
 /// `map`, `bias`, `factor` and `units`: the parameters of every technique over a depth map.
 std::vector<Parameter> depthMapParameters(int defaultSide = 1024);
 Bias biasFrom(const Parameters& parameters);
@@ -31,14 +34,25 @@ Bias biasFrom(const Parameters& parameters);
 /// numbers.
 enum class Lookup { Compare, CompareBilinear, Raw };
 
-class DepthMap {
+/// A square map of depths in [0, 1] that receivers are tested against.
+class ShadowMap {
+public:
+    virtual ~ShadowMap() = default;
+
+    /// Draws the scene as seen from the light. Occluders between the light and the near plane are kept, at depth 0.
+    virtual void draw(const LightView& light, const gl::SceneBuffers& scene) = 0;
+
+    [[nodiscard]] virtual const gl::Texture& texture() const = 0;
+};
+
+/// Nearest depths.
+class DepthMap final : public ShadowMap {
 public:
     DepthMap(int side, Bias bias, Lookup lookup);
 
-    /// Draws the nearest depths. Occluders between the light and the near plane are kept, at depth 0.
-    void draw(const LightView& light, const gl::SceneBuffers& scene);
+    void draw(const LightView& light, const gl::SceneBuffers& scene) override;
 
-    [[nodiscard]] const gl::Texture& texture() const { return depth_; }
+    [[nodiscard]] const gl::Texture& texture() const override { return depth_; }
     [[nodiscard]] int side() const { return depth_.size().x; }
 
 private:
