@@ -40,4 +40,11 @@ inline BoxScore scoreOnGround(const Scene& scene, Stage& stage, const Image<floa
             static_cast<double>(leak) / static_cast<double>(dark)};
 }
 
+/// Pixels whose visibility differs.
+inline std::size_t differing(const Image<float>& a, const Image<float>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i] ? 1 : 0;
+    return count;
+}
+
 } // namespace shadowbench

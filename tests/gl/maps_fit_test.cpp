@@ -15,20 +15,11 @@ Scene slantedScene() {
     return scene;
 }
 
-/// An open mesh: a rectangle in the plane y = 0 around the origin, facing up.
-Mesh sheet(double width, double depth) {
-    const auto x = static_cast<float>(0.5 * width), z = static_cast<float>(0.5 * depth);
-    Mesh mesh;
-    mesh.positions = {{-x, 0, -z}, {-x, 0, z}, {x, 0, z}, {x, 0, -z}};
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return mesh;
-}
-
-/// A slab 3 m thick under a sheet of the box's outline, 1 m above it.
+/// A slab 3 m thick under a sheet (an open mesh) 1 m above it.
 Scene sheetScene() {
     Scene scene = groundScene(256);
     scene.objects[0] = object(box({12, 3, 12}), {0, -1.5, 0});
-    scene.objects.push_back(object(sheet(1.6, 1.2), {0.13, 1.0, 0.21}));
+    scene.objects.push_back(object(plane(0.7), {0.13, 1.0, 0.21}));
     return scene;
 }
 
