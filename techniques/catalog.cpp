@@ -12,6 +12,7 @@ std::span<const Entry> catalog() {
         smFocused(),    //
         smLispsm(),     //
         smHistory(),    //
+        smSilhouette(), //
         smAliasFree(),  //
         volumeZfail(),  //
         pcf(),          //

@@ -11,6 +11,7 @@ Entry smMidpoint();
 Entry smFocused();
 Entry smLispsm();
 Entry smHistory();
+Entry smSilhouette();
 Entry smAliasFree();
 Entry volumeZfail();
 Entry pcf();

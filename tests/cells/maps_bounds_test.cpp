@@ -27,5 +27,11 @@ std::string sceneName(const testing::TestParamInfo<std::string>& tested) {
 
 INSTANTIATE_TEST_SUITE_P(Gate, MapsOnStandardScene, testing::ValuesIn(standardScenes()), sceneName);
 
+TEST(SilhouetteMapOnDuelingFrusta, LeavesAtMostAThirdOfAUniformMapsEdgeError) {
+    const Scene scene = stillScene("dueling-frusta");
+    const double uniform = scored(scene, "sm-uniform:map=512").accuracy.edgeError->mean;
+    EXPECT_LE(scored(scene, "sm-silhouette:map=512").accuracy.edgeError->mean, uniform / 3);
+}
+
 } // namespace
 } // namespace shadowbench
