@@ -11,6 +11,7 @@ std::span<const Entry> catalog() {
         smMidpoint(),   //
         smFocused(),    //
         smLispsm(),     //
+        smCascaded(),   //
         smHistory(),    //
         smSilhouette(), //
         smAliasFree(),  //

@@ -10,6 +10,7 @@ Entry smUniform();
 Entry smMidpoint();
 Entry smFocused();
 Entry smLispsm();
+Entry smCascaded();
 Entry smHistory();
 Entry smSilhouette();
 Entry smAliasFree();

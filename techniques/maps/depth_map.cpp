@@ -72,9 +72,8 @@ void DepthMap::draw(const LightView& light, const gl::SceneBuffers& scene) {
     scene.draw();
 }
 
-glm::mat4 mapFromWorld(const LightView& light) {
-    const glm::dmat4 half = glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(0.5)), glm::dvec3(1));
-    return glm::mat4(half * light.clipFromWorld);
-}
+glm::dmat4 mapFromClip() { return glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(0.5)), glm::dvec3(1)); }
+
+glm::mat4 mapFromWorld(const LightView& light) { return glm::mat4(mapFromClip() * light.clipFromWorld); }
 
 } // namespace shadowbench::techniques

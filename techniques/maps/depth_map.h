@@ -63,6 +63,7 @@ private:
 };
 
 /// Map space: x, y and depth in [0, 1] where clip space has [−1, 1].
+glm::dmat4 mapFromClip();
 glm::mat4 mapFromWorld(const LightView& light);
 
 /// State shared by every pass that draws casters into a map: clips what lies behind the light, clamps what lies before the

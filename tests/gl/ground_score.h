@@ -47,4 +47,20 @@ inline std::size_t differing(const Image<float>& a, const Image<float>& b) {
     return count;
 }
 
+/// Share of an object's pixels, seen at a height of at least `lowest`, whose label differs from that of stencil volumes,
+/// which are exact on closed meshes. Surfaces that face away from the light are to be kept out by `lowest`.
+inline double mismatchOn(unsigned id, const Scene& scene, const std::string& variant, float lowest = -1e9F) {
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> exact = rendered(stage, "volume-zfail"), v = rendered(stage, variant);
+    const metrics::Drawn drawn = stage.drawn();
+    std::size_t wrong = 0, all = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        if (drawn.id[i] != id || drawn.position[i].y < lowest) continue;
+        ++all;
+        wrong += exact[i] != v[i] ? 1 : 0;
+    }
+    return static_cast<double>(wrong) / static_cast<double>(all);
+}
+
 } // namespace shadowbench
