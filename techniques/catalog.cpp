@@ -10,6 +10,7 @@ std::span<const Entry> catalog() {
         smUniform(),    //
         smMidpoint(),   //
         smFocused(),    //
+        smPsm(),        //
         smLispsm(),     //
         smCascaded(),   //
         smHistory(),    //

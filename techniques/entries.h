@@ -9,6 +9,7 @@ Entry none();
 Entry smUniform();
 Entry smMidpoint();
 Entry smFocused();
+Entry smPsm();
 Entry smLispsm();
 Entry smCascaded();
 Entry smHistory();

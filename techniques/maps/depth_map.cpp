@@ -49,19 +49,26 @@ CasterPass::CasterPass(gl::Program& program, const LightView& light, Bias bias) 
     // distance must be positive there.
     const glm::dvec4 inFront = light.depthFromWorld - glm::dvec4(0, 0, 0, 1e-4 * light.far);
     program.set("lightPlane", glm::vec4(light.perspective ? inFront : glm::dvec4(0, 0, 0, 1)));
+    if (program.uses("casterPlane")) {
+        glEnable(GL_CLIP_DISTANCE1);
+        program.set("casterPlane", glm::vec4(light.casterPlane));
+    }
     program.use();
 }
 
 CasterPass::~CasterPass() {
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_CLIP_DISTANCE0);
+    glDisable(GL_CLIP_DISTANCE1);
     glDisable(GL_DEPTH_CLAMP);
 }
 
-DepthMap::DepthMap(int side, Bias bias, Lookup lookup)
+DepthMap::DepthMap(int side, Bias bias, Lookup lookup, bool cutsCasters)
     : depth_(gl::Format::Depth32F, {side, side},
              lookup == Lookup::CompareBilinear ? gl::Filter::Linear : gl::Filter::Nearest, gl::Wrap::BorderFar),
-      target_{&depth_}, program_("maps/depth_map.vert", "maps/depth_map.frag"), bias_(bias) {
+      target_{&depth_}, program_("maps/depth_map.vert", "maps/depth_map.frag",
+                                 cutsCasters ? gl::Defines{{"CASTER_PLANE", "1"}} : gl::Defines{}),
+      bias_(bias) {
     if (lookup != Lookup::Raw) depth_.compareDepth();
 }
 

@@ -48,7 +48,8 @@ public:
 /// Nearest depths.
 class DepthMap final : public ShadowMap {
 public:
-    DepthMap(int side, Bias bias, Lookup lookup);
+    /// `cutsCasters`: what lies behind the view's casterPlane is not drawn.
+    DepthMap(int side, Bias bias, Lookup lookup, bool cutsCasters = false);
 
     void draw(const LightView& light, const gl::SceneBuffers& scene) override;
 

@@ -17,7 +17,8 @@ struct LightView {
     double near = 0, far = 1;     // that depth at clip z = −1 and +1 (before any warp)
     bool perspective = false;     // point light
     glm::dvec2 span{0}; // width and height of the map at unit depth (perspective) or in metres (orthographic), unwarped
-    std::vector<glm::dvec3> covered; // world points that the map must hold
+    std::vector<glm::dvec3> covered;    // world points that the map must hold
+    glm::dvec4 casterPlane{0, 0, 0, 1}; // casters count where dot(·, (p, 1)) ≥ 0, for maps that cut them (`DepthMap`)
 };
 
 /// World corners of the bounding boxes of all placements.

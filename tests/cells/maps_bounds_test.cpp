@@ -36,6 +36,14 @@ TEST(CascadedMapsOnWindmills, AreBetterThanOneFocusedMapOfEqualTexels) {
     EXPECT_GE(*scored(scene, "sm-focused:map=2048").accuracy.mismatch, 0.5 * focused);
 }
 
+TEST(PerspectiveMapOnDuelingFrusta, IsWithinAFactorTwoOfAUniformMap) { // course: it degenerates to one
+    const Scene scene = stillScene("dueling-frusta");
+    const double uniform = *scored(scene, "sm-uniform").accuracy.mismatch;
+    const double perspective = *scored(scene, "sm-psm").accuracy.mismatch;
+    EXPECT_LE(perspective, 2 * uniform);
+    EXPECT_GE(perspective, 0.5 * uniform);
+}
+
 TEST(SilhouetteMapOnDuelingFrusta, LeavesAtMostAThirdOfAUniformMapsEdgeError) {
     const Scene scene = stillScene("dueling-frusta");
     const double uniform = scored(scene, "sm-uniform:map=512").accuracy.edgeError->mean;

@@ -52,7 +52,7 @@ inline std::size_t differing(const Image<float>& a, const Image<float>& b) {
 inline double mismatchOn(unsigned id, const Scene& scene, const std::string& variant, float lowest = -1e9F) {
     Stage stage(scene);
     stage.show(0);
-    const Image<float> exact = rendered(stage, "volume-zfail"), v = rendered(stage, variant);
+    const Image<float> exact = rendered(stage, "sm-alias-free"), v = rendered(stage, variant);
     const metrics::Drawn drawn = stage.drawn();
     std::size_t wrong = 0, all = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {
