@@ -66,7 +66,8 @@ struct Entry {
     std::string title;
     Source source;
     Answer answer = Answer::Hard;
-    bool temporal = false; // keeps history: its frames must be rendered in order
+    bool needsPosition = false; // the light must be somewhere: not for directional lights
+    bool temporal = false;      // keeps history: its frames must be rendered in order
     std::vector<Parameter> parameters;
     std::vector<std::string> variants; // what a run of all techniques shows: parameter strings, "" = all defaults
     std::function<std::unique_ptr<Technique>(const Parameters&)> make;

@@ -169,6 +169,8 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
     if (variant.entry->answer == Answer::Soft && !scene.light.isArea())
         return fmt::format("needs an area light; the light of {} is {}", scene.id,
                            scene.light.kind == LightKind::Point ? "a point" : "directional");
+    if (variant.entry->needsPosition && scene.light.kind == LightKind::Directional)
+        return fmt::format("needs a light with a position; the light of {} is directional", scene.id);
     return std::nullopt;
 }
 
