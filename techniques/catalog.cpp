@@ -13,6 +13,7 @@ std::span<const Entry> catalog() {
         smPsm(),        //
         smLispsm(),     //
         smCascaded(),   //
+        smCube(),       //
         smHistory(),    //
         smSilhouette(), //
         smAliasFree(),  //

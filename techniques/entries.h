@@ -12,6 +12,7 @@ Entry smFocused();
 Entry smPsm();
 Entry smLispsm();
 Entry smCascaded();
+Entry smCube();
 Entry smHistory();
 Entry smSilhouette();
 Entry smAliasFree();

@@ -29,8 +29,9 @@ std::vector<Tile> equalTiles(int side, int count) {
 
 std::vector<Tile> squareTiles(int side, int count) {
     const int each = static_cast<int>(side / std::sqrt(count));
+    const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
     std::vector<Tile> tiles;
-    for (int i = 0; i < count; ++i) tiles.push_back({{i * each, 0}, {each, each}});
+    for (int i = 0; i < count; ++i) tiles.push_back({each * glm::ivec2(i % columns, i / columns), {each, each}});
     return tiles;
 }
 

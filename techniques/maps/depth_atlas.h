@@ -21,7 +21,7 @@ struct Tile {
 /// A square of `side` texels cut into `count` equal tiles, in as square a grid as `count` allows.
 std::vector<Tile> equalTiles(int side, int count);
 
-/// `count` square tiles side by side that together have at most side² texels.
+/// `count` square tiles that together have at most side² texels.
 std::vector<Tile> squareTiles(int side, int count);
 
 class DepthAtlas {

@@ -3,7 +3,7 @@
 
 #include "stages.h"
 
-#include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -38,6 +38,18 @@ inline BoxScore scoreOnGround(const Scene& scene, Stage& stage, const Image<floa
     return {static_cast<double>(falseShadow + leak) / static_cast<double>(lit + dark),
             static_cast<double>(falseShadow) / static_cast<double>(lit),
             static_cast<double>(leak) / static_cast<double>(dark)};
+}
+
+/// Boxes all around a light that is close to the slab: a single map cannot see half of them.
+inline Scene ringScene() {
+    Scene scene = groundScene(256);
+    scene.light.centre = {0.1, 0.7, 0.2};
+    for (int i = 0; i < 8; ++i) {
+        const double angle = glm::radians(45.0 * i + 10);
+        const glm::dvec3 at(2 * std::cos(angle), 0.43, 2 * std::sin(angle));
+        scene.objects.push_back(object(box({0.4, 0.8, 0.3}), at, 17.0 * i));
+    }
+    return scene;
 }
 
 /// Pixels whose visibility differs.

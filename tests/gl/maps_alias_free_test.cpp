@@ -37,18 +37,6 @@ TEST(SmAliasFree, TheGridChangesNothing) {
         EXPECT_EQ(rendered(stage, variant), v) << variant;
 }
 
-/// Boxes all around a light that is close to the slab: a single map cannot see half of them.
-Scene ringScene() {
-    Scene scene = groundScene(256);
-    scene.light.centre = {0.1, 0.7, 0.2};
-    for (int i = 0; i < 8; ++i) {
-        const double angle = glm::radians(45.0 * i + 10);
-        const glm::dvec3 at(2 * std::cos(angle), 0.43, 2 * std::sin(angle));
-        scene.objects.push_back(object(box({0.4, 0.8, 0.3}), at, 17.0 * i));
-    }
-    return scene;
-}
-
 TEST(SmAliasFree, HoldsAllAroundALightInsideTheScene) {
     const Scene scene = ringScene();
     Stage stage(scene);
