@@ -11,8 +11,15 @@ std::span<const Entry> catalog() {
         planarSoft(),   //
         planarFake(),   //
         smUniform(),    //
+        smMidpoint(),   //
+        smFocused(),    //
+        smPsm(),        //
         smLispsm(),     //
+        smCascaded(),   //
+        smCube(),       //
         smHistory(),    //
+        smSilhouette(), //
+        smAliasFree(),  //
         volumeZpass(),  //
         volumeZfail(),  //
         volumeXor(),    //

@@ -29,6 +29,7 @@ struct Frame {
     int index;                        // frame number from 0
     std::uint32_t seed;               // of pseudo-random choices; 1 is the default
 
+    [[nodiscard]] double aspect() const { return static_cast<double>(size.x) / size.y; }
     [[nodiscard]] bool cameraMoved() const { return clipFromWorld != previousClipFromWorld; }
 };
 

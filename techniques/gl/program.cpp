@@ -47,13 +47,11 @@ GLuint compile(GLenum stage, const std::string& file, const Defines& defines) {
     throw InternalError("compiling shader " + file + " failed:\n" + withOrigins(log, source));
 }
 
-GLuint link(GLuint vertex, GLuint fragment, const std::string& title) {
+GLuint link(std::initializer_list<GLuint> shaders, const std::string& title) {
     const GLuint program = glCreateProgram();
-    glAttachShader(program, vertex);
-    glAttachShader(program, fragment);
+    for (const GLuint shader : shaders) glAttachShader(program, shader);
     glLinkProgram(program);
-    glDeleteShader(vertex);
-    glDeleteShader(fragment);
+    for (const GLuint shader : shaders) glDeleteShader(shader);
     GLint good = 0;
     glGetProgramiv(program, GL_LINK_STATUS, &good);
     if (good != 0) return program;
@@ -81,10 +79,11 @@ bool isSampler(GLenum type) {
 } // namespace
 
 Program::Program(const std::string& vertexFile, const std::string& fragmentFile, const Defines& defines)
-    : title_(vertexFile + " + " + fragmentFile) {
-    const GLuint vertex = compile(GL_VERTEX_SHADER, vertexFile, defines);
-    id_ = link(vertex, compile(GL_FRAGMENT_SHADER, fragmentFile, defines), title_);
+    : Program(link({compile(GL_VERTEX_SHADER, vertexFile, defines), compile(GL_FRAGMENT_SHADER, fragmentFile, defines)},
+                   vertexFile + " + " + fragmentFile),
+              vertexFile + " + " + fragmentFile) {}
 
+Program::Program(unsigned id, std::string title) : id_(id), title_(std::move(title)) {
     GLint count = 0;
     glGetProgramiv(id_, GL_ACTIVE_UNIFORMS, &count);
     int unit = 0;
@@ -101,6 +100,10 @@ Program::Program(const std::string& vertexFile, const std::string& fragmentFile,
 
 Program Program::screen(const std::string& fragmentFile, const Defines& defines) {
     return {"gl/screen.vert", fragmentFile, defines};
+}
+
+Program Program::compute(const std::string& file, const Defines& defines) {
+    return {link({compile(GL_COMPUTE_SHADER, file, defines)}, file), file};
 }
 
 Program::~Program() {
@@ -151,6 +154,17 @@ Program& Program::set(const std::string& name, std::span<const glm::vec2> values
     return *this;
 }
 
+Program& Program::set(const std::string& name, std::span<const glm::vec4> values) {
+    glProgramUniform4fv(id_, uniform(name).location, static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+    return *this;
+}
+
+Program& Program::set(const std::string& name, std::span<const glm::mat4> values) {
+    glProgramUniformMatrix4fv(id_, uniform(name).location, static_cast<GLsizei>(values.size()), GL_FALSE,
+                              glm::value_ptr(values.front()));
+    return *this;
+}
+
 Program& Program::set(const std::string& sampler, const Texture& texture) {
     activateUnit(sampler);
     glBindTexture(GL_TEXTURE_2D, texture.id());
@@ -182,6 +196,17 @@ void Program::drawScreenDepth() const {
     glDepthMask(GL_TRUE);
     drawTriangle();
     glDepthFunc(GL_LESS);
+}
+
+void Program::dispatch(std::size_t invocations) const {
+    constexpr std::size_t group = 64, widest = 65535; // gl/invocation.glsl; the least that GL promises for an axis
+    const std::size_t groups = (invocations + group - 1) / group;
+    if (groups == 0) return;
+    use();
+    const std::size_t rows = (groups + widest - 1) / widest;
+    glDispatchCompute(static_cast<GLuint>((groups + rows - 1) / rows), static_cast<GLuint>(rows), 1);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    ++Context::current().tally().passes;
 }
 
 void Program::drawTriangle() const {

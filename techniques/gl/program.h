@@ -2,6 +2,7 @@
 // is resolved when loaded, and a compile error names the file and line it comes from.
 #pragma once
 
+#include <cstddef>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -28,6 +29,9 @@ public:
     /// A full-screen pass of one fragment shader.
     static Program screen(const std::string& fragmentFile, const Defines& defines = {});
 
+    /// A compute shader.
+    static Program compute(const std::string& file, const Defines& defines = {});
+
     ~Program();
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
@@ -41,6 +45,8 @@ public:
     Program& set(const std::string& uniform, glm::vec4 value);
     Program& set(const std::string& uniform, const glm::mat4& value);
     Program& set(const std::string& uniform, std::span<const glm::vec2> values);
+    Program& set(const std::string& uniform, std::span<const glm::vec4> values);
+    Program& set(const std::string& uniform, std::span<const glm::mat4> values);
 
     /// Binds the texture to the sampler of that name.
     Program& set(const std::string& sampler, const Texture& texture);
@@ -55,7 +61,12 @@ public:
     /// The same for a shader that writes gl_FragDepth: every pixel's depth is replaced.
     void drawScreenDepth() const;
 
+    /// Runs at least `invocations` invocations of a compute shader, numbered by invocation() of gl/invocation.glsl; what it
+    /// wrote is visible to everything after. Counts as a pass.
+    void dispatch(std::size_t invocations) const;
+
 private:
+    Program(unsigned id, std::string title);
     struct Uniform {
         int location;
         int unit; // texture unit of a sampler, else −1

@@ -38,6 +38,15 @@ void Buffer::upload(const void* data, std::size_t bytes) {
     bytes_ = bytes;
 }
 
+void Buffer::clear(std::size_t bytes) {
+    if (bytes != bytes_) upload(nullptr, bytes);
+    constexpr GLuint zero = 0;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
+    glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+}
+
+void Buffer::bindStorage(unsigned binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_); }
+
 VertexArray::VertexArray() { glGenVertexArrays(1, &id_); }
 
 VertexArray::~VertexArray() { glDeleteVertexArrays(1, &id_); }
@@ -78,7 +87,7 @@ void SceneBuffers::update(const Snapshot& snapshot) {
     std::vector<InstanceData> instances;
     draws_.clear();
     moving_ = false;
-    for (const Batch& batch : snapshot.batches) {
+    for (const shadowbench::Batch& batch : snapshot.batches) {
         const auto base = static_cast<unsigned>(instances.size());
         for (const Placement& placement : batch.placements) {
             const bool moved = placement.world != placement.previous;
@@ -88,6 +97,14 @@ void SceneBuffers::update(const Snapshot& snapshot) {
         draws_.push_back({&meshOnGpu(batch.mesh), static_cast<int>(batch.placements.size()), base});
     }
     instances_.upload(instances.data(), instances.size() * sizeof(InstanceData));
+}
+
+std::vector<SceneBuffers::Batch> SceneBuffers::batches() const {
+    std::vector<Batch> result;
+    for (const Draw& draw : draws_)
+        result.push_back(
+            {draw.mesh->vertices, draw.mesh->indices, draw.mesh->indexCount / 3, draw.instances, draw.baseInstance});
+    return result;
 }
 
 void SceneBuffers::draw() const {

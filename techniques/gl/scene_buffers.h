@@ -20,6 +20,13 @@ public:
 
     /// Replaces the content.
     void upload(const void* data, std::size_t bytes);
+
+    /// Makes it `bytes` long, all zero.
+    void clear(std::size_t bytes);
+
+    /// Binds the whole of it to a shader's storage block.
+    void bindStorage(unsigned binding) const;
+
     [[nodiscard]] unsigned id() const { return id_; }
 
 private:
@@ -53,6 +60,16 @@ public:
     /// Binds the instance attributes 1–7 of the current vertex array; a draw's base instance picks the placement, counted
     /// through the snapshot's batches in order.
     void bindInstances() const;
+
+    /// A batch as compute shaders read it (gl/triangles.glsl).
+    struct Batch {
+        const Buffer& vertices;
+        const Buffer& indices;
+        int triangles, instances;
+        unsigned baseInstance;
+    };
+    [[nodiscard]] std::vector<Batch> batches() const;
+    [[nodiscard]] const Buffer& instances() const { return instances_; }
 
     /// True when some placement moved since the previous frame.
     [[nodiscard]] bool moving() const { return moving_; }

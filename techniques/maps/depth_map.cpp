@@ -6,9 +6,14 @@
 
 namespace shadowbench::techniques {
 
+Parameter mapParameter(int defaultSide) {
+    return {"map", std::to_string(defaultSide), IntegerRange{16, 8192}, "texels per side of the shadow map",
+            "EGSR paper, 4"};
+}
+
 std::vector<Parameter> depthMapParameters(int defaultSide) {
     return {
-        {"map", std::to_string(defaultSide), IntegerRange{16, 8192}, "texels per side of the shadow map", "EGSR paper, 4"},
+        mapParameter(defaultSide),
         {"bias", "slope", OneOf{{"none", "constant", "slope"}}, "depth bias while the map is drawn", "course, Bias"},
         // Half a texel in x and in y changes depth by at most ½(|∂z/∂x| + |∂z/∂y|) ≤ 1 · max slope: the factor that
         // suffices.
@@ -44,19 +49,26 @@ CasterPass::CasterPass(gl::Program& program, const LightView& light, Bias bias) 
     // distance must be positive there.
     const glm::dvec4 inFront = light.depthFromWorld - glm::dvec4(0, 0, 0, 1e-4 * light.far);
     program.set("lightPlane", glm::vec4(light.perspective ? inFront : glm::dvec4(0, 0, 0, 1)));
+    if (program.uses("casterPlane")) {
+        glEnable(GL_CLIP_DISTANCE1);
+        program.set("casterPlane", glm::vec4(light.casterPlane));
+    }
     program.use();
 }
 
 CasterPass::~CasterPass() {
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_CLIP_DISTANCE0);
+    glDisable(GL_CLIP_DISTANCE1);
     glDisable(GL_DEPTH_CLAMP);
 }
 
-DepthMap::DepthMap(int side, Bias bias, Lookup lookup)
+DepthMap::DepthMap(int side, Bias bias, Lookup lookup, bool cutsCasters)
     : depth_(gl::Format::Depth32F, {side, side},
              lookup == Lookup::CompareBilinear ? gl::Filter::Linear : gl::Filter::Nearest, gl::Wrap::BorderFar),
-      target_{&depth_}, program_("maps/depth_map.vert", "maps/depth_map.frag"), bias_(bias) {
+      target_{&depth_}, program_("maps/depth_map.vert", "maps/depth_map.frag",
+                                 cutsCasters ? gl::Defines{{"CASTER_PLANE", "1"}} : gl::Defines{}),
+      bias_(bias) {
     if (lookup != Lookup::Raw) depth_.compareDepth();
 }
 
@@ -67,9 +79,8 @@ void DepthMap::draw(const LightView& light, const gl::SceneBuffers& scene) {
     scene.draw();
 }
 
-glm::mat4 mapFromWorld(const LightView& light) {
-    const glm::dmat4 half = glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(0.5)), glm::dvec3(1));
-    return glm::mat4(half * light.clipFromWorld);
-}
+glm::dmat4 mapFromClip() { return glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(0.5)), glm::dvec3(1)); }
+
+glm::mat4 mapFromWorld(const LightView& light) { return glm::mat4(mapFromClip() * light.clipFromWorld); }
 
 } // namespace shadowbench::techniques

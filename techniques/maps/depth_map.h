@@ -23,6 +23,9 @@ struct Bias {
     float units = 0;
 };
 
+/// `map`: the side of a technique's one map, or of one with as many texels as all its maps together.
+Parameter mapParameter(int defaultSide = 1024);
+
 /// `map`, `bias`, `factor` and `units`: the parameters of every technique over a depth map.
 std::vector<Parameter> depthMapParameters(int defaultSide = 1024);
 Bias biasFrom(const Parameters& parameters);
@@ -31,14 +34,26 @@ Bias biasFrom(const Parameters& parameters);
 /// numbers.
 enum class Lookup { Compare, CompareBilinear, Raw };
 
-class DepthMap {
+/// A square map of depths in [0, 1] that receivers are tested against.
+class ShadowMap {
 public:
-    DepthMap(int side, Bias bias, Lookup lookup);
+    virtual ~ShadowMap() = default;
 
-    /// Draws the nearest depths. Occluders between the light and the near plane are kept, at depth 0.
-    void draw(const LightView& light, const gl::SceneBuffers& scene);
+    /// Draws the scene as seen from the light. Occluders between the light and the near plane are kept, at depth 0.
+    virtual void draw(const LightView& light, const gl::SceneBuffers& scene) = 0;
 
-    [[nodiscard]] const gl::Texture& texture() const { return depth_; }
+    [[nodiscard]] virtual const gl::Texture& texture() const = 0;
+};
+
+/// Nearest depths.
+class DepthMap final : public ShadowMap {
+public:
+    /// `cutsCasters`: what lies behind the view's casterPlane is not drawn.
+    DepthMap(int side, Bias bias, Lookup lookup, bool cutsCasters = false);
+
+    void draw(const LightView& light, const gl::SceneBuffers& scene) override;
+
+    [[nodiscard]] const gl::Texture& texture() const override { return depth_; }
     [[nodiscard]] int side() const { return depth_.size().x; }
 
 private:
@@ -49,6 +64,7 @@ private:
 };
 
 /// Map space: x, y and depth in [0, 1] where clip space has [−1, 1].
+glm::dmat4 mapFromClip();
 glm::mat4 mapFromWorld(const LightView& light);
 
 /// State shared by every pass that draws casters into a map: clips what lies behind the light, clamps what lies before the

@@ -3,7 +3,6 @@
 
 #include "harness/scene/scene.h"
 
-#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -18,7 +17,8 @@ struct LightView {
     double near = 0, far = 1;     // that depth at clip z = −1 and +1 (before any warp)
     bool perspective = false;     // point light
     glm::dvec2 span{0}; // width and height of the map at unit depth (perspective) or in metres (orthographic), unwarped
-    std::vector<glm::dvec3> covered; // world points that the map must hold
+    std::vector<glm::dvec3> covered;    // world points that the map must hold
+    glm::dvec4 casterPlane{0, 0, 0, 1}; // casters count where dot(·, (p, 1)) ≥ 0, for maps that cut them (`DepthMap`)
 };
 
 /// World corners of the bounding boxes of all placements.
@@ -35,21 +35,6 @@ LightView fitFromSample(const Light& light, const glm::dvec3& sample, std::vecto
 
 /// `fitToPoints` over the whole scene.
 LightView fitToScene(const Light& light, const Snapshot& snapshot);
-
-/// Corners of the part of `box` that the camera sees: the box clipped by the view frustum (Scherzer Fig. 2.5, S ∩ V) and by
-/// further half-spaces dot(plane, (p, 1)) ≥ 0.
-std::vector<glm::dvec3> visiblePart(const Bounds& box, const Camera& camera, double aspect,
-                                    const std::vector<glm::dvec4>& halfSpaces = {});
-
-/// Light space perspective shadow map (Wimmer, Scherzer, Purgathofer 2004; Scherzer 2.2.2): light space turned so that the
-/// view direction lies along y, then warped by a perspective along y whose near distance n spreads the error evenly over the
-/// depth range (`lispsmNear`), then focused on what the camera sees. Falls back to the focused, unwarped map where the view
-/// direction is parallel to the light (duelling frusta).
-LightView fitLispsm(const Light& light, const Snapshot& snapshot, double aspect);
-
-/// n_opt for a light-space depth range `d` along the view axis whose ends lie at eye depths z0 < z1: d / (√(z1/z0) − 1),
-/// which is (z0 + √(z0·z1)) / sin γ for a directional light. Infinity where z1 ≤ z0 or z0 ≤ 0: no warp.
-double lispsmNear(double d, double z0, double z1);
 
 /// The same view rasterised differently: the projection window turned by `angle` (radians), re-fitted to the covered points,
 /// and shifted by `shift` texels (each in [−½, ½]) of a map of `texels` per side (EGSR paper, 3.3).

@@ -11,10 +11,16 @@ namespace shadowbench::techniques {
 /// How a map is fitted to a frame.
 using FitView = std::function<LightView(const Frame&)>;
 
+std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit);
+
+/// The same over a depth map with these `depthMapParameters`.
 std::unique_ptr<Technique> makeSingleMap(const Parameters& parameters, FitView fit);
 
 /// `sm-uniform`: the light frustum fitted to the whole scene.
 LightView uniformView(const Frame& frame);
+
+/// `sm-focused`.
+LightView focusedView(const Frame& frame);
 
 /// `sm-lispsm`.
 LightView lispsmView(const Frame& frame);

@@ -1,4 +1,5 @@
 // Hard-shadow techniques on scenes whose shadow is a known polygon.
+#include "ground_score.h"
 #include "stages.h"
 #include "techniques/maps/light_view.h"
 #include "techniques/maps/sm-history/sm-history.h"
@@ -9,37 +10,6 @@
 
 namespace shadowbench {
 namespace {
-
-/// Share of slab pixels whose label differs from the closed form, and its parts.
-struct BoxScore {
-    double mismatch = 0, falseShadow = 0, leak = 0;
-};
-
-/// Pixels whose label changes when the pixel moves by `margin` pixels are left out: the closed form's own edge.
-BoxScore scoreOnGround(const Scene& scene, Stage& stage, const Image<float>& v, double margin) {
-    const metrics::Drawn drawn = stage.drawn();
-    const auto shadowed = [&](double x, double y) {
-        const glm::dvec3 ray = scene.camera.ray({x, y}, scene.size);
-        return meetsBox(scene.camera.eye - scene.camera.eye.y / ray.y * ray, scene.light.centre);
-    };
-    std::size_t lit = 0, dark = 0, falseShadow = 0, leak = 0;
-    for (int y = 0; y < scene.size.y; ++y)
-        for (int x = 0; x < scene.size.x; ++x) {
-            if (drawn.id(x, y) != 1 || drawn.position(x, y).y < -0.001F) continue;
-            const double cx = x + 0.5, cy = y + 0.5;
-            const bool label = shadowed(cx, cy);
-            bool edge = false;
-            for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-                edge = edge || shadowed(cx + margin * dx, cy + margin * dy) != label;
-            if (edge) continue;
-            ++(label ? dark : lit);
-            if (label && v(x, y) >= 0.5F) ++leak;
-            if (!label && v(x, y) < 0.5F) ++falseShadow;
-        }
-    return {static_cast<double>(falseShadow + leak) / static_cast<double>(lit + dark),
-            static_cast<double>(falseShadow) / static_cast<double>(lit),
-            static_cast<double>(leak) / static_cast<double>(dark)};
-}
 
 TEST(VolumeZfail, ABoxsShadowIsTheExactPolygonToATwentiethOfAPixel) {
     const Scene scene = boxScene(256);

@@ -1,6 +1,8 @@
 // Fitting of light frusta against closed forms.
 #include "harness/scene/primitives.h"
-#include "techniques/maps/light_view.h"
+#include "techniques/maps/focused_view.h"
+#include "techniques/maps/lispsm_view.h"
+#include "techniques/maps/visible_part.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -100,6 +102,26 @@ TEST(LightView, VisiblePartIsCutAtTheFrustum) {
     EXPECT_NEAR(seen.high.z, -5, 1e-9); // where the 45° lower plane meets the top of the ground
 }
 
+TEST(Focused, TouchesWhatTheCameraSeesOnAllFourSides) {
+    const Light light = sun({0, -1, 0});
+    const Snapshot scene = slabScene(light);
+    const LightView view = fitFocused(light, scene, scene.camera, 1);
+    // The frustum's 30° lower plane meets the slab's top 1.95 / tan 30° in front of the eye; the far side of the slab is
+    // seen.
+    const double start = 10 - 1.95 / std::tan(glm::radians(30.0));
+    const glm::dvec3 near = mapped(view, {0, 0.05, start}), far = mapped(view, {0, 0.05, -10});
+    EXPECT_NEAR(std::abs(near.y - far.y), 2, 1e-9);
+    EXPECT_NEAR(std::abs(mapped(view, {-10, 0.05, -10}).x - mapped(view, {10, 0.05, -10}).x), 2, 1e-9);
+}
+
+TEST(Focused, IsTheWholeSceneWhereTheCameraSeesNothing) {
+    const Light light = sun({0.2, -1, 0.1});
+    Snapshot scene = slabScene(light);
+    scene.camera.target = {0, 30, 10}; // looks up
+    scene.camera.up = {0, 0, -1};
+    EXPECT_EQ(fitFocused(light, scene, scene.camera, 1).clipFromWorld, fitToScene(light, scene).clipFromWorld);
+}
+
 TEST(Lispsm, NearDistanceIsThePapersForALightPerpendicularToTheView) {
     const double z0 = 1, z1 = 49; // γ = 90°, so d = z1 − z0 and n = z0 + √(z0 z1)
     EXPECT_NEAR(lispsmNear(z1 - z0, z0, z1), z0 + std::sqrt(z0 * z1), 1e-12);
@@ -125,7 +147,7 @@ double samplingOverNeed(const LightView& view, double z) {
 TEST(Lispsm, SpreadsTheErrorEvenlyFromNearToFar) {
     const Light overhead = sun({0, -1, 0});
     const Snapshot scene = slabScene(overhead);
-    const LightView warped = fitLispsm(overhead, scene, 1);
+    const LightView warped = fitLispsm(overhead, scene, scene.camera, 1);
     const LightView uniform = fitToScene(overhead, scene);
     // The body starts where the frustum's 30° lower plane meets the slab's top and ends at its far side.
     const double z0 = 1.95 / std::tan(glm::radians(30.0)), z1 = 20;
@@ -137,7 +159,8 @@ TEST(Lispsm, SpreadsTheErrorEvenlyFromNearToFar) {
 
 TEST(Lispsm, KeepsLightRaysOnOneTexel) {
     const Light light = sun({0.4, -1, 0.3});
-    const LightView view = fitLispsm(light, slabScene(light), 1);
+    const Snapshot scene = slabScene(light);
+    const LightView view = fitLispsm(light, scene, scene.camera, 1);
     const glm::dvec3 ground(1.5, 0.05, -2);
     const glm::dvec3 above = ground - 3.0 * light.direction;
     EXPECT_NEAR(glm::distance(glm::dvec2(mapped(view, ground)), glm::dvec2(mapped(view, above))), 0, 1e-9);
@@ -153,7 +176,7 @@ TEST(Lispsm, HoldsEveryVisiblePointOfTheScene) {
     const glm::dmat4 up = glm::translate(glm::dmat4(1), glm::dvec3(-6, 1.2, 5));
     scene.batches.push_back({std::make_shared<Mesh>(box({1, 2.3, 1})), {}, false, {{up, up, 2}}});
     const glm::dvec3 low = scene.bounds().low, high = scene.bounds().high;
-    const LightView view = fitLispsm(light, scene, 1);
+    const LightView view = fitLispsm(light, scene, scene.camera, 1);
     std::size_t seen = 0;
     for (int i = 0; i < 20 * 20 * 20; ++i) {
         const glm::dvec3 share = glm::dvec3(i % 20, i / 20 % 20, i / 400) / 19.0;
@@ -172,7 +195,7 @@ TEST(Lispsm, IsUnwarpedInDuellingFrusta) {
     // The light shines against the view direction, parallel to it.
     const Light light = sun({0, 0, 1});
     const Snapshot scene = slabScene(light);
-    const LightView view = fitLispsm(light, scene, 1);
+    const LightView view = fitLispsm(light, scene, scene.camera, 1);
     const glm::dvec3 a = mapped(view, {-2, 0, 0}), b = mapped(view, {0, 0, 0}), c = mapped(view, {2, 0, 0});
     EXPECT_NEAR(glm::distance(a, b), glm::distance(b, c), 1e-6); // equal steps stay equal: no perspective
 }

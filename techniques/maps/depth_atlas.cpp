@@ -1,0 +1,76 @@
+#include "techniques/maps/depth_atlas.h"
+
+#include "techniques/gl/api.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace shadowbench::techniques {
+namespace {
+
+glm::ivec2 sizeOf(const std::vector<Tile>& tiles) {
+    glm::ivec2 size(0);
+    for (const Tile& tile : tiles) size = glm::max(size, tile.at + tile.size);
+    return size;
+}
+
+} // namespace
+
+std::vector<Tile> equalTiles(int side, int count) {
+    int rows = static_cast<int>(std::sqrt(count));
+    while (count % rows != 0) --rows;
+    const int columns = count / rows;
+    const glm::ivec2 size(side / columns, side / rows);
+    std::vector<Tile> tiles;
+    for (int i = 0; i < count; ++i) tiles.push_back({size * glm::ivec2(i % columns, i / columns), size});
+    return tiles;
+}
+
+std::vector<Tile> squareTiles(int side, int count) {
+    const int each = static_cast<int>(side / std::sqrt(count));
+    const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
+    std::vector<Tile> tiles;
+    for (int i = 0; i < count; ++i) tiles.push_back({each * glm::ivec2(i % columns, i / columns), {each, each}});
+    return tiles;
+}
+
+DepthAtlas::DepthAtlas(std::vector<Tile> tiles, Bias bias)
+    : tiles_(std::move(tiles)),
+      depth_(gl::Format::Depth32F, sizeOf(tiles_), gl::Filter::Nearest, gl::Wrap::BorderFar), target_{&depth_},
+      program_("maps/depth_map.vert", "maps/depth_map.frag"), bias_(bias) {
+    depth_.compareDepth();
+    const glm::vec4 size(depth_.size(), depth_.size());
+    for (const Tile& tile : tiles_) {
+        const glm::vec2 low(tile.at), high(tile.at + tile.size);
+        inner_.push_back(glm::vec4(low + 0.5F, high - 0.5F) / size);
+    }
+}
+
+void DepthAtlas::draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene) {
+    target_.clearDepth(1);
+    atlasFromWorld_.clear();
+    glEnable(GL_SCISSOR_TEST);
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+        const Tile& tile = tiles_[i];
+        target_.bind();
+        glViewport(tile.at.x, tile.at.y, tile.size.x, tile.size.y);
+        glScissor(tile.at.x, tile.at.y, tile.size.x, tile.size.y);
+        {
+            const CasterPass pass(program_, views[i], bias_);
+            scene.draw();
+        }
+        const glm::dvec2 share = glm::dvec2(tile.size) / glm::dvec2(depth_.size());
+        const glm::dvec2 offset = glm::dvec2(tile.at) / glm::dvec2(depth_.size());
+        const glm::dmat4 place =
+            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(offset, 0)), glm::dvec3(share, 1)) * mapFromClip();
+        atlasFromWorld_.emplace_back(place * views[i].clipFromWorld);
+    }
+    glDisable(GL_SCISSOR_TEST);
+}
+
+void DepthAtlas::bindTo(gl::Program& program) const {
+    program.set("depthAtlas", depth_).set("atlasFromWorld", atlasFromWorld_).set("innerTiles", inner_);
+}
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,49 @@
+// Several depth maps in one texture: for techniques that share a number of texels among the parts of a scene.
+#pragma once
+
+#include "techniques/gl/program.h"
+#include "techniques/gl/scene_buffers.h"
+#include "techniques/gl/texture.h"
+#include "techniques/maps/depth_map.h"
+#include "techniques/maps/light_view.h"
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace shadowbench::techniques {
+
+/// A rectangle of an atlas, in texels.
+struct Tile {
+    glm::ivec2 at, size;
+    friend bool operator==(const Tile&, const Tile&) = default;
+};
+
+/// A square of `side` texels cut into `count` equal tiles, in as square a grid as `count` allows.
+std::vector<Tile> equalTiles(int side, int count);
+
+/// `count` square tiles that together have at most side² texels.
+std::vector<Tile> squareTiles(int side, int count);
+
+class DepthAtlas {
+public:
+    DepthAtlas(std::vector<Tile> tiles, Bias bias);
+
+    /// Draws one view of the scene into each tile, `views[i]` into tile i.
+    void draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene);
+
+    /// Sets the uniforms of maps/depth_atlas.glsl for the views drawn last; TILES must be the number of tiles.
+    void bindTo(gl::Program& program) const;
+
+    [[nodiscard]] const gl::Texture& texture() const { return depth_; }
+
+private:
+    std::vector<Tile> tiles_;
+    gl::Texture depth_;
+    gl::RenderTarget target_;
+    gl::Program program_;
+    Bias bias_;
+    std::vector<glm::mat4> atlasFromWorld_;
+    std::vector<glm::vec4> inner_; // per tile: its outermost texel centres, low and high, in [0, 1] of the atlas
+};
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,79 @@
+// Cascaded shadow maps: the view frustum is cut into slices along the view axis, each with a shadow map of its own, focused
+// on what of the scene the slice holds (Tadamura et al. 1999; Engel 2007; practical split of Zhang et al. 2006).
+// Scherzer 2.2.2, Fig. 2.11. The slices share the texels of one map of `map`². `warp=lispsm` warps each slice's map (LSPSM)
+// as on the right of Fig. 2.11. Departure: depths between the nearest and farthest visible point of the scene's box are
+// partitioned, not those between the camera's near and far plane.
+#include "techniques/entries.h"
+#include "techniques/maps/cascades.h"
+#include "techniques/maps/depth_atlas.h"
+#include "techniques/maps/focused_view.h"
+#include "techniques/maps/lispsm_view.h"
+#include "techniques/resolve.h"
+
+#include <glm/geometric.hpp>
+
+namespace shadowbench::techniques {
+namespace {
+
+class Cascaded final : public Technique {
+public:
+    explicit Cascaded(const Parameters& p)
+        : slices_(p.integer("slices")), lambda_(p.real("lambda")), warped_(p.text("warp") == "lispsm"),
+          atlas_(equalTiles(p.integer("map"), slices_), biasFrom(p)),
+          resolve_(gl::Program::screen("maps/sm-cascaded/sm-cascaded.frag", {{"TILES", p.text("slices")}})) {}
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        const Camera& camera = frame.snapshot.camera;
+        const DepthRange depths = visibleDepths(frame.snapshot.bounds(), camera, frame.aspect());
+        const std::vector<double> splits = practicalSplits(depths.near, depths.far, slices_, lambda_);
+
+        std::vector<LightView> views;
+        std::vector<glm::vec4> ends;
+        for (std::size_t i = 0; i + 1 < splits.size(); ++i) {
+            Camera slice = camera;
+            slice.near = splits[i];
+            slice.far = splits[i + 1];
+            const auto fit = warped_ ? fitLispsm : fitFocused;
+            views.push_back(fit(frame.snapshot.light, frame.snapshot, slice, frame.aspect()));
+            ends.emplace_back(splits[i + 1], 0, 0, 0);
+        }
+        atlas_.draw(views, frame.scene);
+
+        atlas_.bindTo(resolve_);
+        resolve_.set("positions", frame.gbuffer.position());
+        if (slices_ > 1) {
+            const glm::dvec3 forward = camera.basis().forward;
+            resolve_.set("eyeDepthFromWorld", glm::vec4(forward, -glm::dot(forward, camera.eye))).set("sliceEnds", ends);
+        }
+        resolveInto({&visibility}, resolve_);
+    }
+
+private:
+    int slices_;
+    double lambda_;
+    bool warped_;
+    DepthAtlas atlas_;
+    gl::Program resolve_;
+};
+
+} // namespace
+
+Entry smCascaded() {
+    std::vector<Parameter> parameters{
+        {"slices", "4", IntegerRange{1, 8}, "parts of the view frustum; their maps have map² texels together",
+         "dissertation, Fig. 2.11"},
+        {"lambda", "0.5", RealRange{0, 1}, "share of geometrical (1) against even (0) steps between slices",
+         "dissertation, 2.2.2"},
+        {"warp", "none", OneOf{{"none", "lispsm"}}, "warp of each slice's map", "dissertation, Fig. 2.11"},
+    };
+    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    return {.id = "sm-cascaded",
+            .title = "Cascaded shadow maps",
+            .source = {Seed::Dissertation, "2.2.2, Fig. 2.11"},
+            .answer = Answer::Hard,
+            .parameters = std::move(parameters),
+            .variants = {""},
+            .make = [](const Parameters& p) { return std::make_unique<Cascaded>(p); }};
+}
+
+} // namespace shadowbench::techniques

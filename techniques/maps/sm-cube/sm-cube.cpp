@@ -1,0 +1,44 @@
+// Omnidirectional shadow map: six depth maps on the sides of a cube around the light. Course, "Extensions" (omni-directional
+// light sources). The six share the texels of one map of `map`² and lie in one texture, which tests as a cube map does.
+#include "techniques/applicability.h"
+#include "techniques/entries.h"
+#include "techniques/maps/cube_view.h"
+#include "techniques/maps/depth_atlas.h"
+#include "techniques/resolve.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+class CubeMap final : public Technique {
+public:
+    explicit CubeMap(const Parameters& p)
+        : atlas_(squareTiles(p.integer("map"), 6), biasFrom(p)),
+          resolve_(gl::Program::screen("maps/sm-cube/sm-cube.frag", {{"TILES", "6"}})) {}
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        const glm::dvec3 light = frame.snapshot.light.centre;
+        atlas_.draw(cubeViews(light, boundingCorners(frame.snapshot)), frame.scene);
+        atlas_.bindTo(resolve_);
+        resolve_.set("positions", frame.gbuffer.position()).set("light", glm::vec3(light));
+        resolveInto({&visibility}, resolve_);
+    }
+
+private:
+    DepthAtlas atlas_;
+    gl::Program resolve_;
+};
+
+} // namespace
+
+Entry smCube() {
+    return {.id = "sm-cube",
+            .title = "Cube shadow map",
+            .source = {Seed::Course, "Extensions"},
+            .answer = Answer::Hard,
+            .notApplicable = lightWithoutPosition,
+            .parameters = depthMapParameters(),
+            .variants = {""},
+            .make = [](const Parameters& p) { return std::make_unique<CubeMap>(p); }};
+}
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,52 @@
+// Perspective shadow map (Stamminger, Drettakis 2002): the map is drawn in the space after the camera's perspective, where
+// near things are large. Course, "Perspective Shadow Maps"; the fit is in maps/psm_view.cpp. `behind=` and `shift=` are the
+// course's remedies for casters behind the eye and for a close near plane; `fit=cube` is the original map of the whole view
+// frustum, which a close near plane ruins, `fit=box` its restriction to the scene's bounding box. Departures: casters before
+// the light's near plane are kept by depth clamping, which is also how the negative near plane is done; a light behind the
+// viewer, a sink of rays after the perspective, needs no inverted depth test, because depth is made to grow along its rays.
+#include "techniques/entries.h"
+#include "techniques/maps/psm_view.h"
+#include "techniques/maps/single_map.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+PsmOptions optionsFrom(const Parameters& p) {
+    PsmOptions options;
+    options.shift = p.real("shift");
+    options.behindEye = p.text("behind") == "negative-near" ? BehindEye::NegativeNear
+                        : p.text("behind") == "move-back"   ? BehindEye::MoveBack
+                                                            : BehindEye::Lost;
+    options.body = p.text("fit") == "cube" ? PsmBody::Cube : PsmBody::Box;
+    return options;
+}
+
+} // namespace
+
+Entry smPsm() {
+    std::vector<Parameter> parameters{
+        {"behind", "negative-near", OneOf{{"lost", "move-back", "negative-near"}},
+         "casters behind the eye: lost, or kept by either remedy", "course, Shadows From the Back"},
+        {"shift", "0", RealRange{0, 1e4}, "metres that the virtual camera stands behind the camera",
+         "course, Near/Far Selection"},
+        {"fit", "box", OneOf{{"cube", "box"}}, "the map holds the whole view frustum, or the scene's box within it",
+         "course, Deep Light Sources"},
+    };
+    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    return {.id = "sm-psm",
+            .title = "Perspective shadow map",
+            .source = {Seed::Course, "Perspective Shadow Maps"},
+            .answer = Answer::Hard,
+            .parameters = std::move(parameters),
+            .variants = {""},
+            .make = [](const Parameters& p) {
+                const PsmOptions options = optionsFrom(p);
+                auto map = std::make_unique<DepthMap>(p.integer("map"), biasFrom(p), Lookup::Compare,
+                                                      options.behindEye == BehindEye::Lost);
+                return makeSingleMap(std::move(map), [options](const Frame& frame) {
+                    return fitPsm(frame.snapshot.light, frame.snapshot, frame.aspect(), options);
+                });
+            }};
+}
+
+} // namespace shadowbench::techniques

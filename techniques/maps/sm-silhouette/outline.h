@@ -1,0 +1,27 @@
+// Silhouette edges as a silhouette map sees them (course, "Shadow Silhouette Maps"; no GL).
+#pragma once
+
+#include "techniques/maps/light_view.h"
+#include "techniques/volumes/shadow_volume.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace shadowbench::techniques {
+
+/// Edges of a mesh where its outline may run: between a facing and an averted triangle, and all borders of an open mesh.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> outline(const EdgeMesh& mesh, const std::vector<bool>& facing);
+
+/// An edge on the dual grid of a depth map: x and y in texels, offset by half a texel so that the depth samples lie at the
+/// corners of cells, and depth in [0, 1].
+struct DualEdge {
+    glm::vec3 from, to;
+};
+
+/// The world segment a–b in a map of `side` texels; its part behind the light is cut off. Nothing where all of it is.
+std::optional<DualEdge> onDualGrid(const LightView& view, glm::dvec3 a, glm::dvec3 b, int side);
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,114 @@
+// Shadow silhouette maps (Sen, Cammarano, Hanrahan 2003): beside the depth map a map of its dual grid that holds, for each
+// cell that an outline crosses, one point of it; four depth samples and five such points give a piecewise linear shadow
+// edge. Course, "Shadow Silhouette Maps". Departures: outlines are projected by the CPU; the slope factor of the bias is 2,
+// for four samples up to a texel away in x and y; borders of open meshes are outlines too.
+#include "techniques/entries.h"
+#include "techniques/gl/api.h"
+#include "techniques/gl/context.h"
+#include "techniques/maps/depth_map.h"
+#include "techniques/maps/single_map.h"
+#include "techniques/maps/sm-silhouette/outline.h"
+#include "techniques/resolve.h"
+
+#include <glm/matrix.hpp>
+#include <memory>
+#include <unordered_map>
+
+namespace shadowbench::techniques {
+namespace {
+
+class SilhouetteMap final : public Technique {
+public:
+    explicit SilhouetteMap(const Parameters& p)
+        : map_(p.integer("map"), biasFrom(p), Lookup::Raw),
+          points_(gl::Format::RG16F, glm::ivec2(map_.side() + 1)), target_{&points_},
+          edge_("maps/sm-silhouette/edge.vert", "maps/sm-silhouette/edge.frag"),
+          resolve_(gl::Program::screen("maps/sm-silhouette/sm-silhouette.frag")) {
+        layout_.bind();
+        glBindBuffer(GL_ARRAY_BUFFER, buffer_.id());
+        for (GLuint end = 0; end < 2; ++end) {
+            glEnableVertexAttribArray(end);
+            glVertexAttribPointer(end, 3, GL_FLOAT, GL_FALSE, sizeof(DualEdge),
+                                  reinterpret_cast<const void*>(end * sizeof(glm::vec3)));
+            glVertexAttribDivisor(end, 1);
+        }
+    }
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        const LightView view = uniformView(frame);
+        map_.draw(view, frame.scene);
+        drawOutlines(outlines(frame, view));
+        resolve_.set("positions", frame.gbuffer.position())
+            .set("mapFromWorld", mapFromWorld(view))
+            .set("depthMap", map_.texture())
+            .set("silhouetteMap", points_);
+        resolveInto({&visibility}, resolve_);
+    }
+
+private:
+    struct Caster {
+        explicit Caster(std::shared_ptr<const Mesh> mesh) : source(std::move(mesh)), edges(*source) {}
+        std::shared_ptr<const Mesh> source;
+        EdgeMesh edges;
+    };
+
+    const EdgeMesh& edgesOf(const std::shared_ptr<const Mesh>& mesh) {
+        auto& entry = casters_[mesh.get()];
+        if (!entry) entry = std::make_unique<Caster>(mesh);
+        return entry->edges;
+    }
+
+    std::vector<DualEdge> outlines(const Frame& frame, const LightView& view) {
+        const glm::dvec4 light = frame.snapshot.light.centreOnly().homogeneous();
+        std::vector<DualEdge> result;
+        for (const Batch& batch : frame.snapshot.batches) {
+            const EdgeMesh& mesh = edgesOf(batch.mesh);
+            for (const Placement& placement : batch.placements) {
+                const auto world = [&](std::uint32_t vertex) {
+                    return glm::dvec3(placement.world * glm::dvec4(batch.mesh->positions[vertex], 1));
+                };
+                for (const auto& [from, to] : outline(mesh, mesh.facing(glm::inverse(placement.world) * light)))
+                    if (const auto edge = onDualGrid(view, world(from), world(to), map_.side())) result.push_back(*edge);
+            }
+        }
+        return result;
+    }
+
+    /// Every cell starts with its middle; later edges overwrite earlier ones.
+    void drawOutlines(const std::vector<DualEdge>& edges) {
+        target_.clearColour(0, glm::vec4(0.5F));
+        buffer_.upload(edges.data(), edges.size() * sizeof(DualEdge));
+        target_.bind();
+        glDisable(GL_DEPTH_TEST);
+        glDisable(GL_CULL_FACE);
+        edge_.set("depthMap", map_.texture()).set("cells", points_.size().x).use();
+        layout_.bind();
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(edges.size()));
+        ++gl::Context::current().tally().draws;
+    }
+
+    DepthMap map_;
+    gl::Texture points_;
+    gl::RenderTarget target_;
+    gl::Program edge_, resolve_;
+    gl::Buffer buffer_;
+    gl::VertexArray layout_;
+    std::unordered_map<const Mesh*, std::unique_ptr<Caster>> casters_;
+};
+
+} // namespace
+
+Entry smSilhouette() {
+    std::vector<Parameter> parameters = depthMapParameters();
+    for (Parameter& parameter : parameters)
+        if (parameter.name == "factor") parameter.defaultValue = std::string("2");
+    return {.id = "sm-silhouette",
+            .title = "Shadow silhouette map",
+            .source = {Seed::Course, "Shadow Silhouette Maps"},
+            .answer = Answer::Hard,
+            .parameters = std::move(parameters),
+            .variants = {""},
+            .make = [](const Parameters& p) { return std::make_unique<SilhouetteMap>(p); }};
+}
+
+} // namespace shadowbench::techniques
