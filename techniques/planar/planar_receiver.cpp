@@ -8,18 +8,13 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 #include <map>
-#include <unordered_map>
 
 namespace shadowbench::techniques {
 namespace {
 
 constexpr double planeSteps = 1e4; // triangles whose normals and offsets agree to a ten-thousandth lie in one plane
 
-/// Triangles of a mesh in one plane.
-struct FlatFace {
-    std::vector<std::uint32_t> triangles;
-    glm::dvec3 area{0}; // sum of the triangles' normals, each as long as its area
-};
+using FlatFace = ReceiverFinder::FlatFace;
 
 std::array<glm::dvec3, 3> cornersOf(const Mesh& mesh, std::uint32_t triangle) {
     const glm::uvec3& i = mesh.triangles[triangle];
@@ -47,8 +42,22 @@ std::vector<FlatFace> flatFaces(const Mesh& mesh) {
     return faces;
 }
 
+/// Whether the middle of every placement but `own` is in front of the plane.
+bool isInFrontOfAllBut(std::uint32_t own, const glm::dvec4& plane, const Snapshot& snapshot) {
+    for (const Batch& batch : snapshot.batches) {
+        const glm::dvec3 middle = batch.mesh->bounds().centre();
+        for (const Placement& placement : batch.placements) {
+            if (placement.id == own) continue;
+            if (glm::dot(plane, placement.world * glm::dvec4(middle, 1)) <= 0) return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
 /// A face of a placement that faces the light.
-struct Candidate {
+struct ReceiverFinder::Candidate {
     const Mesh* mesh;
     const Placement* placement;
     const FlatFace* face;
@@ -56,8 +65,7 @@ struct Candidate {
     glm::dvec4 plane;
 };
 
-std::vector<Candidate> facesTowardsLight(const Snapshot& snapshot,
-                                         const std::unordered_map<const Mesh*, std::vector<FlatFace>>& faces) {
+std::vector<ReceiverFinder::Candidate> ReceiverFinder::facesTowardsLight(const Snapshot& snapshot) const {
     const glm::dvec4 light = snapshot.light.centreOnly().homogeneous();
     std::vector<Candidate> candidates;
     for (const Batch& batch : snapshot.batches) {
@@ -65,7 +73,7 @@ std::vector<Candidate> facesTowardsLight(const Snapshot& snapshot,
             // Area vectors transform by the cofactors of the placement's linear part.
             const glm::dmat3 linear(placement.world);
             const glm::dmat3 cofactors = glm::determinant(linear) * glm::inverseTranspose(linear);
-            for (const FlatFace& face : faces.at(batch.mesh.get())) {
+            for (const FlatFace& face : meshes_.at(batch.mesh.get()).faces) {
                 const glm::dvec3 area = cofactors * face.area;
                 const glm::dvec3 normal = glm::normalize(area);
                 const glm::dvec3 corner = cornersOf(*batch.mesh, face.triangles.front())[0];
@@ -79,29 +87,17 @@ std::vector<Candidate> facesTowardsLight(const Snapshot& snapshot,
     return candidates;
 }
 
-bool isInFrontOfAllElse(const Candidate& candidate, const Snapshot& snapshot) {
-    for (const Batch& batch : snapshot.batches) {
-        const glm::dvec3 middle = batch.mesh->bounds().centre();
-        for (const Placement& placement : batch.placements) {
-            if (placement.id == candidate.placement->id) continue;
-            if (glm::dot(candidate.plane, placement.world * glm::dvec4(middle, 1)) <= 0) return false;
-        }
-    }
-    return true;
-}
-
-} // namespace
-
-std::optional<PlanarReceiver> planarReceiver(const Snapshot& snapshot) {
-    std::unordered_map<const Mesh*, std::vector<FlatFace>> faces;
+std::optional<PlanarReceiver> ReceiverFinder::find(const Snapshot& snapshot) {
     for (const Batch& batch : snapshot.batches)
-        if (!faces.contains(batch.mesh.get())) faces.emplace(batch.mesh.get(), flatFaces(*batch.mesh));
+        if (!meshes_.contains(batch.mesh.get()))
+            meshes_.emplace(batch.mesh.get(), MeshFaces{batch.mesh, flatFaces(*batch.mesh)});
 
-    std::vector<Candidate> candidates = facesTowardsLight(snapshot, faces);
+    std::vector<Candidate> candidates = facesTowardsLight(snapshot);
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.area > b.area; });
-    const auto chosen = std::find_if(candidates.begin(), candidates.end(),
-                                     [&](const Candidate& c) { return isInFrontOfAllElse(c, snapshot); });
+    const auto chosen = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+        return isInFrontOfAllBut(c.placement->id, c.plane, snapshot);
+    });
     if (chosen == candidates.end()) return std::nullopt;
 
     PlanarReceiver receiver{chosen->placement->id, chosen->plane, {}};
@@ -110,6 +106,8 @@ std::optional<PlanarReceiver> planarReceiver(const Snapshot& snapshot) {
             receiver.corners.emplace_back(chosen->placement->world * glm::dvec4(corner, 1));
     return receiver;
 }
+
+std::optional<PlanarReceiver> planarReceiver(const Snapshot& snapshot) { return ReceiverFinder().find(snapshot); }
 
 std::optional<std::string> noPlanarReceiver(const Scene& scene) {
     if (planarReceiver(snapshot(scene, scene.timeline.still - 1))) return std::nullopt;

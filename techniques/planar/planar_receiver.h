@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace shadowbench::techniques {
@@ -22,6 +24,29 @@ struct PlanarReceiver {
 /// The largest flat face (two triangles or more) that the light's centre is in front of, with the middle of every other
 /// placement; nothing if there is none.
 std::optional<PlanarReceiver> planarReceiver(const Snapshot& snapshot);
+
+/// The same for frame after frame: finds the flat faces of each mesh once.
+class ReceiverFinder {
+public:
+    std::optional<PlanarReceiver> find(const Snapshot& snapshot);
+
+    /// Triangles of a mesh in one plane.
+    struct FlatFace {
+        std::vector<std::uint32_t> triangles;
+        glm::dvec3 area{0}; // sum of the triangles' normals, each as long as its area
+    };
+
+private:
+    struct MeshFaces {
+        std::shared_ptr<const Mesh> source; // keeps the key alive
+        std::vector<FlatFace> faces;
+    };
+    struct Candidate;
+
+    std::vector<Candidate> facesTowardsLight(const Snapshot& snapshot) const;
+
+    std::unordered_map<const Mesh*, MeshFaces> meshes_;
+};
 
 /// Why a scene has no use for a planar shadow; nothing if it has one.
 std::optional<std::string> noPlanarReceiver(const Scene& scene);

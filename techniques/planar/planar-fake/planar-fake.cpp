@@ -40,7 +40,7 @@ public:
           resolve_(gl::Program::screen("planar/planar-fake/planar-fake.frag", {{"KERNEL", p.text("kernel")}})) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const auto receiver = planarReceiver(frame.snapshot);
+        const auto receiver = finder_.find(frame.snapshot);
         if (!receiver) {
             gl::RenderTarget({&visibility}).clearColour(0, glm::vec4(1));
             return;
@@ -64,6 +64,7 @@ public:
 private:
     gl::Texture shadow_;
     gl::RenderTarget shadowTarget_;
+    ReceiverFinder finder_;
     ProjectedCasters casters_;
     gl::Program resolve_;
 };

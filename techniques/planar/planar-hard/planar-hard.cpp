@@ -15,7 +15,7 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const gl::RenderTarget target({&visibility, &frame.gbuffer.depthStencil()});
         target.clearColour(0, glm::vec4(1));
-        const auto receiver = planarReceiver(frame.snapshot);
+        const auto receiver = finder_.find(frame.snapshot);
         if (!receiver) return;
         casters_.markReceiver(frame, *receiver, target);
 
@@ -28,6 +28,7 @@ public:
     }
 
 private:
+    ReceiverFinder finder_;
     ProjectedCasters casters_;
 };
 

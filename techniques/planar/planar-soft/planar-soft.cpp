@@ -24,7 +24,7 @@ public:
         if (!lit_ || lit_->size() != frame.size) lit_.emplace(gl::Format::R32F, frame.size);
         const gl::RenderTarget target({&*lit_, &frame.gbuffer.depthStencil()});
         target.clearColour(0, glm::vec4(static_cast<float>(count_)));
-        if (const auto receiver = planarReceiver(frame.snapshot)) {
+        if (const auto receiver = finder_.find(frame.snapshot)) {
             casters_.markReceiver(frame, *receiver, target);
             for (int i = 0; i < count_; ++i) takeShadow(frame, *receiver, sample(i, frame), target);
         }
@@ -56,6 +56,7 @@ private:
     }
 
     int count_;
+    ReceiverFinder finder_;
     ProjectedCasters casters_;
     gl::Program mean_;
     std::optional<gl::Texture> lit_;
