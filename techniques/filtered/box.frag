@@ -1,4 +1,5 @@
-// Mean over a box of `width` texels, one axis at a time; the texels at its ends count by the part that lies in it.
+// Mean over a box of `width` texels, one axis at a time; the texels at its ends count by the part that lies in it. REACH texels to
+// each side of the middle have a part in it.
 uniform float width;  // at most 8
 
 #ifdef ALONG_X
@@ -25,7 +26,7 @@ out vec4 mean;
 
 void main() {
     vec4 sum = texelAt(0) * min(width, 1.0);
-    for (int offset = 1; float(offset) < 0.5 * width + 0.5; ++offset) {
+    for (int offset = 1; offset <= REACH; ++offset) {
         float weight = clamp(0.5 * width + 0.5 - float(offset), 0.0, 1.0);
         sum += weight * (texelAt(-offset) + texelAt(offset));
     }

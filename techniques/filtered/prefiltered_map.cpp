@@ -29,6 +29,15 @@ LightView withDepthFromNear(LightView view) {
     return view;
 }
 
+/// One of the box's two passes.
+gl::Program boxPass(const BoxFilter& box, bool alongX) {
+    int reach = 0;
+    while (boxWeight(box.width, reach + 1) > 0) ++reach;
+    gl::Defines defines{{"REACH", std::to_string(reach)}};
+    if (alongX) defines.emplace_back("ALONG_X", "1");
+    return gl::Program::screen("filtered/box.frag", defines);
+}
+
 /// From clip space to pixels.
 glm::dmat4 imageFromClip(glm::ivec2 size) {
     const glm::dmat4 half = glm::scale(glm::dmat4(1), glm::dvec3(0.5 * glm::dvec2(size), 1));
@@ -72,8 +81,7 @@ PrefilteredMap::PrefilteredMap(const Parameters& parameters, const Basis& basis)
       stored_(basis.format, {depth_.side(), depth_.side()}, basis.layers),
       filtered_(basis.format, glm::ivec2(sideAt(box_.level, depth_.side())), basis.layers),
       rows_(basis.format, filtered_.size()), rowsTarget_{&rows_}, basis_(gl::Program::screen(basis.file, basis.defines)),
-      alongX_(gl::Program::screen("filtered/box.frag", {{"ALONG_X", "1"}})),
-      alongY_(gl::Program::screen("filtered/box.frag")) {}
+      alongX_(boxPass(box_, true)), alongY_(boxPass(box_, false)) {}
 
 void PrefilteredMap::draw(const Frame& frame) {
     light_ = withFreeRim(withDepthFromNear(uniformView(frame)), freeRim(box_), depth_.side());
