@@ -2,6 +2,7 @@
 // the light and a point of the box anchors the winding numbers.
 #include "groundtruth/cgal/shadow_polygons.h"
 
+#include "groundtruth/cgal/mesh_edges.h"
 #include "groundtruth/cgal/primary.h"
 #include "groundtruth/cgal/rays.h"
 #include "groundtruth/cgal/shadow_polygons_plane.h"
@@ -248,9 +249,13 @@ bool inShadow(Covers covers) {
 std::vector<CoverEdge> shadowEdges(const SceneTriangles& scene, const PlaneFrame& frame, const glm::dvec4& light,
                                    const Window& window) {
     ShadowEdges shadows(frame, light, window);
-    for (const TriangleInstance& instance : scene.instances())
-        for (const ChainEdge& edge : clippedChains(instance, light, frame.triangle, 1).edges)
+    std::map<std::size_t, MeshEdges> meshEdges; // by tree: once for all instances of a mesh
+    for (const TriangleInstance& instance : scene.instances()) {
+        const auto [edges, isNew] = meshEdges.try_emplace(instance.tree);
+        if (isNew) edges->second = MeshEdges(*instance.mesh);
+        for (const ChainEdge& edge : clippedChains(instance, edges->second, light, frame.triangle, 1).edges)
             if (edge.covers != 0 && !edge.atLightLevel) shadows.add(spatialEdge(instance, edge)); // others lie at infinity
+    }
     return shadows.take();
 }
 
