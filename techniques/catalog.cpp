@@ -6,22 +6,23 @@ namespace shadowbench::techniques {
 
 std::span<const Entry> catalog() {
     static const std::array entries{
-        none(),         //
-        smUniform(),    //
-        smMidpoint(),   //
-        smFocused(),    //
-        smPsm(),        //
-        smLispsm(),     //
-        smCascaded(),   //
-        smCube(),       //
-        smHistory(),    //
-        smSilhouette(), //
-        smAliasFree(),  //
-        volumeZfail(),  //
-        pcf(),          //
-        pcss(),         //
-        sampledMaps(),  //
-        temporalSoft(), //
+        none(),             //
+        smUniform(),        //
+        smMidpoint(),       //
+        smFocused(),        //
+        smPsm(),            //
+        smLispsm(),         //
+        smCascaded(),       //
+        smCube(),           //
+        smDualParaboloid(), //
+        smHistory(),        //
+        smSilhouette(),     //
+        smAliasFree(),      //
+        volumeZfail(),      //
+        pcf(),              //
+        pcss(),             //
+        sampledMaps(),      //
+        temporalSoft(),     //
     };
     return entries;
 }

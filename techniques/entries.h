@@ -13,6 +13,7 @@ Entry smPsm();
 Entry smLispsm();
 Entry smCascaded();
 Entry smCube();
+Entry smDualParaboloid();
 Entry smHistory();
 Entry smSilhouette();
 Entry smAliasFree();
