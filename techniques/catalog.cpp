@@ -12,6 +12,7 @@ std::span<const Entry> catalog() {
         smFocused(),        //
         smPsm(),            //
         smLispsm(),         //
+        smTsm(),            //
         smCascaded(),       //
         smCube(),           //
         smDualParaboloid(), //

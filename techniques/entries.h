@@ -11,6 +11,7 @@ Entry smMidpoint();
 Entry smFocused();
 Entry smPsm();
 Entry smLispsm();
+Entry smTsm();
 Entry smCascaded();
 Entry smCube();
 Entry smDualParaboloid();
