@@ -6,33 +6,35 @@ namespace shadowbench::techniques {
 
 std::span<const Entry> catalog() {
     static const std::array entries{
-        none(),         //
-        planarHard(),   //
-        planarSoft(),   //
-        planarFake(),   //
-        smUniform(),    //
-        smMidpoint(),   //
-        smFocused(),    //
-        smPsm(),        //
-        smLispsm(),     //
-        smCascaded(),   //
-        smCube(),       //
-        smHistory(),    //
-        smSilhouette(), //
-        smAliasFree(),  //
-        volumeZpass(),  //
-        volumeZfail(),  //
-        volumeXor(),    //
-        pcf(),          //
-        pcfPoisson(),   //
-        vsm(),          //
-        lvsm(),         //
-        esm(),          //
-        csmFourier(),   //
-        deepSm(),       //
-        pcss(),         //
-        sampledMaps(),  //
-        temporalSoft(), //
+        none(),             //
+        planarHard(),       //
+        planarSoft(),       //
+        planarFake(),       //
+        smUniform(),        //
+        smMidpoint(),       //
+        smFocused(),        //
+        smPsm(),            //
+        smLispsm(),         //
+        smTsm(),            //
+        smCascaded(),       //
+        smCube(),           //
+        smDualParaboloid(), //
+        smHistory(),        //
+        smSilhouette(),     //
+        smAliasFree(),      //
+        volumeZpass(),      //
+        volumeZfail(),      //
+        volumeXor(),        //
+        pcf(),              //
+        pcfPoisson(),       //
+        vsm(),              //
+        lvsm(),             //
+        esm(),              //
+        csmFourier(),       //
+        deepSm(),           //
+        pcss(),             //
+        sampledMaps(),      //
+        temporalSoft(),     //
     };
     return entries;
 }

@@ -47,26 +47,32 @@ DepthAtlas::DepthAtlas(std::vector<Tile> tiles, Bias bias)
     }
 }
 
-void DepthAtlas::draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene) {
+void DepthAtlas::drawTiles(const std::function<void(std::size_t)>& drawTile) const {
     target_.clearDepth(1);
-    atlasFromWorld_.clear();
     glEnable(GL_SCISSOR_TEST);
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
         const Tile& tile = tiles_[i];
         target_.bind();
         glViewport(tile.at.x, tile.at.y, tile.size.x, tile.size.y);
         glScissor(tile.at.x, tile.at.y, tile.size.x, tile.size.y);
-        {
-            const CasterPass pass(program_, views[i], bias_);
-            scene.draw();
-        }
-        const glm::dvec2 share = glm::dvec2(tile.size) / glm::dvec2(depth_.size());
-        const glm::dvec2 offset = glm::dvec2(tile.at) / glm::dvec2(depth_.size());
+        drawTile(i);
+    }
+    glDisable(GL_SCISSOR_TEST);
+}
+
+void DepthAtlas::draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene) {
+    drawTiles([&](std::size_t i) {
+        const CasterPass pass(program_, views[i], bias_);
+        scene.draw();
+    });
+    atlasFromWorld_.clear();
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+        const glm::dvec2 share = glm::dvec2(tiles_[i].size) / glm::dvec2(depth_.size());
+        const glm::dvec2 offset = glm::dvec2(tiles_[i].at) / glm::dvec2(depth_.size());
         const glm::dmat4 place =
             glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(offset, 0)), glm::dvec3(share, 1)) * mapFromClip();
         atlasFromWorld_.emplace_back(place * views[i].clipFromWorld);
     }
-    glDisable(GL_SCISSOR_TEST);
 }
 
 void DepthAtlas::bindTo(gl::Program& program) const {

@@ -7,6 +7,8 @@
 #include "techniques/maps/depth_map.h"
 #include "techniques/maps/light_view.h"
 
+#include <cstddef>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -30,6 +32,9 @@ public:
 
     /// Draws one view of the scene into each tile, `views[i]` into tile i.
     void draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene);
+
+    /// Clears the atlas and calls `drawTile` once for each tile, drawing into which it confines.
+    void drawTiles(const std::function<void(std::size_t)>& drawTile) const;
 
     /// Sets the uniforms of maps/depth_atlas.glsl for the views drawn last; TILES must be the number of tiles.
     void bindTo(gl::Program& program) const;

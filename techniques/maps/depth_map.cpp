@@ -31,16 +31,24 @@ Bias biasFrom(const Parameters& parameters) {
     return {static_cast<float>(parameters.real("factor")), units};
 }
 
-CasterPass::CasterPass(gl::Program& program, const LightView& light, Bias bias) {
+CasterState::CasterState(Bias bias) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_CLAMP);
-    if (light.perspective) glEnable(GL_CLIP_DISTANCE0);
     if (bias.factor != 0) {
         glEnable(GL_POLYGON_OFFSET_FILL);
         glPolygonOffset(bias.factor, 0);
     }
+}
+
+CasterState::~CasterState() {
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_DEPTH_CLAMP);
+}
+
+CasterPass::CasterPass(gl::Program& program, const LightView& light, Bias bias) : state_(bias) {
+    if (light.perspective) glEnable(GL_CLIP_DISTANCE0);
     // The constant part goes into the matrix: polygon offset's unit of a floating-point depth buffer vanishes near depth 0.
     const glm::dmat4 away = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 2 * bias.units * depthStep));
     program.set("clipFromWorld", glm::mat4(away * light.clipFromWorld));
@@ -57,10 +65,8 @@ CasterPass::CasterPass(gl::Program& program, const LightView& light, Bias bias) 
 }
 
 CasterPass::~CasterPass() {
-    glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_CLIP_DISTANCE0);
     glDisable(GL_CLIP_DISTANCE1);
-    glDisable(GL_DEPTH_CLAMP);
 }
 
 DepthMap::DepthMap(int side, Bias bias, Lookup lookup, bool cutsCasters)

@@ -67,14 +67,25 @@ private:
 glm::dmat4 mapFromClip();
 glm::mat4 mapFromWorld(const LightView& light);
 
-/// State shared by every pass that draws casters into a map: clips what lies behind the light, clamps what lies before the
-/// near plane.
+/// State shared by every pass that draws casters into a map: what lies before the near plane is clamped; slope bias.
+class CasterState {
+public:
+    explicit CasterState(Bias bias);
+    ~CasterState();
+    CasterState(const CasterState&) = delete;
+    CasterState& operator=(const CasterState&) = delete;
+};
+
+/// The same with the uniforms of a projective map; what lies behind the light is clipped.
 class CasterPass {
 public:
     CasterPass(gl::Program& program, const LightView& light, Bias bias);
     ~CasterPass();
     CasterPass(const CasterPass&) = delete;
     CasterPass& operator=(const CasterPass&) = delete;
+
+private:
+    CasterState state_;
 };
 
 } // namespace shadowbench::techniques

@@ -1,0 +1,79 @@
+// Dual-paraboloid shadow map (Brabec, Annen, Seidel 2002): two maps, each of a half space around the light, in two passes.
+// Course, "Extensions" (omni-directional light sources). The mapping is made at vertices, so that casters must be finely
+// tessellated: edges of large triangles stay straight in the map and bend in space. The two share the texels of one map of
+// `map`². Departure: depth is the distance from the light over the farthest one, linear; each map shows a little more than
+// its half space, for texels on the rim.
+#include "techniques/applicability.h"
+#include "techniques/entries.h"
+#include "techniques/gl/api.h"
+#include "techniques/maps/depth_atlas.h"
+#include "techniques/resolve.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace shadowbench::techniques {
+namespace {
+
+class DualParaboloid final : public Technique {
+public:
+    explicit DualParaboloid(const Parameters& p)
+        : bias_(biasFrom(p)), atlas_(squareTiles(p.integer("map"), 2), bias_),
+          draw_("maps/sm-dual-paraboloid/paraboloid.vert", "maps/depth_map.frag"),
+          resolve_(gl::Program::screen("maps/sm-dual-paraboloid/sm-dual-paraboloid.frag")) {}
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        const glm::dvec3 light = frame.snapshot.light.centre;
+        double farthest = 0;
+        for (const glm::dvec3& p : boundingCorners(frame.snapshot)) farthest = std::max(farthest, glm::distance(p, light));
+        const auto far = static_cast<float>(farthest * (1 + 1e-6));
+        const std::array<glm::dmat4, 2> views = halfSpaces(light, frame.snapshot.bounds().centre());
+
+        draw_.set("far", far).set("constantBias", static_cast<float>(bias_.units * depthStep));
+        atlas_.drawTiles([&](std::size_t i) {
+            const CasterState state(bias_);
+            glEnable(GL_CLIP_DISTANCE0);
+            draw_.set("lightFromWorld", glm::mat4(views[i])).use();
+            frame.scene.draw();
+            glDisable(GL_CLIP_DISTANCE0);
+        });
+        resolve_.set("positions", frame.gbuffer.position())
+            .set("depthAtlas", atlas_.texture())
+            .set("lightFromWorld", glm::mat4(views[0]))
+            .set("far", far);
+        resolveInto({&visibility}, resolve_);
+    }
+
+private:
+    /// Frames at the light with z towards the middle of the scene, and away from it.
+    static std::array<glm::dmat4, 2> halfSpaces(const glm::dvec3& light, const glm::dvec3& middle) {
+        const glm::dvec3 offset = middle - light;
+        const glm::dvec3 axis = glm::length(offset) > 0 ? glm::normalize(offset) : glm::dvec3(0, -1, 0);
+        const glm::dvec3 up = std::abs(axis.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+        const glm::dmat4 turned = glm::rotate(glm::dmat4(1), glm::pi<double>(), glm::dvec3(0, 1, 0));
+        const glm::dmat4 back = glm::lookAt(light, light + axis, up); // z runs against the view direction
+        return {turned * back, back};
+    }
+
+    Bias bias_;
+    DepthAtlas atlas_;
+    gl::Program draw_, resolve_;
+};
+
+} // namespace
+
+Entry smDualParaboloid() {
+    return {.id = "sm-dual-paraboloid",
+            .title = "Dual-paraboloid shadow map",
+            .source = {Seed::Course, "Extensions"},
+            .answer = Answer::Hard,
+            .notApplicable = lightWithoutPosition,
+            .parameters = depthMapParameters(),
+            .variants = {""},
+            .make = [](const Parameters& p) { return std::make_unique<DualParaboloid>(p); }};
+}
+
+} // namespace shadowbench::techniques
