@@ -1,6 +1,8 @@
 #include "groundtruth/agreement.h"
 
 #include "groundtruth/cgal/exact.h"
+#include "groundtruth/cgal/plan.h"
+#include "harness/scene/error.h"
 
 #include <algorithm>
 #include <array>
@@ -42,10 +44,11 @@ Image<std::uint8_t> labelled(const Reference& reference) {
     return result;
 }
 
+int threads() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+
 std::optional<Agreement> polygonAndRays(const Request& request, const Progress& progress) {
     if (request.snapshot.light.isArea()) return std::nullopt;
-    const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    const ExactScene scene(request.snapshot, threads);
+    const ExactScene scene(request.snapshot, threads());
     PrimaryHits primary = scene.primaryHits(request.size, progress);
     const std::vector<PlanarReceiver> planes = scene.planarReceivers(primary);
     if (planes.empty()) return std::nullopt;
@@ -66,7 +69,34 @@ std::optional<Agreement> polygonAndRays(const Request& request, const Progress& 
     return agreement;
 }
 
-constexpr std::array<Comparison, 1> comparisons{polygonAndRays};
+/// Plan-view scenes only.
+std::optional<Agreement> planAndPolygon(const Request& request, const Progress& progress) {
+    if (request.snapshot.light.kind != LightKind::Point) return std::nullopt;
+    const ExactScene scene(request.snapshot, threads());
+    const PrimaryHits primary = scene.primaryHits(request.size, progress);
+    const std::vector<PlanarReceiver> floors = planReceivers(request.snapshot, scene.planarReceivers(primary));
+    if (floors.empty()) return std::nullopt;
+
+    Agreement agreement;
+    agreement.a = "plan";
+    agreement.b = "polygon";
+    agreement.pixelsCompared = "horizontal receivers";
+    Reference byPlan = unlabelled(primary), byPolygon = unlabelled(primary);
+    try {
+        agreement.secondsA = secondsOf([&] {
+            for (const PlanarReceiver& floor : floors) labelByPlan(request.snapshot, request.size, primary, floor, byPlan);
+        });
+    } catch (const BadInput&) { // no plan view
+        return std::nullopt;
+    }
+    agreement.secondsB = secondsOf([&] {
+        for (const PlanarReceiver& floor : floors) scene.labelByPolygon(request.size, primary, floor, byPolygon, progress);
+    });
+    countLabels(byPlan, byPolygon, labelled(byPlan), agreement);
+    return agreement;
+}
+
+constexpr std::array<Comparison, 2> comparisons{polygonAndRays, planAndPolygon};
 
 } // namespace
 

@@ -24,7 +24,7 @@ struct Agreement {
 /// where none does. Throws what the oracles throw.
 ///
 /// polygon and rays (point and directional lights): the labels on all planar receivers that enough pixels see
-/// (ExactScene::planarReceivers).
+/// (ExactScene::planarReceivers). plan and polygon (plan-view scenes): the labels on those that are horizontal.
 std::vector<Agreement> oracleAgreement(const Request& request, const Progress& progress = {});
 
 /// Counts `pixels`, `differing`, `onEdge` and `onOneEdge` where `compared` is not 0. Labels are exact: Receiver or OnEdge

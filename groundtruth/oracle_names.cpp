@@ -6,14 +6,19 @@
 
 #include <array>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <utility>
 #include <vector>
 
 namespace shadowbench::groundtruth {
 namespace {
 
-constexpr std::array<std::pair<Oracle, std::string_view>, 4> oracles{
-    {{Oracle::Auto, "auto"}, {Oracle::Polygon, "polygon"}, {Oracle::Rays, "rays"}, {Oracle::PovRay, "povray"}}};
+constexpr std::array<std::pair<Oracle, std::string_view>, 6> oracles{{{Oracle::Auto, "auto"},
+                                                                      {Oracle::Polygon, "polygon"},
+                                                                      {Oracle::Rays, "rays"},
+                                                                      {Oracle::Plan, "plan"},
+                                                                      {Oracle::Area, "area"},
+                                                                      {Oracle::PovRay, "povray"}}};
 
 } // namespace
 
@@ -30,7 +35,7 @@ Oracle oracleNamed(std::string_view name) {
         known.emplace_back(text);
     }
     throw BadInput(
-        fmt::format("unknown oracle \"{}\"{}; valid are auto, polygon, rays and povray", name, didYouMean(name, known)));
+        fmt::format("unknown oracle \"{}\"{}; valid are {}", name, didYouMean(name, known), fmt::join(known, ", ")));
 }
 
 } // namespace shadowbench::groundtruth

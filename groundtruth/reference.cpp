@@ -1,7 +1,9 @@
 #include "groundtruth/reference.h"
 
 #include "groundtruth/certificate.h"
+#include "groundtruth/cgal/area.h"
 #include "groundtruth/cgal/exact.h"
+#include "groundtruth/cgal/plan.h"
 #include "groundtruth/povray/povray.h"
 #include "groundtruth/povray/uncertainty.h"
 #include "groundtruth/reference_tools.h"
@@ -32,13 +34,14 @@ void requireAnswerable(const Request& request) {
                                    request.size.y));
     const LightKind kind = request.snapshot.light.kind;
     const bool area = request.snapshot.light.isArea();
-    if (area && (request.oracle == Oracle::Polygon || request.oracle == Oracle::Rays))
+    const bool ofAreas = request.oracle == Oracle::Area || request.oracle == Oracle::PovRay;
+    if (area && !ofAreas && request.oracle != Oracle::Auto)
         throw BadInput(
-            fmt::format("the {} oracle answers for point and directional lights, and this light is a {}: use povray",
+            fmt::format("the {} oracle answers for point and directional lights, and this light is a {}: use povray or area",
                         name(request.oracle), name(kind)));
-    if (!area && request.oracle == Oracle::PovRay)
-        throw BadInput(
-            fmt::format("the povray oracle samples area lights, and this light is {}: use polygon or rays", name(kind)));
+    if (!area && ofAreas)
+        throw BadInput(fmt::format("the {} oracle answers for area lights, and this light is {}: use polygon or rays",
+                                   name(request.oracle), name(kind)));
 }
 
 /// The part [from, to] of the whole progress.
@@ -136,6 +139,15 @@ Reference softReference(const Request& request, const Progress& progress) {
     return reference;
 }
 
+/// The exact visible fraction at every pixel.
+Reference areaReference(const Request& request, const Progress& progress) {
+    const PrimaryHits primary = primaryHits(request.snapshot, request.size, part(progress, 0, 0.05));
+    Reference reference = unlabelled(primary);
+    AreaScene(request.snapshot, threads()).label(request.size, primary, reference, part(progress, 0.05, 1));
+    reference.provenance.oracle = "area";
+    return reference;
+}
+
 /// 1 at the receiver pixels that one of `planes` holds.
 Image<std::uint8_t> onPlanes(const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
     Image<std::uint8_t> result(primary.id.width(), primary.id.height());
@@ -165,12 +177,25 @@ Reference withoutLabels(const PrimaryHits& primary, const std::vector<PlanarRece
     return reference;
 }
 
+Reference byPlan(const Request& request, const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
+    const std::vector<PlanarReceiver> floors = planReceivers(request.snapshot, planes);
+    if (floors.empty())
+        throw BadInput(
+            "the plan oracle needs a horizontal receiver, and none of this scene's covers enough of the image: use "
+            "polygon or rays");
+    Reference reference = withoutLabels(primary, floors);
+    for (const PlanarReceiver& floor : floors) labelByPlan(request.snapshot, request.size, primary, floor, reference);
+    reference.provenance.oracle = "plan";
+    return reference;
+}
+
 Reference hardReference(const Request& request, const Progress& progress) {
     const ExactScene scene(request.snapshot, threads());
     const PrimaryHits primary = scene.primaryHits(request.size, part(progress, 0, 0.3));
     if (request.oracle == Oracle::Rays) return byRays(request, scene, primary, part(progress, 0.3, 1));
 
     const std::vector<PlanarReceiver> planes = scene.planarReceivers(primary);
+    if (request.oracle == Oracle::Plan) return byPlan(request, primary, planes);
     const bool polygonOnly = request.oracle == Oracle::Polygon;
     if (planes.empty() && polygonOnly)
         throw BadInput(
@@ -195,7 +220,10 @@ Reference hardReference(const Request& request, const Progress& progress) {
 Tools toolVersions(const Request& request) {
     Tools tools = exactTools();
     tools["reference"] = std::to_string(referenceCodeVersion);
+    if (request.oracle == Oracle::Plan) tools["plan"] = std::to_string(planCodeVersion);
     if (!request.snapshot.light.isArea()) return tools;
+    tools["area"] = std::to_string(areaCodeVersion);
+    if (request.oracle == Oracle::Area) return tools;
     tools["povray"] = povrayVersion();
     tools["povray recipe"] = std::to_string(povrayCodeVersion);
     return tools;
@@ -204,8 +232,9 @@ Tools toolVersions(const Request& request) {
 Reference compute(const Request& request, const Tools& tools, const Progress& progress) {
     requireAnswerable(request);
     const auto start = std::chrono::steady_clock::now();
-    Reference reference =
-        request.snapshot.light.isArea() ? softReference(request, progress) : hardReference(request, progress);
+    Reference reference = request.oracle == Oracle::Area    ? areaReference(request, progress)
+                          : request.snapshot.light.isArea() ? softReference(request, progress)
+                                                            : hardReference(request, progress);
     reference.provenance.key = key(request, tools);
     reference.provenance.tools = tools;
     reference.provenance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

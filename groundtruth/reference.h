@@ -31,9 +31,9 @@ struct PrimaryHits {
 
 /// Where the numbers come from. A score without provenance does not exist.
 struct Provenance {
-    std::string oracle;                       // "polygon", "rays", "polygon+rays" (planar receivers + the others), "povray"
-    std::string key;                          // content hash of everything the reference depends on
-    int samples = 0;                          // light samples; 0 for exact oracles
+    std::string oracle; // "polygon", "rays", "polygon+rays" (planar receivers + the others), "plan", "area", "povray"
+    std::string key;    // content hash of everything the reference depends on
+    int samples = 0;    // light samples; 0 for exact oracles
     std::map<std::string, std::string> tools; // tool → version
     double seconds = 0;                       // wall time it took to compute
     /// povray: "primary_mismatch" (share of pixels where its hit mask and the exact primary hits differ), "light_mismatch"
@@ -58,7 +58,8 @@ struct Reference {
     Provenance provenance;
 };
 
-enum class Oracle { Auto, Polygon, Rays, PovRay };
+/// Plan: 2-D visibility, for plan-view scenes. Area: the exact visible fraction of an area light.
+enum class Oracle { Auto, Polygon, Rays, Plan, Area, PovRay };
 std::string_view name(Oracle oracle);
 Oracle oracleNamed(std::string_view name); // throws BadInput naming the valid ones and near matches
 
@@ -69,10 +70,10 @@ struct Request {
     int samples = 1024;           // area lights only
 };
 
-/// Computes a reference, without looking at a cache. Visibility is 0 off the receivers. With an explicit `Polygon`,
-/// receivers that are not planar become OnEdge: there is no label for them. Throws BadInput for an oracle that cannot answer
-/// for this light or scene (`Polygon` with no planar receiver), Inconclusive if a tool is missing or fails or its render is
-/// not certified, InternalError if two oracles see different geometry.
+/// Computes a reference, without looking at a cache. Visibility is 0 off the receivers. With an explicit `Polygon` or
+/// `Plan`, receivers that are not planar (horizontal) become OnEdge: there is no label for them. Throws BadInput for an
+/// oracle that cannot answer for this light or scene (`Polygon` with no planar receiver), Inconclusive if a tool is missing
+/// or fails or its render is not certified, InternalError if two oracles see different geometry.
 Reference compute(const Request& request, const Progress& progress = {});
 
 /// Content hash (32 hex digits, XXH3-128) of all that the reference depends on: camera, light, mesh bytes, placements and

@@ -99,7 +99,8 @@ std::string key(const Request& request, const Tools& tools) {
         for (int column = 0; column < 4; ++column) hash.add(glm::dvec3(placed.placement->world[column]));
         hash.add(placed.mesh);
     }
-    for (const int value : {request.size.x, request.size.y, snapshot.light.isArea() ? request.samples : 0})
+    const bool sampled = snapshot.light.isArea() && request.oracle != Oracle::Area;
+    for (const int value : {request.size.x, request.size.y, sampled ? request.samples : 0})
         hash.add(static_cast<std::uint64_t>(value));
     hash.add(name(request.oracle));
     for (const auto& [tool, version] : tools) {

@@ -13,6 +13,9 @@
 
 namespace shadowbench::groundtruth {
 
+/// To be raised with every change that can alter a fraction: it is part of the keys that rest on one.
+constexpr int areaCodeVersion = 1;
+
 /// Visible share of the light's area at one surface point, in [0, 1]. low == high for rectangles and lines; for a disk the
 /// bracket of an inscribed and a circumscribed polygon, at most 1e-4 wide. A point in the light's plane (on a line light's
 /// line) sees the light edge-on and has no fraction: low = 0, high = 1.

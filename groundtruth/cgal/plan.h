@@ -10,6 +10,9 @@
 
 namespace shadowbench::groundtruth {
 
+/// To be raised with every change that can alter a label.
+constexpr int planCodeVersion = 1;
+
 /// A horizontal receiver in coordinates (x, z). Where a footprint covers it, it is in shadow, as it is for the other
 /// derivations: the footprint's walls stand between it and the light.
 struct PlanView {

@@ -25,6 +25,19 @@ TEST(OracleAgreement, PolygonAndRaysLabelThePlanarReceiversAlike) {
     EXPECT_GT(agreement.secondsB, 0);
 }
 
+TEST(OracleAgreement, InAPlanViewSceneThreeDerivationsAgree) {
+    const Scene scene = loadScene("colonnade", Profile::Gate);
+    const std::vector<Agreement> all = oracleAgreement({snapshot(scene, scene.timeline.still - 1), {128, 128}});
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[1].a, "plan");
+    EXPECT_EQ(all[1].b, "polygon");
+    EXPECT_GT(all[1].pixels, 5000U); // a third of the 16,384 pixels see the ground
+    for (const Agreement& agreement : all) {
+        EXPECT_EQ(agreement.differing, 0U) << agreement.a;
+        EXPECT_EQ(agreement.onOneEdge, 0U) << agreement.a;
+    }
+}
+
 TEST(OracleAgreement, IsEmptyWhereNoTwoOraclesApply) {
     EXPECT_TRUE(oracleAgreement({overlappingPlates(), {32, 32}}).empty()) << "an area light";
     Request ball = platesByPoint();

@@ -1,0 +1,75 @@
+// `shadowbench reference` as a user asks one oracle or another.
+#include "harness/scene/files.h"
+#include "program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace shadowbench {
+namespace {
+
+class Reference : public testing::Test {
+protected:
+    [[nodiscard]] Outcome reference(const std::string& options) const {
+        return shell("shadowbench reference --quiet --out " + folder_ / "out" + " " + options);
+    }
+    [[nodiscard]] std::string provenance() const { return readFile(folder_ / "out/provenance.json"); }
+
+    Folder folder_;
+    std::string point_ = folder_.write("point.toml", tinyScene());
+    std::string area_ = folder_.write(
+        "area.toml",
+        tinyScene("{ kind = \"rectangle\", centre = [1.7, 6.1, -2.3], u = [1.1, 0, 0.2], v = [-0.2, 0, 1.1] }"));
+};
+
+TEST_F(Reference, OfAnAreaLightIsExactByTheAreaOracle) {
+    const Outcome outcome = reference("--oracle area --scene " + area_);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const auto json = nlohmann::json::parse(provenance());
+    EXPECT_EQ(json["oracle"], "area");
+    EXPECT_FALSE(json["tools"].contains("povray"));
+    EXPECT_TRUE(json["tools"].contains("area"));
+}
+
+TEST_F(Reference, CertifyMeasuresPovRayAgainstTheExactFraction) {
+    const Outcome outcome =
+        shell("shadowbench reference --quiet --certify --points 500 --json --samples 256 --scene " + area_);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const auto json = nlohmann::json::parse(outcome.output);
+    EXPECT_EQ(json["samples"], 256);
+    EXPECT_GT(json["certificate_penumbra"], 100);
+    EXPECT_EQ(json["certificate_wrong"], 0);
+    EXPECT_LT(json["certificate_rms"], 0.01); // a net of 256 points errs by some 1/256
+    EXPECT_LT(json["certificate_rms"], json["certificate_rms_quarter"]);
+}
+
+TEST_F(Reference, PolygonsAreWrittenOnRequest) {
+    const Outcome outcome = reference("--polygons --scene " + point_);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_EQ(readFile(folder_ / "out/shadow-1.wkt").rfind("MULTIPOLYGON (((", 0), 0U);
+    EXPECT_NE(readFile(folder_ / "out/shadow-1.svg").find("</svg>"), std::string::npos);
+    EXPECT_NE(outcome.output.find("shadow-1.svg"), std::string::npos) << outcome.output;
+}
+
+TEST_F(Reference, ByPlanTellsWhyASceneIsNoPlan) {
+    const Outcome outcome = reference("--oracle plan --scene " + point_); // a box that floats
+    EXPECT_EQ(outcome.code, 2) << outcome.output;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(Reference, ByPlanComesWithWhatTheLightSees) {
+    const Outcome outcome = reference("--oracle plan --polygons --scene colonnade");
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_EQ(nlohmann::json::parse(provenance())["oracle"], "plan");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out/shadow-1.wkt"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out/visible-1.wkt"));
+}
+
+TEST_F(Reference, OraclesThatDoNotAnswerForTheLightAreNamed) {
+    EXPECT_EQ(reference("--oracle area --scene " + point_).code, 2);
+    EXPECT_EQ(reference("--oracle plan --scene " + area_).code, 2);
+    EXPECT_EQ(shell("shadowbench reference --certify --scene " + point_).code, 2);
+}
+
+} // namespace
+} // namespace shadowbench
