@@ -13,9 +13,11 @@
 namespace shadowbench::techniques {
 namespace {
 
-constexpr double farthest = 1e6;                      // post-perspective distance of a light at infinity
-constexpr double nearestShare = 0.01;                 // of the far distance, and
-const double steepest = std::tan(glm::radians(80.0)); // off the axis: as in fitToPoints
+constexpr double farthest = 1e6; // post-perspective distance of a light at infinity
+// A light close to the post-perspective body needs nearly the half turn that one map has, and must not lose receivers: wider
+// limits than fitToPoints has.
+constexpr double nearestShare = 0.001;                // of the far distance, and
+const double steepest = std::tan(glm::radians(89.5)); // off the axis
 
 /// Least and greatest of a quantity.
 struct Interval {

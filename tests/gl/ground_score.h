@@ -1,4 +1,4 @@
-// Scores a hard-shadow image of `boxScene` against the box's exact shadow on the slab.
+// Scenes for hard shadows on a ground, and scores against the box's exact shadow and against the irregular z-buffer.
 #pragma once
 
 #include "stages.h"
@@ -48,6 +48,20 @@ inline Scene ringScene() {
         const double angle = glm::radians(45.0 * i + 10);
         const glm::dvec3 at(2 * std::cos(angle), 0.43, 2 * std::sin(angle));
         scene.objects.push_back(object(box({0.4, 0.8, 0.3}), at, 17.0 * i));
+    }
+    return scene;
+}
+
+/// A ground of 200 m seen from a height of 1.7 m under a sun in the image plane, with boxes from 3 m away that grow with
+/// distance.
+inline Scene avenueScene(double near) {
+    Scene scene = groundScene(256);
+    scene.camera = {{0, 1.7, 0}, {0, 1.7, -10}, {0, 1, 0}, 50, near, 100};
+    scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(0.6, -1, 0)), {}, {}};
+    scene.objects[0] = object(box({200, 0.2, 200}), {0, -0.1, -90});
+    for (double depth = 4; depth < 60; depth *= 1.4) {
+        const double size = 0.08 * depth;
+        scene.objects.push_back(object(box({size, size, size}), {-0.2 * depth, 0.5 * size, -depth}, 10 * depth));
     }
     return scene;
 }

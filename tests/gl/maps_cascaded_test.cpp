@@ -6,23 +6,8 @@
 namespace shadowbench {
 namespace {
 
-/// A ground of 200 m seen from a height of 1.7 m, with boxes from 2 to 150 m away that grow with distance, so that all look
-/// alike.
-Scene avenueScene() {
-    Scene scene = groundScene(256);
-    scene.camera = {{0, 1.7, 0}, {0, 0.9, -10}, {0, 1, 0}, 50, 0.5, 250};
-    scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(0.6, -1, -0.1)), {}, {}};
-    scene.objects[0] = object(box({200, 0.2, 200}), {0, -0.1, -90});
-    for (double depth = 3; depth < 150; depth *= 1.4) {
-        const double size = 0.08 * depth;
-        scene.objects.push_back(object(box({size, size, size}), {-0.2 * depth, 0.5 * size, -depth}, 10 * depth));
-        scene.objects.push_back(object(box({size, size, size}), {0.15 * depth, 0.5 * size, -1.2 * depth}, 7 * depth));
-    }
-    return scene;
-}
-
 TEST(SmCascaded, LeavesAQuarterOfTheErrorAtEqualTexelsOverALongDepthRange) {
-    const Scene scene = avenueScene();
+    const Scene scene = avenueScene(0.5);
     const double focused = mismatchOn(1, scene, "sm-focused:map=512");
     EXPECT_LE(mismatchOn(1, scene, "sm-cascaded:map=512,lambda=1"), 0.25 * focused);
     EXPECT_LE(mismatchOn(1, scene, "sm-cascaded:map=512"), 0.5 * focused);

@@ -6,20 +6,6 @@
 namespace shadowbench {
 namespace {
 
-/// A ground of 200 m seen from a height of 1.7 m under a sun in the image plane, with boxes from 3 m away that grow with
-/// distance.
-Scene avenueScene(double near) {
-    Scene scene = groundScene(256);
-    scene.camera = {{0, 1.7, 0}, {0, 1.7, -10}, {0, 1, 0}, 50, near, 100};
-    scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(0.6, -1, 0)), {}, {}};
-    scene.objects[0] = object(box({200, 0.2, 200}), {0, -0.1, -90});
-    for (double depth = 4; depth < 60; depth *= 1.4) {
-        const double size = 0.08 * depth;
-        scene.objects.push_back(object(box({size, size, size}), {-0.2 * depth, 0.5 * size, -depth}, 10 * depth));
-    }
-    return scene;
-}
-
 TEST(SmPsm, HalvesTheErrorOfAUniformMapWithTheLightParallelToTheImagePlane) {
     const Scene scene = avenueScene(2); // the ground comes into view at 3.6 m
     EXPECT_LE(mismatchOn(1, scene, "sm-psm"), 0.5 * mismatchOn(1, scene, "sm-uniform"));

@@ -2,6 +2,7 @@
 #include "harness/scene/primitives.h"
 #include "techniques/maps/psm_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -77,6 +78,22 @@ TEST(Psm, KeepsLightRaysOnOneTexelWithDepthGrowingAwayFromTheLight) {
             EXPECT_GT((view.clipFromWorld * glm::dvec4(p, 1)).w, 0);
             previous = q;
         }
+    }
+}
+
+TEST(Psm, HoldsEveryVisiblePointWhereTheLightIsJustBehindThePostPerspectiveScene) {
+    // The sun behind the viewer shines into the picture: its sink is at (0.5, −0.4, 1.05), right behind the unit cube.
+    const Light light = sun({0.13, -0.47, -0.87});
+    Snapshot scene = groundScene(light);
+    scene.camera = {{0.3, 2.1, 3.4}, {-0.2, 0.3, -2.1}, {0, 1, 0}, 48, 0.3, 15};
+    const LightView view = fitPsm(light, scene, 1, {});
+    for (int i = 0; i < 400; ++i) {
+        const glm::dvec2 pixel(5.0 * (i % 20) + 2.5, 5.0 * (i / 20) + 2.5);
+        const glm::dvec3 ray = scene.camera.ray(pixel, {100, 100}), p = scene.camera.eye - scene.camera.eye.y / ray.y * ray;
+        if (ray.y >= 0 || scene.camera.project(p, {100, 100}).z > scene.camera.far) continue;
+        const glm::dvec3 q = mapped(view, p);
+        EXPECT_LE(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}), 1 + 1e-9) << p.x << " " << p.z;
+        EXPECT_GT((view.clipFromWorld * glm::dvec4(p, 1)).w, 0);
     }
 }
 
