@@ -43,7 +43,10 @@ void append(std::vector<std::string>& parts, std::string_view what, const Differ
         parts.push_back(fmt::format("{} of {} pixels by up to {:.3g}{}", what, values.pixels, values.largest, unit));
 }
 
-/// The names whose values differ, a missing one as "none".
+std::string written(const std::string& version) { return version; }
+std::string written(double measured) { return fmt::format("{:.6g}", measured); }
+
+/// The names whose values differ as written, a missing one as "none".
 template <typename Value>
 void appendChanges(std::vector<std::string>& parts, const std::map<std::string, Value>& before,
                    const std::map<std::string, Value>& after) {
@@ -52,7 +55,7 @@ void appendChanges(std::vector<std::string>& parts, const std::map<std::string, 
     for (const auto& [name, value] : after) names.insert(name);
     const auto text = [](const std::map<std::string, Value>& values, const std::string& name) {
         const auto found = values.find(name);
-        return found == values.end() ? std::string("none") : fmt::format("{}", found->second);
+        return found == values.end() ? std::string("none") : written(found->second);
     };
     for (const std::string& name : names)
         if (const std::string from = text(before, name), to = text(after, name); from != to)

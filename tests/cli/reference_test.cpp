@@ -22,6 +22,13 @@ protected:
         tinyScene("{ kind = \"rectangle\", centre = [1.7, 6.1, -2.3], u = [1.1, 0, 0.2], v = [-0.2, 0, 1.1] }"));
 };
 
+TEST_F(Reference, WritesVisibilityAndProvenance) {
+    const Outcome outcome = reference("--scene " + point_);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out/visibility.exr"));
+    EXPECT_TRUE(nlohmann::json::parse(provenance()).contains("oracle"));
+}
+
 TEST_F(Reference, OfAnAreaLightIsExactByTheAreaOracle) {
     const Outcome outcome = reference("--oracle area --scene " + area_);
     ASSERT_EQ(outcome.code, 0) << outcome.output;

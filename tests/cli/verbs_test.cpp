@@ -98,7 +98,7 @@ TEST_F(Run, KilledAtAnyMomentItLeavesWholeRecordsAndResumes) {
         }
     }
     ASSERT_EQ(shell(command("--resume --technique sm-uniform --technique 'sm-h*' --technique pcf")).code, 0);
-    EXPECT_EQ(records().size(), 7U); // a map, four variants of history, two of pcf
+    EXPECT_EQ(records().size(), 6U); // a map, four variants of history, pcf
 }
 
 TEST_F(Run, ADamagedCacheEntryIsReplaced) {
@@ -119,16 +119,6 @@ TEST_F(Run, ReportIsMadeAgainFromRecordsAlone) {
     const auto text = [](const std::string& file) { return (std::ostringstream() << std::ifstream(file).rdbuf()).str(); };
     EXPECT_EQ(text(folder_ / "again/report.md"), text(folder_ / "out/report.md"));
     EXPECT_EQ(text(folder_ / "again/pareto-tiny.svg"), text(folder_ / "out/pareto-tiny.svg"));
-}
-
-TEST(Reference, WritesVisibilityAndProvenance) {
-    const Folder folder;
-    const std::string scene = folder.write("tiny.toml", tinyScene());
-    const Outcome outcome = shell("shadowbench reference --quiet --scene " + scene + " --out " + folder / "truth");
-    ASSERT_EQ(outcome.code, 0) << outcome.output;
-    EXPECT_TRUE(fs::exists(folder / "truth/visibility.exr"));
-    std::ifstream provenance(folder / "truth/provenance.json");
-    EXPECT_TRUE(nlohmann::json::parse(provenance).contains("oracle"));
 }
 
 } // namespace
