@@ -17,8 +17,8 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
 std::optional<std::string> convergenceChart(const std::vector<Record>& records, const std::string& scene);
 
 /// Error of every technique over the quantity that a sweep moved, in the scene's tolerance metric (its headline metric if it
-/// states none), with the tolerance as a line. `records` are those of one sweep; nothing if none was scored. `logarithmic`: the
-/// quantity's axis is.
+/// states none), with the tolerance as a line. `records` are those of one sweep; nothing if none was scored. `logarithmic`:
+/// the quantity's axis is.
 std::optional<std::string> sweepChart(const std::vector<Record>& records, bool logarithmic);
 
 } // namespace shadowbench::report
