@@ -14,8 +14,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace shadowbench::groundtruth {
@@ -164,22 +166,22 @@ using Traits = CGAL::Arr_curve_data_traits_2<Segments, Counts, Sum>;
 using Dcel = CGAL::Arr_face_extended_dcel<Traits, std::optional<Counts>>;
 using Arrangement = CGAL::Arrangement_2<Traits, Dcel>;
 
-/// Sums borders per undirected edge, directed from its lexicographically smaller end.
+/// Sums borders per undirected edge, directed from its lexicographically smaller end. Edges are cut at all corners that lie
+/// on them, so that edges that overlap become equal and are summed: on some overlaps CGAL 5.5's sweep fails an assertion of
+/// its own.
 class Borders {
 public:
     void add(const std::vector<LightPoint>& polygon, const Counts& counts) {
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const LightPoint &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-            if (a == b) continue;
-            Counts& sum = edges_[a < b ? std::pair(a, b) : std::pair(b, a)];
-            sum = sum + (a < b ? counts : -counts);
+            if (a != b) edges_.push_back({a, b, counts});
         }
     }
 
     [[nodiscard]] Arrangement arrangement() const {
         const auto point = [](const LightPoint& p) { return Plain::Point_2(Plain::FT(p.first), Plain::FT(p.second)); };
         std::vector<Traits::X_monotone_curve_2> curves;
-        for (const auto& [ends, counts] : edges_)
+        for (const auto& [ends, counts] : summed())
             if (!(counts == Counts()))
                 curves.emplace_back(Segments::X_monotone_curve_2(point(ends.first), point(ends.second)), counts);
         Arrangement result;
@@ -188,7 +190,51 @@ public:
     }
 
 private:
-    std::map<std::pair<LightPoint, LightPoint>, Counts> edges_;
+    struct Edge {
+        LightPoint from, to;
+        Counts counts;
+    };
+    using Sums = std::map<std::pair<LightPoint, LightPoint>, Counts>;
+
+    /// A corner, and where it is to double precision.
+    struct Corner {
+        LightPoint exact;
+        glm::dvec2 near;
+    };
+
+    static glm::dvec2 rounded(const LightPoint& p) { return {CGAL::to_double(p.first), CGAL::to_double(p.second)}; }
+
+    [[nodiscard]] Sums summed() const {
+        std::set<LightPoint> points;
+        for (const Edge& edge : edges_) points.insert(edge.from);
+        std::vector<Corner> corners;
+        for (const LightPoint& p : points) corners.push_back({p, rounded(p)});
+
+        Sums sums;
+        for (const Edge& edge : edges_) {
+            const bool rises = edge.from < edge.to;
+            const LightPoint &low = rises ? edge.from : edge.to, &high = rises ? edge.to : edge.from;
+            std::vector<LightPoint> cuts{low};
+            for (const Corner& corner : corners) // in lexicographic order, as along the edge
+                if (low < corner.exact && corner.exact < high && liesOn(corner, low, high)) cuts.push_back(corner.exact);
+            cuts.push_back(high);
+            for (std::size_t i = 1; i < cuts.size(); ++i) {
+                Counts& sum = sums[{cuts[i - 1], cuts[i]}];
+                sum = sum + (rises ? edge.counts : -edge.counts);
+            }
+        }
+        return sums;
+    }
+
+    static bool liesOn(const Corner& corner, const LightPoint& low, const LightPoint& high) {
+        const glm::dvec2 a = rounded(low), along = rounded(high) - a, away = corner.near - a;
+        constexpr double clear = 1e-12; // coordinates are of the order of 1: rounding moves the product by some 1e-15
+        if (std::abs(along.x * away.y - along.y * away.x) > clear) return false;
+        return (high.first - low.first) * (corner.exact.second - low.second) ==
+               (high.second - low.second) * (corner.exact.first - low.first);
+    }
+
+    std::vector<Edge> edges_;
 };
 
 /// What the face left of a halfedge has more than the one to its right.
