@@ -1,4 +1,5 @@
 // The contract of a shadow technique: what it is given, what it must return, and how the catalogue describes it.
+// Level-of-detail techniques are in the same catalogue but have a contract of their own.
 #pragma once
 
 #include "harness/scene/scene.h"
@@ -45,6 +46,8 @@ public:
     virtual void reset() {}
 };
 
+class LodTechnique;
+
 /// The documents that techniques come from.
 enum class Seed { Dissertation, PixelCorrectPaper, Course, Zapotocky };
 std::string_view title(Seed seed);
@@ -59,6 +62,7 @@ enum class Answer {
     Hard,     // lit or not, from the light's centre
     Filtered, // a hard shadow with smoothed edges
     Soft,     // the visible fraction of an area light; needs one
+    Colour,   // a picture of a scene with levels of detail (techniques/lod/lod_technique.h)
 };
 
 /// One line of the catalogue.
@@ -73,7 +77,8 @@ struct Entry {
     std::function<std::optional<std::string>(const Scene&)> notApplicable = {};
     std::vector<Parameter> parameters;
     std::vector<std::string> variants; // what a run of all techniques shows: parameter strings, "" = all defaults
-    std::function<std::unique_ptr<Technique>(const Parameters&)> make;
+    std::function<std::unique_ptr<Technique>(const Parameters&)> make = {};       // of a shadow
+    std::function<std::unique_ptr<LodTechnique>(const Parameters&)> makeLod = {}; // of a picture: Answer::Colour
 };
 
 /// A technique with all its parameters chosen.
@@ -81,6 +86,8 @@ struct Variant {
     const Entry* entry;
     Parameters parameters;
     std::string name; // canonical
+
+    [[nodiscard]] bool isLod() const { return entry->answer == Answer::Colour; }
 };
 
 /// Every technique, in the order tables print them.

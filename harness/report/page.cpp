@@ -1,5 +1,6 @@
 // The published page: report.md, results.csv and the charts.
 #include "harness/report/charts.h"
+#include "harness/report/lod_report.h"
 #include "harness/report/report.h"
 #include "harness/report/summary.h"
 #include "harness/scene/files.h"
@@ -146,6 +147,12 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
         keep("pareto", paretoChart(records, scene));
         keep("convergence", convergenceChart(records, scene));
         page += sceneSection(records, scene, charts);
+        const std::string lod = lodMarkdownTable(records, scene);
+        if (lod.empty()) continue;
+        page += fmt::format("### Levels of detail: {}\n\n{}\n", markdownText(scene), lod);
+        charts.clear();
+        keep("lod", lodChart(records, scene));
+        for (const std::string& chart : charts) page += fmt::format("![levels of detail]({})\n\n", chart);
     }
     writeFile(folder / "results.csv", csv(records));
     writeFile(written.page, page + legend);

@@ -1,0 +1,21 @@
+// What is published of level-of-detail techniques; nothing of it mixes with shadows.
+#pragma once
+
+#include "harness/records/record.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowbench::report {
+
+/// The table of one scene's walk for a terminal; "" without level-of-detail records.
+std::string lodTerminalTable(const std::vector<Record>& records, const std::string& scene);
+
+/// The same in Markdown, with every column and what they mean.
+std::string lodMarkdownTable(const std::vector<Record>& records, const std::string& scene);
+
+/// Change of colour beyond lod-full's and frame time along the walk, as SVG; nothing without curves.
+std::optional<std::string> lodChart(const std::vector<Record>& records, const std::string& scene);
+
+} // namespace shadowbench::report

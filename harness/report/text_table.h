@@ -1,0 +1,21 @@
+// Rows of text, aligned for a terminal or in Markdown.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace shadowbench::report {
+
+/// Every row has as many cells as there are titles; the first column holds names.
+struct TextTable {
+    std::vector<std::string> titles;
+    std::vector<std::vector<std::string>> rows;
+};
+
+/// Names to the left, figures to the right; UTF-8 whose characters are one column wide. Nothing without rows.
+std::string aligned(const TextTable& table);
+
+/// A Markdown table. Nothing without rows.
+std::string markdown(const TextTable& table);
+
+} // namespace shadowbench::report
