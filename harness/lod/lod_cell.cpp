@@ -25,12 +25,7 @@ public:
 
     void add(std::size_t frame, const ColourImage& picture, double primitives) {
         if (frame > 0) {
-            const ColourImage &full = reference_.pictures[frame], &fullBefore = reference_.pictures[frame - 1];
-            lod_.changeByFrame.push_back(metrics::meanChange(picture, before_) - reference_.change[frame]);
-            const std::size_t region = metrics::largestChangedRegion(picture, before_, full, fullBefore);
-            lod_.changedRegion = std::max<std::uint64_t>(lod_.changedRegion, region);
-            const double former = lod_.primitivesByFrame.back();
-            lod_.primitiveChange = std::max(lod_.primitiveChange, std::abs(primitives - former) / former);
+            lod_.walkPopByFrame.push_back(metrics::meanChange(picture, before_) - reference_.change[frame]);
         }
         squares_ += metrics::meanSquare(picture, reference_.pictures[frame]);
         speckle_ += metrics::speckle(picture, reference_.masks[frame]);
@@ -40,12 +35,16 @@ public:
 
     Lod finish() {
         const auto frames = static_cast<double>(lod_.primitivesByFrame.size());
-        lod_.pop = *std::ranges::max_element(lod_.changeByFrame);
+        lod_.walkPop = *std::ranges::max_element(lod_.walkPopByFrame);
         lod_.colourError = std::sqrt(squares_ / frames);
         if (reference_.maskPixels > 0)
             lod_.noise = (speckle_ - reference_.speckle) / static_cast<double>(reference_.maskPixels);
+        const std::vector<double>& primitives = lod_.primitivesByFrame;
+        for (std::size_t frame = 2; frame < primitives.size(); ++frame) // the first one also fills histories
+            lod_.primitiveChange =
+                std::max(lod_.primitiveChange, std::abs(primitives[frame] - primitives[frame - 1]) / primitives[frame - 1]);
+        for (const double count : primitives) lod_.primitives += count / frames;
         lod_.transitions = reference_.transitions[reference_.busiest];
-        for (const double primitives : lod_.primitivesByFrame) lod_.primitives += primitives / frames;
         return std::move(lod_);
     }
 
@@ -56,25 +55,47 @@ private:
     double squares_ = 0, speckle_ = 0;
 };
 
-/// The picture of a frame from an empty history: of the two frames up to it.
-ColourImage pictureAt(LodStage& stage, LodTechnique& technique, int frame) {
+gl::WorkCount draw(LodStage& stage, LodTechnique& technique, int frame) {
+    stage.show(frame);
+    gl::WorkMeter meter;
+    stage.render(technique);
+    return meter.finish();
+}
+
+/// Popping where nothing but levels changes.
+void scoreStanding(LodStage& stage, LodTechnique& technique, int frames, const Progress& progress, Lod& scores) {
     technique.reset();
-    for (const int index : {frame - 1, frame}) {
+    ColourImage before;
+    for (int frame = 0; frame < frames; ++frame) {
+        progress(static_cast<double>(frame) / frames, fmt::format("standing, frame {} of {}", frame + 1, frames));
+        stage.showStanding(frame);
+        stage.render(technique);
+        ColourImage picture = stage.picture();
+        if (frame > 0) {
+            scores.popByFrame.push_back(metrics::meanChange(picture, before));
+            const std::size_t region = metrics::largestChangedRegion(picture, before);
+            scores.changedRegion = std::max<std::uint64_t>(scores.changedRegion, region);
+        }
+        before = std::move(picture);
+    }
+    scores.pop = *std::ranges::max_element(scores.popByFrame);
+}
+
+/// The picture of a frame from an empty history, which holds the frame before.
+ColourImage pictureAt(LodStage& stage, LodTechnique& technique, bool temporal, int frame) {
+    technique.reset();
+    for (int index = std::max(0, temporal ? frame - 1 : frame); index <= frame; ++index) {
         stage.show(index);
         stage.render(technique);
     }
     return stage.picture();
 }
 
-/// Root of the mean squared difference that the order of drawing makes, in the middle of each third of the walk.
-double orderError(LodScene& lodScene, LodTechnique& technique, int frames) {
-    double squares = 0;
-    for (const int sixth : {1, 3, 5}) {
-        const int frame = std::max(1, sixth * frames / 6);
-        const ColourImage ordered = pictureAt(lodScene.stage(), technique, frame);
-        squares += metrics::meanSquare(ordered, pictureAt(lodScene.reversedStage(), technique, frame)) / 3;
-    }
-    return std::sqrt(squares);
+/// Root of the mean squared difference that the order of drawing makes, in the frame with most transitions.
+double orderError(LodScene& lodScene, LodTechnique& technique, bool temporal) {
+    const int frame = static_cast<int>(lodScene.reference().busiest);
+    const ColourImage ordered = pictureAt(lodScene.stage(), technique, temporal, frame);
+    return std::sqrt(metrics::meanSquare(ordered, pictureAt(lodScene.reversedStage(), technique, temporal, frame)));
 }
 
 /// Bytes of textures and buffers that are the technique's own.
@@ -140,21 +161,24 @@ void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const Lo
     LodStage& stage = lodScene.stage();
     std::unique_ptr<LodTechnique> technique = make(variant);
     WalkScores scores(reference);
-    record.cost.work.emplace();
-    for (int frame = 0; frame < frames; ++frame) {
-        progress(static_cast<double>(frame) / frames, fmt::format("{}, frame {} of {}", variant.name, frame + 1, frames));
-        stage.show(frame);
-        gl::WorkMeter meter;
-        stage.render(*technique);
-        const gl::WorkCount count = meter.finish();
-        const ColourImage picture = stage.picture();
-        scores.add(static_cast<std::size_t>(frame), picture, static_cast<double>(count.primitives));
-        if (static_cast<std::size_t>(frame) == reference.busiest)
-            record.cost.work = {count.fragments, count.vertices, count.primitives, count.draws, count.passes, 0};
-        if (keep) keep(frame, picture);
+    const bool isReference = variant.entry->id == "lod-full"; // drawn already, and the same whatever levels are selected
+    for (int index = 0; index < frames; ++index) {
+        progress(static_cast<double>(index) / frames, fmt::format("{}, frame {} of {}", variant.name, index + 1, frames));
+        const auto frame = static_cast<std::size_t>(index);
+        gl::WorkCount work = reference.work[frame];
+        if (!isReference) work = draw(stage, *technique, index);
+        const ColourImage picture = isReference ? reference.pictures[frame] : stage.picture();
+        scores.add(frame, picture, static_cast<double>(work.primitives));
+        if (frame == reference.busiest)
+            record.cost.work = {work.fragments, work.vertices, work.primitives, work.draws, work.passes, 0};
+        if (keep) keep(index, picture);
     }
     record.lod = scores.finish();
-    record.lod->orderError = orderError(lodScene, *technique, frames);
+    if (isReference)
+        record.lod->popByFrame.assign(static_cast<std::size_t>(frames - 1), 0);
+    else
+        scoreStanding(stage, *technique, frames, progress, *record.lod);
+    record.lod->orderError = orderError(lodScene, *technique, variant.entry->temporal);
     if (options.time) {
         LodCost cost = measureLodCost(stage, *technique, frames, options.cost);
         record.lod->time = cost.time;

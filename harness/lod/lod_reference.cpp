@@ -14,7 +14,9 @@ LodReference drawReference(LodStage& stage, int frames, const Progress& progress
     for (int frame = 0; frame < frames; ++frame) {
         progress(static_cast<double>(frame) / frames, fmt::format("reference of frame {} of {}", frame + 1, frames));
         stage.show(frame);
+        gl::WorkMeter meter;
         stage.render(*technique);
+        reference.work.push_back(meter.finish());
         reference.pictures.push_back(stage.picture());
         reference.masks.push_back(stage.transitionMask());
         const metrics::ColourImage& picture = reference.pictures.back();

@@ -3,6 +3,7 @@
 
 #include "harness/lod/lod_stage.h"
 #include "harness/scene/progress.h"
+#include "techniques/gl/counters.h"
 
 #include <vector>
 
@@ -10,6 +11,7 @@ namespace shadowbench::lod {
 
 struct LodReference {
     std::vector<metrics::ColourImage> pictures; // by frame
+    std::vector<gl::WorkCount> work;            // by frame
     std::vector<Image<unsigned>> masks;         // LodStage::transitionMask by frame
     std::vector<double> change;                 // metrics::meanChange from the frame before; 0 in frame 0
     double speckle = 0;                         // metrics::speckle over all masks

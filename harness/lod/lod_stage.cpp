@@ -20,6 +20,8 @@ LodStage::LodStage(const Scene& scene, glm::ivec2 size)
 
 void LodStage::show(int index) { shown_ = walkFrame(scene_, index, aspect(size_)); }
 
+void LodStage::showStanding(int index) { shown_ = standingFrame(scene_, index, aspect(size_)); }
+
 techniques::LodFrame LodStage::frame() {
     const double shape = aspect(size_);
     return {chains_,

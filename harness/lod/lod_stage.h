@@ -15,8 +15,9 @@ public:
     /// Pictures of `size` pixels. The scene must outlive the stage and have a walk.
     LodStage(const Scene& scene, glm::ivec2 size);
 
-    /// Makes frame `index` of the walk the one that is rendered.
+    /// Makes frame `index` of the walk the one that is rendered, or its levels under the camera of frame 0 (standingFrame).
     void show(int index);
+    void showStanding(int index);
     [[nodiscard]] const WalkFrame& shown() const { return shown_; }
 
     void render(techniques::LodTechnique& technique);

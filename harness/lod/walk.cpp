@@ -39,10 +39,33 @@ const LodWalk& walkOf(const Scene& scene) {
 }
 
 Camera cameraAt(const Scene& scene, double frame) {
+    const LodWalk& walk = walkOf(scene);
     Camera camera = scene.camera;
-    camera.eye = scene.lod->eye.at(frame, camera.eye);
-    camera.target = scene.lod->target.at(frame, camera.target);
+    camera.eye = walk.eye.at(frame, camera.eye);
+    camera.target = walk.target.at(frame, camera.target);
     return camera;
+}
+
+/// Frame `shown` of the walk with the levels of frame `selected`.
+WalkFrame frameOf(const Scene& scene, int shown, int selected, double aspect) {
+    const int before = std::max(0, shown - 1);
+    WalkFrame frame{cameraAt(scene, shown), cameraAt(scene, before), {}};
+    const glm::dmat4 clipFromWorld = frame.camera.projection(aspect) * frame.camera.view();
+    const glm::dvec3 selectingEye = cameraAt(scene, selected).eye;
+    std::uint32_t id = 0;
+    for (std::size_t chain = 0; chain < scene.objects.size(); ++chain) {
+        const Object& object = scene.objects[chain];
+        const Bounds bounds = boundsOf(object);
+        for (const Instance& instance : object.instances) {
+            ++id;
+            const glm::dmat4 world = placeAt(object, instance, shown);
+            if (isOutside(bounds, clipFromWorld * world)) continue;
+            const double distance = glm::distance(selectingEye, glm::dvec3(placeAt(object, instance, selected)[3]));
+            frame.instances.push_back(
+                {id, chain, world, placeAt(object, instance, before), select(object.levels, scene.lod->band, distance)});
+        }
+    }
+    return frame;
 }
 
 } // namespace
@@ -71,26 +94,9 @@ std::size_t WalkFrame::inTransition() const {
         std::ranges::count_if(instances, [](const LodInstance& i) { return i.selection.inTransition(); }));
 }
 
-WalkFrame walkFrame(const Scene& scene, int index, double aspect) {
-    const LodWalk& walk = walkOf(scene);
-    const int before = std::max(0, index - 1);
-    WalkFrame frame{cameraAt(scene, index), cameraAt(scene, before), {}};
-    const glm::dmat4 clipFromWorld = frame.camera.projection(aspect) * frame.camera.view();
-    std::uint32_t id = 0;
-    for (std::size_t chain = 0; chain < scene.objects.size(); ++chain) {
-        const Object& object = scene.objects[chain];
-        const Bounds bounds = boundsOf(object);
-        for (const Instance& instance : object.instances) {
-            ++id;
-            const glm::dmat4 world = placeAt(object, instance, index);
-            if (isOutside(bounds, clipFromWorld * world)) continue;
-            const double distance = glm::distance(frame.camera.eye, glm::dvec3(world[3]));
-            frame.instances.push_back(
-                {id, chain, world, placeAt(object, instance, before), select(object.levels, walk.band, distance)});
-        }
-    }
-    return frame;
-}
+WalkFrame walkFrame(const Scene& scene, int index, double aspect) { return frameOf(scene, index, index, aspect); }
+
+WalkFrame standingFrame(const Scene& scene, int index, double aspect) { return frameOf(scene, 0, index, aspect); }
 
 Scene withTrianglesReversed(const Scene& scene) {
     Scene result = scene;

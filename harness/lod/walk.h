@@ -25,6 +25,10 @@ struct WalkFrame {
 /// Throws BadInput where the scene has no walk.
 WalkFrame walkFrame(const Scene& scene, int index, double aspect);
 
+/// Camera and instances stand as in frame 0; the levels are those that the eye of frame `index` selects. What then changes
+/// from one frame to the next is the change of levels and nothing else.
+WalkFrame standingFrame(const Scene& scene, int index, double aspect);
+
 /// The scene with the triangles of all meshes listed the other way round: the same surfaces in another order of drawing.
 Scene withTrianglesReversed(const Scene& scene);
 

@@ -27,11 +27,9 @@ double meanOf(const ColourImage& a, const ColourImage& b, const Term& term) {
     return static_cast<double>(sum) / (3 * static_cast<double>(a.size()));
 }
 
-bool changesMore(const glm::u8vec3& now, const glm::u8vec3& before, const glm::u8vec3& reference,
-                 const glm::u8vec3& referenceBefore) {
+bool isChanged(const glm::u8vec3& a, const glm::u8vec3& b) {
     for (int channel = 0; channel < 3; ++channel)
-        if (std::abs(now[channel] - before[channel]) - std::abs(reference[channel] - referenceBefore[channel]) > changed)
-            return true;
+        if (std::abs(a[channel] - b[channel]) > changed) return true;
     return false;
 }
 
@@ -73,12 +71,10 @@ double meanSquare(const ColourImage& a, const ColourImage& b) {
     return meanOf(a, b, [](int difference) { return difference * difference; }) / (255.0 * 255.0);
 }
 
-std::size_t largestChangedRegion(const ColourImage& now, const ColourImage& before, const ColourImage& reference,
-                                 const ColourImage& referenceBefore) {
-    for (const ColourImage* other : {&before, &reference, &referenceBefore}) requireSameSize(now, *other);
-    Image<std::uint8_t> marked(now.width(), now.height());
-    for (std::size_t i = 0; i < now.size(); ++i)
-        marked[i] = changesMore(now[i], before[i], reference[i], referenceBefore[i]) ? 1 : 0;
+std::size_t largestChangedRegion(const ColourImage& a, const ColourImage& b) {
+    requireSameSize(a, b);
+    Image<std::uint8_t> marked(a.width(), a.height());
+    for (std::size_t i = 0; i < a.size(); ++i) marked[i] = isChanged(a[i], b[i]) ? 1 : 0;
     std::size_t largest = 0;
     for (int y = 0; y < marked.height(); ++y)
         for (int x = 0; x < marked.width(); ++x)

@@ -18,10 +18,8 @@ double meanChange(const ColourImage& a, const ColourImage& b);
 /// Mean over pixels and channels of (a − b)².
 double meanSquare(const ColourImage& a, const ColourImage& b);
 
-/// Pixels of the largest 4-connected region in which a picture changes from `before` to `now` by more than 30/255 in some
-/// channel beyond the change of the reference from `referenceBefore` to `reference`.
-std::size_t largestChangedRegion(const ColourImage& now, const ColourImage& before, const ColourImage& reference,
-                                 const ColourImage& referenceBefore);
+/// Pixels of the largest 4-connected region that differs by more than 30/255 in some channel.
+std::size_t largestChangedRegion(const ColourImage& a, const ColourImage& b);
 
 /// Sum over the pixels of `mask` (≠ 0) of the mean distance of a channel to its median over the 3 × 3 pixels around (fewer
 /// at the border): stipple is far from it, a straight edge is not.

@@ -97,6 +97,7 @@ void fields(auto& visit, Is<LodTime> auto& t) {
 void fields(auto& visit, Is<Lod> auto& l) {
     visit("pop", l.pop);
     visit("changed_region", l.changedRegion);
+    visit("walk_pop", l.walkPop);
     visit("colour_error", l.colourError);
     visit("noise", l.noise);
     visit("order_error", l.orderError);
@@ -104,9 +105,11 @@ void fields(auto& visit, Is<Lod> auto& l) {
     visit("primitives", l.primitives);
     visit("primitive_change", l.primitiveChange);
     visit("time", l.time);
-    const bool curves = !l.changeByFrame.empty() || !l.primitivesByFrame.empty() || !l.millisecondsByFrame.empty();
+    const bool curves =
+        !l.popByFrame.empty() || !l.walkPopByFrame.empty() || !l.primitivesByFrame.empty() || !l.millisecondsByFrame.empty();
     visit.group("by_frame", curves, [&](auto& byFrame) {
-        byFrame("change", l.changeByFrame);
+        byFrame("pop", l.popByFrame);
+        byFrame("walk_pop", l.walkPopByFrame);
         byFrame("primitives", l.primitivesByFrame);
         byFrame("milliseconds", l.millisecondsByFrame);
     });

@@ -75,16 +75,20 @@ struct LodTime {
 /// Scores of a level-of-detail technique over the scene's walk (METRICS: pop; Scherzer and Wimmer 2008, 5.2). Colours are in
 /// [0, 1]; changes are from one frame to the next.
 struct Lod {
-    double pop = 0;                  // largest mean change of colour beyond lod-full's
-    std::uint64_t changedRegion = 0; // pixels of the largest connected region that changes by > 30/255 beyond lod-full's
-    double colourError = 0;          // rms difference from lod-full
-    std::optional<double> noise;     // mean distance from the 3 × 3 median beyond lod-full's, where pixels see a transition
-    double orderError = 0;           // rms difference from the same with all triangles drawn the other way round
-    std::uint64_t transitions = 0;   // most instances in transition at once
-    double primitives = 0;           // a frame, mean
-    double primitiveChange = 0;      // largest, as a share of the former frame's
+    // While camera and instances stand and levels alone change, so that lod-full's picture stays as it is:
+    double pop = 0;                  // largest mean change of colour
+    std::uint64_t changedRegion = 0; // pixels of the largest connected region that changes by > 30/255
+    // Along the walk:
+    double walkPop = 0;          // largest mean change of colour beyond lod-full's; coarse levels alias less and change less
+    double colourError = 0;      // rms difference from lod-full
+    std::optional<double> noise; // mean distance from the 3 × 3 median beyond lod-full's, where pixels see a transition
+    double orderError = 0;       // rms difference from the same with all triangles drawn the other way round
+    std::uint64_t transitions = 0; // most instances in transition at once
+    double primitives = 0;         // a frame, mean
+    double primitiveChange = 0;    // largest, as a share of the former frame's
     std::optional<LodTime> time;
-    std::vector<double> changeByFrame, primitivesByFrame, millisecondsByFrame; // change: beyond lod-full's, from frame 1
+    std::vector<double> popByFrame, walkPopByFrame; // from frame 1
+    std::vector<double> primitivesByFrame, millisecondsByFrame;
 };
 
 struct Environment {

@@ -46,7 +46,7 @@ std::optional<std::string> lodChart(const std::vector<Record>& records, const st
     std::vector<std::string> names;
     for (const std::size_t i : ofScene(records, scene)) {
         const Record& record = records[i];
-        if (!record.lod || record.sweep || record.lod->changeByFrame.empty()) continue;
+        if (!record.lod || record.sweep || record.lod->popByFrame.empty()) continue;
         shown.push_back(&record);
         names.push_back(record.variant);
     }
@@ -55,7 +55,7 @@ std::optional<std::string> lodChart(const std::vector<Record>& records, const st
     const int height = legend.bottom();
     std::string text =
         "set multiplot\n" + heading(scene + ": along the walk past levels of detail", height) + legend.script();
-    text += script({"mean change of colour beyond lod-full's, 1/1000", &Lod::changeByFrame, 1, 1000}, 0, shown, height);
+    text += script({"pop: mean change of colour, camera standing, 1/1000", &Lod::popByFrame, 1, 1000}, 0, shown, height);
     text += script({"frame time, ms", &Lod::millisecondsByFrame, 0, 1}, 1, shown, height);
     return svgOf(text + "unset multiplot\n", width, height);
 }

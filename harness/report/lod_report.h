@@ -18,4 +18,9 @@ std::string lodMarkdownTable(const std::vector<Record>& records, const std::stri
 /// Change of colour beyond lod-full's and frame time along the walk, as SVG; nothing without curves.
 std::optional<std::string> lodChart(const std::vector<Record>& records, const std::string& scene);
 
+/// Markdown and SVG of a sweep over the viewport: frame times, their ratios to lod-switch's, and the counters that explain
+/// them. `records` are timed, not empty, and have equal sizes in every curve.
+std::string viewportTable(const std::vector<Record>& records);
+std::string viewportChart(const std::vector<Record>& records);
+
 } // namespace shadowbench::report

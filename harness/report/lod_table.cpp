@@ -13,8 +13,9 @@ namespace {
 constexpr const char* legend = R"(
 | column | meaning |
 |:---|:---|
-| pop | largest mean change of colour from one frame to the next beyond that of `lod-full`, in 1/1000 of full colour |
-| region px | largest connected region that changes by more than 30/255 beyond `lod-full`'s change |
+| pop | largest mean change of colour from one frame to the next, in 1/1000 of full colour, while the camera stands and levels alone change |
+| region px | the same: pixels of the largest connected region that changes by more than 30/255 |
+| walk pop | largest mean change of colour along the walk beyond that of `lod-full`; coarse levels alias less and change less |
 | colour error | rms difference from `lod-full` |
 | noise | mean distance from the 3 × 3 median beyond `lod-full`'s, over pixels that see a transition |
 | order error | rms difference from the same with all triangles drawn the other way round |
@@ -45,6 +46,7 @@ std::span<const Column> columns() {
     static constexpr Column all[] = {
         {"pop", false, [](const Record& r) { return Cell(fmt::format("{:.2f}", 1000 * r.lod->pop)); }},
         {"region px", false, [](const Record& r) { return Cell(std::to_string(r.lod->changedRegion)); }},
+        {"walk pop", true, [](const Record& r) { return Cell(fmt::format("{:.2f}", 1000 * r.lod->walkPop)); }},
         {"colour error", false, [](const Record& r) { return Cell(fmt::format("{:.4f}", r.lod->colourError)); }},
         {"noise", false, [](const Record& r) { return r.lod->noise ? Cell(fmt::format("{:.4f}", *r.lod->noise)) : Cell(); }},
         {"order error", false, [](const Record& r) { return Cell(fmt::format("{:.4f}", r.lod->orderError)); }},

@@ -100,48 +100,49 @@ TEST(FrameSequential, WithNothingInTransitionItIsDiscreteSwitchingBitForBit) {
     }
 }
 
-/// Mean difference of the last pictures of a walk from the exact half-way picture of each frame.
+/// A bar that turns into a slightly shorter and wider one, half-way for ever, in front of a wall.
+Scene barScene() {
+    Scene scene = wallScene(160);
+    scene.objects.push_back(
+        inTransition(scene.camera, 0.2, 0.5, {0, 0, 0}, box({0.4, 2, 0.3}), red, box({0.5, 1.8, 0.2}), blue));
+    return scene;
+}
+
+/// Mean difference of a walk's pictures from what each frame should show half-way: the mean of both levels where they
+/// overlap, else the one that there is. Over the pixels of the bar, in 1/255.
 double errorHalfWay(const Scene& scene, const std::string& variant, int frames) {
-    const auto pictures = walked(scene, variant, frames);
+    Scene wallOnly = scene;
+    wallOnly.objects.pop_back();
+    const auto pictures = walked(scene, variant, frames), wall = walked(wallOnly, "lod-full", frames);
     const auto fine = walked(atLevel(scene, 0), "lod-full", frames), coarse = walked(atLevel(scene, 1), "lod-full", frames);
     double sum = 0;
     int pixels = 0;
-    for (int frame = 1; frame < frames; ++frame) {
-        const auto f = static_cast<std::size_t>(frame);
-        for (std::size_t i = 0; i < pictures[f].size(); ++i) {
-            if (fine[f][i] == fine[f][0] || coarse[f][i] == coarse[f][0]) continue; // the wall: not the same instance
-            sum += difference(pictures[f][i], mean(fine[f][i], coarse[f][i]));
+    for (std::size_t f = 1; f < pictures.size(); ++f) {
+        for (std::size_t i = 0; i < wall[f].size(); ++i) {
+            const bool isFine = fine[f][i] != wall[f][i], isCoarse = coarse[f][i] != wall[f][i];
+            if (!isFine && !isCoarse) continue;
+            const glm::u8vec3 expected =
+                isFine && isCoarse ? mean(fine[f][i], coarse[f][i]) : (isFine ? fine : coarse)[f][i];
+            sum += difference(pictures[f][i], expected);
             ++pixels;
         }
     }
     return sum / pixels;
 }
 
-/// A sphere that turns into a coarse one, half-way for ever.
-Scene sphereScene() {
-    Scene scene = wallScene(160);
-    scene.objects[0].colour = {0.3F, 0.3F, 0.3F};
-    scene.lod->band = 1;
-    scene.objects.push_back(inTransition(scene.camera, 1, 0.5, {0, 0, 0}, sphere(1, 2000), red, sphere(1, 320), blue));
-    return scene;
-}
-
 TEST(FrameSequential, BackProjectionMakesUpForCameraMotion) {
-    Scene scene = sphereScene();
-    // Around the sphere, so that its distance stays the same.
-    for (int frame = 0; frame < 8; ++frame) {
-        const double angle = 0.04 * frame;
-        scene.lod->eye.keys.push_back({static_cast<double>(frame), {6 * std::sin(angle), 0.017, 6 * std::cos(angle)}});
-    }
+    Scene scene = barScene(); // the camera pans, so that the bar's distance stays the same
+    for (int frame = 0; frame < 8; ++frame)
+        scene.lod->target.keys.push_back({static_cast<double>(frame), {0.15 * (frame - 4), 0.017, 0}});
     const double with = errorHalfWay(scene, "lod-frame-sequential", 8);
     const double without = errorHalfWay(scene, "lod-frame-sequential:reproject=off", 8);
-    EXPECT_GT(without, 1.5 * with) << with;
+    EXPECT_GT(without, 3 * with) << with;
 }
 
 TEST(FrameSequential, BackProjectionOfInstancesMakesUpForTheirMotion) {
-    Scene scene = sphereScene();
-    scene.objects[1].motion.degreesPerFrame = 4;
-    scene.objects[1].motion.axis = {0, 1, 0};
+    Scene scene = barScene(); // turns about the line of sight
+    scene.objects[1].motion.degreesPerFrame = 6;
+    scene.objects[1].motion.axis = {0, 0, 1};
     const double camera = errorHalfWay(scene, "lod-frame-sequential", 8);
     const double motion = errorHalfWay(scene, "lod-frame-sequential:reproject=motion", 8);
     EXPECT_GT(camera, 1.5 * motion) << motion;
@@ -220,9 +221,17 @@ TEST(LodBlend, DependsOnTheOrderOfDrawingAndOthersDoNot) {
         return result;
     }();
     const Scene reversed = lod::withTrianglesReversed(scene);
+    const auto differing = [&](const std::string& variant) {
+        const auto one = walked(scene, variant, 8), other = walked(reversed, variant, 8);
+        int pixels = 0;
+        for (std::size_t frame = 0; frame < one.size(); ++frame)
+            for (std::size_t i = 0; i < one[frame].size(); ++i) pixels += one[frame][i] != other[frame][i] ? 1 : 0;
+        return pixels / (8.0 * 128 * 128);
+    };
+    // A leaf's two sides meet at its rim, where their depths are equal to the last bit now and then.
     for (const std::string variant : {"lod-full", "lod-switch", "lod-frame-sequential"})
-        EXPECT_EQ(walked(scene, variant, 8), walked(reversed, variant, 8)) << variant;
-    EXPECT_NE(walked(scene, "lod-blend", 8), walked(reversed, "lod-blend", 8));
+        EXPECT_LT(differing(variant), 0.0005) << variant;
+    EXPECT_GT(differing("lod-blend"), 0.005);
 }
 
 TEST(LodTechniques, ForgetTheirHistoryAndRepeatThemselves) {
