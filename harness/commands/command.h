@@ -22,5 +22,6 @@ void addSweep(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
+void addCountFrames(CLI::App& app, Action& action);
 
 } // namespace shadowbench
