@@ -21,6 +21,8 @@ void addReference(CLI::App& app, Action& action);
 void addSweep(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
+void addCompare(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
+void addCountFrames(CLI::App& app, Action& action);
 
 } // namespace shadowbench
