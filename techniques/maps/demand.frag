@@ -4,7 +4,7 @@
 #ifdef DISCONTINUITY
 #include "maps/depth_atlas.glsl"
 
-uniform float discontinuity;  // share of a pixel's weight that it has only beside a discontinuity of the map
+uniform float discontinuity;  // share of a pixel's weight that it has only for an edge beside it
 #endif
 
 uniform mat4 planeFromWorld[6];  // x, y and depth in [0, 1] over the plane (maps/light_planes.h)
@@ -26,22 +26,23 @@ vec3 along(mat4 transform, vec4 h, vec3 t) {
 }
 
 #ifdef DISCONTINUITY
-/// Whether the nine texels around the point tell lit and shadowed on the plane of the surface, whose depth changes by `slope` over the
-/// light's plane: depth jumps there from before the surface to the surface or behind it.
-bool besideDiscontinuity(int plane, vec3 world, vec2 slope) {
+/// Length of shadow edge, in pixels, that a depth discontinuity of the map lets expect in this pixel, whose surface's depth changes by
+/// `slope` over the plane. An edge may run wherever the nine texels around the point tell lit and shadowed: in a band three texels wide.
+float edgeInPixel(int plane, vec3 world, vec2 slope, vec2 pixels) {
     vec4 h = atlasFromWorld[plane] * vec4(world, 1.0);
     vec3 at = h.xyz / h.w;
     vec4 inner = innerTiles[plane];
     vec2 texel = 1.0 / vec2(textureSize(depthAtlas, 0));
-    vec2 slopeOfTexel = slope * texel / (inner.zw - inner.xy + texel);
+    vec2 texelOfPlane = texel / (inner.zw - inner.xy + texel);
     float lit = 0.0;
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             vec2 offset = vec2(x, y);
             vec2 tap = clamp(at.xy + offset * texel, inner.xy, inner.zw);
-            lit += texture(depthAtlas, vec3(tap, min(at.z + dot(slopeOfTexel, offset), 1.0)));
+            lit += texture(depthAtlas, vec3(tap, min(at.z + dot(slope * texelOfPlane, offset), 1.0)));
         }
-    return lit > 0.5 && lit < 8.5;
+    if (lit < 0.5 || lit > 8.5) return 0.0;
+    return 1.0 / max(1.0, 3.0 * length(pixels * texelOfPlane));
 }
 #endif
 
@@ -75,7 +76,7 @@ void main() {
         slope = vec2(du.z, dv.z) * surfaceOfPlane;
     }
 #ifdef DISCONTINUITY
-    if (!besideDiscontinuity(plane, receiver.position, slope)) pixels *= 1.0 - discontinuity;
+    pixels *= mix(1.0, edgeInPixel(plane, receiver.position, slope, pixels), discontinuity);
 #endif
     vec2 at = clamp(inPlane.xy / inPlane.w, 0.0, 1.0 - 1.0 / 1048576.0);  // the plane's number leaves 20 bits
     demand = vec4(at.x + float(plane), at.y, max(pixels, 1e-20));

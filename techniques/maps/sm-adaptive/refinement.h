@@ -19,7 +19,7 @@ struct Page {
 struct Refinement {
     int texels = 128;   // per side of a page: a plane all of level l is a map of (texels · 2^l)²
     int levels = 8;     // the finest level
-    int pages = 256;    // at most
+    int pages = 1024;   // at most
     double density = 1; // texels that must lie along a pixel
 };
 

@@ -68,7 +68,7 @@ Entry smAdaptive() {
         {"page", "128", IntegerRange{16, 1024}, "texels per side of a page", ""},
         {"levels", "8", IntegerRange{0, 8}, "how often a page may be cut in four: (page · 2^levels)² texels at most",
          "dissertation, 2.2.2"},
-        {"pages", "256", IntegerRange{6, 4096}, "pages drawn a frame, at most: one pass each", ""},
+        {"pages", "1024", IntegerRange{6, 4096}, "pages drawn a frame, at most: one pass each", ""},
         {"density", "1", RealRange{0.125, 16}, "texels along a pixel, at least, where pages and levels suffice", ""},
     };
     for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
