@@ -86,6 +86,7 @@ void DepthAtlas::draw(const std::vector<LightView>& views, const gl::SceneBuffer
 }
 
 void DepthAtlas::placeViews(const std::vector<LightView>& views) {
+    views_ = views;
     atlasFromWorld_.clear();
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
         const glm::dvec2 share = glm::dvec2(tiles_[i].size) / glm::dvec2(depth_.size());
@@ -94,6 +95,12 @@ void DepthAtlas::placeViews(const std::vector<LightView>& views) {
             glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(offset, 0)), glm::dvec3(share, 1)) * mapFromClip();
         atlasFromWorld_.emplace_back(place * views[i].clipFromWorld);
     }
+}
+
+std::optional<glm::dvec2> DepthAtlas::pointAt(std::size_t tile, const glm::dvec3& world) const {
+    std::optional<glm::dvec2> point = texelAt(views_[tile], world, tiles_[tile].size);
+    if (point) *point += tiles_[tile].at;
+    return point;
 }
 
 void DepthAtlas::bindTo(gl::Program& program) const {

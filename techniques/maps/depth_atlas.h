@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 namespace shadowbench::techniques {
@@ -49,6 +50,10 @@ public:
     /// Sets the uniforms of maps/depth_atlas.glsl for the views drawn last; TILES must be the number of tiles, or more.
     void bindTo(gl::Program& program) const;
 
+    /// Where `world` lies in tile `tile` as drawn last, in texels of the atlas; nothing beside the tile or behind the light.
+    [[nodiscard]] std::optional<glm::dvec2> pointAt(std::size_t tile, const glm::dvec3& world) const;
+
+    [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
     [[nodiscard]] const gl::Texture& texture() const { return depth_; }
 
 private:
@@ -60,6 +65,7 @@ private:
     gl::RenderTarget target_;
     gl::Program program_;
     Bias bias_;
+    std::vector<LightView> views_;
     std::vector<glm::mat4> atlasFromWorld_;
     std::vector<glm::vec4> inner_; // per tile: its outermost texel centres, low and high, in [0, 1] of the atlas
 };

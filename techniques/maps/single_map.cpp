@@ -13,16 +13,21 @@ public:
         : fit_(std::move(fit)), map_(std::move(map)), resolve_(gl::Program::screen("maps/single_map.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const LightView light = fit_(frame);
-        map_->draw(light, frame.scene);
+        light_ = fit_(frame);
+        map_->draw(light_, frame.scene);
         resolve_.set("positions", frame.gbuffer.position())
-            .set("mapFromWorld", mapFromWorld(light))
+            .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_->texture());
         resolveInto({&visibility}, resolve_);
     }
 
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(light_, world, map_->texture().size());
+    }
+
 private:
     FitView fit_;
+    LightView light_;
     std::unique_ptr<ShadowMap> map_;
     gl::Program resolve_;
 };

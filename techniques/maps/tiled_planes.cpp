@@ -1,10 +1,11 @@
 #include "techniques/maps/tiled_planes.h"
 
-#include "techniques/maps/fitting.h"
 #include "techniques/resolve.h"
 
-#include <cstdint>
+#include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 
 namespace shadowbench::techniques {
 namespace {
@@ -76,37 +77,65 @@ std::vector<Demand> TiledPlanes::demands(const Frame& frame, const gl::Texture& 
     return result;
 }
 
-void TiledPlanes::shade(const Frame& frame, std::span<const PlaneTile> tiles, const gl::Texture& visibility) {
+void TiledPlanes::shade(const Frame& frame, std::vector<PlaneTile> tiles, std::size_t together,
+                        const gl::Texture& visibility) {
+    tiles_ = std::move(tiles);
+    upload();
+    test_.set("positions", frame.gbuffer.position()).set("demands", *demands_).set("depthAtlas", atlas_.texture());
+    for (std::size_t first = 0; first < tiles_.size(); first += together) {
+        const std::size_t count = std::min(together, tiles_.size() - first);
+        drawTiles(frame, std::span(tiles_).subspan(first, count));
+        test_.set("firstTile", static_cast<int>(first)).set("tilesDrawn", static_cast<int>(count));
+        resolveInto({&visibility}, test_);
+    }
+}
+
+void TiledPlanes::upload() {
+    table_ = tileTable(tiles_, static_cast<int>(planes_.size()), cells_);
+    std::vector<Place> places;
+    for (const PlaneTile& tile : tiles_) places.push_back(placeOf(tile, cells_, side_));
+    tableBuffer_.upload(table_.data(), table_.size() * sizeof(std::uint32_t));
+    placeBuffer_.upload(places.data(), places.size() * sizeof(Place));
+    tableBuffer_.bindStorage(3); // maps/tile_test.frag
+    placeBuffer_.bindStorage(4);
+}
+
+void TiledPlanes::drawTiles(const Frame& frame, std::span<const PlaneTile> tiles) {
     std::vector<Tile> rectangles;
     std::vector<LightView> views;
     std::vector<std::vector<bool>> casters;
-    std::vector<Place> places;
     for (const PlaneTile& tile : tiles) {
         const glm::dvec2 low = glm::dvec2(tile.at) / static_cast<double>(cells_);
         const glm::dvec2 high = glm::dvec2(tile.at + tile.size) / static_cast<double>(cells_);
         rectangles.push_back(tile.texels);
         views.push_back(partOf(planes_[static_cast<std::size_t>(tile.plane)], low, high));
         casters.push_back(castersIn(views.back(), corners_));
-        places.push_back(placeOf(tile, cells_, side_));
     }
     atlas_.setTiles(std::move(rectangles));
     atlas_.draw(views, frame.scene, casters);
-
-    const std::vector<std::uint32_t> table = tileTable(tiles, static_cast<int>(planes_.size()), cells_);
-    table_.upload(table.data(), table.size() * sizeof(std::uint32_t));
-    places_.upload(places.data(), places.size() * sizeof(Place));
-    table_.bindStorage(3); // maps/tile_test.frag
-    places_.bindStorage(4);
-    test_.set("positions", frame.gbuffer.position()).set("demands", *demands_).set("depthAtlas", atlas_.texture());
-    resolveInto({&visibility}, test_);
 }
 
-std::optional<TiledPlanes::Spot> TiledPlanes::spotOf(const glm::dvec3& world) const {
+double TiledPlanes::effectiveResolution() const {
+    double finest = 0;
+    for (const PlaneTile& tile : tiles_) {
+        const glm::dvec2 resolution = glm::dvec2(tile.texels.size * cells_) / glm::dvec2(tile.size);
+        finest = std::max({finest, resolution.x, resolution.y});
+    }
+    return finest;
+}
+
+std::optional<glm::dvec2> TiledPlanes::pointAt(const glm::dvec3& world) const {
+    const auto side = static_cast<std::size_t>(cells_);
     for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
-        const glm::dvec4 h = mapFromClip() * planes_[plane].clipFromWorld * glm::dvec4(world, 1);
-        if (h.w <= 0) continue;
-        const glm::dvec2 at = glm::dvec2(h) / h.w;
-        if (glm::clamp(at, 0.0, 1.0) == at) return Spot{static_cast<int>(plane), at};
+        const std::optional<glm::dvec2> cell = texelAt(planes_[plane], world, glm::dvec2(cells_));
+        if (!cell) continue;
+        const glm::ivec2 whole = glm::min(glm::ivec2(*cell), cells_ - 1);
+        const std::uint32_t number =
+            table_[(plane * side + static_cast<std::size_t>(whole.y)) * side + static_cast<std::size_t>(whole.x)];
+        if (number == 0) return std::nullopt;
+        const PlaneTile& tile = tiles_[number - 1];
+        return glm::dvec2(tile.texels.at) +
+               (*cell - glm::dvec2(tile.at)) * glm::dvec2(tile.texels.size) / glm::dvec2(tile.size);
     }
     return std::nullopt;
 }

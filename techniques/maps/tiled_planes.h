@@ -6,6 +6,8 @@
 #include "techniques/maps/plane_tiles.h"
 #include "techniques/technique.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,21 +28,25 @@ public:
     /// 0 on surfaces that face away from the light.
     std::vector<Demand> demands(const Frame& frame, const gl::Texture& visibility);
 
-    /// Draws the tiles, which lie apart in the atlas, and tests the pixels that lie in them.
-    void shade(const Frame& frame, std::span<const PlaneTile> tiles, const gl::Texture& visibility);
+    /// Draws the tiles and tests the pixels that lie in them: `together` at a time, which lie apart in the atlas.
+    void shade(const Frame& frame, std::vector<PlaneTile> tiles, std::size_t together, const gl::Texture& visibility);
 
     /// Views of the planes that `demands` fitted: one, or six.
     [[nodiscard]] const std::vector<LightView>& planes() const { return planes_; }
 
-    /// Where a point lies: its plane and the position on that plane's map; nothing behind the light or beside the plane.
-    struct Spot {
-        int plane;
-        glm::dvec2 at;
-    };
-    [[nodiscard]] std::optional<Spot> spotOf(const glm::dvec3& world) const;
+    /// The tiles drawn last.
+    [[nodiscard]] const std::vector<PlaneTile>& tiles() const { return tiles_; }
+
+    /// Texels per side of a map of a whole plane whose texels are as short as the shortest drawn last.
+    [[nodiscard]] double effectiveResolution() const;
+
+    /// Where `world` lies in its tile, in texels of the atlas; nothing where no tile holds it.
+    [[nodiscard]] std::optional<glm::dvec2> pointAt(const glm::dvec3& world) const;
 
 private:
     void fit(const Frame& frame);
+    void upload();
+    void drawTiles(const Frame& frame, std::span<const PlaneTile> tiles);
     void drawWholePlanes(const Frame& frame);
 
     int side_, cells_;
@@ -48,10 +54,18 @@ private:
     DepthAtlas atlas_;
     gl::Program demand_, test_;
     std::optional<gl::Texture> demands_;
-    gl::Buffer table_, places_;
+    gl::Buffer tableBuffer_, placeBuffer_;
 
     std::vector<LightView> planes_;
     std::vector<glm::dvec3> corners_; // of the placements' bounding boxes
+    std::vector<PlaneTile> tiles_;
+    std::vector<std::uint32_t> table_; // tileTable() of them
 };
+
+/// What the figure `effective_resolution` of these techniques means.
+inline Figure effectiveResolutionFigure() {
+    return {"effective_resolution",
+            "texels per side of a map of the light's whole plane with texels as short as the shortest"};
+}
 
 } // namespace shadowbench::techniques

@@ -6,13 +6,11 @@
 // frame to frame; only placements whose box meets a page are drawn into it.
 // Its price is passes, one a page: `pages` bounds them. Where they do not suffice, those pages stay coarse whose texels are
 // too long by the least, summed over their pixels.
+#include "harness/scene/error.h"
 #include "techniques/entries.h"
 #include "techniques/maps/sm-adaptive/refinement.h"
 #include "techniques/maps/tiled_planes.h"
 
-#include "harness/scene/error.h"
-
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace shadowbench::techniques {
@@ -34,20 +32,29 @@ public:
           maps_(p.integer("map"), cells_, static_cast<float>(limits_.texels) * static_cast<float>(cells_), biasFrom(p)) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const std::vector<Page> pages = refine(maps_.demands(frame, visibility), limits_);
-        const std::size_t held = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(columns_);
-        for (std::size_t first = 0; first < pages.size(); first += held) {
-            const std::size_t count = std::min(held, pages.size() - first);
-            maps_.shade(frame, tilesOf(std::span(pages).subspan(first, count)), visibility);
-        }
+        maps_.shade(frame, tilesOf(refine(maps_.demands(frame, visibility), limits_)), slots(), visibility);
     }
 
+    [[nodiscard]] std::map<std::string, double> figures() const override {
+        const std::size_t pages = maps_.tiles().size();
+        return {{"pages", static_cast<double>(pages)},
+                {"fillings", static_cast<double>((pages + slots() - 1) / slots())},
+                {"effective_resolution", maps_.effectiveResolution()}};
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return maps_.pointAt(world); }
+
 private:
-    /// The pages in their slots of the map.
+    /// How many pages the map holds at a time.
+    [[nodiscard]] std::size_t slots() const {
+        return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(columns_);
+    }
+
+    /// The pages, slot after slot of the map, again from the first when all are taken.
     [[nodiscard]] std::vector<PlaneTile> tilesOf(std::span<const Page> pages) const {
         std::vector<PlaneTile> tiles;
         for (const Page& page : pages) {
-            const int slot = static_cast<int>(tiles.size());
+            const int slot = static_cast<int>(tiles.size() % slots());
             const glm::ivec2 size(cells_ >> page.level);
             const glm::ivec2 corner = limits_.texels * glm::ivec2(slot % columns_, slot / columns_);
             tiles.push_back({page.plane, size * page.at, size, {corner, glm::ivec2(limits_.texels)}});
@@ -77,6 +84,9 @@ Entry smAdaptive() {
             .source = {Seed::Dissertation, "2.2.2, Subdivision"},
             .answer = Answer::Hard,
             .parameters = std::move(parameters),
+            .figures = {{"pages", "pages drawn, one pass each"},
+                        {"fillings", "times that the map was filled with pages"},
+                        effectiveResolutionFigure()},
             .variants = {""},
             .make = [](const Parameters& p) { return std::make_unique<Adaptive>(p); }};
 }

@@ -35,14 +35,18 @@ public:
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const LightView view = uniformView(frame);
-        map_.draw(view, frame.scene);
-        drawOutlines(outlines(frame, view));
+        light_ = uniformView(frame);
+        map_.draw(light_, frame.scene);
+        drawOutlines(outlines(frame, light_));
         resolve_.set("positions", frame.gbuffer.position())
-            .set("mapFromWorld", mapFromWorld(view))
+            .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_.texture())
             .set("silhouetteMap", points_);
         resolveInto({&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(light_, world, glm::dvec2(map_.side()));
     }
 
 private:
@@ -87,6 +91,7 @@ private:
         ++gl::Context::current().tally().draws;
     }
 
+    LightView light_;
     DepthMap map_;
     gl::Texture points_;
     gl::RenderTarget target_;

@@ -26,8 +26,16 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const std::vector<Demand> demands = maps_.demands(frame, visibility);
         const int planes = static_cast<int>(maps_.planes().size());
-        maps_.shade(frame, tilesFor(demands, planes, cells, side_, tiles_), visibility);
+        std::vector<PlaneTile> tiles = tilesFor(demands, planes, cells, side_, tiles_);
+        const std::size_t all = tiles.size();
+        maps_.shade(frame, std::move(tiles), all, visibility);
     }
+
+    [[nodiscard]] std::map<std::string, double> figures() const override {
+        return {{"tiles", static_cast<double>(maps_.tiles().size())}, {"effective_resolution", maps_.effectiveResolution()}};
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return maps_.pointAt(world); }
 
 private:
     int side_, tiles_;
@@ -50,6 +58,7 @@ Entry smTiled() {
             .source = {Seed::Dissertation, "2.2.2, Subdivision"},
             .answer = Answer::Hard,
             .parameters = std::move(parameters),
+            .figures = {{"tiles", "tiles drawn, one pass each"}, effectiveResolutionFigure()},
             .variants = {""},
             .make = [](const Parameters& p) { return std::make_unique<Tiled>(p); }};
 }
