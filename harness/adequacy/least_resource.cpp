@@ -47,16 +47,24 @@ std::string curveOf(const Record& record, const std::string& parameter) {
     return curve;
 }
 
-/// From the largest amount down to the last one that is adequate. Nothing of a curve of one amount: nothing was compared.
+bool hasTwoAmounts(const std::vector<Step>& curve) {
+    const auto [least, most] = std::ranges::minmax(curve, {}, &Step::amount);
+    return least.amount < most.amount;
+}
+
+/// From the largest amount down to the last one that is adequate.
 std::optional<Least> leastOf(std::vector<Step> curve) {
     std::ranges::sort(curve, std::greater<>(), &Step::amount);
-    if (curve.front().amount == curve.back().amount) return {};
     std::optional<Least> least;
     for (const Step& step : curve) {
         if (!step.adequate) break;
         least = Least{step.variant, step.amount, step.error};
     }
     return least;
+}
+
+const char* parameterWords(Resource resource) {
+    return resource == Resource::MapTexels ? "the size of a map" : "the number of samples";
 }
 
 } // namespace
@@ -90,7 +98,7 @@ std::vector<std::string> variantsOver(Resource resource, const std::vector<std::
             }
     if (names.empty())
         throw BadInput(fmt::format("none of the chosen techniques has a parameter for {}: choose others with --technique",
-                                   resource == Resource::MapTexels ? "the size of a map" : "the number of samples"));
+                                   parameterWords(resource)));
     return names;
 }
 
@@ -106,6 +114,12 @@ std::vector<Least> leastAdequate(const std::vector<Record>& records, const std::
             if (const auto much = amount(resource, name, value))
                 curves[curveOf(record, name)].push_back({*much, *error, *error <= limit->value, record.variant});
     }
+    std::erase_if(curves, [](const auto& curve) { return !hasTwoAmounts(curve.second); });
+    if (curves.empty())
+        throw BadInput(
+            fmt::format("the records of scene {} hold no technique that differs in {} alone: let the cells be run, "
+                        "or give records of a sweep",
+                        scene, parameterWords(resource)));
     std::vector<Least> all;
     for (auto& [curve, steps] : curves)
         if (auto least = leastOf(std::move(steps))) all.push_back(std::move(*least));

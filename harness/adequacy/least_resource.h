@@ -33,6 +33,7 @@ struct Least {
 /// Of every technique, with its other parameters the same, that the records show with at least two amounts: the least one
 /// from which on all larger ones are within the scene's tolerance. A smaller one that is, while one above it is not, is
 /// within by luck. Techniques whose largest amount is not within are left out. The least amount first, then the least error.
+/// Throws BadInput when there is no such technique to compare.
 std::vector<Least> leastAdequate(const std::vector<Record>& records, const std::string& scene, Resource resource);
 
 } // namespace shadowbench::adequacy

@@ -2,6 +2,7 @@
 
 #include "harness/report/text_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,13 +49,23 @@ std::string groupTable(const CasterRecommendation& c) {
     return report::aligned(table);
 }
 
+/// How many groups could cast at a coarser level.
+std::size_t coarserLevels(const CasterRecommendation& c) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(c.groups, [](const GroupLevel& g) { return g.coarser.has_value(); }));
+}
+
 std::string verification(const CasterRecommendation& c) {
-    std::size_t coarser = 0;
-    for (const GroupLevel& group : c.groups) coarser += group.coarser ? 1 : 0;
-    return fmt::format("{} by {}: {} at these levels; {} of {} groups have a coarser level, {}",
-                       c.verified ? "verified" : "NOT VERIFIED", c.verifier, shown(c.verifiedErrors, c.tolerance), coarser,
-                       c.groups.size(),
-                       c.verified ? "and each of these alone exceeds the tolerance" : "see the last column");
+    std::string line = fmt::format("{} by {}: at these levels {}", c.verified ? "verified" : "NOT VERIFIED", c.verifier,
+                                   shown(c.verifiedErrors, c.tolerance));
+    const std::size_t coarser = coarserLevels(c);
+    if (c.verified && coarser > 0) line += ", with any one group a level coarser above tolerance";
+    if (coarser < c.groups.size())
+        line +=
+            fmt::format("; {} of {} groups cast at the end of their chain, and nothing says that a coarser level would not "
+                        "do: give more with --levels",
+                        c.groups.size() - coarser, c.groups.size());
+    return line;
 }
 
 std::string text(const CasterRecommendation& c) {
