@@ -19,6 +19,7 @@ void addList(CLI::App& app, Action& action);
 void addRun(CLI::App& app, Action& action);
 void addReference(CLI::App& app, Action& action);
 void addSweep(CLI::App& app, Action& action);
+void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
