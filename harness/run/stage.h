@@ -9,7 +9,9 @@ namespace shadowbench {
 
 class Stage {
 public:
+    /// Keeps a reference to the scene.
     explicit Stage(const Scene& scene);
+    explicit Stage(Scene&& scene) = delete;
 
     /// Uploads frame `index` of the scene and draws its G-buffer.
     void show(int index);

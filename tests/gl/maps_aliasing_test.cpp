@@ -30,6 +30,7 @@ std::optional<Aliasing> aliasingOf(Stage& stage, const std::string& name) {
 
 bool hasShadowMap(const techniques::Entry& entry) {
     if (entry.answer == techniques::Answer::Soft || entry.id.starts_with("planar")) return false;
+    if (entry.id == "sm-tiled" || entry.id == "sm-adaptive") return false; // texels by what pixels ask, see below
     return std::ranges::any_of(entry.parameters, [](const techniques::Parameter& p) { return p.name == "map"; });
 }
 
@@ -66,6 +67,36 @@ std::string testName(const testing::TestParamInfo<std::string>& tested) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryMap, testing::ValuesIn(everyMap()), testName);
+
+// One tile that is not weighed by what the map shows is a focused map.
+TEST(TiledMap, HalvingItsSizeDoublesTheRatioOfOneTile) {
+    const Scene scene = boxScene();
+    Stage stage(scene);
+    stage.show(0);
+    const std::optional<Aliasing> whole = aliasingOf(stage, "sm-tiled:tiles=1,discontinuity=0,map=1024");
+    const std::optional<Aliasing> half = aliasingOf(stage, "sm-tiled:tiles=1,discontinuity=0,map=512");
+    ASSERT_TRUE(whole && half);
+    EXPECT_NEAR(half->median / whole->median, 2, 1e-6);
+    const std::optional<Aliasing> tiles = aliasingOf(stage, "sm-tiled");
+    ASSERT_TRUE(tiles);
+    EXPECT_LT(tiles->median, whole->median);
+}
+
+// No texel is longer than a pixel along x or y of the map, so that none is longer than √2 pixels in any direction.
+TEST(AdaptiveMap, HasNoTexelLongerThanAPixel) {
+    for (const bool sun : {false, true}) {
+        Scene scene = boxScene();
+        if (sun) scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(-0.3, -1, 0.4)), {}, {}};
+        Stage stage(scene);
+        stage.show(0);
+        const std::optional<Aliasing> one = aliasingOf(stage, "sm-adaptive"),
+                                      four = aliasingOf(stage, "sm-adaptive:density=4");
+        ASSERT_TRUE(one && four);
+        EXPECT_LE(one->p95, std::sqrt(2) * 1.001); // normals of 16 bits
+        EXPECT_LE(four->p95, std::sqrt(2) / 4 * 1.001);
+        EXPECT_GT(one->median, 0.25); // nor are they much shorter: levels are powers of two
+    }
+}
 
 TEST(TechniquesWithoutAMap, HaveNoRatio) {
     const Scene scene = boxScene();

@@ -1,6 +1,7 @@
 // Perspective shadow maps against closed forms.
 #include "harness/scene/primitives.h"
 #include "techniques/maps/psm_view.h"
+#include "tests/unit/light_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +11,6 @@
 
 namespace shadowbench::techniques {
 namespace {
-
-glm::dvec3 mapped(const LightView& view, const glm::dvec3& p) {
-    const glm::dvec4 h = view.clipFromWorld * glm::dvec4(p, 1);
-    return glm::dvec3(h) / h.w;
-}
-
-Light sun(const glm::dvec3& direction) { return {LightKind::Directional, {}, glm::normalize(direction), {}, {}}; }
 
 Light lamp(const glm::dvec3& at) { return {LightKind::Point, at, {0, -1, 0}, {}, {}}; }
 
