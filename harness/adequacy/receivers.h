@@ -12,13 +12,17 @@
 #include "groundtruth/reference.h"
 #include "harness/adequacy/caster_groups.h"
 
+#include <cstdint>
+#include <set>
+
 namespace shadowbench::adequacy {
 
 struct Receivers {
     groundtruth::PrimaryHits primary; // of the scene as drawn; Background off the receivers that count
     glm::ivec2 size{0, 0};
-    std::size_t pixels = 0; // that count
-    std::size_t all = 0;    // receiver pixels of the frame, objects with levels included
+    std::set<std::uint32_t> ids; // of surfaces that a pixel which counts sees
+    std::size_t pixels = 0;      // that count
+    std::size_t all = 0;         // receiver pixels of the frame, objects with levels included
 };
 
 /// `drawn` is the scene as drawn at the casters' frame. Throws BadInput when no pixel sees a receiver that counts.

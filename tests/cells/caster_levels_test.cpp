@@ -96,6 +96,20 @@ TEST(CasterLevels, NeedAToleranceAndAReceiver) {
     EXPECT_THROW((void)recommended(scene, {"0.01"}), BadInput);
 }
 
+// Silhouettes of all of `paper`'s trees at once would take 22 GiB.
+TEST(PolygonShadows, OfCastersInPartsAreThoseOfAllAtOnce) {
+    const Scene scene = loadScene("windmills", Profile::Gate);
+    const Casters casters(scene, 59, ownBands(scene));
+    const Receivers ground = receivers(snapshot(scene, 59), scene.size, casters);
+    const Snapshot finest = casters.cast(casters.finest());
+    const Shadow whole = polygonOracle(ground).shadow(finest);
+    for (const std::size_t most : {1U, 5000U}) {
+        const Shadow parts = polygonOracle(ground, most).shadow(finest);
+        EXPECT_EQ(parts.visibility, whole.visibility) << most;
+        EXPECT_EQ(parts.labelled, whole.labelled) << most;
+    }
+}
+
 /// The recommended levels again, label by label, by shadow rays only.
 double mismatchByRays(const Scene& scene, const Chains& chains, const CasterRecommendation& r, const Levels& levels) {
     const Casters casters(withChains(scene, chains), r.frame, ownBands(scene));
