@@ -11,6 +11,9 @@
 #include <cstdint>
 #include <functional>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,6 +47,16 @@ public:
 
     /// Forgets all history: the next frame is the first.
     virtual void reset() {}
+
+    /// Numbers of the frame last rendered that only the technique knows, by names that its entry declares. Asked for right
+    /// after `render`, while that frame's G-buffer and scene are there; what it takes to count them belongs here, not into
+    /// the timed frame.
+    [[nodiscard]] virtual std::map<std::string, double> figures() const { return {}; }
+
+    /// Where `world` lies in the map that it was tested against in the frame last rendered: in texels of that map,
+    /// continuous over the map; several maps may lie anywhere. Nothing where no map holds the point (beside it, behind the
+    /// light) and from techniques without a map.
+    [[nodiscard]] virtual std::optional<glm::dvec2> mapPoint([[maybe_unused]] const glm::dvec3& world) const { return {}; }
 };
 
 class LodTechnique;
@@ -65,6 +78,12 @@ enum class Answer {
     Colour,   // a picture of a scene with levels of detail (techniques/lod/lod_technique.h)
 };
 
+/// A number that a technique tells of each frame (`Technique::figures`).
+struct Figure {
+    std::string name;
+    std::string meaning; // with its unit
+};
+
 /// One line of the catalogue.
 struct Entry {
     std::string id;
@@ -76,6 +95,7 @@ struct Entry {
     /// can answer for.
     std::function<std::optional<std::string>(const Scene&)> notApplicable = {};
     std::vector<Parameter> parameters;
+    std::vector<Figure> figures = {};
     std::vector<std::string> variants; // what a run of all techniques shows: parameter strings, "" = all defaults
     std::function<std::unique_ptr<Technique>(const Parameters&)> make = {};       // of a shadow
     std::function<std::unique_ptr<LodTechnique>(const Parameters&)> makeLod = {}; // of a picture: Answer::Colour
@@ -95,6 +115,10 @@ std::span<const Entry> catalog();
 
 /// The entry of `id`; throws BadInput with near matches.
 const Entry& entryNamed(std::string_view id);
+
+/// The figures of the frame that `technique`, made by `entry`, rendered last; throws InternalError naming one that the entry
+/// does not declare or that is not finite.
+std::map<std::string, double> declaredFigures(const Entry& entry, const Technique& technique);
 
 /// "pcss:taps=32+32" → variant; throws BadInput naming what is valid.
 Variant parseVariant(std::string_view text);

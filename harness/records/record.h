@@ -31,6 +31,12 @@ struct Accuracy {
     double primaryMismatch = 0;
 };
 
+/// Pixels that one texel of the technique's map covers where it is stretched most (`metrics::aliasing`).
+struct Aliasing {
+    double median = 0, p95 = 0; // over the receiver pixels that lie in a map
+    double mapped = 0;          // their share of all receiver pixels
+};
+
 struct Flicker {
     double mean = 0, p95 = 0;
 };
@@ -65,7 +71,8 @@ struct Cost {
     std::optional<std::uint64_t> instructions;
 };
 
-/// Frames of a level-of-detail technique over the scene's walk, each timed beside lod-switch's, both without the G-buffer.
+/// Frames of a level-of-detail technique over the scene's walk, each timed beside lod-switch's, without the G-buffer; of a
+/// rasteriser that draws on the calling thread its processor time, which other programs do not disturb.
 struct LodTime {
     double median = 0; // ms a frame
     double ratio = 1;  // to lod-switch: median over the frames
@@ -133,6 +140,8 @@ struct Record {
     std::optional<SweepStep> sweep;             // of `sweep` only
     std::optional<Lod> lod;                     // of level-of-detail techniques, which have no accuracy or stability
     Accuracy accuracy;
+    std::optional<Aliasing> aliasing;      // of techniques with a map
+    std::map<std::string, double> figures; // of the scored frame, by names that `list techniques` explains
     Stability stability;
     Cost cost;
     double tolerance = 0;        // the scene's, for the metric below; 0 if it states none

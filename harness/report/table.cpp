@@ -126,7 +126,9 @@ std::string heading(const std::vector<Record>& records, const std::string& scene
 
 std::string terminalTable(const std::vector<Record>& records, const std::string& scene) {
     if (ofScene(records, scene).empty()) return "";
-    std::string text = fmt::format(" {}\n", heading(records, scene)) + aligned(table(records, scene, false));
+    const TextTable content = table(records, scene, false);
+    std::string text = fmt::format(" {}\n", heading(records, scene));
+    if (!content.rows.empty()) text += aligned(content);
     for (const std::string& line : footnotes(records, scene)) text += fmt::format(" {}\n", line);
     return text;
 }

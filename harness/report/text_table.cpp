@@ -41,7 +41,6 @@ std::string markdownRow(const std::vector<std::string>& cells) {
 } // namespace
 
 std::string aligned(const TextTable& table) {
-    if (table.rows.empty()) return "";
     const std::vector<std::size_t> columns = widths(table);
     std::string text = line(table.titles, columns);
     for (const std::vector<std::string>& row : table.rows) text += line(row, columns);

@@ -12,7 +12,7 @@ struct TextTable {
     std::vector<std::vector<std::string>> rows;
 };
 
-/// Names to the left, figures to the right; UTF-8 whose characters are one column wide. Nothing without rows.
+/// Names to the left, figures to the right; UTF-8 whose characters are one column wide.
 std::string aligned(const TextTable& table);
 
 /// A Markdown table. Nothing without rows.

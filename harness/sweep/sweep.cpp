@@ -4,6 +4,7 @@
 #include "harness/run/cell.h"
 #include "harness/run/progress_line.h"
 #include "harness/sweep/axis.h"
+#include "harness/sweep/variants.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
@@ -15,15 +16,11 @@ namespace {
 
 using techniques::Variant;
 
-bool hasParameter(const Variant& variant, const std::string& name) {
-    return std::ranges::any_of(variant.entry->parameters, [&](const auto& parameter) { return parameter.name == name; });
-}
-
 std::vector<Variant> chosenVariants(const SweepOptions& options, const Axis& axis) {
     std::vector<Variant> variants;
     for (const std::string& pattern : options.techniques.empty() ? std::vector<std::string>{"*"} : options.techniques)
         for (Variant& variant : techniques::matchVariants(pattern)) {
-            if (variant.isLod() || (axis.isParameter() && !hasParameter(variant, axis.id))) continue;
+            if (variant.isLod() || (axis.isParameter() && !parameterOf(variant, axis.id))) continue;
             if (std::ranges::none_of(variants, [&](const Variant& v) { return v.name == variant.name; }))
                 variants.push_back(std::move(variant));
         }
@@ -31,17 +28,6 @@ std::vector<Variant> chosenVariants(const SweepOptions& options, const Axis& axi
         throw BadInput(fmt::format(
             "none of the chosen techniques has a parameter \"{}\": choose other techniques, or another axis", axis.id));
     return variants;
-}
-
-/// The variant with one of its parameters set.
-Variant with(const Variant& variant, const Axis& axis, double value) {
-    std::string text = variant.entry->id;
-    char before = ':';
-    for (const auto& [name, set] : variant.parameters.all()) {
-        text += before + name + "=" + (name == axis.id ? fmt::format("{}", value) : set);
-        before = ',';
-    }
-    return techniques::parseVariant(text);
 }
 
 /// Everything at rest, and only the frames that the scored one needs.
@@ -95,7 +81,8 @@ private:
         Stage stage(scene);
         Truths truths(scene, cache_);
         for (std::size_t i = 0; i < variants_.size(); ++i) {
-            const Variant variant = axis_.isParameter() ? with(variants_[i], axis_, value) : variants_[i];
+            const Variant variant =
+                axis_.isParameter() ? withParameter(variants_[i], axis_.id, fmt::format("{}", value)) : variants_[i];
             progress(static_cast<double>(i) / static_cast<double>(variants_.size()),
                      fmt::format("{:g} {}", value, variant.name));
             Record record = blankRecord(scene, variant, options_.seed);
