@@ -22,6 +22,8 @@ void addSweep(CLI::App& app, Action& action);
 void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
+void addCompare(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
+void addCountFrames(CLI::App& app, Action& action);
 
 } // namespace shadowbench
