@@ -32,7 +32,9 @@ ExitCode dispatch(int argc, char** argv) {
         "5 inconclusive.\nEvery verb has --help with an example.");
 
     Action action;
-    for (const auto& add : {addList, addRun, addReference, addSweep, addClaims, addCache, addReport}) add(app, action);
+    for (const auto& add :
+         {addList, addRun, addReference, addSweep, addRecommend, addClaims, addCompare, addCache, addReport, addCountFrames})
+        add(app, action);
 
     requireKnownVerb(app, {argv + std::min(argc, 1), argv + argc});
     try {

@@ -17,6 +17,8 @@ std::span<const Entry> catalog() {
         smLispsm(),         //
         smTsm(),            //
         smCascaded(),       //
+        smTiled(),          //
+        smAdaptive(),       //
         smCube(),           //
         smDualParaboloid(), //
         smHistory(),        //

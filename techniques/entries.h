@@ -16,6 +16,8 @@ Entry smPsm();
 Entry smLispsm();
 Entry smTsm();
 Entry smCascaded();
+Entry smTiled();
+Entry smAdaptive();
 Entry smCube();
 Entry smDualParaboloid();
 Entry smHistory();

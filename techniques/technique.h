@@ -10,6 +10,9 @@
 #include <cstdint>
 #include <functional>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -43,6 +46,16 @@ public:
 
     /// Forgets all history: the next frame is the first.
     virtual void reset() {}
+
+    /// Numbers of the frame last rendered that only the technique knows, by names that its entry declares. Asked for right
+    /// after `render`, while that frame's G-buffer and scene are there; what it takes to count them belongs here, not into
+    /// the timed frame.
+    [[nodiscard]] virtual std::map<std::string, double> figures() const { return {}; }
+
+    /// Where `world` lies in the map that it was tested against in the frame last rendered: in texels of that map,
+    /// continuous over the map; several maps may lie anywhere. Nothing where no map holds the point (beside it, behind the
+    /// light) and from techniques without a map.
+    [[nodiscard]] virtual std::optional<glm::dvec2> mapPoint([[maybe_unused]] const glm::dvec3& world) const { return {}; }
 };
 
 /// The documents that techniques come from.
@@ -61,6 +74,12 @@ enum class Answer {
     Soft,     // the visible fraction of an area light; needs one
 };
 
+/// A number that a technique tells of each frame (`Technique::figures`).
+struct Figure {
+    std::string name;
+    std::string meaning; // with its unit
+};
+
 /// One line of the catalogue.
 struct Entry {
     std::string id;
@@ -72,6 +91,7 @@ struct Entry {
     /// can answer for.
     std::function<std::optional<std::string>(const Scene&)> notApplicable = {};
     std::vector<Parameter> parameters;
+    std::vector<Figure> figures = {};
     std::vector<std::string> variants; // what a run of all techniques shows: parameter strings, "" = all defaults
     std::function<std::unique_ptr<Technique>(const Parameters&)> make;
 };
@@ -88,6 +108,10 @@ std::span<const Entry> catalog();
 
 /// The entry of `id`; throws BadInput with near matches.
 const Entry& entryNamed(std::string_view id);
+
+/// The figures of the frame that `technique`, made by `entry`, rendered last; throws InternalError naming one that the entry
+/// does not declare or that is not finite.
+std::map<std::string, double> declaredFigures(const Entry& entry, const Technique& technique);
 
 /// "pcss:taps=32+32" → variant; throws BadInput naming what is valid.
 Variant parseVariant(std::string_view text);

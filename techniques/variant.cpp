@@ -3,6 +3,7 @@
 #include "techniques/technique.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fnmatch.h>
@@ -43,6 +44,20 @@ const Entry& entryNamed(std::string_view id) {
         if (entry.id == id) return entry;
     throw BadInput(fmt::format("there is no technique \"{}\"{}; the techniques are: {}", id, didYouMean(id, ids()),
                                fmt::join(ids(), ", ")));
+}
+
+std::map<std::string, double> declaredFigures(const Entry& entry, const Technique& technique) {
+    std::map<std::string, double> figures = technique.figures();
+    for (const auto& [name, value] : figures) {
+        const bool declared = std::ranges::any_of(entry.figures, [&](const Figure& f) { return f.name == name; });
+        if (!declared)
+            throw InternalError(
+                fmt::format("technique {} tells a figure \"{}\" that its catalogue entry does not declare", entry.id, name));
+        if (!std::isfinite(value))
+            throw InternalError(
+                fmt::format("technique {}: its figure \"{}\" is {}; leave out what has no value", entry.id, name, value));
+    }
+    return figures;
 }
 
 Variant parseVariant(std::string_view text) {

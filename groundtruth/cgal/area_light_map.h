@@ -2,7 +2,7 @@
 // type.
 #pragma once
 
-#include "groundtruth/cgal/area_vector.h"
+#include "groundtruth/cgal/vector.h"
 #include "harness/scene/camera.h"
 
 namespace shadowbench::groundtruth {
@@ -15,15 +15,15 @@ namespace shadowbench::groundtruth {
 /// accuracy.
 template <typename Number>
 struct LightMap {
-    AreaVector<Number> head, rest;
-    AreaVector<Number> rowX, rowY, rowW;
+    Vector<Number> head, rest;
+    Vector<Number> rowX, rowY, rowW;
     Number distance;
 
     /// `sense` is the sign of D·(u × v): the rows are turned so that w is positive towards the light.
-    LightMap(const AreaVector<Number>& pointHead, const AreaVector<Number>& pointRest, const Light& light, int sense)
+    LightMap(const Vector<Number>& pointHead, const Vector<Number>& pointRest, const Light& light, int sense)
         : head(pointHead), rest(pointRest) {
-        const auto u = AreaVector<Number>::from(light.u), v = AreaVector<Number>::from(light.v);
-        const AreaVector<Number> towards = offset(light.centre);
+        const auto u = vector<Number>(light.u), v = vector<Number>(light.v);
+        const Vector<Number> towards = offset(light.centre);
         rowX = cross(v, towards);
         rowY = cross(towards, u);
         rowW = cross(u, v);
@@ -35,15 +35,13 @@ struct LightMap {
         distance = dot(rowW, towards);
     }
 
-    [[nodiscard]] AreaVector<Number> operator()(const glm::dvec3& world) const {
-        const AreaVector<Number> d = offset(world);
+    [[nodiscard]] Vector<Number> operator()(const glm::dvec3& world) const {
+        const Vector<Number> d = offset(world);
         return {dot(rowX, d), dot(rowY, d), dot(rowW, d)};
     }
 
     /// From the point to a world point.
-    [[nodiscard]] AreaVector<Number> offset(const glm::dvec3& world) const {
-        return AreaVector<Number>::from(world) - head - rest;
-    }
+    [[nodiscard]] Vector<Number> offset(const glm::dvec3& world) const { return vector<Number>(world) - head - rest; }
 };
 
 } // namespace shadowbench::groundtruth

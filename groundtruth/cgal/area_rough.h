@@ -17,7 +17,7 @@ namespace shadowbench::groundtruth {
 class RoughMap {
 public:
     RoughMap(const ReceiverPoint& point, const Light& light, int sense, double reach)
-        : map_(AreaVector<double>::from(point.rounded()), AreaVector<double>::from(glm::dvec3(0)), light, sense),
+        : map_(vector<double>(point.rounded()), vector<double>(glm::dvec3(0)), light, sense),
           window_(lightWindow(light.kind)) {
         const auto size = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
         // Every product below is of one component of u or v, and two more of at most `far`: the roundings of all, some 40 of
@@ -28,7 +28,7 @@ public:
         error_ = sides * far * (0x1p-45 * far + 8 * pointError);
     }
 
-    [[nodiscard]] AreaVector<double> operator()(const glm::dvec3& world) const { return map_(world); }
+    [[nodiscard]] Vector<double> operator()(const glm::dvec3& world) const { return map_(world); }
     [[nodiscard]] double error() const { return error_; }
     [[nodiscard]] double distance() const { return map_.distance; }
     [[nodiscard]] double window() const { return window_; }
@@ -45,7 +45,7 @@ public:
     }
 
     /// Whether the triangle certainly misses the pyramid.
-    [[nodiscard]] bool misses(const std::array<AreaVector<double>, 3>& t, bool flat) const {
+    [[nodiscard]] bool misses(const std::array<Vector<double>, 3>& t, bool flat) const {
         const double rows = flat ? 0 : window_;
         const auto allBelow = [&](auto&& value) { return std::max({value(t[0]), value(t[1]), value(t[2])}) < -error_; };
         return allBelow([&](const auto& p) { return window_ * p.z + p.x; }) ||
@@ -56,12 +56,12 @@ public:
     }
 
     /// Whether the triangle certainly lies strictly between the point and the light's plane.
-    [[nodiscard]] bool between(const std::array<AreaVector<double>, 3>& t) const {
+    [[nodiscard]] bool between(const std::array<Vector<double>, 3>& t) const {
         return std::ranges::all_of(t, [&](const auto& p) { return p.z > error_ && p.z < map_.distance - error_; });
     }
 
 private:
-    static glm::dvec3 plain(const AreaVector<double>& v) { return {v.x, v.y, v.z}; }
+    static glm::dvec3 plain(const Vector<double>& v) { return {v.x, v.y, v.z}; }
 
     LightMap<double> map_;
     double window_;

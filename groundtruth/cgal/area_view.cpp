@@ -34,25 +34,23 @@ int signOf(const Number& value) {
 
 LightMap<Interval> intervalMap(const ReceiverPoint& point, const ReceiverPoint::Remainder& rest, const Light& light,
                                int sense) {
-    return {AreaVector<Interval>::from(point.rounded()),
+    return {vector<Interval>(point.rounded()),
             {Interval(rest.low.x, rest.high.x), Interval(rest.low.y, rest.high.y), Interval(rest.low.z, rest.high.z)},
             light,
             sense};
 }
 
 LightMap<Rational> rationalMap(const SurfacePoint& point, const Light& light, int sense) {
-    using Vector = AreaVector<Rational>;
-    const Vector a = Vector::from(point.receiver[0]), origin = Vector::from(point.ray.origin);
-    const Vector direction = Vector::from(point.ray.direction);
-    const Vector normal = cross(Vector::from(point.receiver[1]) - a, Vector::from(point.receiver[2]) - a);
-    const Rational depth = dot(normal, a - origin) / dot(normal, direction);
-    return {origin + depth * direction, Vector::from(glm::dvec3(0)), light, sense};
+    const Vector<Rational> corner = vector<Rational>(point.receiver[0]), across = normal<Rational>(point.receiver);
+    const Vector<Rational> origin = vector<Rational>(point.ray.origin), direction = vector<Rational>(point.ray.direction);
+    const Rational depth = dot(across, corner - origin) / dot(across, direction);
+    return {origin + depth * direction, vector<Rational>(glm::dvec3(0)), light, sense};
 }
 
 /// A vertex of something clipped. On the window's borders its coordinates are known: column or row −1 or 1.
 template <typename Number>
 struct Corner {
-    AreaVector<Number> at;
+    Vector<Number> at;
     int column = 0, row = 0;
     int end = -1; // 0 or 1 if this is an end of the edge that is clipped
 };
@@ -203,7 +201,7 @@ void addEdge(const Corner<Number>& a, const Corner<Number>& b, int covers, doubl
 /// The part of an edge with w > 0 that lies in the window's rows; what is left of the window moves onto its left border, and
 /// what is right of it bounds nothing inside.
 template <typename Number>
-ClippedEdges clippedEdge(const AreaVector<Number>& a, const AreaVector<Number>& b, int covers, double window) {
+ClippedEdges clippedEdge(const Vector<Number>& a, const Vector<Number>& b, int covers, double window) {
     const Number border(window);
     std::vector<Corner<Number>> edge = clipRows<Number>({{a, 0, 0, 0}, {b, 0, 0, 1}}, true, border);
     edge = clip(
@@ -256,7 +254,7 @@ public:
     void add(TriangleName name, const Triangle& triangle) {
         if (name.instance != instance_) flush();
         instance_ = name.instance;
-        const std::array<AreaVector<double>, 3> seen{rough_(triangle[0]), rough_(triangle[1]), rough_(triangle[2])};
+        const std::array<Vector<double>, 3> seen{rough_(triangle[0]), rough_(triangle[1]), rough_(triangle[2])};
         if (rough_.misses(seen, false)) return;
         const int covers = -side(triangle, point_) * view_.sense(); // 1 if it turns left in light coordinates
         if (covers == 0) return;
@@ -343,10 +341,10 @@ private:
 /// plane counts as above it.
 template <typename Number>
 std::optional<CoverInterval> hiddenPart(const LightMap<Number>& map, const Triangle& t, double window) {
-    const std::array<AreaVector<Number>, 3> corners{map(t[0]), map(t[1]), map(t[2])};
+    const std::array<Vector<Number>, 3> corners{map(t[0]), map(t[1]), map(t[2])};
     std::vector<Corner<Number>> segment;
     for (int i = 0; i < 3; ++i) {
-        const AreaVector<Number>&a = corners[i], &b = corners[(i + 1) % 3];
+        const Vector<Number>&a = corners[i], &b = corners[(i + 1) % 3];
         if ((signOf(a.y) >= 0) == (signOf(b.y) >= 0)) continue;
         segment.push_back(between<Number>({a}, {b}, Number(a.y / (a.y - b.y))));
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "groundtruth/cgal/predicates.h"
+#include "groundtruth/cgal/vector.h"
 
 #include <CGAL/Exact_kernel_selector.h>
 #include <CGAL/Interval_nt.h>
@@ -12,48 +13,6 @@ namespace shadowbench::groundtruth {
 
 using Interval = CGAL::Interval_nt<false>;                      // rounding set by Interval::Protector
 using Ring = CGAL::internal::Exact_ring_selector<double>::Type; // no division is needed anywhere
-
-template <typename Number>
-struct Vector {
-    Number x, y, z;
-};
-
-template <typename Number>
-Vector<Number> vector(const glm::dvec3& v) {
-    return {Number(v.x), Number(v.y), Number(v.z)};
-}
-
-template <typename Number>
-Vector<Number> operator-(const Vector<Number>& a, const Vector<Number>& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-template <typename Number>
-Vector<Number> operator*(const Number& s, const Vector<Number>& v) {
-    return {s * v.x, s * v.y, s * v.z};
-}
-
-template <typename Number>
-Vector<Number> operator+(const Vector<Number>& a, const Vector<Number>& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-template <typename Number>
-Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-template <typename Number>
-Number dot(const Vector<Number>& a, const Vector<Number>& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-/// (b − a) × (c − a).
-template <typename Number>
-Vector<Number> normal(const Triangle& t) {
-    const Vector<Number> a = vector<Number>(t[0]);
-    return cross(vector<Number>(t[1]) - a, vector<Number>(t[2]) - a);
-}
 
 inline CGAL::Uncertain<CGAL::Sign> signOf(const Interval& value) { return CGAL_NTS sign(value); }
 

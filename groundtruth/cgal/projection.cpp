@@ -1,5 +1,7 @@
 #include "groundtruth/cgal/projection.h"
 
+#include "groundtruth/cgal/vector.h"
+
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
@@ -13,21 +15,6 @@ namespace shadowbench::groundtruth {
 namespace {
 
 using Interval = CGAL::Interval_nt<false>; // rounding set by Interval::Protector
-using Vector = std::array<Interval, 3>;
-
-Vector vector(const glm::dvec3& v) { return {Interval(v.x), Interval(v.y), Interval(v.z)}; }
-
-Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vector operator+(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-
-Vector operator*(const Interval& s, const Vector& v) { return {s * v[0], s * v[1], s * v[2]}; }
-
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Interval dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 bool holdsZero(const Interval& value) { return value.inf() <= 0 && value.sup() >= 0; }
 
@@ -40,18 +27,18 @@ Triangle facing(Triangle t, const glm::dvec4& light) {
 } // namespace
 
 struct ShadowProjection::Map {
-    Vector normal, origin, light, eye;
+    Vector<Interval> normal, origin, light, eye;
     Interval lightWeight, lightHeight;
-    Vector rowX, rowY, rowW; // pixel coordinates of an offset from the eye
+    Vector<Interval> rowX, rowY, rowW; // pixel coordinates of an offset from the eye
 
-    [[nodiscard]] Interval heightOf(const Vector& v) const { return dot(normal, v - origin); }
+    [[nodiscard]] Interval heightOf(const Vector<Interval>& v) const { return dot(normal, v - origin); }
 
     /// The plane's point H v − h l of weight H − h w_l, seen from the eye.
-    [[nodiscard]] ShadowVertex project(const Vector& v) const {
+    [[nodiscard]] ShadowVertex project(const Vector<Interval>& v) const {
         const Interval h = heightOf(v);
         const Interval weight = lightHeight - h * lightWeight;
-        const Vector offset = (lightHeight * v - h * light) - weight * eye;
-        const std::array<Interval, 3> image{dot(rowX, offset), dot(rowY, offset), dot(rowW, offset)};
+        const Vector<Interval> offset = (lightHeight * v - h * light) - weight * eye;
+        const Vector<Interval> image{dot(rowX, offset), dot(rowY, offset), dot(rowW, offset)};
         ShadowVertex result{};
         for (int i = 0; i < 3; ++i) {
             result.position[i] = 0.5 * (image[i].inf() + image[i].sup());
@@ -75,17 +62,18 @@ ShadowProjection::ShadowProjection(const Triangle& receiver, const glm::dvec4& l
 
     const Interval::Protector rounding;
     Map& m = *map_;
-    m.origin = vector(receiver_[0]);
-    m.normal = cross(vector(receiver_[1]) - m.origin, vector(receiver_[2]) - m.origin);
-    m.light = vector(glm::dvec3(light));
+    m.origin = vector<Interval>(receiver_[0]);
+    m.normal = normal<Interval>(receiver_);
+    m.light = vector<Interval>(glm::dvec3(light));
     m.lightWeight = Interval(light.w);
     m.lightHeight = dot(m.normal, light.w == 0 ? m.light : m.light - m.origin);
-    m.eye = vector(camera.eye);
+    m.eye = vector<Interval>(camera.eye);
 
     // The dual basis: an offset s (forward + x right + y up) has products s x, s y and s with these, times a positive
     // constant.
-    const Vector right = vector(basis.right), up = vector(basis.up), forward = vector(basis.forward);
-    const Vector dualX = cross(forward, up), dualY = cross(right, forward), dualW = cross(up, right);
+    const Vector<Interval> right = vector<Interval>(basis.right), up = vector<Interval>(basis.up),
+                           forward = vector<Interval>(basis.forward);
+    const Vector<Interval> dualX = cross(forward, up), dualY = cross(right, forward), dualW = cross(up, right);
     const Interval halfWidth(0.5 * size.x), halfHeight(0.5 * size.y);
     const Interval scaleX = Interval(1) / (Interval(tangent) * Interval(aspect)), scaleY = Interval(-1) / Interval(tangent);
     m.rowX = halfWidth * (scaleX * dualX + dualW);
@@ -99,12 +87,12 @@ int ShadowProjection::height(const glm::dvec3& vertex) const { return side(recei
 
 ShadowVertex ShadowProjection::project(const glm::dvec3& vertex) const {
     const Interval::Protector rounding;
-    return map_->project(vector(vertex));
+    return map_->project(vector<Interval>(vertex));
 }
 
 ShadowVertex ShadowProjection::contact(const glm::dvec3& a, const glm::dvec3& b) const {
     const Interval::Protector rounding;
-    const Vector from = vector(a), to = vector(b);
+    const Vector<Interval> from = vector<Interval>(a), to = vector<Interval>(b);
     const Interval ha = map_->heightOf(from), hb = map_->heightOf(to);
     const Interval drop = ha - hb;
     const Interval share = holdsZero(drop) ? Interval(0, 1) : ha / drop;

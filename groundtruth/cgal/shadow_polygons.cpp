@@ -7,6 +7,7 @@
 #include "groundtruth/cgal/rays.h"
 #include "groundtruth/cgal/shadow_polygons_plane.h"
 #include "groundtruth/cgal/silhouette.h"
+#include "groundtruth/cgal/vector.h"
 #include "harness/scene/error.h"
 
 #include <algorithm>
@@ -20,27 +21,6 @@
 
 namespace shadowbench::groundtruth {
 namespace {
-
-using Vector = std::array<ExactNumber, 3>;
-
-Vector vector(const glm::dvec3& v) { return {ExactNumber(v.x), ExactNumber(v.y), ExactNumber(v.z)}; }
-
-Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vector operator+(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-
-Vector operator*(const ExactNumber& s, const Vector& v) { return {s * v[0], s * v[1], s * v[2]}; }
-
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-ExactNumber dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector normalOf(const Triangle& t) {
-    const Vector a = vector(t[0]);
-    return cross(vector(t[1]) - a, vector(t[2]) - a);
-}
 
 /// The receiver's bounding box in plane coordinates.
 struct Window {
@@ -74,25 +54,25 @@ std::array<ExactNumber, 4> insets(const Homogeneous& p, const Window& window) {
 class PlaneProjection {
 public:
     PlaneProjection(const PlaneFrame& frame, const glm::dvec4& light)
-        : axes_(frame.axes), normal_(normalOf(frame.triangle)), origin_(vector(frame.triangle[0])),
-          light_(vector(glm::dvec3(light))), lightWeight_(light.w),
+        : axes_(frame.axes), normal_(normal<ExactNumber>(frame.triangle)), origin_(vector<ExactNumber>(frame.triangle[0])),
+          light_(vector<ExactNumber>(glm::dvec3(light))), lightWeight_(light.w),
           lightHeight_(dot(normal_, light.w == 0 ? light_ : light_ - origin_)) {}
 
     /// The plane's point H v − h l of weight H − h w_l (h and H: heights of v and of the light l above the plane).
     [[nodiscard]] Homogeneous project(const EdgePoint& point) const {
-        const Vector v = located(point);
+        const Vector<ExactNumber> v = located(point);
         const ExactNumber h = heightOf(v);
-        const Vector shadow = lightHeight_ * v - h * light_;
+        const Vector<ExactNumber> shadow = lightHeight_ * v - h * light_;
         return {shadow[axes_.u], shadow[axes_.v], weightAt(h)};
     }
 
 private:
-    [[nodiscard]] ExactNumber heightOf(const Vector& v) const { return dot(normal_, v - origin_); }
+    [[nodiscard]] ExactNumber heightOf(const Vector<ExactNumber>& v) const { return dot(normal_, v - origin_); }
 
     [[nodiscard]] ExactNumber weightAt(const ExactNumber& height) const { return lightHeight_ - height * lightWeight_; }
 
-    [[nodiscard]] Vector located(const EdgePoint& point) const {
-        const Vector a = vector(point.a), b = vector(point.b);
+    [[nodiscard]] Vector<ExactNumber> located(const EdgePoint& point) const {
+        const Vector<ExactNumber> a = vector<ExactNumber>(point.a), b = vector<ExactNumber>(point.b);
         if (point.kind == EdgePointKind::Vertex) return a;
         ExactNumber atA = heightOf(a), atB = heightOf(b);
         if (point.kind == EdgePointKind::LightContact) {
@@ -103,7 +83,7 @@ private:
     }
 
     PlaneAxes axes_;
-    Vector normal_, origin_, light_;
+    Vector<ExactNumber> normal_, origin_, light_;
     ExactNumber lightWeight_, lightHeight_;
 };
 
@@ -288,11 +268,12 @@ ShadowPolygons shadowsOn(const SceneTriangles& scene, const Snapshot& snapshot, 
 class ExactPixels {
 public:
     ExactPixels(const Camera& camera, glm::ivec2 size, const Triangle& plane, const PlaneAxes& axes)
-        : camera_(camera), size_(size), axes_(axes), normal_(normalOf(plane)), origin_(vector(plane[0])) {}
+        : camera_(camera), size_(size), axes_(axes), normal_(normal<ExactNumber>(plane)),
+          origin_(vector<ExactNumber>(plane[0])) {}
 
     [[nodiscard]] ExactPoint receiverPoint(int x, int y) const {
         const Ray ray = pixelRay(camera_, x, y, size_);
-        const Vector from = vector(ray.origin), direction = vector(ray.direction);
+        const Vector<ExactNumber> from = vector<ExactNumber>(ray.origin), direction = vector<ExactNumber>(ray.direction);
         const ExactNumber depth = dot(normal_, origin_ - from) / dot(normal_, direction);
         return {from[axes_.u] + depth * direction[axes_.u], from[axes_.v] + depth * direction[axes_.v]};
     }
@@ -301,7 +282,7 @@ private:
     const Camera& camera_;
     glm::ivec2 size_;
     PlaneAxes axes_;
-    Vector normal_, origin_;
+    Vector<ExactNumber> normal_, origin_;
 };
 
 bool sees(const PrimaryHits& primary, int x, int y, const PlanarReceiver& receiver) {

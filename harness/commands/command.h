@@ -19,8 +19,11 @@ void addList(CLI::App& app, Action& action);
 void addRun(CLI::App& app, Action& action);
 void addReference(CLI::App& app, Action& action);
 void addSweep(CLI::App& app, Action& action);
+void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
+void addCompare(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
+void addCountFrames(CLI::App& app, Action& action);
 
 } // namespace shadowbench

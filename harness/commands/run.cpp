@@ -37,11 +37,12 @@ ExitCode runAndPrint(const RunOptions& options) {
 void addRun(CLI::App& app, Action& action) {
     const auto options = std::make_shared<RunOptions>();
     const auto profile = std::make_shared<std::string>("gate");
+    const auto cost = std::make_shared<std::vector<std::string>>(1, "time");
     CLI::App* verb = app.add_subcommand("run", "Renders and scores cells: scenes × techniques");
     verb->footer("Examples:\n  shadowbench run\n  shadowbench run --scene dueling-frusta --technique 'sm-*' --technique "
                  "volume-zfail\n"
                  "  shadowbench run --scene my.toml --technique pcss:taps=32+32,map=2048 --profile standard --images --out "
-                 "results/mine");
+                 "results/mine\n  shadowbench run --cost instructions --scene windmills");
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
     verb->add_option("--technique", options->techniques,
                      "Variant such as pcss:taps=32+32, or a glob over ids; repeatable (default: all)");
@@ -54,11 +55,18 @@ void addRun(CLI::App& app, Action& action) {
         ->capture_default_str();
     verb->add_flag("--resume", options->resume, "Keep the cells that --out already holds, run the rest");
     verb->add_flag("--images", options->images, "Write visibility, reference and error of each cell as EXR and PNG");
-    verb->add_flag("!--no-time", options->time, "Leave out wall times: the records of two runs are then equal");
+    verb->add_option("--cost", *cost,
+                     "What is measured beside work counters: time, instructions (under Valgrind, the same in every run), "
+                     "both as time,instructions, or none: the records of two runs are then equal")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"time", "instructions", "none"}))
+        ->capture_default_str();
     verb->add_flag("--quiet", options->quiet, "No progress");
-    verb->callback([&action, options, profile] {
-        action = [options, profile] {
+    verb->callback([&action, options, profile, cost] {
+        action = [options, profile, cost] {
             options->profile = profileNamed(*profile);
+            options->time = std::find(cost->begin(), cost->end(), "time") != cost->end();
+            options->instructions = std::find(cost->begin(), cost->end(), "instructions") != cost->end();
             return runAndPrint(*options);
         };
     });

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -69,6 +70,18 @@ std::optional<double> penumbraWidthError(const Image<float>& v, const groundtrut
 double shareAbove(const Image<float>& a, const Image<float>& b, const Mask& mask, double threshold);
 double mismatch(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
 double rmse(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
+
+/// Where a world point lies in a technique's map, in texels; nothing if it lies in none.
+using MapPoint = std::function<std::optional<glm::dvec2>(const glm::dvec3&)>;
+
+/// The projected-texel-to-pixel ratio: perspective and projection aliasing in one number (Scherzer 2.2.2, Fig. 2.9; course,
+/// "Perspective Shadow Maps"). With J the Jacobian from image position to texels along the plane through a receiver pixel's
+/// world position at right angles to its normal, the pixel's ratio is 1 over the smallest singular value of J: the pixels
+/// that one texel covers where it is stretched most. Above 1 the map is undersampled. J is taken over 1/1024 pixel on the
+/// side of the pixel's centre where the map changes less, so that a border between two maps does not count. Pixels of M in
+/// no map, or edge-on to eye or light, are not `mapped`; absent if none is.
+std::optional<Aliasing> aliasing(const Camera& camera, const Image<glm::vec3>& positions, const Image<glm::vec3>& normals,
+                                 const Mask& mask, const MapPoint& mapPoint);
 
 /// One rendered frame with its truth.
 struct FrameResult {

@@ -4,7 +4,7 @@
 // visit(key, member)            a value, a list, an optional one, or a struct that has its own fields() below
 // visit.group(key, has, inner)  an object of the record that is no struct here; `has`: there is something in it
 // visit.text(key, member)       text that is left out when empty
-// visit.size(key, width, height), visit.parameters(key, list)
+// visit.size(key, width, height), visit.parameters(key, list), visit.figures(key, map)
 #pragma once
 
 #include "harness/records/record.h"
@@ -41,6 +41,12 @@ void fields(auto& visit, Is<Accuracy> auto& a) {
     visit("umbra_leak", a.umbraLeak);
     visit("unresolved", a.unresolved);
     visit("primary_mismatch", a.primaryMismatch);
+}
+
+void fields(auto& visit, Is<Aliasing> auto& a) {
+    visit("median", a.median);
+    visit("p95", a.p95);
+    visit("mapped", a.mapped);
 }
 
 void fields(auto& visit, Is<Flicker> auto& f) {
@@ -136,6 +142,8 @@ void fields(auto& visit, Is<Record> auto& r) {
     visit("soft_reference", r.softReference);
     visit("sweep", r.sweep);
     visit.group("accuracy", wasScored(r.status), [&](auto& inner) { fields(inner, r.accuracy); });
+    visit("aliasing", r.aliasing);
+    visit.figures("figures", r.figures);
     const Stability& s = r.stability;
     const bool stability = s.flicker || s.flipRate || s.convergence || !s.mismatchByFrame.empty() ||
                            !s.rmseByFrame.empty() || !s.bad30ByFrame.empty() || !s.changedByFrame.empty();

@@ -76,6 +76,13 @@ public:
         }
     }
 
+    void figures(const char* key, std::map<std::string, double>& figures) {
+        const Json* json = find(key);
+        if (json == nullptr) return;
+        Reader inner(*json, pathOf(key) + ".");
+        for (const auto& [name, value] : json->items()) inner(name.c_str(), figures[name]);
+    }
+
     void refuseUnknown() const {
         std::vector<std::string> known(known_.begin(), known_.end());
         for (const auto& [key, value] : object_.items())

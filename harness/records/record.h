@@ -31,6 +31,12 @@ struct Accuracy {
     double primaryMismatch = 0;
 };
 
+/// Pixels that one texel of the technique's map covers where it is stretched most (`metrics::aliasing`).
+struct Aliasing {
+    double median = 0, p95 = 0; // over the receiver pixels that lie in a map
+    double mapped = 0;          // their share of all receiver pixels
+};
+
 struct Flicker {
     double mean = 0, p95 = 0;
 };
@@ -105,6 +111,8 @@ struct Record {
     std::optional<ReferenceInfo> softReference; // the second truth of a hard technique on an area-light scene
     std::optional<SweepStep> sweep;             // of `sweep` only
     Accuracy accuracy;
+    std::optional<Aliasing> aliasing;      // of techniques with a map
+    std::map<std::string, double> figures; // of the scored frame, by names that `list techniques` explains
     Stability stability;
     Cost cost;
     double tolerance = 0;        // the scene's, for the metric below; 0 if it states none

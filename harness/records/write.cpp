@@ -53,6 +53,12 @@ public:
         object_[key] = std::move(parameters);
     }
 
+    void figures(const char* key, const std::map<std::string, double>& figures) {
+        group(key, !figures.empty(), [&](Writer& inner) {
+            for (const auto& [name, value] : figures) inner(name.c_str(), value);
+        });
+    }
+
 private:
     [[nodiscard]] std::string pathOf(const char* key) const { return path_ + key; }
 

@@ -55,6 +55,7 @@ public:
         add("height", written(height));
     }
     void parameters(const char*, const std::vector<std::pair<std::string, std::string>>&) {} // the variant says them
+    void figures(const char*, const std::map<std::string, double>&) {}                       // each technique has its own
 
     [[nodiscard]] std::string titles() const { return line(titles_); }
     [[nodiscard]] std::string cells() const { return line(cells_); }

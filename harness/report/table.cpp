@@ -1,6 +1,7 @@
 // Tables of one scene, for a terminal and in Markdown.
 #include "harness/report/report.h"
 #include "harness/report/summary.h"
+#include "harness/report/text_table.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -61,22 +62,17 @@ std::span<const Column> columns() {
     return all;
 }
 
-struct Table {
-    std::vector<std::string> titles;
-    std::vector<std::vector<std::string>> rows;
-};
-
 std::string rowName(const Record& record) {
     return record.status == Status::ExpectedFailure ? record.variant + " (fails as expected)" : record.variant;
 }
 
 /// Scored records of `scene`, with the columns that apply to at least one of them.
-Table table(const std::vector<Record>& records, const std::string& scene, bool page) {
+TextTable table(const std::vector<Record>& records, const std::string& scene, bool page) {
     std::vector<std::size_t> scored;
     for (const std::size_t i : ofScene(records, scene))
         if (headline(records[i])) scored.push_back(i);
 
-    Table result{{"technique"}, {}};
+    TextTable result{{"technique"}, {}};
     for (const std::size_t i : scored) result.rows.push_back({rowName(records[i])});
     for (const Column& column : columns()) {
         const auto applies = [&](std::size_t i) { return column.cell(records[i]).has_value(); };
@@ -127,31 +123,6 @@ std::string heading(const std::vector<Record>& records, const std::string& scene
     return line;
 }
 
-/// Columns of a terminal that UTF-8 text takes; everything printed here is one column wide a character.
-std::size_t displayWidth(const std::string& text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char byte) { return (byte & 0xC0) != 0x80; }));
-}
-
-std::string spaces(std::size_t wanted, const std::string& text) { return std::string(wanted - displayWidth(text), ' '); }
-
-std::vector<std::size_t> widths(const Table& table) {
-    std::vector<std::size_t> result;
-    for (std::size_t column = 0; column < table.titles.size(); ++column) {
-        result.push_back(displayWidth(table.titles[column]));
-        for (const std::vector<std::string>& row : table.rows)
-            result.back() = std::max(result.back(), displayWidth(row[column]));
-    }
-    return result;
-}
-
-/// One line: names to the left, figures to the right.
-std::string aligned(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) {
-    std::string line = fmt::format(" {}{}", cells[0], spaces(widths[0], cells[0]));
-    for (std::size_t i = 1; i < cells.size(); ++i) line += fmt::format("   {}{}", spaces(widths[i], cells[i]), cells[i]);
-    return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-}
-
 std::string markdownRow(const std::vector<std::string>& cells) {
     std::string line = "|";
     for (const std::string& cell : cells) line += fmt::format(" {} |", markdownText(cell));
@@ -162,16 +133,15 @@ std::string markdownRow(const std::vector<std::string>& cells) {
 
 std::string terminalTable(const std::vector<Record>& records, const std::string& scene) {
     if (ofScene(records, scene).empty()) return "";
-    const Table content = table(records, scene, false);
+    const TextTable content = table(records, scene, false);
     std::string text = fmt::format(" {}\n", heading(records, scene));
-    if (!content.rows.empty()) text += aligned(content.titles, widths(content));
-    for (const std::vector<std::string>& row : content.rows) text += aligned(row, widths(content));
+    if (!content.rows.empty()) text += aligned(content);
     for (const std::string& line : footnotes(records, scene)) text += fmt::format(" {}\n", line);
     return text;
 }
 
 std::string markdownTable(const std::vector<Record>& records, const std::string& scene) {
-    const Table content = table(records, scene, true);
+    const TextTable content = table(records, scene, true);
     std::string text;
     if (!content.rows.empty()) {
         text += markdownRow(content.titles) + "|:---|";

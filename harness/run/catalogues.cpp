@@ -35,12 +35,16 @@ Json techniquesAsJson() {
                                   {"values", techniques::describe(p.domain)},
                                   {"meaning", p.meaning},
                                   {"source", p.source}});
+        Json figures = Json::array();
+        for (const techniques::Figure& figure : entry.figures)
+            figures.push_back({{"name", figure.name}, {"meaning", figure.meaning}});
         all.push_back({{"id", entry.id},
                        {"title", entry.title},
                        {"source", fmt::format("{}, {}", techniques::title(entry.source.seed), entry.source.where)},
                        {"answer", meaning(entry.answer)},
                        {"history", entry.temporal},
                        {"parameters", parameters},
+                       {"figures", figures},
                        {"variants", entry.variants}});
     }
     return all;
@@ -86,6 +90,10 @@ constexpr std::array metrics{
     Metric{"unresolved", "share", "pixels whose error is below three times the truth's own uncertainty"},
     Metric{"primary_mismatch", "share",
            "pixels where rasteriser and truth see different surfaces; above 0.1 % nothing is scored"},
+    Metric{"aliasing", "pixels",
+           "that one texel of the technique's map covers where it is stretched most: median and p95 over the receivers, and "
+           "the share of them that lies in a map"},
+    Metric{"figures", "see list techniques", "numbers of the scored frame that only the technique knows"},
     Metric{"flicker", "1", "change between moving frames beyond the truth's own, after exact reprojection"},
     Metric{"flip_rate", "share", "reprojected pixels that change class while the truth does not"},
     Metric{"convergence", "frames",
@@ -101,11 +109,25 @@ Json metricsAsJson() {
     return all;
 }
 
+/// A cell of a table: text as it is, parameters with their defaults, figures by name.
+std::string asCell(const std::string& key, const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    std::vector<std::string> words;
+    if (key == "parameters")
+        for (const Json& p : value)
+            words.push_back(fmt::format("`{}={}`", p["name"].get<std::string>(), p["default"].get<std::string>()));
+    else if (key == "figures")
+        for (const Json& figure : value) words.push_back(fmt::format("`{}`", figure["name"].get<std::string>()));
+    else
+        return value.dump();
+    return fmt::format("{}", fmt::join(words, " "));
+}
+
 /// A line of text or a table row: id first, then the rest.
 std::string asText(const Json& entry) {
     std::string text = fmt::format("{}\n", entry["id"].get<std::string>());
     for (const auto& [key, value] : entry.items()) {
-        if (key == "id" || key == "parameters") continue;
+        if (key == "id" || key == "parameters" || key == "figures") continue;
         text += fmt::format("    {}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     }
     if (!entry.contains("parameters")) return text;
@@ -113,6 +135,8 @@ std::string asText(const Json& entry) {
         text +=
             fmt::format("    {:<10} {:<14} {}, default {}\n", p["name"].get<std::string>(), p["values"].get<std::string>(),
                         p["meaning"].get<std::string>(), p["default"].get<std::string>());
+    for (const Json& figure : entry["figures"])
+        text += fmt::format("    figures.{}: {}\n", figure["name"].get<std::string>(), figure["meaning"].get<std::string>());
     return text;
 }
 
@@ -124,16 +148,7 @@ std::string asMarkdown(const Json& all) {
     }
     for (const Json& entry : all) {
         rows += "|";
-        for (const auto& [key, value] : entry.items()) {
-            std::vector<std::string> words;
-            if (key == "parameters")
-                for (const Json& p : value)
-                    words.push_back(fmt::format("`{}={}`", p["name"].get<std::string>(), p["default"].get<std::string>()));
-            const std::string cell = key == "parameters" ? fmt::format("{}", fmt::join(words, " "))
-                                     : value.is_string() ? value.get<std::string>()
-                                                         : value.dump();
-            rows += fmt::format(" {} |", cell);
-        }
+        for (const auto& [key, value] : entry.items()) rows += fmt::format(" {} |", asCell(key, value));
         rows += "\n";
     }
     return fmt::format("{}\n{}\n{}", header, rule, rows);

@@ -147,6 +147,11 @@ private:
     metrics::Flips flips_;
 };
 
+std::optional<Aliasing> aliasingOf(const techniques::Technique& technique, const Stage& stage, const Mask& mask) {
+    return metrics::aliasing(stage.shown().camera, stage.drawn().position, stage.normals(), mask,
+                             [&](const glm::dvec3& world) { return technique.mapPoint(world); });
+}
+
 void requireSamePrimaryHits(double share, const Scene& scene, int frame) {
     if (share <= primaryLimit) return;
     throw InternalError(
@@ -223,6 +228,8 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
             if (temporal) curve.finish(mask, record.stability);
             scoreStillFrame(scene, truths, variant, v, stage.drawn(), stage.shown().camera.eye, record);
             requireSamePrimaryHits(record.accuracy.primaryMismatch, scene, frame);
+            record.figures = techniques::declaredFigures(*variant.entry, *technique);
+            record.aliasing = aliasingOf(*technique, stage, mask);
             images = {v, scene.light.isArea() ? &truths.at(Truth::Soft, frame) : &truth};
             bytes = gl::Context::current().tally().bytes - bytesBefore;
         }

@@ -3,7 +3,9 @@
 #include "harness/run/cell.h"
 #include "harness/run/cell_images.h"
 #include "harness/run/environment.h"
+#include "harness/run/instruction_costs.h"
 #include "harness/run/progress_line.h"
+#include "harness/timing/callgrind.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
@@ -47,6 +49,7 @@ public:
           finished_(finishedRecords(options)),
           cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache),
           context_(gl::Context::create()) {
+        if (options.instructions) timing::valgrindVersion(); // to fail before the long part
         std::error_code failed;
         std::filesystem::create_directories(options.out, failed);
         if (failed)
@@ -56,6 +59,7 @@ public:
 
     RunResult all() {
         for (const Scene& scene : scenes_) runScene(scene);
+        if (options_.instructions) addInstructions();
         return std::move(result_);
     }
 
@@ -121,9 +125,23 @@ private:
         return found == finished_.end() ? nullptr : &*found;
     }
 
+    void addInstructions() {
+        InstructionOptions options{{}, options_.profile, options_.quiet};
+        for (std::size_t i = 0; i < scenes_.size(); ++i)
+            options.scenes[scenes_[i].id] = options_.scenes.empty() ? scenes_[i].id : options_.scenes[i];
+        countInstructions(result_.records, options, [this] { writeAll(); });
+        const bool failed = std::any_of(result_.records.begin(), result_.records.end(),
+                                        [](const Record& r) { return r.status == Status::Error; });
+        if (failed && result_.code == ExitCode::Pass) result_.code = ExitCode::Internal;
+    }
+
     /// Every finished cell is on disk before the next one starts.
     void keep(Record record) {
         result_.records.push_back(std::move(record));
+        writeAll();
+    }
+
+    void writeAll() const {
         std::vector<Record> all = result_.records;
         for (const Record& earlier : finished_) {
             const bool again = std::any_of(all.begin(), all.end(), [&](const Record& r) {

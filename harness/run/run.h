@@ -21,7 +21,8 @@ struct RunOptions {
     std::uint32_t seed = 1;
     bool resume = false;
     bool images = false;
-    bool time = true;
+    bool time = true;          // wall time
+    bool instructions = false; // of a steady frame, under Callgrind
     bool quiet = false;
 };
 

@@ -9,6 +9,12 @@ glm::dmat4 clipFromWorld(const Camera& camera, glm::ivec2 size) {
     return camera.projection(static_cast<double>(size.x) / size.y) * camera.view();
 }
 
+Image<glm::vec3> firstThree(const Image<glm::vec4>& image) {
+    Image<glm::vec3> result(image.width(), image.height());
+    for (std::size_t i = 0; i < image.size(); ++i) result[i] = glm::vec3(image[i]);
+    return result;
+}
+
 } // namespace
 
 Stage::Stage(const Scene& scene)
@@ -22,12 +28,9 @@ void Stage::show(int index) {
 
 void Stage::redraw() { gbuffer_.draw(buffers_, clipFromWorld(snapshot_.camera, scene_.size)); }
 
-metrics::Drawn Stage::drawn() const {
-    const Image<glm::vec4> positions = gbuffer_.readPositions();
-    metrics::Drawn drawn{gbuffer_.readIds(), Image<glm::vec3>(positions.width(), positions.height())};
-    for (std::size_t i = 0; i < positions.size(); ++i) drawn.position[i] = glm::vec3(positions[i]);
-    return drawn;
-}
+metrics::Drawn Stage::drawn() const { return {gbuffer_.readIds(), firstThree(gbuffer_.readPositions())}; }
+
+Image<glm::vec3> Stage::normals() const { return firstThree(gbuffer_.readNormals()); }
 
 void Stage::render(techniques::Technique& technique, int index, std::uint32_t seed) {
     const techniques::Frame frame{snapshot_,

@@ -9,7 +9,9 @@ namespace shadowbench {
 
 class Stage {
 public:
+    /// Keeps a reference to the scene.
     explicit Stage(const Scene& scene);
+    explicit Stage(Scene&& scene) = delete;
 
     /// Uploads frame `index` of the scene and draws its G-buffer.
     void show(int index);
@@ -20,6 +22,9 @@ public:
 
     /// What the G-buffer of the shown frame holds.
     [[nodiscard]] metrics::Drawn drawn() const;
+
+    /// Its geometric normals, on the side that is seen; anything for background.
+    [[nodiscard]] Image<glm::vec3> normals() const;
 
     /// Renders the shown frame as number `index` of the technique's sequence (which seeds its jitter).
     void render(techniques::Technique& technique, int index, std::uint32_t seed);

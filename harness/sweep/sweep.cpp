@@ -4,6 +4,7 @@
 #include "harness/run/cell.h"
 #include "harness/run/progress_line.h"
 #include "harness/sweep/axis.h"
+#include "harness/sweep/variants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +15,11 @@ namespace {
 
 using techniques::Variant;
 
-bool hasParameter(const Variant& variant, const std::string& name) {
-    return std::ranges::any_of(variant.entry->parameters, [&](const auto& parameter) { return parameter.name == name; });
-}
-
 std::vector<Variant> chosenVariants(const SweepOptions& options, const Axis& axis) {
     std::vector<Variant> variants;
     for (const std::string& pattern : options.techniques.empty() ? std::vector<std::string>{"*"} : options.techniques)
         for (Variant& variant : techniques::matchVariants(pattern)) {
-            if (axis.isParameter() && !hasParameter(variant, axis.id)) continue;
+            if (axis.isParameter() && !parameterOf(variant, axis.id)) continue;
             if (std::ranges::none_of(variants, [&](const Variant& v) { return v.name == variant.name; }))
                 variants.push_back(std::move(variant));
         }
@@ -30,17 +27,6 @@ std::vector<Variant> chosenVariants(const SweepOptions& options, const Axis& axi
         throw BadInput(fmt::format(
             "none of the chosen techniques has a parameter \"{}\": choose other techniques, or another axis", axis.id));
     return variants;
-}
-
-/// The variant with one of its parameters set.
-Variant with(const Variant& variant, const Axis& axis, double value) {
-    std::string text = variant.entry->id;
-    char before = ':';
-    for (const auto& [name, set] : variant.parameters.all()) {
-        text += before + name + "=" + (name == axis.id ? fmt::format("{}", value) : set);
-        before = ',';
-    }
-    return techniques::parseVariant(text);
 }
 
 /// Everything at rest, and only the frames that the scored one needs.
@@ -86,7 +72,7 @@ private:
     /// Sets the axis' parameter; why not, if the variant does not take the value.
     std::string setParameter(Variant& variant, double value) const {
         try {
-            variant = with(variant, axis_, value);
+            variant = withParameter(variant, axis_.id, fmt::format("{}", value));
             return "";
         } catch (const BadInput& error) {
             return error.what();

@@ -57,6 +57,11 @@ public:
     /// Sets what filtered/prefiltered_map.glsl reads.
     void bindTo(gl::Program& resolve, const Frame& frame) const;
 
+    /// `Technique::mapPoint` of the map drawn last, in texels of its depths.
+    [[nodiscard]] std::optional<glm::dvec2> pointAt(const glm::dvec3& world) const {
+        return texelAt(light_, world, glm::dvec2(depth_.side()));
+    }
+
     /// Sets the uniforms of the unfiltered depths: linearDepth, depthRange, and the box's level and width.
     void bindDepthsTo(gl::Program& resolve) const;
 

@@ -32,6 +32,7 @@ public:
 
     [[nodiscard]] Image<unsigned> readIds() const { return target_.readUint(2); }
     [[nodiscard]] Image<glm::vec4> readPositions() const { return target_.readVec4(0); }
+    [[nodiscard]] Image<glm::vec4> readNormals() const { return target_.readVec4(1); }
 
 private:
     int border_;

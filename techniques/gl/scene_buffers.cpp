@@ -3,6 +3,7 @@
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
 
+#include <algorithm>
 #include <array>
 #include <glm/mat3x4.hpp>
 #include <glm/matrix.hpp>
@@ -114,6 +115,21 @@ void SceneBuffers::draw() const {
                                             draw.baseInstance);
     }
     Context::current().tally().draws += draws_.size();
+}
+
+void SceneBuffers::draw(const std::vector<bool>& shown) const {
+    for (const Draw& draw : draws_) {
+        draw.mesh->layout.bind();
+        const auto begin = shown.begin() + draw.baseInstance, end = begin + draw.instances;
+        for (auto first = std::find(begin, end, true); first != end;) {
+            const auto last = std::find(first, end, false);
+            glDrawElementsInstancedBaseInstance(GL_TRIANGLES, draw.mesh->indexCount, GL_UNSIGNED_INT, nullptr,
+                                                static_cast<GLsizei>(last - first),
+                                                static_cast<GLuint>(first - shown.begin()));
+            ++Context::current().tally().draws;
+            first = std::find(last, end, true);
+        }
+    }
 }
 
 } // namespace shadowbench::gl

@@ -57,6 +57,9 @@ public:
     /// Draws every batch, instanced, with the program that is in use.
     void draw() const;
 
+    /// Draws the placements, counted through the snapshot's batches in order, for which `shown` is true.
+    void draw(const std::vector<bool>& shown) const;
+
     /// Binds the instance attributes 1–7 of the current vertex array; a draw's base instance picks the placement, counted
     /// through the snapshot's batches in order.
     void bindInstances() const;

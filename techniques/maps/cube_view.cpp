@@ -33,4 +33,10 @@ std::vector<LightView> cubeViews(const glm::dvec3& light, const std::vector<glm:
     return views;
 }
 
+std::size_t cubeSide(const glm::dvec3& direction) {
+    const glm::dvec3 size = glm::abs(direction);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    return 2 * static_cast<std::size_t>(axis) + (direction[axis] < 0 ? 1 : 0);
+}
+
 } // namespace shadowbench::techniques

@@ -35,11 +35,19 @@ std::vector<Tile> squareTiles(int side, int count) {
     return tiles;
 }
 
-DepthAtlas::DepthAtlas(std::vector<Tile> tiles, Bias bias)
-    : tiles_(std::move(tiles)),
-      depth_(gl::Format::Depth32F, sizeOf(tiles_), gl::Filter::Nearest, gl::Wrap::BorderFar), target_{&depth_},
+DepthAtlas::DepthAtlas(glm::ivec2 size, Bias bias)
+    : depth_(gl::Format::Depth32F, size, gl::Filter::Nearest, gl::Wrap::BorderFar), target_{&depth_},
       program_("maps/depth_map.vert", "maps/depth_map.frag"), bias_(bias) {
     depth_.compareDepth();
+}
+
+DepthAtlas::DepthAtlas(std::vector<Tile> tiles, Bias bias) : DepthAtlas(sizeOf(tiles), bias) { setTiles(std::move(tiles)); }
+
+DepthAtlas::DepthAtlas(int side, Bias bias) : DepthAtlas(glm::ivec2(side), bias) {}
+
+void DepthAtlas::setTiles(std::vector<Tile> tiles) {
+    tiles_ = std::move(tiles);
+    inner_.clear();
     const glm::vec4 size(depth_.size(), depth_.size());
     for (const Tile& tile : tiles_) {
         const glm::vec2 low(tile.at), high(tile.at + tile.size);
@@ -65,6 +73,20 @@ void DepthAtlas::draw(const std::vector<LightView>& views, const gl::SceneBuffer
         const CasterPass pass(program_, views[i], bias_);
         scene.draw();
     });
+    placeViews(views);
+}
+
+void DepthAtlas::draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene,
+                      const std::vector<std::vector<bool>>& casters) {
+    drawTiles([&](std::size_t i) {
+        const CasterPass pass(program_, views[i], bias_);
+        scene.draw(casters[i]);
+    });
+    placeViews(views);
+}
+
+void DepthAtlas::placeViews(const std::vector<LightView>& views) {
+    views_ = views;
     atlasFromWorld_.clear();
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
         const glm::dvec2 share = glm::dvec2(tiles_[i].size) / glm::dvec2(depth_.size());
@@ -73,6 +95,12 @@ void DepthAtlas::draw(const std::vector<LightView>& views, const gl::SceneBuffer
             glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(offset, 0)), glm::dvec3(share, 1)) * mapFromClip();
         atlasFromWorld_.emplace_back(place * views[i].clipFromWorld);
     }
+}
+
+std::optional<glm::dvec2> DepthAtlas::pointAt(std::size_t tile, const glm::dvec3& world) const {
+    std::optional<glm::dvec2> point = texelAt(views_[tile], world, tiles_[tile].size);
+    if (point) *point += tiles_[tile].at;
+    return point;
 }
 
 void DepthAtlas::bindTo(gl::Program& program) const {

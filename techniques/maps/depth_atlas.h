@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 namespace shadowbench::techniques {
@@ -30,23 +31,41 @@ class DepthAtlas {
 public:
     DepthAtlas(std::vector<Tile> tiles, Bias bias);
 
+    /// A square of `side` texels whose tiles are chosen before each drawing (`setTiles`).
+    DepthAtlas(int side, Bias bias);
+
+    /// The tiles that the next drawing fills; all lie within the atlas.
+    void setTiles(std::vector<Tile> tiles);
+
     /// Draws one view of the scene into each tile, `views[i]` into tile i.
     void draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene);
+
+    /// The same, of the placements `casters[i]` only (`castersIn`).
+    void draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene,
+              const std::vector<std::vector<bool>>& casters);
 
     /// Clears the atlas and calls `drawTile` once for each tile, drawing into which it confines.
     void drawTiles(const std::function<void(std::size_t)>& drawTile) const;
 
-    /// Sets the uniforms of maps/depth_atlas.glsl for the views drawn last; TILES must be the number of tiles.
+    /// Sets the uniforms of maps/depth_atlas.glsl for the views drawn last; TILES must be the number of tiles, or more.
     void bindTo(gl::Program& program) const;
 
+    /// Where `world` lies in tile `tile` as drawn last, in texels of the atlas; nothing beside the tile or behind the light.
+    [[nodiscard]] std::optional<glm::dvec2> pointAt(std::size_t tile, const glm::dvec3& world) const;
+
+    [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
     [[nodiscard]] const gl::Texture& texture() const { return depth_; }
 
 private:
+    DepthAtlas(glm::ivec2 size, Bias bias);
+    void placeViews(const std::vector<LightView>& views);
+
     std::vector<Tile> tiles_;
     gl::Texture depth_;
     gl::RenderTarget target_;
     gl::Program program_;
     Bias bias_;
+    std::vector<LightView> views_;
     std::vector<glm::mat4> atlasFromWorld_;
     std::vector<glm::vec4> inner_; // per tile: its outermost texel centres, low and high, in [0, 1] of the atlas
 };

@@ -92,6 +92,13 @@ LightView fitOrthographic(const Camera::Basis& basis, std::vector<glm::dvec3> po
 
 } // namespace
 
+std::optional<glm::dvec2> texelAt(const LightView& view, const glm::dvec3& world, const glm::dvec2& size) {
+    const glm::dvec4 h = view.clipFromWorld * glm::dvec4(world, 1);
+    const glm::dvec2 at = glm::dvec2(h) / h.w;
+    const bool inside = h.w > 0 && std::abs(at.x) <= 1 && std::abs(at.y) <= 1;
+    return inside ? std::optional((0.5 * at + 0.5) * size) : std::nullopt;
+}
+
 std::vector<glm::dvec3> boundingCorners(const Snapshot& snapshot) {
     std::vector<glm::dvec3> points;
     for (const Batch& batch : snapshot.batches) {

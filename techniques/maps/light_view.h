@@ -6,6 +6,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
 namespace shadowbench::techniques {
@@ -20,6 +21,9 @@ struct LightView {
     std::vector<glm::dvec3> covered;    // world points that the map must hold
     glm::dvec4 casterPlane{0, 0, 0, 1}; // casters count where dot(·, (p, 1)) ≥ 0, for maps that cut them (`DepthMap`)
 };
+
+/// Where `world` lies in a map of `size` texels drawn with `view`, in texels; nothing beside the map or behind the light.
+std::optional<glm::dvec2> texelAt(const LightView& view, const glm::dvec3& world, const glm::dvec2& size);
 
 /// World corners of the bounding boxes of all placements.
 std::vector<glm::dvec3> boundingCorners(const Snapshot& snapshot);

@@ -11,9 +11,7 @@
 namespace shadowbench {
 
 /// Shadow techniques of the documents that are still to be built. A row that is built leaves this list.
-inline constexpr std::array<std::string_view, 24> techniquesToCome{
-    // shadow maps
-    "sm-tiled", "sm-adaptive",
+inline constexpr std::array<std::string_view, 22> techniquesToCome{
     // soft shadows from one light sample
     "pcf-blur", "pcf-jitter", "combined", "single-sample", "shadow-width-map", "penumbra-map", "smoothie", "skirt",
     "backprojection", "bitmask", "backprojection-peeled", "convolution", "occlusion-texture",

@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 TEST(CommandLine, HelpOfTheProgramAndOfEveryVerbHasAnExample) {
     EXPECT_EQ(shell("shadowbench --help").code, 0);
-    for (const std::string verb :
-         {"list", "run", "reference", "sweep", "claims", "report", "cache", "cache list", "cache verify", "cache prune"}) {
+    for (const std::string verb : {"list", "run", "reference", "sweep", "recommend", "claims", "compare", "report", "cache",
+                                   "cache list", "cache verify", "cache prune"}) {
         const Outcome help = shell("shadowbench " + verb + " --help");
         EXPECT_EQ(help.code, 0) << verb;
         EXPECT_NE(help.output.find("Example"), std::string::npos) << verb;
@@ -69,7 +69,7 @@ TEST_F(Run, SoftTechniquesDoNotApplyToAPointLight) {
 
 TEST_F(Run, TwiceTheSameGivesTheSameRecordsButForTimes) {
     const auto lines = [&] {
-        EXPECT_EQ(shell(command("--no-time --technique sm-history --technique volume-zfail")).code, 0);
+        EXPECT_EQ(shell(command("--cost none --technique sm-history --technique volume-zfail")).code, 0);
         std::vector<std::string> result;
         for (Record record : records()) {
             record.time.clear();

@@ -27,6 +27,8 @@ inline Record hardRecord() {
     r.accuracy.leak = 0.0004;
     r.accuracy.edgeError = EdgeError{0.4, 0.9, 1.7, -0.1};
     r.accuracy.primaryMismatch = 0.00002;
+    r.aliasing = Aliasing{1.8, 4.2, 0.97};
+    r.figures = {{"confident", 0.31}, {"tiles", 6}};
     r.stability.flicker = Flicker{0.001, 0.01};
     r.stability.flipRate = 0.0003;
     r.stability.convergence = 31;
@@ -45,6 +47,8 @@ inline Record softRecord() {
     r.technique = "pcss";
     r.variant = "pcss:taps=32+32";
     r.reference = ReferenceInfo{"povray", "beef", 1024, 0.0006, {{"povray", "3.7.0.10.unofficial"}}};
+    r.aliasing.reset();
+    r.figures.clear();
     r.accuracy = {};
     r.accuracy.rmse = 0.031;
     r.accuracy.mae = 0.007;
@@ -72,6 +76,8 @@ inline Record unscored(Status status, const std::string& reason) {
     r.reason = reason;
     r.reference.reset();
     r.accuracy = {};
+    r.aliasing.reset();
+    r.figures.clear();
     r.stability = {};
     r.cost = {};
     return r;

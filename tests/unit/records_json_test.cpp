@@ -65,6 +65,9 @@ TEST(RecordJson, KeepsEveryMember) {
     EXPECT_EQ(r.accuracy.edgeError->signedMean, -0.1);
     EXPECT_EQ(r.stability.mismatchByFrame, hardRecord().stability.mismatchByFrame);
     EXPECT_TRUE(r.stability.rmseByFrame.empty());
+    EXPECT_EQ(r.aliasing->p95, 4.2);
+    EXPECT_EQ(r.aliasing->mapped, 0.97);
+    EXPECT_EQ(r.figures, hardRecord().figures);
     EXPECT_EQ(r.cost.time->baseRatio, 1.08);
     EXPECT_EQ(r.cost.work->bytes, 4194304);
     EXPECT_EQ(r.reference->tools.at("CGAL"), "5.5.1");
@@ -95,6 +98,14 @@ TEST(RecordJson, WritesTheFieldsInSchemaOrderAndNoAbsentMetric) {
     EXPECT_EQ(json["size"], Json::parse("[256,256]"));
 }
 
+TEST(RecordJson, FiguresAndAliasingStandBetweenAccuracyAndStability) {
+    const std::string line = toJson(hardRecord());
+    EXPECT_TRUE(contains(line,
+                         R"("aliasing":{"median":1.8,"p95":4.2,"mapped":0.97},"figures":{"confident":0.31,"tiles":6.0},)"
+                         R"("stability")"))
+        << line;
+}
+
 TEST(RecordJson, TypesParametersAsNumbersWhereTheyAreNumbers) {
     const Json parameters = Json::parse(toJson(hardRecord()))["parameters"];
     EXPECT_EQ(parameters.dump(), R"({"base":"lispsm","map":1024,"bias":0.25,"taps":"32+32"})");
@@ -113,6 +124,9 @@ TEST(RecordJson, NeverWritesANumberThatIsNotFinite) {
         record = hardRecord();
         record.stability.changedByFrame[1] = bad;
         EXPECT_THROW(toJson(record), InternalError);
+        record = hardRecord();
+        record.figures["tiles"] = bad;
+        EXPECT_THROW(toJson(record), InternalError);
     }
 }
 
@@ -126,6 +140,8 @@ TEST(RecordJson, NamesTheKeyOfWhatIsWrong) {
                          "\"accuracy.edge_error.p95\" is missing"));
     EXPECT_TRUE(
         contains(complaint([](Json& j) { j["stability"]["by_frame"]["chnged"] = Json::array(); }), "by_frame.chnged"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["figures"]["tiles"] = "6"; }), "\"figures.tiles\" is not a number"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["figures"] = 6; }), "\"figures\" is not an object"));
     EXPECT_TRUE(contains(complaint([](Json& j) { j["status"] = "fine"; }), "\"status\" is not"));
     EXPECT_TRUE(contains(complaint([](Json& j) { j["frames"] = 1.5; }), "\"frames\" is not a whole number"));
     EXPECT_TRUE(contains(complaint([](Json& j) { j["seed"] = -1; }), "\"seed\" is not within"));

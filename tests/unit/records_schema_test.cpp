@@ -51,8 +51,8 @@ TEST_F(RecordSchema, HoldsForRecordsOfEveryStatus) {
 
 TEST_F(RecordSchema, RefusesATypoAtEveryLevel) {
     for (const char* place :
-         {"", "/environment", "/reference", "/accuracy", "/accuracy/edge_error", "/stability", "/stability/flicker",
-          "/stability/by_frame", "/cost", "/cost/time", "/cost/work", "/tolerance"}) {
+         {"", "/environment", "/reference", "/accuracy", "/accuracy/edge_error", "/aliasing", "/stability",
+          "/stability/flicker", "/stability/by_frame", "/cost", "/cost/time", "/cost/work", "/tolerance"}) {
         Json record = Json::parse(toJson(hardRecord()));
         ASSERT_TRUE(valid(record)) << why_;
         record[Json::json_pointer(place)]["mismach"] = 0.1;
@@ -66,6 +66,16 @@ TEST_F(RecordSchema, RefusesANullAndAZeroLengthCurve) {
     EXPECT_FALSE(valid(record));
     record = Json::parse(toJson(hardRecord()));
     record["stability"]["by_frame"]["changed"] = Json::array();
+    EXPECT_FALSE(valid(record));
+}
+
+TEST_F(RecordSchema, TakesAnyFigureThatIsANumber) {
+    Json record = Json::parse(toJson(hardRecord()));
+    record["figures"]["passes"] = 3;
+    EXPECT_TRUE(valid(record)) << why_;
+    record["figures"]["passes"] = "three";
+    EXPECT_FALSE(valid(record));
+    record["figures"] = Json::object();
     EXPECT_FALSE(valid(record));
 }
 

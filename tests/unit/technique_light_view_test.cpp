@@ -1,8 +1,8 @@
 // Fitting of light frusta against closed forms.
-#include "harness/scene/primitives.h"
 #include "techniques/maps/focused_view.h"
 #include "techniques/maps/lispsm_view.h"
 #include "techniques/maps/visible_part.h"
+#include "tests/unit/light_views.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -12,22 +12,6 @@
 
 namespace shadowbench::techniques {
 namespace {
-
-glm::dvec3 mapped(const LightView& view, const glm::dvec3& p) {
-    const glm::dvec4 h = view.clipFromWorld * glm::dvec4(p, 1);
-    return glm::dvec3(h) / h.w;
-}
-
-/// A slab 20 m wide and long, 0.1 m thick, under a camera that looks along −z over it.
-Snapshot slabScene(const Light& light) {
-    Snapshot snapshot;
-    snapshot.camera = {{0, 2, 10}, {0, 2, -10}, {0, 1, 0}, 60, 1, 50};
-    snapshot.light = light;
-    snapshot.batches.push_back({std::make_shared<Mesh>(box({20, 0.1, 20})), {}, false, {{glm::dmat4(1), glm::dmat4(1), 1}}});
-    return snapshot;
-}
-
-Light sun(const glm::dvec3& direction) { return {LightKind::Directional, {}, glm::normalize(direction), {}, {}}; }
 
 TEST(LightView, HoldsEveryCornerOfTheSceneInTheUnitCube) {
     for (const Light& light : {sun({0.3, -1, 0.2}), Light{LightKind::Point, {3, 25, 4}, {0, -1, 0}, {}, {}}}) {

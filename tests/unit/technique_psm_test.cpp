@@ -1,6 +1,7 @@
 // Perspective shadow maps against closed forms.
 #include "harness/scene/primitives.h"
 #include "techniques/maps/psm_view.h"
+#include "tests/unit/light_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +11,6 @@
 
 namespace shadowbench::techniques {
 namespace {
-
-glm::dvec3 mapped(const LightView& view, const glm::dvec3& p) {
-    const glm::dvec4 h = view.clipFromWorld * glm::dvec4(p, 1);
-    return glm::dvec3(h) / h.w;
-}
-
-Light sun(const glm::dvec3& direction) { return {LightKind::Directional, {}, glm::normalize(direction), {}, {}}; }
 
 Light lamp(const glm::dvec3& at) { return {LightKind::Point, at, {0, -1, 0}, {}, {}}; }
 
@@ -39,6 +33,16 @@ TEST(Psm, NearToTwiceNearTakesHalfOfTheMapOfTheWholeFrustum) { // course: z → 
     const double n = scene.camera.near, f = scene.camera.far;
     const auto along = [&](double depth) { return mapped(view, {0, 2, -depth}).y; };
     EXPECT_NEAR((along(2 * n) - along(n)) / (along(f) - along(n)), 0.5 / (1 - n / f), 1e-3);
+}
+
+TEST(Psm, TheShareOfNearDepthFallsAsTheVirtualCameraMovesBack) {
+    const Camera camera = groundScene(sun({0, -1, 0})).camera;
+    const double n = camera.near, f = camera.far;
+    for (const double shift : {0.0, 1.0, 20.0}) { // depth after the perspective: (1/N − 1/z) / (1/N − 1/F)
+        const double expected = (1 / (n + shift) - 1 / (2 * n + shift)) / (1 / (n + shift) - 1 / (f + shift));
+        EXPECT_NEAR(nearDepthShare(camera, movedBack(camera, shift), 1), expected, 1e-9) << shift;
+    }
+    EXPECT_NEAR(nearDepthShare(camera, camera, 1), 0.5 * f / (f - n), 1e-9); // the course's half
 }
 
 TEST(Psm, ALightParallelToTheImagePlaneGivesEveryPixelEqualWidth) {

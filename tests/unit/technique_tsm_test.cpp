@@ -1,6 +1,6 @@
 // Trapezoidal shadow maps against closed forms.
-#include "harness/scene/primitives.h"
 #include "techniques/maps/tsm_view.h"
+#include "tests/unit/light_views.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,22 +9,6 @@
 
 namespace shadowbench::techniques {
 namespace {
-
-glm::dvec3 mapped(const LightView& view, const glm::dvec3& p) {
-    const glm::dvec4 h = view.clipFromWorld * glm::dvec4(p, 1);
-    return glm::dvec3(h) / h.w;
-}
-
-/// A slab 20 m wide and long, 0.1 m thick, under a camera that looks along −z over it.
-Snapshot slabScene(const Light& light) {
-    Snapshot snapshot;
-    snapshot.camera = {{0, 2, 10}, {0, 2, -10}, {0, 1, 0}, 60, 1, 50};
-    snapshot.light = light;
-    snapshot.batches.push_back({std::make_shared<Mesh>(box({20, 0.1, 20})), {}, false, {{glm::dmat4(1), glm::dmat4(1), 1}}});
-    return snapshot;
-}
-
-Light sun(const glm::dvec3& direction) { return {LightKind::Directional, {}, glm::normalize(direction), {}, {}}; }
 
 TEST(Tsm, CentreOfProjectionIsThePapers) { // η = λ δ (1 + ξ) / (λ − 2 δ − λ ξ) with ξ = −0.6
     const double height = 7, focus = 2.5, xi = -0.6;

@@ -2,6 +2,7 @@
 #include "harness/scene/error.h"
 #include "techniques/technique.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -70,6 +71,46 @@ TEST(Catalogue, IdsAreUniqueAndEveryShownVariantIsCanonical) {
         for (const std::string& shown : entry.variants) {
             const std::string text = shown.empty() ? entry.id : entry.id + ":" + shown;
             EXPECT_EQ(parseVariant(text).name, text);
+        }
+    }
+}
+
+/// Tells whatever figures it is given.
+class Telling final : public Technique {
+public:
+    explicit Telling(std::map<std::string, double> figures) : figures_(std::move(figures)) {}
+    void render(const Frame&, const gl::Texture&) override {}
+    [[nodiscard]] std::map<std::string, double> figures() const override { return figures_; }
+
+private:
+    std::map<std::string, double> figures_;
+};
+
+TEST(Figures, OnlyDeclaredFiniteOnesAreTold) {
+    Entry entry;
+    entry.id = "told";
+    entry.figures = {{"tiles", "tiles drawn"}, {"passes", "passes over the scene"}};
+    EXPECT_EQ(declaredFigures(entry, Telling({})), (std::map<std::string, double>{}));
+    EXPECT_EQ(declaredFigures(entry, Telling({{"tiles", 6}})), (std::map<std::string, double>{{"tiles", 6}}));
+    const auto complaint = [&](const std::map<std::string, double>& figures) -> std::string {
+        try {
+            declaredFigures(entry, Telling(figures));
+        } catch (const InternalError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(complaint({{"tiles", 6}, {"tlies", 6}}),
+              "technique told tells a figure \"tlies\" that its catalogue entry does not declare");
+    EXPECT_NE(complaint({{"passes", std::nan("")}}).find("its figure \"passes\" is nan"), std::string::npos);
+}
+
+TEST(Figures, AreDeclaredOnceWithAMeaning) {
+    for (const Entry& entry : catalog()) {
+        std::set<std::string> names;
+        for (const Figure& figure : entry.figures) {
+            EXPECT_TRUE(names.insert(figure.name).second) << entry.id << " " << figure.name;
+            EXPECT_FALSE(figure.meaning.empty()) << entry.id << " " << figure.name;
         }
     }
 }

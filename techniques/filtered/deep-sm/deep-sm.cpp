@@ -33,16 +33,20 @@ public:
           resolve_(gl::Program::screen("filtered/deep-sm/deep-sm.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const LightView light = uniformView(frame);
-        depths_.draw(light, frame.scene);
+        light_ = uniformView(frame);
+        depths_.draw(light_, frame.scene);
         buildDeepTexture(readBack_.readDepth(), samples_, error_, deep_);
         upload();
         resolve_.set("positions", frame.gbuffer.position())
             .set("normals", frame.gbuffer.normal())
-            .set("mapFromWorld", mapFromWorld(light))
+            .set("mapFromWorld", mapFromWorld(light_))
             .set("side", side_)
             .set("followPlane", followPlane_ ? 1.0F : 0.0F);
         resolveInto({&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(light_, world, glm::dvec2(side_));
     }
 
 private:
@@ -57,6 +61,7 @@ private:
     int side_, samples_;
     float error_;
     bool followPlane_;
+    LightView light_;
     DepthMap depths_;
     gl::RenderTarget readBack_;
     DeepTexture deep_;

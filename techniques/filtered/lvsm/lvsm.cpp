@@ -45,6 +45,8 @@ public:
         resolveInto({&visibility}, resolve_);
     }
 
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return map_.pointAt(world); }
+
 private:
     static gl::Defines defines(const Parameters& p) { return {{"LAYERS", p.text("layers")}}; }
 

@@ -20,11 +20,11 @@ public:
           resolve_(gl::Program::screen("filtered/pcf-poisson/pcf-poisson.frag", {{"TAPS", p.text("taps")}})) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const LightView light = uniformView(frame);
-        map_.draw(light, frame.scene);
+        light_ = uniformView(frame);
+        map_.draw(light_, frame.scene);
         resolve_.set("positions", frame.gbuffer.position())
             .set("normals", frame.gbuffer.normal())
-            .set("mapFromWorld", mapFromWorld(light))
+            .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_.texture())
             .set("followPlane", followPlane_ ? 1.0F : 0.0F)
             .set("disk", taps_)
@@ -34,10 +34,15 @@ public:
         resolveInto({&visibility}, resolve_);
     }
 
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(light_, world, glm::dvec2(map_.side()));
+    }
+
 private:
     std::vector<glm::vec2> taps_;
     float radius_;
     bool turned_, followPlane_;
+    LightView light_;
     DepthMap map_;
     gl::Program resolve_;
 };

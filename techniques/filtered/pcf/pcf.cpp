@@ -25,22 +25,27 @@ public:
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const LightView light = uniformView(frame);
+        light_ = uniformView(frame);
         if (map_)
-            map_->draw(light, frame.scene);
+            map_->draw(light_, frame.scene);
         else
-            midpoint_->draw(light, frame.scene);
+            midpoint_->draw(light_, frame.scene);
         resolve_.set("positions", frame.gbuffer.position())
-            .set("mapFromWorld", mapFromWorld(light))
+            .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_ ? map_->texture() : midpoint_->texture());
         if (!bilinear_) // its one tap lies in the receiver's own texel
             resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", slope_ ? 1.0F : 0.0F);
         resolveInto({&visibility}, resolve_);
     }
 
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(light_, world, glm::dvec2(side_));
+    }
+
 private:
     bool bilinear_, slope_;
     int side_;
+    LightView light_;
     std::unique_ptr<DepthMap> map_;
     std::unique_ptr<MidpointMap> midpoint_;
     gl::Program resolve_;

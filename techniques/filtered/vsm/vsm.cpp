@@ -49,6 +49,8 @@ public:
         resolveInto({&visibility}, resolve_);
     }
 
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return map_.pointAt(world); }
+
 private:
     PrefilteredMap map_;
     gl::Program resolve_;

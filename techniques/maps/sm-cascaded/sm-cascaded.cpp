@@ -25,33 +25,41 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const Camera& camera = frame.snapshot.camera;
         const DepthRange depths = visibleDepths(frame.snapshot.bounds(), camera, frame.aspect());
-        const std::vector<double> splits = practicalSplits(depths.near, depths.far, slices_, lambda_);
+        splits_ = practicalSplits(depths.near, depths.far, slices_, lambda_);
+        const glm::dvec3 forward = camera.basis().forward;
+        eyeDepthFromWorld_ = glm::dvec4(forward, -glm::dot(forward, camera.eye));
 
         std::vector<LightView> views;
         std::vector<glm::vec4> ends;
-        for (std::size_t i = 0; i + 1 < splits.size(); ++i) {
+        for (std::size_t i = 0; i + 1 < splits_.size(); ++i) {
             Camera slice = camera;
-            slice.near = splits[i];
-            slice.far = splits[i + 1];
+            slice.near = splits_[i];
+            slice.far = splits_[i + 1];
             const auto fit = warped_ ? fitLispsm : fitFocused;
             views.push_back(fit(frame.snapshot.light, frame.snapshot, slice, frame.aspect()));
-            ends.emplace_back(splits[i + 1], 0, 0, 0);
+            ends.emplace_back(splits_[i + 1], 0, 0, 0);
         }
         atlas_.draw(views, frame.scene);
 
         atlas_.bindTo(resolve_);
         resolve_.set("positions", frame.gbuffer.position());
-        if (slices_ > 1) {
-            const glm::dvec3 forward = camera.basis().forward;
-            resolve_.set("eyeDepthFromWorld", glm::vec4(forward, -glm::dot(forward, camera.eye))).set("sliceEnds", ends);
-        }
+        if (slices_ > 1) resolve_.set("eyeDepthFromWorld", glm::vec4(eyeDepthFromWorld_)).set("sliceEnds", ends);
         resolveInto({&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        const double depth = glm::dot(eyeDepthFromWorld_, glm::dvec4(world, 1));
+        std::size_t slice = 0; // as in sm-cascaded.frag
+        while (slice + 2 < splits_.size() && depth > splits_[slice + 1]) ++slice;
+        return atlas_.pointAt(slice, world);
     }
 
 private:
     int slices_;
     double lambda_;
     bool warped_;
+    std::vector<double> splits_; // eye depths at which slices meet, in the frame last rendered
+    glm::dvec4 eyeDepthFromWorld_{0};
     DepthAtlas atlas_;
     gl::Program resolve_;
 };

@@ -16,14 +16,19 @@ public:
           resolve_(gl::Program::screen("maps/sm-cube/sm-cube.frag", {{"TILES", "6"}})) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const glm::dvec3 light = frame.snapshot.light.centre;
-        atlas_.draw(cubeViews(light, boundingCorners(frame.snapshot)), frame.scene);
+        light_ = frame.snapshot.light.centre;
+        atlas_.draw(cubeViews(light_, boundingCorners(frame.snapshot)), frame.scene);
         atlas_.bindTo(resolve_);
-        resolve_.set("positions", frame.gbuffer.position()).set("light", glm::vec3(light));
+        resolve_.set("positions", frame.gbuffer.position()).set("light", glm::vec3(light_));
         resolveInto({&visibility}, resolve_);
     }
 
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return atlas_.pointAt(cubeSide(world - light_), world);
+    }
+
 private:
+    glm::dvec3 light_{0};
     DepthAtlas atlas_;
     gl::Program resolve_;
 };

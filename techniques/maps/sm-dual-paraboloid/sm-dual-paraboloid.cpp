@@ -30,21 +30,30 @@ public:
         double farthest = 0;
         for (const glm::dvec3& p : boundingCorners(frame.snapshot)) farthest = std::max(farthest, glm::distance(p, light));
         const auto far = static_cast<float>(farthest * (1 + 1e-6));
-        const std::array<glm::dmat4, 2> views = halfSpaces(light, frame.snapshot.bounds().centre());
+        views_ = halfSpaces(light, frame.snapshot.bounds().centre());
 
         draw_.set("far", far).set("constantBias", static_cast<float>(bias_.units * depthStep));
         atlas_.drawTiles([&](std::size_t i) {
             const CasterState state(bias_);
             glEnable(GL_CLIP_DISTANCE0);
-            draw_.set("lightFromWorld", glm::mat4(views[i])).use();
+            draw_.set("lightFromWorld", glm::mat4(views_[i])).use();
             frame.scene.draw();
             glDisable(GL_CLIP_DISTANCE0);
         });
         resolve_.set("positions", frame.gbuffer.position())
             .set("depthAtlas", atlas_.texture())
-            .set("lightFromWorld", glm::mat4(views[0]))
+            .set("lightFromWorld", glm::mat4(views_[0]))
             .set("far", far);
         resolveInto({&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        constexpr double filled = 0.95; // as in paraboloid.glsl
+        const glm::dvec3 front = glm::normalize(glm::dvec3(views_[0] * glm::dvec4(world, 1)));
+        const std::size_t half = front.z < 0 ? 1 : 0;
+        const glm::dvec3 n = half == 1 ? front * glm::dvec3(-1, 1, -1) : front;
+        const Tile& tile = atlas_.tiles()[half];
+        return glm::dvec2(tile.at) + (0.5 + 0.5 * filled * glm::dvec2(n) / (1 + n.z)) * glm::dvec2(tile.size);
     }
 
 private:
@@ -59,6 +68,7 @@ private:
     }
 
     Bias bias_;
+    std::array<glm::dmat4, 2> views_{}; // of the frame last rendered
     DepthAtlas atlas_;
     gl::Program draw_, resolve_;
 };

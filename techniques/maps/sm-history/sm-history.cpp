@@ -56,11 +56,11 @@ public:
         const bool fresh = !history_ || history_->read.size() != frame.size;
         if (fresh) history_.emplace(frame.size);
 
-        const LightView light = rasterisedAnew(fit_(frame), frame);
-        map_.draw(light, frame.scene);
+        light_ = rasterisedAnew(fit_(frame), frame);
+        map_.draw(light_, frame.scene);
         resolve_.set("positions", frame.gbuffer.position())
             .set("previousPositions", frame.gbuffer.previousPosition())
-            .set("mapFromWorld", mapFromWorld(light))
+            .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_.texture())
             .set("history", history_->read)
             .set("clipFromWorld", glm::mat4(frame.clipFromWorld))
@@ -70,6 +70,10 @@ public:
         if (filtered_) resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", followPlane_ ? 1.0F : 0.0F);
         resolveInto({&visibility, &history_->write}, resolve_);
         std::swap(history_->read, history_->write);
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(light_, world, glm::dvec2(map_.side()));
     }
 
 private:
@@ -92,6 +96,7 @@ private:
     FitView fit_;
     std::string jitter_;
     bool filtered_, followPlane_;
+    LightView light_;
     DepthMap map_;
     MSchedule schedule_;
     gl::Program resolve_;

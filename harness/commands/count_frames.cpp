@@ -1,0 +1,28 @@
+// Not for people: what `run --cost instructions` runs under Callgrind.
+#include "harness/commands/command.h"
+#include "harness/timing/callgrind.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+namespace shadowbench {
+
+void addCountFrames(CLI::App& app, Action& action) {
+    const auto job = std::make_shared<timing::CountJob>();
+    const auto profile = std::make_shared<std::string>("gate");
+    CLI::App* verb = app.add_subcommand("count-frames", "Renders steady frames between Callgrind's client requests");
+    verb->group(""); // left out of --help
+    verb->add_option("--scene", job->scene)->required();
+    verb->add_option("--technique", job->variants)->required();
+    verb->add_option("--profile", *profile);
+    verb->add_option("--seed", job->seed);
+    verb->callback([&action, job, profile] {
+        action = [job, profile] {
+            job->profile = profileNamed(*profile);
+            timing::renderCountedFrames(*job);
+            return ExitCode::Pass;
+        };
+    });
+}
+
+} // namespace shadowbench

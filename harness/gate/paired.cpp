@@ -1,0 +1,43 @@
+#include "harness/gate/paired.h"
+
+#include "harness/timing/statistics.h"
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <limits>
+
+namespace shadowbench::gate {
+namespace {
+
+double logFloor(const TimeRule& rule) { return std::log1p(rule.floor); }
+
+} // namespace
+
+double medianLowerBound(std::vector<double> samples, double alpha) {
+    const auto n = static_cast<int>(samples.size());
+    if (n == 0) return -std::numeric_limits<double>::infinity();
+    // The k-th smallest lies above the median when fewer than k samples lie below it: P(Bin(n, ½) ≤ k − 1).
+    const boost::math::binomial below(n, 0.5);
+    int rank = 0;
+    while (rank < n && boost::math::cdf(below, rank) <= alpha) ++rank;
+    if (rank == 0) return -std::numeric_limits<double>::infinity();
+    std::nth_element(samples.begin(), samples.begin() + (rank - 1), samples.end());
+    return samples[static_cast<std::size_t>(rank - 1)];
+}
+
+TimeVerdict judgeTime(const std::vector<double>& logRatios, const TimeRule& rule, int cells, int looks) {
+    if (logRatios.empty()) return TimeVerdict::Unclear;
+    const double floor = logFloor(rule);
+    if (timing::median(logRatios) <= floor) return TimeVerdict::Pass;
+    return medianLowerBound(logRatios, rule.alpha / cells / looks) > floor ? TimeVerdict::Slower : TimeVerdict::Unclear;
+}
+
+bool controlAlarms(const std::vector<double>& logRatios, const TimeRule& rule, int cells) {
+    std::vector<double> inverse(logRatios.size());
+    std::transform(logRatios.begin(), logRatios.end(), inverse.begin(), std::negate<>());
+    const double alpha = rule.alpha / cells / 2; // two sides
+    return std::max(medianLowerBound(logRatios, alpha), medianLowerBound(inverse, alpha)) > logFloor(rule);
+}
+
+} // namespace shadowbench::gate

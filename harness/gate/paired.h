@@ -1,0 +1,28 @@
+// The decision rule of the paired-time tier: is the head slower than the base? Pure functions of samples (GATE.md).
+#pragma once
+
+#include <vector>
+
+namespace shadowbench::gate {
+
+/// The largest order statistic of `samples` that is at most their distribution's median with probability 1 − `alpha` at
+/// least, whatever the distribution (the sign test turned round); −infinity when there are too few for that.
+double medianLowerBound(std::vector<double> samples, double alpha);
+
+struct TimeRule {
+    double floor = 0.01; // slowdowns up to this are never a regression: machines differ by as much from one hour to the next
+    double alpha = 0.01; // of a false alarm in the whole gate, shared by all cells
+};
+
+enum class TimeVerdict { Pass, Slower, Unclear };
+
+/// Log-ratios of head to base, one a round. Slower: the one-sided lower bound of their median lies above the floor at
+/// `alpha` / `cells`. Unclear: the median does, its bound does not. `looks` is 1 for a cell that is judged once and 2 for
+/// both judgements of one that may be measured again: α is split between them.
+TimeVerdict judgeTime(const std::vector<double>& logRatios, const TimeRule& rule, int cells, int looks);
+
+/// Whether two equal programs were measured as different, in either direction: then the machine cannot be trusted and the
+/// gate is inconclusive.
+bool controlAlarms(const std::vector<double>& logRatios, const TimeRule& rule, int cells);
+
+} // namespace shadowbench::gate

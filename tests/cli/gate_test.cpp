@@ -1,0 +1,73 @@
+// Instruction counts and comparisons as a user makes them.
+#include "harness/records/record.h"
+#include "harness/scene/files.h"
+#include "program.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+class Gate : public ::testing::Test {
+protected:
+    [[nodiscard]] Outcome run(const std::string& out, const std::string& more) const {
+        return shell("shadowbench run --quiet --scene " + scene_ + " --cache " + (folder_ / "cache") + " --out " +
+                     (folder_ / out) + " " + more);
+    }
+    [[nodiscard]] std::vector<Record> records(const std::string& out) const {
+        return readRecords(folder_ / (out + "/results.jsonl"));
+    }
+    [[nodiscard]] Outcome compare(const std::string& base, const std::string& head, const std::string& more = "") const {
+        return shell("shadowbench compare " + (folder_ / base) + " " + (folder_ / head) + " " + more);
+    }
+
+    Folder folder_;
+    std::string scene_ = folder_.write("tiny.toml", tinyScene());
+};
+
+TEST_F(Gate, InstructionCountsAreTheSameInEveryRun) {
+    const std::string what = "--cost instructions --technique sm-history --technique volume-zfail";
+    for (const char* out : {"first", "second"}) {
+        const Outcome outcome = run(out, what);
+        ASSERT_EQ(outcome.code, 0) << outcome.output;
+    }
+    const std::vector<Record> first = records("first"), second = records("second");
+    ASSERT_EQ(first.size(), second.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        ASSERT_TRUE(first[i].cost.instructions && second[i].cost.instructions) << first[i].variant;
+        const auto a = static_cast<double>(*first[i].cost.instructions),
+                   b = static_cast<double>(*second[i].cost.instructions);
+        EXPECT_NEAR(a / b, 1, 1e-6) << first[i].variant; // issue: ± 10⁻⁶
+        EXPECT_GT(a, 1e5) << first[i].variant;           // a frame of 48² pixels, not an empty count
+        EXPECT_FALSE(first[i].cost.time);
+    }
+    EXPECT_EQ(compare("first", "second").code, 0);
+}
+
+TEST_F(Gate, WithoutValgrindAnInstructionCountIsInconclusive) {
+    const Outcome outcome =
+        shell("PATH=/nowhere " + std::string(PROGRAM) + " run --quiet --scene " + scene_ + " --cache " +
+              (folder_ / "cache") + " --out " + (folder_ / "out") + " --technique none --cost instructions");
+    EXPECT_EQ(outcome.code, 5);
+    EXPECT_NE(outcome.output.find("apt-get install valgrind"), std::string::npos) << outcome.output;
+}
+
+TEST_F(Gate, AWorseMapIsAnAccuracyRegressionThatEveryFormNames) {
+    ASSERT_EQ(run("base", "--cost none --technique sm-uniform:map=256").code, 0);
+    std::vector<Record> worse = records("base");
+    ASSERT_EQ(run("head", "--cost none --technique sm-uniform:map=64").code, 0);
+    const Record coarse = records("head")[0];
+    worse[0].accuracy = coarse.accuracy;
+    writeRecords(folder_ / "worse/results.jsonl", worse);
+    const Outcome outcome = compare(
+        "base", "worse", "--annotations --junit " + (folder_ / "junit.xml") + " --summary " + (folder_ / "summary.md"));
+    EXPECT_EQ(outcome.code, 4) << outcome.output;
+    EXPECT_NE(outcome.output.find("::error title="), std::string::npos) << outcome.output;
+    for (const char* file : {"junit.xml", "summary.md"})
+        EXPECT_NE(readFile(folder_ / file).find("accuracy.mismatch"), std::string::npos) << file;
+    EXPECT_EQ(compare("base", "base").code, 0);
+    EXPECT_EQ(compare("base", "nowhere").code, 2);
+}
+
+} // namespace
+} // namespace shadowbench
