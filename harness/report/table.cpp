@@ -94,8 +94,9 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
     if (const std::optional<Tolerance> limit = tolerance(records, scene)) {
         const std::optional<std::size_t> best = cheapestAdequate(records, scene);
         const std::string metric = limit->metric == headlineMetric(records, scene) ? "" : limit->metric + " ";
-        lines.push_back(fmt::format("cheapest within tolerance ({}{}): {}", metric, shownBound(*limit),
-                                    best ? records[*best].variant : "none"));
+        const std::string bound = metric + shownBound(*limit);
+        lines.push_back(best ? fmt::format("cheapest within tolerance ({}): {}", bound, records[*best].variant)
+                             : fmt::format("no technique is within tolerance ({})", bound));
     }
     std::vector<std::pair<std::string, std::string>> inapplicable; // reason → variants, in order of first occurrence
     for (const std::size_t i : ofScene(records, scene)) {

@@ -1,8 +1,8 @@
 // What holds for every technique on every scene.
 #include "cell_stage.h"
 #include "harness/scene/primitives.h"
+#include "test_names.h"
 
-#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -58,12 +58,6 @@ TEST_P(EveryCell, IsInRangeAndTheSameEveryTime) {
     EXPECT_EQ(shortRun(scene, variant.name), images);
 }
 
-std::string testName(std::string name) {
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-    return name;
-}
-
 std::string caseName(const testing::TestParamInfo<Case>& tested) {
     return testName(tested.param.scene + "_" + tested.param.variant);
 }
@@ -104,9 +98,7 @@ std::vector<std::string> everyVariant() {
     return names;
 }
 
-std::string variantName(const testing::TestParamInfo<std::string>& tested) { return testName(tested.param); }
-
-INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(everyVariant()), variantName);
+INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(everyVariant()), nameOfText);
 
 } // namespace
 } // namespace shadowbench

@@ -44,7 +44,7 @@ TEST(TerminalTable, SaysThatNothingIsWithinToleranceAndNamesErrors) {
               " scene: dueling-frusta · 256² · error = mismatching pixels · cost = frames of sm-uniform\n"
               " technique     error   false shadow     leak   edge error px   flicker   cost   front\n"
               " sm-uniform   4.87 %         0.05 %   0.04 %            0.40     0.016   1.00       ●\n"
-              " cheapest within tolerance (0.5 %): none\n"
+              " no technique is within tolerance (0.5 %)\n"
               " error: sm-history:base=lispsm (primary hits differ)\n");
     EXPECT_EQ(report::terminalTable(records, "no-such-scene"), "");
 }
@@ -65,7 +65,7 @@ TEST(MarkdownTable, HasARowARecordAndEscapesWhatMarkdownWouldRead) {
                                                                 "|:---|---:|---:|---:|\n"
                                                                 "| a\\_b\\|c | 1.00 % | 1.00 | ● |\n"
                                                                 "\n"
-                                                                "cheapest within tolerance (0.5 %): none\n");
+                                                                "no technique is within tolerance (0.5 %)\n");
 }
 
 TEST(ParetoFront, HoldsWhatNoOtherRecordBeatsByRisingCost) {
