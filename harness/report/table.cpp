@@ -123,12 +123,6 @@ std::string heading(const std::vector<Record>& records, const std::string& scene
     return line;
 }
 
-std::string markdownRow(const std::vector<std::string>& cells) {
-    std::string line = "|";
-    for (const std::string& cell : cells) line += fmt::format(" {} |", markdownText(cell));
-    return line + "\n";
-}
-
 } // namespace
 
 std::string terminalTable(const std::vector<Record>& records, const std::string& scene) {
@@ -141,14 +135,7 @@ std::string terminalTable(const std::vector<Record>& records, const std::string&
 }
 
 std::string markdownTable(const std::vector<Record>& records, const std::string& scene) {
-    const TextTable content = table(records, scene, true);
-    std::string text;
-    if (!content.rows.empty()) {
-        text += markdownRow(content.titles) + "|:---|";
-        for (std::size_t i = 1; i < content.titles.size(); ++i) text += "---:|";
-        text += "\n";
-    }
-    for (const std::vector<std::string>& row : content.rows) text += markdownRow(row);
+    std::string text = markdown(table(records, scene, true));
     for (const std::string& line : footnotes(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
     return text;
 }

@@ -52,6 +52,7 @@ struct Instance {
 struct Level {
     std::shared_ptr<const Mesh> mesh;
     double until = std::numeric_limits<double>::infinity();
+    std::optional<glm::vec3> colour{}; // instead of the object's, in pictures and for level-of-detail techniques
 };
 
 struct Object {
@@ -68,6 +69,14 @@ struct Timeline {
     int still = 60;
     int moving = 8;
     [[nodiscard]] int frames() const { return still + moving; }
+};
+
+/// The walk that level-of-detail techniques are scored on: a camera path along which instances change levels. Motions of
+/// objects start with it. Shadows are scored on the Timeline, not here.
+struct LodWalk {
+    int frames = 2;
+    double band = 0.2; // length of a transition as a share of the distance in its middle, Level::until
+    Track eye, target; // of the camera, by the walk's frames
 };
 
 /// What a scene is there to show of one technique: a bound on one metric.
@@ -99,6 +108,7 @@ struct Scene {
     Light light;
     Track lightCentre, lightDirection;
     std::vector<Object> objects;
+    std::optional<LodWalk> lod;
     std::map<std::string, double> tolerance; // metric name → worst value a viewer of this scene accepts
     std::vector<Expectation> fails;          // techniques that the scene breaks: one that stops failing is an error too
     std::vector<Expectation> holds;          // techniques that it does not break
@@ -132,6 +142,9 @@ struct Snapshot {
     [[nodiscard]] Bounds bounds() const;
     [[nodiscard]] std::size_t triangles() const;
 };
+
+/// World from object of an instance after `frames` frames of its object's motion.
+glm::dmat4 placeAt(const Object& object, const Instance& instance, double frames);
 
 /// The scene at `frame`; levels of detail chosen by distance from the eye.
 Snapshot snapshot(const Scene& scene, int frame);

@@ -19,7 +19,7 @@ std::vector<Variant> chosenVariants(const SweepOptions& options, const Axis& axi
     std::vector<Variant> variants;
     for (const std::string& pattern : options.techniques.empty() ? std::vector<std::string>{"*"} : options.techniques)
         for (Variant& variant : techniques::matchVariants(pattern)) {
-            if (axis.isParameter() && !parameterOf(variant, axis.id)) continue;
+            if (variant.isLod() || (axis.isParameter() && !parameterOf(variant, axis.id))) continue;
             if (std::ranges::none_of(variants, [&](const Variant& v) { return v.name == variant.name; }))
                 variants.push_back(std::move(variant));
         }
