@@ -1,5 +1,6 @@
 #include "harness/adequacy/caster_levels.h"
 
+#include "harness/adequacy/hard_choices.h"
 #include "harness/scene/error.h"
 
 #include <fmt/format.h>
@@ -45,57 +46,6 @@ private:
     const Receivers& receivers_;
     ShadowOracle oracle_;
     Shadow exact_;
-};
-
-/// Hard lights: every group is labelled at every level, once. A pixel is shadowed by a choice if one of its groups shadows
-/// it, so the errors of all choices are exact without another label. Pixels on an edge of any of the shadows are left out.
-class HardChoices {
-public:
-    HardChoices(const Casters& casters, const Receivers& receivers, const ShadowOracle& oracle, const Progress& progress)
-        : groups_(casters.groups()), patterns_(labelled(casters, receivers, oracle, progress)) {}
-
-    [[nodiscard]] Errors of(const Levels& levels) const {
-        return hardErrors(patterns_.compare(setOf(levels), setOf(Levels(levels.size(), 0))));
-    }
-
-private:
-    [[nodiscard]] CasterSet setOf(const Levels& levels) const {
-        CasterSet set = 0;
-        std::size_t first = 0; // bit of the group's finest level
-        for (std::size_t group = 0; group < groups_.size(); first += groups_[group++].levels.size())
-            set |= CasterSet{1} << (first + levels[group]);
-        return set;
-    }
-
-    static ShadowPatterns labelled(const Casters& casters, const Receivers& receivers, const ShadowOracle& oracle,
-                                   const Progress& progress) {
-        std::size_t all = 0, bit = 0;
-        for (const CasterGroup& group : casters.groups()) all += group.levels.size();
-        if (all > mostCasters)
-            throw BadInput(
-                fmt::format("{} distance bands of objects have {} levels together, and at most {} can be compared: "
-                            "ask for fewer bands or levels",
-                            casters.groups().size(), all, mostCasters));
-
-        std::vector<CasterSet> sets(receivers.primary.id.size());
-        std::vector<bool> counts(sets.size(), true);
-        for (std::size_t group = 0; group < casters.groups().size(); ++group)
-            for (std::size_t level = 0; level < casters.groups()[group].levels.size(); ++level, ++bit) {
-                if (progress) progress(static_cast<double>(bit) / static_cast<double>(all), "shadows of each level alone");
-                const Shadow shadow = oracle.shadow(casters.castAlone(group, level));
-                for (std::size_t i = 0; i < sets.size(); ++i) {
-                    counts[i] = counts[i] && shadow.labelled[i] != 0;
-                    if (shadow.visibility[i] == 0) sets[i] |= CasterSet{1} << bit;
-                }
-            }
-        std::vector<CasterSet> counted;
-        for (std::size_t i = 0; i < sets.size(); ++i)
-            if (counts[i]) counted.push_back(sets[i]);
-        return ShadowPatterns(std::move(counted));
-    }
-
-    const std::vector<CasterGroup>& groups_;
-    ShadowPatterns patterns_;
 };
 
 /// The next level that casts fewer triangles.

@@ -9,9 +9,9 @@ namespace shadowbench {
 
 class Stage {
 public:
-    /// The scene must outlive the stage.
+    /// Keeps a reference to the scene.
     explicit Stage(const Scene& scene);
-    explicit Stage(Scene&&) = delete;
+    explicit Stage(Scene&& scene) = delete;
 
     /// Uploads frame `index` of the scene and draws its G-buffer.
     void show(int index);

@@ -29,6 +29,8 @@ public:
         volumes_.render(frame, clipFromWorld, drawDepth(frame, clipFromWorld), visibility);
     }
 
+    [[nodiscard]] std::map<std::string, double> figures() const override { return volumes_.figures(); }
+
 private:
     static glm::dmat4 infiniteClip(const Frame& frame) {
         const Camera& camera = frame.snapshot.camera;
@@ -64,6 +66,7 @@ Entry volumeZfail() {
             .answer = Answer::Hard,
             .parameters = {{"far", "clamp", OneOf{{"clamp", "infinity"}},
                             "clamp depth, or put the far plane at infinity (P_inf)", "course, 3.2.1 and 3.4"}},
+            .figures = volumeFigures(),
             .variants = {""},
             .make = [](const Parameters& p) { return std::make_unique<VolumeZfail>(p); }};
 }
