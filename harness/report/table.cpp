@@ -97,8 +97,9 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
     if (const std::optional<Tolerance> limit = tolerance(records, scene)) {
         const std::optional<std::size_t> best = cheapestAdequate(records, scene);
         const std::string metric = limit->metric == headlineMetric(records, scene) ? "" : limit->metric + " ";
-        lines.push_back(fmt::format("cheapest within tolerance ({}{}): {}", metric, shownBound(*limit),
-                                    best ? records[*best].variant : "none"));
+        const std::string bound = metric + shownBound(*limit);
+        lines.push_back(best ? fmt::format("cheapest within tolerance ({}): {}", bound, records[*best].variant)
+                             : fmt::format("no technique is within tolerance ({})", bound));
     }
     std::vector<std::pair<std::string, std::string>> inapplicable; // reason → variants, in order of first occurrence
     for (const std::size_t i : ofScene(records, scene)) {
@@ -137,12 +138,6 @@ std::string heading(const std::vector<Record>& records, const std::string& scene
     return line;
 }
 
-std::string markdownRow(const std::vector<std::string>& cells) {
-    std::string line = "|";
-    for (const std::string& cell : cells) line += fmt::format(" {} |", markdownText(cell));
-    return line + "\n";
-}
-
 } // namespace
 
 std::string terminalTable(const std::vector<Record>& records, const std::string& scene) {
@@ -155,14 +150,7 @@ std::string terminalTable(const std::vector<Record>& records, const std::string&
 }
 
 std::string markdownTable(const std::vector<Record>& records, const std::string& scene) {
-    const TextTable content = table(records, scene, true);
-    std::string text;
-    if (!content.rows.empty()) {
-        text += markdownRow(content.titles) + "|:---|";
-        for (std::size_t i = 1; i < content.titles.size(); ++i) text += "---:|";
-        text += "\n";
-    }
-    for (const std::vector<std::string>& row : content.rows) text += markdownRow(row);
+    std::string text = markdown(table(records, scene, true));
     for (const std::string& line : footnotes(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
     for (const std::string& line : figureLines(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
     return text;

@@ -1,8 +1,8 @@
-// What holds for every technique on every scene.
+// What holds for every shadow technique on every scene.
 #include "cell_stage.h"
 #include "harness/scene/primitives.h"
+#include "test_names.h"
 
-#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -16,10 +16,17 @@ struct Case {
 /// How a failing case is printed.
 void PrintTo(const Case& cell, std::ostream* out) { *out << cell.variant << " on " << cell.scene; }
 
+std::vector<std::string> shadowVariants() {
+    std::vector<std::string> names;
+    for (const techniques::Variant& variant : techniques::matchVariants("*"))
+        if (!variant.isLod()) names.push_back(variant.name);
+    return names;
+}
+
 std::vector<Case> everyCell() {
     std::vector<Case> cases;
     for (const std::string& scene : standardScenes())
-        for (const techniques::Variant& variant : techniques::matchVariants("*")) cases.push_back({scene, variant.name});
+        for (const std::string& variant : shadowVariants()) cases.push_back({scene, variant});
     return cases;
 }
 
@@ -63,12 +70,6 @@ TEST_P(EveryCell, IsInRangeAndTheSameEveryTime) {
     EXPECT_EQ(shortRun(scene, variant.name, Figures::Asked), images); // counting leaves no trace in the next frame
 }
 
-std::string testName(std::string name) {
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-    return name;
-}
-
 std::string caseName(const testing::TestParamInfo<Case>& tested) {
     return testName(tested.param.scene + "_" + tested.param.variant);
 }
@@ -103,15 +104,7 @@ TEST_P(EveryVariant, LeavesAFullyLitSceneLit) {
     EXPECT_GT(top, 2000U);
 }
 
-std::vector<std::string> everyVariant() {
-    std::vector<std::string> names;
-    for (const techniques::Variant& variant : techniques::matchVariants("*")) names.push_back(variant.name);
-    return names;
-}
-
-std::string variantName(const testing::TestParamInfo<std::string>& tested) { return testName(tested.param); }
-
-INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(everyVariant()), variantName);
+INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(shadowVariants()), nameOfText);
 
 } // namespace
 } // namespace shadowbench

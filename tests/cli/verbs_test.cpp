@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 TEST(CommandLine, HelpOfTheProgramAndOfEveryVerbHasAnExample) {
     EXPECT_EQ(shell("shadowbench --help").code, 0);
-    for (const std::string verb : {"list", "run", "reference", "sweep", "claims", "compare", "report", "cache", "cache list",
-                                   "cache verify", "cache prune"}) {
+    for (const std::string verb : {"list", "run", "reference", "sweep", "recommend", "claims", "compare", "report", "cache",
+                                   "cache list", "cache verify", "cache prune"}) {
         const Outcome help = shell("shadowbench " + verb + " --help");
         EXPECT_EQ(help.code, 0) << verb;
         EXPECT_NE(help.output.find("Example"), std::string::npos) << verb;
