@@ -7,9 +7,11 @@
 #include "harness/report/report.h"
 #include "harness/scene/files.h"
 #include "harness/sweep/axis.h"
+#include "techniques/gl/context.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 
 namespace shadowbench {
@@ -30,6 +32,7 @@ ExitCode viewportsAndPrint(const SweepOptions& options, const std::filesystem::p
 
 ExitCode sweepAndPrint(const SweepOptions& options, const std::filesystem::path& out) {
     if (options.axis == lod::viewportAxis) return viewportsAndPrint(options, out);
+    const auto context = gl::Context::create();
     const SweepResult result = sweep(options);
     const std::filesystem::path records = out / "sweep.jsonl", page = out / "sweep.md", chart = out / "sweep.svg";
     writeRecords(records, result.records);
@@ -48,11 +51,11 @@ ExitCode sweepAndPrint(const SweepOptions& options, const std::filesystem::path&
 }
 
 std::string axesHelp() {
-    std::string text = "Axes:\n";
+    std::string text = "Axes, with their own values in the order in which a break is looked for:\n";
     for (const Axis& axis : axes())
-        text += fmt::format("  {:<17} {}{}\n", axis.id, axis.meaning, axis.unit.empty() ? "" : ", in " + axis.unit);
-    return text +
-           fmt::format("  {:<17} side of the picture of lod-* techniques, in pixels: their cost\n", lod::viewportAxis);
+        text += fmt::format("  {:<17} {}{}\n{:20}{}\n", axis.id, axis.meaning, axis.unit.empty() ? "" : ", in " + axis.unit,
+                            "", fmt::join(axis.values, ", "));
+    return text + fmt::format("  {:<17} side of the picture of lod-* techniques, in pixels: their cost\n", lod::viewportAxis);
 }
 
 } // namespace
@@ -69,7 +72,7 @@ void addSweep(CLI::App& app, Action& action) {
     verb->add_option("--scene", options->scene, "Scene id or file")->required();
     verb->add_option("--axis", options->axis, "What is moved")->required();
     verb->add_option("--values", options->values,
-                     "Comma-separated, in the order in which a break is looked for (default: the axis' own)")
+                     "Comma-separated, in the order in which a break is looked for (default: the axis' own, below)")
         ->delimiter(',');
     verb->add_option("--technique", options->techniques,
                      "Variant such as pcss:taps=32+32, or a glob over ids; repeatable (default: all)");

@@ -87,6 +87,15 @@ struct Expectation {
     std::string reason;
 };
 
+/// Where a technique's error over one axis of `sweep` (harness/sweep/axis.h) first exceeds the scene's tolerance, in the
+/// order of the axis' own values.
+struct BreakExpectation {
+    std::string technique; // a variant; without the axis where that is one of its parameters
+    std::string axis;
+    std::optional<glm::dvec2> between; // the break point, ends included, x ≤ y; nothing: the whole axis is tolerated
+    std::string reason;
+};
+
 struct Scene {
     std::string id; // file stem: the one word for it everywhere
     std::string title;
@@ -103,6 +112,7 @@ struct Scene {
     std::map<std::string, double> tolerance; // metric name → worst value a viewer of this scene accepts
     std::vector<Expectation> fails;          // techniques that the scene breaks: one that stops failing is an error too
     std::vector<Expectation> holds;          // techniques that it does not break
+    std::vector<BreakExpectation> breaks;    // where techniques break as one of its quantities moves
     int referenceSamples = 1024;             // light samples of an area light's reference on the scored frame …
     int movingReferenceSamples = 256;        // … and on the moving frames
 };

@@ -68,7 +68,6 @@ void StencilVolumes::render(const Frame& frame, const glm::mat4& clipFromWorld, 
         count(first, std::min(first + group, draws_.size()));
         darken(target);
     }
-    gl::Context::current().tally().draws += draws_.size();
 }
 
 const StencilVolumes::VolumeMesh& StencilVolumes::volumeMesh(const std::shared_ptr<const Mesh>& mesh,
@@ -94,8 +93,9 @@ void StencilVolumes::buildVolumes(const Frame& frame) {
         const VolumeMesh& mesh = volumeMesh(batch.mesh, frame.scene);
         for (const Placement& placement : batch.placements) {
             const std::size_t first = corners_.size();
-            appendShadowVolume(mesh.edges, glm::inverse(placement.world) * light, caps, corners_);
-            draws_.push_back({&mesh, first, corners_.size() - first});
+            const std::size_t capCorners =
+                appendShadowVolume(mesh.edges, glm::inverse(placement.world) * light, caps, corners_);
+            draws_.push_back({&mesh, first, capCorners, corners_.size() - first - capCorners});
         }
     }
 }
@@ -121,9 +121,8 @@ void StencilVolumes::drawVolumes(std::size_t first, std::size_t last) const {
         const Draw& draw = draws_[placement];
         draw.mesh->layout.bind();
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
-        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(draw.count), GL_UNSIGNED_INT,
-                                            reinterpret_cast<const void*>(draw.first * sizeof(std::uint32_t)), 1,
-                                            static_cast<GLuint>(placement));
+        drawCaps(draw, placement);
+        drawCorners(draw.first + draw.caps, draw.sides, placement);
     }
     glDisable(GL_DEPTH_CLAMP);
     glDepthMask(GL_TRUE);
@@ -147,6 +146,25 @@ std::map<std::string, double> StencilVolumes::figures() const {
             {"volume_fragments", static_cast<double>(fragments)},
             {"stencil_updates", static_cast<double>(updates)},
             {"stencil_bytes", 4.0 * static_cast<double>(fragments + updates)}};
+}
+
+/// A front cap lies on a surface of the scene and must count as behind it. No equality of depths assures that: the surface
+/// was clipped at the camera's far plane, where the cap is clamped, and their depths round differently. So caps are pushed
+/// away: nothing that is seen lies behind a cap, but where the near plane cuts the cap off, and there depth is far from it.
+void StencilVolumes::drawCaps(const Draw& draw, std::size_t placement) const {
+    constexpr float units = 1024; // 2⁻¹⁴ of the depth range: far above the rounding
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(0, units);
+    drawCorners(draw.first, draw.caps, placement);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void StencilVolumes::drawCorners(std::size_t first, std::size_t count, std::size_t placement) const {
+    if (count == 0) return;
+    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                                        reinterpret_cast<const void*>(first * sizeof(std::uint32_t)), 1,
+                                        static_cast<GLuint>(placement));
+    ++gl::Context::current().tally().draws;
 }
 
 void StencilVolumes::darken(const gl::RenderTarget& target) const {

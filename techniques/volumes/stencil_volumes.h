@@ -46,10 +46,10 @@ private:
         gl::VertexArray layout;
     };
 
-    /// The volume of one placement, as a range of `corners_`.
+    /// The volume of one placement, as a range of `corners_`: its caps, then its sides.
     struct Draw {
         const VolumeMesh* mesh;
-        std::size_t first, count;
+        std::size_t first, caps, sides;
     };
 
     const VolumeMesh& volumeMesh(const std::shared_ptr<const Mesh>& mesh, const gl::SceneBuffers& scene);
@@ -57,6 +57,8 @@ private:
     void count(std::size_t first, std::size_t last) const;
     void drawVolumes(std::size_t first, std::size_t last) const;
     [[nodiscard]] std::uint64_t fragmentsPassing(unsigned depthFunction) const;
+    void drawCaps(const Draw& draw, std::size_t placement) const;
+    void drawCorners(std::size_t first, std::size_t count, std::size_t placement) const;
     void darken(const gl::RenderTarget& target) const;
 
     VolumeTest test_;

@@ -1,5 +1,6 @@
 // Shadow volumes counted in the stencil buffer: where each way of counting is exact, and where it is known to break.
 #include "ground_labels.h"
+#include "ground_score.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -112,6 +113,13 @@ TEST_P(PileOfPlates, IsAsDarkAsOnePlate) { // an 8-bit count of 256 or 512 is no
 
 INSTANTIATE_TEST_SUITE_P(Volumes, PileOfPlates, testing::Values(255, 256, 257, 512));
 
+TEST(VolumeZfail, CapsHoldWhereTheFarPlaneCutsTheirSurface) {
+    // The ground reaches beyond the far plane: its depth is that of a clipped polygon, its cap's is not. Exact but for a
+    // pixel on an edge.
+    EXPECT_LE(mismatchOn(1, avenueScene(0.5), "volume-zfail"), 5e-5);
+    EXPECT_LE(mismatchOn(1, avenueScene(0.01), "volume-zfail"), 5e-5);
+}
+
 TEST(VolumeZfail, LeaksWhereAnOpenMeshLeavesItsVolumeOpenAtInfinity) { // course, Everitt–Kilgard 3.1: closed models
     Scene scene = groundScene();
     scene.light.centre = {0.2, 6.1, 0.3};
@@ -151,8 +159,8 @@ TEST(VolumeFigures, CountEveryFragmentAndTheUpdatesAmongThem) {
     EXPECT_EQ(pass.at("stencil_bytes"), 4 * sides);
     EXPECT_EQ(fail.at("volume_triangles"), 8 + 4); // the tops close them at the front
     EXPECT_EQ(fail.at("volume_fragments"), 2 * sides);
-    EXPECT_GE(fail.at("stencil_updates"), sides); // the sides, and tops below the box
-    EXPECT_EQ(fail.at("stencil_bytes"), 4 * (2 * sides + fail.at("stencil_updates")));
+    EXPECT_EQ(fail.at("stencil_updates"), 2 * sides); // all lies behind what is seen
+    EXPECT_EQ(fail.at("stencil_bytes"), 4 * (2 * sides + 2 * sides));
 }
 
 TEST(VolumeFigures, LeaveTheImageAndTheNextOneAsTheyAre) {
