@@ -126,14 +126,20 @@ private:
             cell.cost.time = false;
             CellImages images;
             runCell(scene, stage, truths, variant, cell, record, images);
+        } catch (const BadInput& error) { // parameters that do not go together at this value
+            setUnscored(scene, variant, Status::NotApplicable, error, record);
         } catch (const Error& error) {
-            Record failed = blankRecord(scene, variant, options_.seed);
-            failed.sweep = record.sweep;
-            failed.status = Status::Error;
-            failed.reason = error.what();
-            record = std::move(failed);
+            setUnscored(scene, variant, Status::Error, error, record);
             if (result_.code == ExitCode::Pass) result_.code = error.code();
         }
+    }
+
+    void setUnscored(const Scene& scene, const Variant& variant, Status status, const Error& error, Record& record) const {
+        Record unscored = blankRecord(scene, variant, options_.seed);
+        unscored.sweep = record.sweep;
+        unscored.status = status;
+        unscored.reason = error.what();
+        record = std::move(unscored);
     }
 
     const SweepOptions& options_;
