@@ -1,20 +1,21 @@
 #!/bin/sh
 # Makes the published sets of records, their reports and the verdicts on the papers' claims:
 #   results/publish.sh [standard] [failures] [sweeps] [claims]     default: all four, in this order
-# Wall times are part of the first two: keep the machine quiet.
+# Wall times are part of the first and of the sweep over the viewport: keep the machine quiet.
 set -eu
 cd "$(dirname "$0")/.."
 
 standard() { ./bench run --out results/published; }
 
-# Every technique on every other built-in scene, then the variants that single scenes are about (their `[expect]`).
+# Every technique on every other built-in scene, then the variants that single scenes are about (their `[expect]`). These scenes
+# are about errors, which are the same on every machine, so no time is measured.
 failures() {
     out=results/failures
     scenes="basic huge caster-behind-eye colonnade contact depth-complexity eye-in-shadow grazing-light light-behind-camera
         light-jump moving-caster moving-light moving-receiver near-plane open-mesh overlapping-volumes picket-fence
         screen-overlap tessellation"
     # shellcheck disable=SC2046,SC2086 # lists of words
-    ./bench run $(printf ' --scene %s' $scenes) --out $out
+    ./bench run --cost none $(printf ' --scene %s' $scenes) --out $out
     also caster-behind-eye sm-psm:behind=lost sm-psm:behind=move-back
     also contact sm-uniform:bias=constant,units=1600000
     also depth-complexity vsm:kernel=32 esm:kernel=32 csm-fourier:terms=4,damping=0 csm-fourier:terms=32,damping=0
@@ -33,7 +34,7 @@ also() {
     scene=$1
     shift
     # shellcheck disable=SC2046 # a list of words
-    ./bench run --scene "$scene" $(printf ' --technique %s' "$@") --resume --out results/failures
+    ./bench run --cost none --scene "$scene" $(printf ' --technique %s' "$@") --resume --out results/failures
 }
 
 sweeps() {
