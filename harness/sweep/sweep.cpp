@@ -69,10 +69,12 @@ public:
     }
 
 private:
-    /// Sets the axis' parameter; why not, if the variant does not take the value.
+    /// Sets the axis' parameter; why not, if the variant does not take the value. Making the technique tells whether its
+    /// parameters go together.
     std::string setParameter(Variant& variant, double value) const {
         try {
             variant = withParameter(variant, axis_.id, fmt::format("{}", value));
+            variant.entry->make(variant.parameters);
             return "";
         } catch (const BadInput& error) {
             return error.what();
@@ -126,20 +128,14 @@ private:
             cell.cost.time = false;
             CellImages images;
             runCell(scene, stage, truths, variant, cell, record, images);
-        } catch (const BadInput& error) { // parameters that do not go together at this value
-            setUnscored(scene, variant, Status::NotApplicable, error, record);
         } catch (const Error& error) {
-            setUnscored(scene, variant, Status::Error, error, record);
+            Record failed = blankRecord(scene, variant, options_.seed);
+            failed.sweep = record.sweep;
+            failed.status = Status::Error;
+            failed.reason = error.what();
+            record = std::move(failed);
             if (result_.code == ExitCode::Pass) result_.code = error.code();
         }
-    }
-
-    void setUnscored(const Scene& scene, const Variant& variant, Status status, const Error& error, Record& record) const {
-        Record unscored = blankRecord(scene, variant, options_.seed);
-        unscored.sweep = record.sweep;
-        unscored.status = status;
-        unscored.reason = error.what();
-        record = std::move(unscored);
     }
 
     const SweepOptions& options_;
