@@ -37,6 +37,11 @@ std::span<const Entry> catalog() {
         pcss(),             //
         sampledMaps(),      //
         temporalSoft(),     //
+
+        lodFull(),            //
+        lodSwitch(),          //
+        lodBlend(),           //
+        lodFrameSequential(), //
     };
     return entries;
 }

@@ -36,5 +36,9 @@ Entry deepSm();
 Entry pcss();
 Entry sampledMaps();
 Entry temporalSoft();
+Entry lodFull();
+Entry lodSwitch();
+Entry lodBlend();
+Entry lodFrameSequential();
 
 } // namespace shadowbench::techniques

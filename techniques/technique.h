@@ -1,4 +1,5 @@
 // The contract of a shadow technique: what it is given, what it must return, and how the catalogue describes it.
+// Level-of-detail techniques are in the same catalogue but have a contract of their own.
 #pragma once
 
 #include "harness/scene/scene.h"
@@ -58,6 +59,8 @@ public:
     [[nodiscard]] virtual std::optional<glm::dvec2> mapPoint([[maybe_unused]] const glm::dvec3& world) const { return {}; }
 };
 
+class LodTechnique;
+
 /// The documents that techniques come from.
 enum class Seed { Dissertation, PixelCorrectPaper, Course, Zapotocky };
 std::string_view title(Seed seed);
@@ -72,6 +75,7 @@ enum class Answer {
     Hard,     // lit or not, from the light's centre
     Filtered, // a hard shadow with smoothed edges
     Soft,     // the visible fraction of an area light; needs one
+    Colour,   // a picture of a scene with levels of detail (techniques/lod/lod_technique.h)
 };
 
 /// A number that a technique tells of each frame (`Technique::figures`).
@@ -93,7 +97,8 @@ struct Entry {
     std::vector<Parameter> parameters;
     std::vector<Figure> figures = {};
     std::vector<std::string> variants; // what a run of all techniques shows: parameter strings, "" = all defaults
-    std::function<std::unique_ptr<Technique>(const Parameters&)> make;
+    std::function<std::unique_ptr<Technique>(const Parameters&)> make = {};       // of a shadow
+    std::function<std::unique_ptr<LodTechnique>(const Parameters&)> makeLod = {}; // of a picture: Answer::Colour
 };
 
 /// A technique with all its parameters chosen.
@@ -101,6 +106,8 @@ struct Variant {
     const Entry* entry;
     Parameters parameters;
     std::string name; // canonical
+
+    [[nodiscard]] bool isLod() const { return entry->answer == Answer::Colour; }
 };
 
 /// Every technique, in the order tables print them.

@@ -1,5 +1,6 @@
 #include "harness/adequacy/caster_levels.h"
 
+#include "harness/adequacy/hard_choices.h"
 #include "harness/scene/error.h"
 
 #include <fmt/format.h>
@@ -10,8 +11,8 @@ namespace {
 
 using ErrorsOfLevels = std::function<Errors(const Levels&)>;
 
-/// Shares of the progress at which the search starts and ends.
-constexpr double searchFrom = 0.1, searchUntil = 0.6;
+/// Shares of the progress at which the receivers are found, and the search starts and ends.
+constexpr double receiversUntil = 0.1, searchFrom = 0.3, searchUntil = 0.7;
 
 std::vector<Bound> boundsOf(const Scene& scene, const std::vector<std::string>& words) {
     std::vector<Bound> bounds;
@@ -47,57 +48,6 @@ private:
     Shadow exact_;
 };
 
-/// Hard lights: every group is labelled at every level, once. A pixel is shadowed by a choice if one of its groups shadows
-/// it, so the errors of all choices are exact without another label. Pixels on an edge of any of the shadows are left out.
-class HardChoices {
-public:
-    HardChoices(const Casters& casters, const Receivers& receivers, const ShadowOracle& oracle, const Progress& progress)
-        : groups_(casters.groups()), patterns_(labelled(casters, receivers, oracle, progress)) {}
-
-    [[nodiscard]] Errors of(const Levels& levels) const {
-        return hardErrors(patterns_.compare(setOf(levels), setOf(Levels(levels.size(), 0))));
-    }
-
-private:
-    [[nodiscard]] CasterSet setOf(const Levels& levels) const {
-        CasterSet set = 0;
-        std::size_t first = 0; // bit of the group's finest level
-        for (std::size_t group = 0; group < groups_.size(); first += groups_[group++].levels.size())
-            set |= CasterSet{1} << (first + levels[group]);
-        return set;
-    }
-
-    static ShadowPatterns labelled(const Casters& casters, const Receivers& receivers, const ShadowOracle& oracle,
-                                   const Progress& progress) {
-        std::size_t all = 0, bit = 0;
-        for (const CasterGroup& group : casters.groups()) all += group.levels.size();
-        if (all > mostCasters)
-            throw BadInput(
-                fmt::format("{} distance bands of objects have {} levels together, and at most {} can be compared: "
-                            "ask for fewer bands or levels",
-                            casters.groups().size(), all, mostCasters));
-
-        std::vector<CasterSet> sets(receivers.primary.id.size());
-        std::vector<bool> counts(sets.size(), true);
-        for (std::size_t group = 0; group < casters.groups().size(); ++group)
-            for (std::size_t level = 0; level < casters.groups()[group].levels.size(); ++level, ++bit) {
-                if (progress) progress(static_cast<double>(bit) / static_cast<double>(all), "shadows of each level alone");
-                const Shadow shadow = oracle.shadow(casters.castAlone(group, level));
-                for (std::size_t i = 0; i < sets.size(); ++i) {
-                    counts[i] = counts[i] && shadow.labelled[i] != 0;
-                    if (shadow.visibility[i] == 0) sets[i] |= CasterSet{1} << bit;
-                }
-            }
-        std::vector<CasterSet> counted;
-        for (std::size_t i = 0; i < sets.size(); ++i)
-            if (counts[i]) counted.push_back(sets[i]);
-        return ShadowPatterns(std::move(counted));
-    }
-
-    const std::vector<CasterGroup>& groups_;
-    ShadowPatterns patterns_;
-};
-
 /// The next level that casts fewer triangles.
 std::optional<std::size_t> coarserThan(const CasterGroup& group, std::size_t level) {
     for (std::size_t next = level + 1; next < group.levels.size(); ++next)
@@ -122,15 +72,17 @@ public:
         : scene_(scene), frame_(frameOf(scene, options.frame)), bounds_(boundsOf(scene, options.tolerance)),
           casters_(withChains(scene, options.chains), frame_, options.bands.empty() ? ownBands(scene) : options.bands),
           drawn_(snapshot(scene, frame_)),
-          receivers_(receivers(drawn_, scene.size, casters_, part(progress, 0, searchFrom))), samples_(options.lightSamples),
-          progress_(progress) {}
+          receivers_(receivers(drawn_, scene.size, casters_, part(progress, 0, receiversUntil))),
+          samples_(options.lightSamples), progress_(progress) {}
 
     CasterRecommendation recommend() {
         CasterRecommendation result = blank();
         const bool area = scene_.light.isArea();
         const ShadowOracle oracle = area ? areaOracle(receivers_) : polygonOracle(receivers_);
+        show(receiversUntil, "shadow of the finest levels");
         const WholeShadows whole(casters_, receivers_, oracle);
         result.oracle = oracle.name;
+        show(0.5 * (receiversUntil + searchFrom), "shadow of the drawn levels");
         result.drawnErrors = whole.of(drawn_);
         if (area) {
             search(remembered([&](const Levels& levels) { return whole.of(casters_.cast(levels)); }), result);
@@ -143,6 +95,10 @@ public:
     }
 
 private:
+    void show(double done, std::string_view what) const {
+        if (progress_) progress_(done, what);
+    }
+
     [[nodiscard]] CasterRecommendation blank() const {
         CasterRecommendation result;
         result.scene = scene_.id;
@@ -165,9 +121,8 @@ private:
         return [=, this, known = std::map<Levels, Errors>()](const Levels& levels) mutable {
             const auto found = known.find(levels);
             if (found != known.end()) return found->second;
-            if (progress_)
-                progress_(searchFrom + (searchUntil - searchFrom) * static_cast<double>(known.size()) / possible,
-                          fmt::format("casters at levels {}", fmt::join(levels, " ")));
+            show(searchFrom + (searchUntil - searchFrom) * static_cast<double>(known.size()) / possible,
+                 fmt::format("casters at levels {}", fmt::join(levels, " ")));
             return known.emplace(levels, measured(levels)).first->second;
         };
     }
@@ -199,22 +154,20 @@ private:
     }
 
     void verify(const ShadowOracle& oracle, CasterRecommendation& result) const {
-        const auto show = [&](std::size_t done, std::string_view what) {
-            if (progress_)
-                progress_(searchUntil +
-                              (1 - searchUntil) * static_cast<double>(done) / static_cast<double>(levels_.size() + 2),
-                          what);
+        const auto step = [&](std::size_t done, std::string_view what) {
+            show(searchUntil + (1 - searchUntil) * static_cast<double>(done) / static_cast<double>(levels_.size() + 2),
+                 what);
         };
-        show(0, "verification: finest levels");
+        step(0, "verification: finest levels");
         const WholeShadows whole(casters_, receivers_, oracle);
-        show(1, "verification: recommended levels");
+        step(1, "verification: recommended levels");
         result.verifier = oracle.name;
         result.verifiedErrors = whole.of(casters_.cast(levels_));
         result.verified = within(result.verifiedErrors, bounds_);
         for (std::size_t group = 0; group < levels_.size(); ++group) {
             std::optional<CoarserLevel>& coarser = result.groups[group].coarser;
             if (!coarser) continue;
-            show(group + 2, "verification: one level coarser");
+            step(group + 2, "verification: one level coarser");
             coarser->verified = whole.of(casters_.cast(with(group, coarser->level)));
             result.verified = result.verified && !within(coarser->verified, bounds_);
         }

@@ -86,13 +86,15 @@ std::string text(const CasterRecommendation& c) {
     return lines;
 }
 
-std::string leastTable(const std::string& resource, const std::vector<Least>& all, const report::Tolerance& tolerance) {
-    const std::string heading = fmt::format("{} within {} {}", resource, tolerance.metric, report::shownBound(tolerance));
-    if (all.empty()) return fmt::format(" {}: of no technique\n", heading);
-    report::TextTable table{{heading, "", "error"}, {}};
+/// `unit` is that of the amounts.
+std::string leastTable(const std::string& what, const std::string& unit, const std::vector<Least>& all,
+                       const report::Tolerance& tolerance) {
+    const std::string heading = fmt::format(" {} within {} {}", what, tolerance.metric, report::shownBound(tolerance));
+    if (all.empty()) return heading + ": no technique that was tried has one\n";
+    report::TextTable table{{"technique", unit, "error"}, {}};
     for (const Least& least : all)
         table.rows.push_back({least.variant, fmt::format("{:g}", least.amount), shown(tolerance.metric, least.error)});
-    return report::aligned(table);
+    return heading + "\n" + report::aligned(table);
 }
 
 std::string cheapestLine(const std::optional<Cheapest>& technique, const report::Tolerance& tolerance) {
@@ -159,8 +161,8 @@ std::string text(const Recommendation& r) {
     std::string lines = fmt::format(" scene: {}\n", r.scene);
     if (r.casters) lines += text(*r.casters);
     if (r.questions.contains(Question::Technique)) lines += cheapestLine(r.technique, *r.tolerance);
-    if (r.questions.contains(Question::Map)) lines += leastTable("smallest maps", r.maps, *r.tolerance);
-    if (r.questions.contains(Question::Samples)) lines += leastTable("fewest samples", r.samples, *r.tolerance);
+    if (r.questions.contains(Question::Map)) lines += leastTable("smallest map", "texels a side", r.maps, *r.tolerance);
+    if (r.questions.contains(Question::Samples)) lines += leastTable("fewest samples", "samples", r.samples, *r.tolerance);
     return lines;
 }
 

@@ -42,10 +42,50 @@ Reference byPolygons(const Snapshot& casters, const Receivers& receivers) {
     return labels;
 }
 
+/// The casters in parts of at most `mostTriangles`, or one instance where that has more; each part has all receivers too.
+std::vector<Snapshot> parts(const Snapshot& casters, const Receivers& receivers, std::size_t mostTriangles) {
+    Snapshot receiving = casters;
+    for (Batch& batch : receiving.batches)
+        std::erase_if(batch.placements, [&](const Placement& placement) { return !receivers.ids.contains(placement.id); });
+
+    std::vector<Snapshot> result{receiving};
+    std::size_t triangles = 0; // of the last part, without the receivers
+    for (const Batch& batch : casters.batches) {
+        const std::size_t more = batch.mesh->triangles.size();
+        result.back().batches.push_back({batch.mesh, batch.colour, batch.moving, {}});
+        for (const Placement& placement : batch.placements) {
+            if (receivers.ids.contains(placement.id)) continue;
+            if (triangles > 0 && triangles + more > mostTriangles) {
+                result.push_back(receiving);
+                result.back().batches.push_back({batch.mesh, batch.colour, batch.moving, {}});
+                triangles = 0;
+            }
+            result.back().batches.back().placements.push_back(placement);
+            triangles += more;
+        }
+    }
+    return result;
+}
+
+Shadow joined(const Shadow& a, const Shadow& b) {
+    Shadow both = a;
+    for (std::size_t i = 0; i < both.labelled.size(); ++i) {
+        both.visibility[i] = std::min(a.visibility[i], b.visibility[i]);
+        both.labelled[i] = a.labelled[i] & b.labelled[i];
+    }
+    return both;
+}
+
 } // namespace
 
-ShadowOracle polygonOracle(const Receivers& receivers) {
-    return {"polygon", [&receivers](const Snapshot& casters) { return shadowOf(byPolygons(casters, receivers)); }};
+ShadowOracle polygonOracle(const Receivers& receivers, std::size_t mostTriangles) {
+    return {"polygon", [&receivers, mostTriangles](const Snapshot& casters) {
+                const std::vector<Snapshot> all = parts(casters, receivers, mostTriangles);
+                Shadow shadow = shadowOf(byPolygons(all.front(), receivers));
+                for (std::size_t i = 1; i < all.size(); ++i)
+                    shadow = joined(shadow, shadowOf(byPolygons(all[i], receivers)));
+                return shadow;
+            }};
 }
 
 ShadowOracle rayOracle(const Receivers& receivers) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 namespace shadowbench {
@@ -47,9 +48,18 @@ private:
     std::string claim_;
 };
 
+/// Scene, variant and metric; no place on an axis.
+Figure parseFigureAnywhere(const Members& members, const std::string& claim) {
+    Figure figure{members.text("scene"), members.text("variant"), members.text("metric"), "", {}, {}};
+    if (!members.has("over")) return figure;
+    const Members over(members.get("over"), claim, {"variant", "metric"});
+    figure.over = Figure::Divisor{over.text("variant"), over.text("metric")};
+    return figure;
+}
+
 Figure parseFigure(const Json& json, const std::string& claim) {
-    const Members members(json, claim, {"scene", "variant", "metric", "axis", "value"});
-    Figure figure{members.text("scene"), members.text("variant"), members.text("metric"), "", {}};
+    const Members members(json, claim, {"scene", "variant", "metric", "over", "axis", "value"});
+    Figure figure = parseFigureAnywhere(members, claim);
     if (members.has("axis")) {
         figure.axis = members.text("axis");
         figure.value = members.number("value");
@@ -57,9 +67,25 @@ Figure parseFigure(const Json& json, const std::string& claim) {
     return figure;
 }
 
+/// A check that a figure grows over an axis.
+Check parseGrowth(const Json& json, const std::string& claim) {
+    const Members members(json, claim, {"says", "left", "grows over"});
+    const Members left(members.get("left"), claim, {"scene", "variant", "metric", "over", "axis"});
+    Check check{members.text("says"), parseFigureAnywhere(left, claim), true, 1, {}, {}};
+    check.left.axis = left.text("axis");
+    const Json& places = members.get("grows over");
+    if (!places.is_array() || places.size() < 2) refuse(claim, "\"grows over\" must list two values of the axis or more");
+    for (const Json& place : places) {
+        if (!place.is_number()) refuse(claim, "\"grows over\" must list numbers");
+        check.growsOver.push_back(place.get<double>());
+    }
+    return check;
+}
+
 Check parseCheck(const Json& json, const std::string& claim) {
+    if (json.is_object() && json.contains("grows over")) return parseGrowth(json, claim);
     const Members members(json, claim, {"says", "left", "is", "times", "right", "bound"});
-    Check check{members.text("says"), parseFigure(members.get("left"), claim), true, 1, {}};
+    Check check{members.text("says"), parseFigure(members.get("left"), claim), true, 1, {}, {}};
     const std::string is = members.text("is");
     if (is != "at most" && is != "at least")
         refuse(claim, fmt::format("\"is\" must be \"at most\" or \"at least\", not \"{}\"", is));
@@ -108,10 +134,27 @@ std::optional<double> numberAt(const Record& record, const std::string& path) {
 
 std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& records) {
     const auto record = std::ranges::find_if(records, [&](const Record& r) { return matches(r, figure); });
-    return record == records.end() ? std::nullopt : numberAt(*record, figure.metric);
+    const std::optional<double> number = record == records.end() ? std::nullopt : numberAt(*record, figure.metric);
+    if (!number || !figure.over) return number;
+    const Figure divisor{figure.scene, figure.over->variant, figure.over->metric, figure.axis, figure.value, {}};
+    const std::optional<double> divided = lookUp(divisor, records);
+    return divided && *divided != 0 ? std::optional(*number / *divided) : std::nullopt;
+}
+
+Finding examineGrowth(const Check& check, const std::vector<Record>& records) {
+    Finding finding;
+    for (const double place : check.growsOver) {
+        Figure there = check.left;
+        there.value = place;
+        finding.places.push_back(lookUp(there, records));
+    }
+    if (std::ranges::any_of(finding.places, [](const auto& value) { return !value; })) return finding;
+    finding.holds = std::ranges::adjacent_find(finding.places, std::greater_equal<>()) == finding.places.end();
+    return finding;
 }
 
 Finding examine(const Check& check, const std::vector<Record>& records) {
+    if (!check.growsOver.empty()) return examineGrowth(check, records);
     Finding finding{lookUp(check.left, records), {}, {}};
     if (check.right) finding.right = lookUp(*check.right, records);
     if (!finding.left || (check.right && !finding.right)) return finding;

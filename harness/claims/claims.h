@@ -10,21 +10,27 @@
 
 namespace shadowbench {
 
-/// A number of one record.
+/// A number of one record, or its quotient by that of another variant at the same place.
 struct Figure {
+    struct Divisor {
+        std::string variant, metric;
+    };
     std::string scene, variant;
-    std::string metric;          // path in the record: "accuracy.mismatch", "cost.time.ratio"
+    std::string metric;          // path in the record: "accuracy.mismatch", "cost.time.ratio", "figures.overshoot"
     std::string axis;            // of a sweep's record, else empty …
     std::optional<double> value; // … and the place on it
+    std::optional<Divisor> over;
 };
 
-/// left ≤ factor × right, or left ≥ factor × right; without `right`, `factor` alone is the bound.
+/// left ≤ factor × right, or left ≥ factor × right; without `right`, `factor` alone is the bound. With `growsOver` instead:
+/// left is larger at each of these places on its axis than at the one before.
 struct Check {
     std::string says; // in words
     Figure left;
     bool atMost = true;
     double factor = 1;
     std::optional<Figure> right;
+    std::vector<double> growsOver;
 };
 
 struct Claim {
@@ -39,6 +45,7 @@ struct Claim {
 struct Finding {
     std::optional<double> left, right;
     std::optional<bool> holds;
+    std::vector<std::optional<double>> places = {}; // left at the places of `Check::growsOver`
 };
 
 enum class Verdict { Reproduced, Partly, NotReproduced, NotTestable, NotMeasured };

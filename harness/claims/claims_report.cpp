@@ -3,6 +3,7 @@
 #include "harness/report/summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace shadowbench {
@@ -12,20 +13,32 @@ using Json = nlohmann::ordered_json;
 
 std::string described(const Figure& figure) {
     const std::string at = figure.value ? fmt::format(" at {} {:g}", figure.axis, *figure.value) : "";
-    return fmt::format("{} of {} on {}{}", figure.metric, figure.variant, figure.scene, at);
+    const std::string over = figure.over ? fmt::format(" over {} of {}", figure.over->metric, figure.over->variant) : "";
+    return fmt::format("{} of {}{} on {}{}", figure.metric, figure.variant, over, figure.scene, at);
 }
 
 std::string valued(const Figure& figure, const std::optional<double>& value) {
     return described(figure) + (value ? fmt::format(" = {:.4g}", *value) : " is missing");
 }
 
+std::string outcome(const Finding& finding) { return !finding.holds ? "not measured" : *finding.holds ? "yes" : "no"; }
+
+/// "figures.tiles of a on s at casters 1, 2, 4 = 3, 5, 9 grows: yes".
+std::string describedGrowth(const Check& check, const Finding& finding) {
+    std::vector<std::string> values;
+    for (const std::optional<double>& value : finding.places)
+        values.push_back(value ? fmt::format("{:.4g}", *value) : "missing");
+    return fmt::format("{} at {} {:g} = {} grows: {}", described(check.left), check.left.axis,
+                       fmt::join(check.growsOver, ", "), fmt::join(values, ", "), outcome(finding));
+}
+
 /// "accuracy.mismatch of a on s = 0.0147 ≤ 0.5 × accuracy.mismatch of b on s = 0.0169: no".
 std::string described(const Check& check, const Finding& finding) {
+    if (!check.growsOver.empty()) return describedGrowth(check, finding);
     const std::string sign = check.atMost ? "≤" : "≥";
     const std::string right = check.right ? fmt::format("{:g} × {}", check.factor, valued(*check.right, finding.right))
                                           : fmt::format("{:g}", check.factor);
-    const std::string outcome = !finding.holds ? "not measured" : *finding.holds ? "yes" : "no";
-    return fmt::format("{} {} {}: {}", valued(check.left, finding.left), sign, right, outcome);
+    return fmt::format("{} {} {}: {}", valued(check.left, finding.left), sign, right, outcome(finding));
 }
 
 std::string asText(const Judgement& judgement) {
@@ -55,6 +68,7 @@ Json asJson(const Judgement& judgement) {
         Json check{{"says", claim.checks[i].says}, {"test", described(claim.checks[i], finding)}};
         if (finding.left) check["left"] = *finding.left;
         if (finding.right) check["right"] = *finding.right;
+        for (const std::optional<double>& value : finding.places) check["places"].push_back(value ? Json(*value) : Json());
         if (finding.holds) check["holds"] = *finding.holds;
         checks.push_back(std::move(check));
     }

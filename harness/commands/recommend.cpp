@@ -88,7 +88,7 @@ void addRecommend(CLI::App& app, Action& action) {
         ->capture_default_str();
     verb->add_option("--tolerance", options.casters.tolerance,
                      "Such as mismatch=0.01, or a number alone: of mismatch under a hard light, penumbra_rmse under an area "
-                     "light; repeatable (default: the scene's)");
+                     "light; repeatable, of which technique, map and samples take the first (default: the scene's)");
     verb->add_option("--bands", options.casters.bands,
                      "Distances from the eye between which casters share a level, in m, comma-separated (default: where the "
                      "scene changes its levels)")
@@ -104,7 +104,7 @@ void addRecommend(CLI::App& app, Action& action) {
     verb->add_option("--technique", options.techniques,
                      "For technique, map and samples: variant or glob over ids; repeatable (default: all)");
     CLI::Option* records = verb->add_option("--records", options.records, "Records that answer technique, map and samples");
-    verb->add_option("--out", options.out, "Folder of the records of cells that are run")
+    verb->add_option("--out", options.out, "Folder of the records of cells that are run; those that it holds are kept")
         ->excludes(records)
         ->capture_default_str();
     verb->add_option("--profile", words->profile, "gate, standard or paper")->capture_default_str();

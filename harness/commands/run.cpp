@@ -2,6 +2,7 @@
 
 #include "harness/commands/command.h"
 #include "harness/commands/written_report.h"
+#include "harness/report/lod_report.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -22,8 +23,11 @@ std::vector<std::string> scenesOf(const std::vector<Record>& records) {
 ExitCode runAndPrint(const RunOptions& options) {
     const RunResult result = run(options);
     const report::Written written = report::writeReport(result.records, options.out);
-    for (const std::string& scene : scenesOf(result.records))
+    for (const std::string& scene : scenesOf(result.records)) {
         fmt::print("{}\n", report::terminalTable(result.records, scene));
+        const std::string lod = report::lodTerminalTable(result.records, scene);
+        if (!lod.empty()) fmt::print("{}\n", lod);
+    }
     for (const Record& record : result.records)
         if (record.status == Status::Error)
             fmt::print(stderr, "error: {} on {}: {}\n", record.variant, record.scene, record.reason);

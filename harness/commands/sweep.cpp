@@ -1,19 +1,38 @@
 #include "harness/sweep/sweep.h"
 
 #include "harness/commands/command.h"
+#include "harness/lod/viewport_curve.h"
 #include "harness/report/charts.h"
+#include "harness/report/lod_report.h"
 #include "harness/report/report.h"
 #include "harness/scene/files.h"
 #include "harness/sweep/axis.h"
+#include "techniques/gl/context.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 
 namespace shadowbench {
 namespace {
 
+/// The axis of level-of-detail techniques, whose records have costs and no errors.
+ExitCode viewportsAndPrint(const SweepOptions& options, const std::filesystem::path& out) {
+    const SweepResult result = lod::viewportCurve(options);
+    const std::filesystem::path records = out / "sweep.jsonl", page = out / "sweep.md", chart = out / "sweep.svg";
+    writeRecords(records, result.records);
+    const std::string table = report::viewportTable(result.records);
+    writeFile(page, fmt::format("# {} over {}\n\n{}\n![frame times](sweep.svg)\n", result.records.front().scene,
+                                options.axis, table));
+    writeFile(chart, report::viewportChart(result.records));
+    fmt::print("{}\nrecords: {}\npage: {}\nchart: {}\n", table, records.string(), page.string(), chart.string());
+    return result.code;
+}
+
 ExitCode sweepAndPrint(const SweepOptions& options, const std::filesystem::path& out) {
+    if (options.axis == lod::viewportAxis) return viewportsAndPrint(options, out);
+    const auto context = gl::Context::create();
     const SweepResult result = sweep(options);
     const std::filesystem::path records = out / "sweep.jsonl", page = out / "sweep.md", chart = out / "sweep.svg";
     writeRecords(records, result.records);
@@ -32,10 +51,11 @@ ExitCode sweepAndPrint(const SweepOptions& options, const std::filesystem::path&
 }
 
 std::string axesHelp() {
-    std::string text = "Axes:\n";
+    std::string text = "Axes, with their own values in the order in which a break is looked for:\n";
     for (const Axis& axis : axes())
-        text += fmt::format("  {:<17} {}{}\n", axis.id, axis.meaning, axis.unit.empty() ? "" : ", in " + axis.unit);
-    return text;
+        text += fmt::format("  {:<17} {}{}\n{:20}{}\n", axis.id, axis.meaning, axis.unit.empty() ? "" : ", in " + axis.unit,
+                            "", fmt::join(axis.values, ", "));
+    return text + fmt::format("  {:<17} side of the picture of lod-* techniques, in pixels: their cost\n", lod::viewportAxis);
 }
 
 } // namespace
@@ -47,11 +67,12 @@ void addSweep(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("sweep", "Moves one quantity of a scene and shows where techniques break");
     verb->footer(axesHelp() +
                  "Examples:\n  shadowbench sweep --scene dueling-frusta --axis light-view-angle --technique 'sm-*'\n"
+                 "  shadowbench sweep --scene windmills --axis viewport --technique 'lod-*' --profile standard\n"
                  "  shadowbench sweep --scene dueling-frusta --axis map --values 2048,1024,512 --technique sm-uniform");
     verb->add_option("--scene", options->scene, "Scene id or file")->required();
     verb->add_option("--axis", options->axis, "What is moved")->required();
     verb->add_option("--values", options->values,
-                     "Comma-separated, in the order in which a break is looked for (default: the axis' own)")
+                     "Comma-separated, in the order in which a break is looked for (default: the axis' own, below)")
         ->delimiter(',');
     verb->add_option("--technique", options->techniques,
                      "Variant such as pcss:taps=32+32, or a glob over ids; repeatable (default: all)");

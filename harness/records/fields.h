@@ -57,6 +57,7 @@ void fields(auto& visit, Is<Flicker> auto& f) {
 void fields(auto& visit, Is<Stability> auto& s) {
     visit("flicker", s.flicker);
     visit("flip_rate", s.flipRate);
+    visit("reuse", s.reuse);
     visit("convergence", s.convergence);
     const bool curves =
         !s.mismatchByFrame.empty() || !s.rmseByFrame.empty() || !s.bad30ByFrame.empty() || !s.changedByFrame.empty();
@@ -93,6 +94,33 @@ void fields(auto& visit, Is<Cost> auto& c) {
     visit("work", c.work);
 }
 
+void fields(auto& visit, Is<LodTime> auto& t) {
+    visit("median", t.median);
+    visit("ratio", t.ratio);
+    visit("spread", t.spread);
+}
+
+void fields(auto& visit, Is<Lod> auto& l) {
+    visit("pop", l.pop);
+    visit("changed_region", l.changedRegion);
+    visit("walk_pop", l.walkPop);
+    visit("colour_error", l.colourError);
+    visit("noise", l.noise);
+    visit("order_error", l.orderError);
+    visit("transitions", l.transitions);
+    visit("primitives", l.primitives);
+    visit("primitive_change", l.primitiveChange);
+    visit("time", l.time);
+    const bool curves =
+        !l.popByFrame.empty() || !l.walkPopByFrame.empty() || !l.primitivesByFrame.empty() || !l.millisecondsByFrame.empty();
+    visit.group("by_frame", curves, [&](auto& byFrame) {
+        byFrame("pop", l.popByFrame);
+        byFrame("walk_pop", l.walkPopByFrame);
+        byFrame("primitives", l.primitivesByFrame);
+        byFrame("milliseconds", l.millisecondsByFrame);
+    });
+}
+
 void fields(auto& visit, Is<Environment> auto& e) {
     visit("renderer", e.renderer);
     visit("gl", e.gl);
@@ -121,6 +149,9 @@ void fields(auto& visit, Is<SweepStep> auto& s) {
 
 inline bool wasScored(Status status) { return status == Status::Scored || status == Status::ExpectedFailure; }
 
+/// Scored against a truth: a level-of-detail record is not.
+inline bool hasAccuracy(const Record& r) { return wasScored(r.status) && !r.lod; }
+
 void fields(auto& visit, Is<Record> auto& r) {
     visit("schema_version", r.schemaVersion);
     visit("scene", r.scene);
@@ -141,11 +172,12 @@ void fields(auto& visit, Is<Record> auto& r) {
     visit("reference", r.reference);
     visit("soft_reference", r.softReference);
     visit("sweep", r.sweep);
-    visit.group("accuracy", wasScored(r.status), [&](auto& inner) { fields(inner, r.accuracy); });
+    visit("lod", r.lod);
+    visit.group("accuracy", hasAccuracy(r), [&](auto& inner) { fields(inner, r.accuracy); });
     visit("aliasing", r.aliasing);
     visit.figures("figures", r.figures);
     const Stability& s = r.stability;
-    const bool stability = s.flicker || s.flipRate || s.convergence || !s.mismatchByFrame.empty() ||
+    const bool stability = s.flicker || s.flipRate || s.reuse || s.convergence || !s.mismatchByFrame.empty() ||
                            !s.rmseByFrame.empty() || !s.bad30ByFrame.empty() || !s.changedByFrame.empty();
     visit.group("stability", stability, [&](auto& inner) { fields(inner, r.stability); });
     const bool cost = r.cost.time || r.cost.instructions || r.cost.work;

@@ -161,8 +161,10 @@ Record parseRecord(const std::string& json) {
     Reader reader(object, "");
     records::fields(reader, record);
     reader.refuseUnknown();
-    if (object.contains("accuracy") != records::wasScored(record.status))
-        refuse("accuracy", "belongs to scored records and expected failures, and to no others");
+    if (record.lod && !records::wasScored(record.status))
+        refuse("lod", "belongs to scored records and expected failures, and to no others");
+    if (object.contains("accuracy") != records::hasAccuracy(record))
+        refuse("accuracy", "belongs to scored records and expected failures without \"lod\", and to no others");
     return record;
 }
 

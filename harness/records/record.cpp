@@ -39,7 +39,7 @@ std::string_view name(Status status) {
 }
 
 std::optional<Headline> headline(const Record& record) {
-    if (!records::wasScored(record.status)) return {};
+    if (!records::hasAccuracy(record)) return {};
     const Accuracy& accuracy = record.accuracy;
     if (isSoft(record.reference) || isSoft(record.softReference)) {
         if (!accuracy.rmse) return {};

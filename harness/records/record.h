@@ -44,6 +44,7 @@ struct Flicker {
 struct Stability {
     std::optional<Flicker> flicker;      // over the moving frames
     std::optional<double> flipRate;      // over the moving frames
+    std::optional<double> reuse;         // share of the moving frames' surface pixels that the frame before saw, too
     std::optional<int> convergence;      // still frames needed from an empty history
     std::vector<double> mismatchByFrame; // over the still frames from an empty history; techniques with history only
     std::vector<double> rmseByFrame;
@@ -68,6 +69,33 @@ struct Cost {
     std::optional<Time> time;
     std::optional<Work> work;
     std::optional<std::uint64_t> instructions;
+};
+
+/// Frames of a level-of-detail technique over the scene's walk, each timed beside lod-switch's, without the G-buffer; of a
+/// rasteriser that draws on the calling thread its processor time, which other programs do not disturb.
+struct LodTime {
+    double median = 0; // ms a frame
+    double ratio = 1;  // to lod-switch: median over the frames
+    double spread = 0; // median change from one frame to the next, as a share of the former
+};
+
+/// Scores of a level-of-detail technique over the scene's walk (METRICS: pop; Scherzer and Wimmer 2008, 5.2). Colours are in
+/// [0, 1]; changes are from one frame to the next.
+struct Lod {
+    // While camera and instances stand and levels alone change, so that lod-full's picture stays as it is:
+    double pop = 0;                  // largest mean change of colour
+    std::uint64_t changedRegion = 0; // pixels of the largest connected region that changes by > 30/255
+    // Along the walk:
+    double walkPop = 0;          // largest mean change of colour beyond lod-full's; coarse levels alias less and change less
+    double colourError = 0;      // rms difference from lod-full
+    std::optional<double> noise; // mean distance from the 3 × 3 median beyond lod-full's, where pixels see a transition
+    double orderError = 0;       // rms difference from the same with all triangles drawn the other way round
+    std::uint64_t transitions = 0; // most instances in transition at once
+    double primitives = 0;         // a frame, mean
+    double primitiveChange = 0;    // largest, as a share of the former frame's
+    std::optional<LodTime> time;
+    std::vector<double> popByFrame, walkPopByFrame; // from frame 1
+    std::vector<double> primitivesByFrame, millisecondsByFrame;
 };
 
 struct Environment {
@@ -110,6 +138,7 @@ struct Record {
     std::optional<ReferenceInfo> reference;
     std::optional<ReferenceInfo> softReference; // the second truth of a hard technique on an area-light scene
     std::optional<SweepStep> sweep;             // of `sweep` only
+    std::optional<Lod> lod;                     // of level-of-detail techniques, which have no accuracy or stability
     Accuracy accuracy;
     std::optional<Aliasing> aliasing;      // of techniques with a map
     std::map<std::string, double> figures; // of the scored frame, by names that `list techniques` explains
@@ -121,8 +150,8 @@ struct Record {
 
 /// One JSON line, keys in schema order, no newline. Numbers are written so that they read back equal; a parameter that is a
 /// number is written as one and reads back in its shortest form. `accuracy` is written for scored records and expected
-/// failures only, other groups when something is in them. Throws InternalError naming the key of a number that is not
-/// finite.
+/// failures without `lod` only, other groups when something is in them. Throws InternalError naming the key of a number that
+/// is not finite.
 std::string toJson(const Record& record);
 
 /// Throws BadInput naming the key when `json` is not a record of this schema version: a key is missing, unknown or of

@@ -1,7 +1,9 @@
 // The published page: report.md, results.csv and the charts.
 #include "harness/report/charts.h"
+#include "harness/report/lod_report.h"
 #include "harness/report/report.h"
 #include "harness/report/summary.h"
+#include "harness/run/cell_images.h"
 #include "harness/scene/files.h"
 #include "harness/scene/scene.h"
 #include "techniques/technique.h"
@@ -96,6 +98,27 @@ std::string sceneSection(const std::vector<Record>& records, const std::string& 
     return text;
 }
 
+/// A scene id as part of a file name.
+std::string fileStem(const std::string& scene) {
+    std::string stem = scene;
+    std::replace_if(
+        stem.begin(), stem.end(), [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
+    return stem;
+}
+
+/// The pictures that `run --images` has left in the folder: the scene in mid-walk, and one instance's transition by
+/// technique.
+std::string lodPictures(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& folder) {
+    std::string frame, rows;
+    for (const std::size_t i : ofScene(records, scene)) {
+        const std::string place = "images/" + fileStem(scene) + "/" + fileName(records[i].variant) + "/";
+        if (!records[i].lod || !std::filesystem::exists(folder / (place + "transition.png"))) continue;
+        if (frame.empty()) frame = fmt::format("![{}]({}frame.png)\n\n", markdownText(scene), place);
+        rows += fmt::format("| {} | ![transition]({}transition.png) |\n", records[i].variant, place);
+    }
+    return rows.empty() ? "" : frame + "| technique | one instance through its transition |\n|:---|:---|\n" + rows + "\n";
+}
+
 /// Words of `chosen` as repeated options; nothing if they are all there are.
 std::string options(const std::string& option, const std::vector<std::string>& chosen, const std::vector<std::string>& all) {
     if (std::is_permutation(chosen.begin(), chosen.end(), all.begin(), all.end())) return "";
@@ -122,14 +145,6 @@ std::string head(const std::vector<Record>& records) {
     return text;
 }
 
-/// A scene id as part of a file name.
-std::string fileStem(const std::string& scene) {
-    std::string stem = scene;
-    std::replace_if(
-        stem.begin(), stem.end(), [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
-    return stem;
-}
-
 } // namespace
 
 Written writeReport(const std::vector<Record>& records, const std::filesystem::path& folder) {
@@ -146,6 +161,13 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
         keep("pareto", paretoChart(records, scene));
         keep("convergence", convergenceChart(records, scene));
         page += sceneSection(records, scene, charts);
+        const std::string lod = lodMarkdownTable(records, scene);
+        if (lod.empty()) continue;
+        page += fmt::format("### Levels of detail: {}\n\n{}\n", markdownText(scene), lod);
+        charts.clear();
+        keep("lod", lodChart(records, scene));
+        for (const std::string& chart : charts) page += fmt::format("![levels of detail]({})\n\n", chart);
+        page += lodPictures(records, scene, folder);
     }
     writeFile(folder / "results.csv", csv(records));
     writeFile(written.page, page + legend);

@@ -33,7 +33,7 @@ std::string sweepTable(const std::vector<Record>& records) {
         fmt::format("| {} |", first.unit.empty() ? first.axis : fmt::format("{} [{}]", first.axis, first.unit));
     std::string rule = "|---|";
     for (const double value : valuesOf(records)) {
-        header += fmt::format(" {:g} |", value);
+        header += fmt::format(" {} |", value);
         rule += "--:|";
     }
     std::string text = fmt::format("{}: {}{}\n\n{} breaks at |\n{}--:|\n", scene, meaning(metric),
@@ -44,7 +44,7 @@ std::string sweepTable(const std::vector<Record>& records) {
         if (step.curve != curve) text += fmt::format("| {} |", markdownText(curve = step.curve));
         text += fmt::format(" {} |", cell(records[i], metric));
         if (i + 1 == records.size() || records[i + 1].sweep->curve != curve)
-            text += step.breakPoint ? fmt::format(" {:g} |\n", *step.breakPoint) : " – |\n";
+            text += step.breakPoint ? fmt::format(" {} |\n", *step.breakPoint) : " – |\n";
     }
     return text;
 }

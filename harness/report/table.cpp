@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <span>
 
 namespace shadowbench::report {
@@ -53,6 +54,8 @@ std::span<const Column> columns() {
         {"penumbra rmse", true, [](const Record& r) { return decimals(r.accuracy.penumbraRmse, 4); }},
         {"penumbra width", true, [](const Record& r) { return percentOf(r.accuracy.penumbraWidthError); }},
         {"umbra leak", true, [](const Record& r) { return decimals(r.accuracy.umbraLeak, 4); }},
+        {"texel px", true, [](const Record& r) { return r.aliasing ? decimals(r.aliasing->median, 2) : Cell(); }},
+        {"texel px p95", true, [](const Record& r) { return r.aliasing ? decimals(r.aliasing->p95, 2) : Cell(); }},
         {"flicker", false, flickerMean},
         {"flips", true, [](const Record& r) { return percentOf(r.stability.flipRate); }},
         {"converged at", true, convergence},
@@ -94,8 +97,9 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
     if (const std::optional<Tolerance> limit = tolerance(records, scene)) {
         const std::optional<std::size_t> best = cheapestAdequate(records, scene);
         const std::string metric = limit->metric == headlineMetric(records, scene) ? "" : limit->metric + " ";
-        lines.push_back(fmt::format("cheapest within tolerance ({}{}): {}", metric, shownBound(*limit),
-                                    best ? records[*best].variant : "none"));
+        const std::string bound = metric + shownBound(*limit);
+        lines.push_back(best ? fmt::format("cheapest within tolerance ({}): {}", bound, records[*best].variant)
+                             : fmt::format("no technique is within tolerance ({})", bound));
     }
     std::vector<std::pair<std::string, std::string>> inapplicable; // reason → variants, in order of first occurrence
     for (const std::size_t i : ofScene(records, scene)) {
@@ -114,18 +118,24 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
     return lines;
 }
 
+/// "figures of volume-zpass: stencil_bytes 2.41e+06, stencil_updates 8.12e+04".
+std::vector<std::string> figureLines(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::string> lines;
+    for (const std::size_t i : ofScene(records, scene)) {
+        if (records[i].figures.empty()) continue;
+        std::vector<std::string> figures;
+        for (const auto& [name, value] : records[i].figures) figures.push_back(fmt::format("{} {:.3g}", name, value));
+        lines.push_back(fmt::format("figures of {}: {}", records[i].variant, fmt::join(figures, ", ")));
+    }
+    return lines;
+}
+
 std::string heading(const std::vector<Record>& records, const std::string& scene) {
     const Record& first = records[ofScene(records, scene).front()];
     std::string line = fmt::format("scene: {} · {}", scene, imageSize(first));
     const std::string metric = headlineMetric(records, scene);
     if (!metric.empty()) line += fmt::format(" · error = {} · cost = frames of sm-uniform", meaning(metric));
     return line;
-}
-
-std::string markdownRow(const std::vector<std::string>& cells) {
-    std::string line = "|";
-    for (const std::string& cell : cells) line += fmt::format(" {} |", markdownText(cell));
-    return line + "\n";
 }
 
 } // namespace
@@ -140,15 +150,9 @@ std::string terminalTable(const std::vector<Record>& records, const std::string&
 }
 
 std::string markdownTable(const std::vector<Record>& records, const std::string& scene) {
-    const TextTable content = table(records, scene, true);
-    std::string text;
-    if (!content.rows.empty()) {
-        text += markdownRow(content.titles) + "|:---|";
-        for (std::size_t i = 1; i < content.titles.size(); ++i) text += "---:|";
-        text += "\n";
-    }
-    for (const std::vector<std::string>& row : content.rows) text += markdownRow(row);
+    std::string text = markdown(table(records, scene, true));
     for (const std::string& line : footnotes(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
+    for (const std::string& line : figureLines(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
     return text;
 }
 

@@ -1,4 +1,4 @@
-// Tables for a terminal.
+// Rows of text, aligned for a terminal or in Markdown.
 #pragma once
 
 #include <string>
@@ -6,13 +6,16 @@
 
 namespace shadowbench::report {
 
-/// UTF-8 text, one column of the terminal a character.
+/// Every row has as many cells as there are titles; the first column holds names.
 struct TextTable {
     std::vector<std::string> titles;
-    std::vector<std::vector<std::string>> rows; // each as long as the titles
+    std::vector<std::vector<std::string>> rows;
 };
 
-/// A line for the titles and one for each row: the first column to the left, the others to the right.
+/// Names to the left, figures to the right; UTF-8 whose characters are one column wide.
 std::string aligned(const TextTable& table);
+
+/// A Markdown table. Nothing without rows.
+std::string markdown(const TextTable& table);
 
 } // namespace shadowbench::report

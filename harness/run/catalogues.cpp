@@ -21,6 +21,8 @@ std::string_view meaning(techniques::Answer answer) {
         return "filtered hard shadows, any light";
     case techniques::Answer::Soft:
         return "soft shadows, area lights";
+    case techniques::Answer::Colour:
+        return "pictures of a walk past levels of detail";
     }
     return "";
 }
@@ -96,8 +98,18 @@ constexpr std::array metrics{
     Metric{"figures", "see list techniques", "numbers of the scored frame that only the technique knows"},
     Metric{"flicker", "1", "change between moving frames beyond the truth's own, after exact reprojection"},
     Metric{"flip_rate", "share", "reprojected pixels that change class while the truth does not"},
+    Metric{"reuse", "share", "surface pixels of the moving frames that the frame before saw, too"},
     Metric{"convergence", "frames",
            "still frames from an empty history until the error stays within 5 % of its steady state"},
+    Metric{"pop", "1", "levels of detail: largest mean change of colour from frame to frame while levels alone change"},
+    Metric{"changed_region", "pixels",
+           "levels of detail: the same, largest connected region that changes by more than 30/255"},
+    Metric{"walk_pop", "1", "levels of detail: largest mean change of colour along the walk beyond lod-full's"},
+    Metric{"colour_error", "1", "levels of detail: rms difference from lod-full over the walk"},
+    Metric{"noise", "1", "levels of detail: mean distance from the 3×3 median beyond lod-full's, over pixels in transition"},
+    Metric{"order_error", "1",
+           "levels of detail: rms difference from the same with all triangles drawn the other way round"},
+    Metric{"primitive_change", "share", "levels of detail: largest change of the primitives drawn from frame to frame"},
     Metric{"time", "ms, ratio", "wall time of a frame over interleaved rounds, and its ratio to sm-uniform"},
     Metric{"work", "counts", "fragment invocations, vertices, primitives, draws, passes, bytes"},
 };

@@ -126,6 +126,11 @@ public:
             const metrics::Flips flips = metrics::flips(now, before, warp);
             flips_.flipped += flips.flipped;
             flips_.compared += flips.compared;
+            for (std::size_t i = 0; i < warp.size(); ++i) {
+                if (truth.surface[i] == groundtruth::Surface::Background) continue;
+                ++surfacePixels_;
+                if (!std::isnan(warp[i].x)) ++seenBefore_;
+            }
         }
         before_ = {std::move(v), &truth, std::move(mask)};
     }
@@ -134,6 +139,7 @@ public:
         stability.flicker = metrics::flicker(std::move(samples_));
         if (flips_.compared > 0)
             stability.flipRate = static_cast<double>(flips_.flipped) / static_cast<double>(flips_.compared);
+        if (surfacePixels_ > 0) stability.reuse = static_cast<double>(seenBefore_) / static_cast<double>(surfacePixels_);
     }
 
 private:
@@ -145,6 +151,7 @@ private:
     Kept before_;
     std::vector<float> samples_;
     metrics::Flips flips_;
+    std::size_t surfacePixels_ = 0, seenBefore_ = 0;
 };
 
 std::optional<Aliasing> aliasingOf(const techniques::Technique& technique, const Stage& stage, const Mask& mask) {
@@ -178,7 +185,7 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
     record.dirty = commit.dirty;
     record.time = timeNow();
     record.environment = environmentOf(gl::Context::current().info());
-    if (!scene.tolerance.empty()) {
+    if (!scene.tolerance.empty() && !variant.isLod()) { // it is about shadows
         record.toleranceMetric = scene.tolerance.begin()->first;
         record.tolerance = scene.tolerance.begin()->second;
     }

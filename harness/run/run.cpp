@@ -1,5 +1,7 @@
 #include "harness/run/run.h"
 
+#include "harness/lod/lod_cell.h"
+#include "harness/lod/lod_images.h"
 #include "harness/run/cell.h"
 #include "harness/run/cell_images.h"
 #include "harness/run/environment.h"
@@ -68,27 +70,33 @@ private:
         ProgressLine line(scene.id, static_cast<int>(variants_.size()), options_.quiet);
         Stage stage(scene);
         Truths truths(scene, cache_);
+        lod::LodScene lodScene(scene);
         int done = 0;
         for (const techniques::Variant& variant : variants_) {
             line.show(done, 0, variant.name);
-            keep(cell(scene, stage, truths, variant,
+            keep(cell(scene, stage, truths, lodScene, variant,
                       [&](double share, std::string_view what) { line.show(done, share, what); }));
             ++done;
         }
         line.show(done, 0, "");
     }
 
-    Record cell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
-                const Progress& progress) {
+    Record cell(const Scene& scene, Stage& stage, Truths& truths, lod::LodScene& lodScene,
+                const techniques::Variant& variant, const Progress& progress) {
         Record record = blankRecord(scene, variant, options_.seed);
-        if (const auto reason = notApplicable(scene, variant)) {
+        const bool isLod = variant.isLod();
+        if (const auto reason = isLod ? lod::notApplicable(scene) : notApplicable(scene, variant)) {
             record.status = Status::NotApplicable;
             record.reason = *reason;
             return record;
         }
         try {
-            record.cell = cellId(truths, scene, variant, options_.seed);
+            record.cell = isLod ? lod::lodCellId(scene, variant) : cellId(truths, scene, variant, options_.seed);
             if (const Record* same = finishedAlready(record.cell)) return *same;
+            if (isLod) {
+                runLod(lodScene, variant, record, progress);
+                return record;
+            }
             computeTruths(scene, truths, variant, progress);
             CellOptions cellOptions;
             cellOptions.seed = options_.seed;
@@ -106,6 +114,20 @@ private:
             if (result_.code == ExitCode::Pass) result_.code = error.code();
             return failed;
         }
+    }
+
+    void runLod(lod::LodScene& lodScene, const techniques::Variant& variant, Record& record,
+                const Progress& progress) const {
+        lod::LodCellOptions cellOptions;
+        cellOptions.time = options_.time;
+        lod::KeepPicture keep;
+        std::optional<lod::LodImages> images;
+        if (options_.images) {
+            images.emplace(lodScene.reference(progress));
+            keep = [&images](int frame, const metrics::ColourImage& picture) { images->keep(frame, picture); };
+        }
+        lod::runLodCell(lodScene, variant, cellOptions, record, progress, keep);
+        if (images) images->write(options_.out / "images" / record.scene / fileName(variant.name));
     }
 
     /// References first, with their own progress: they are the long part of an empty cache.

@@ -9,7 +9,9 @@ namespace shadowbench {
 
 class Stage {
 public:
+    /// The scene must outlive the stage.
     explicit Stage(const Scene& scene);
+    explicit Stage(Scene&&) = delete;
 
     /// Uploads frame `index` of the scene and draws its G-buffer.
     void show(int index);

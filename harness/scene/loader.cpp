@@ -26,7 +26,7 @@ Track shifted(const Track& shift, const glm::dvec3& rest) {
     return track;
 }
 
-void readCameraPath(const TomlValue& path, Scene& scene) {
+void readCameraPath(const TomlValue& path, const Camera& camera, Track& eye, Track& target) {
     for (const TomlValue& key : path.list()) {
         key.only({"frame", "eye", "target", "shift"});
         if (key.find("shift").has_value() != path.list().front().find("shift").has_value())
@@ -34,8 +34,8 @@ void readCameraPath(const TomlValue& path, Scene& scene) {
         if (key.find("shift") && (key.find("eye") || key.find("target"))) key.fail("give either shift or eye and target");
     }
     const Track shift = readTrack(path, "shift");
-    scene.eye = shift.keys.empty() ? readTrack(path, "eye") : shifted(shift, scene.camera.eye);
-    scene.target = shift.keys.empty() ? readTrack(path, "target") : shifted(shift, scene.camera.target);
+    eye = shift.keys.empty() ? readTrack(path, "eye") : shifted(shift, camera.eye);
+    target = shift.keys.empty() ? readTrack(path, "target") : shifted(shift, camera.target);
 }
 
 void readCamera(const TomlValue& value, Scene& scene) {
@@ -49,7 +49,7 @@ void readCamera(const TomlValue& value, Scene& scene) {
     camera.near = value.get("near").positive();
     camera.far = value.get("far").positive();
     if (!(camera.near < camera.far)) value.get("far").fail("expected more than near");
-    if (const auto path = value.find("path")) readCameraPath(*path, scene);
+    if (const auto path = value.find("path")) readCameraPath(*path, camera, scene.eye, scene.target);
 }
 
 LightKind readKind(const TomlValue& value) {
@@ -126,6 +126,26 @@ void readObjects(const TomlValue& root, Scene& scene, const fs::path& file) {
     if (scene.objects.empty()) objects->fail(fmt::format("no object belongs to profile {}", name(scene.profile)));
 }
 
+/// Two transitions of one object must not overlap: an instance is between two levels at most.
+void requireSeparateTransitions(const Scene& scene, const TomlValue& band) {
+    for (const Object& object : scene.objects)
+        for (std::size_t i = 1; i + 1 < object.levels.size(); ++i) {
+            const double half = 0.5 * scene.lod->band;
+            if (object.levels[i - 1].until * (1 + half) > object.levels[i].until * (1 - half))
+                band.fail(fmt::format("{} would be in two transitions at once; make the band narrower", object.name));
+        }
+}
+
+LodWalk readLodWalk(const TomlValue& value, const Camera& camera) {
+    value.only({"frames", "band", "path"});
+    LodWalk walk;
+    walk.frames = value.get("frames").integer(2, kMostFrames);
+    walk.band = value.get("band").positive();
+    if (walk.band > 1) value.get("band").fail("expected a share of the distance, at most 1");
+    if (const auto path = value.find("path")) readCameraPath(*path, camera, walk.eye, walk.target);
+    return walk;
+}
+
 /// The text of the first line that is a comment.
 std::string firstComment(std::string_view toml) {
     while (!toml.empty()) {
@@ -165,7 +185,7 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile) {
     const TomlValue root(source, "", table);
     if (table.empty()) root.fail("the file is empty; a scene has a title, a camera, a light and objects");
     root.only({"title", "profile", "size", "reference_samples", "moving_reference_samples", "camera", "light", "timeline",
-               "object", "tolerance", "expect"});
+               "object", "lod", "tolerance", "expect"});
 
     Scene scene;
     scene.id = file.stem().string();
@@ -185,6 +205,10 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile) {
     if (const auto tolerance = root.find("tolerance")) scene.tolerance = readTolerances(*tolerance);
     if (const auto expect = root.find("expect")) readExpectations(*expect, scene);
     readObjects(root, scene, file);
+    if (const auto lod = root.find("lod")) {
+        scene.lod = readLodWalk(*lod, scene.camera);
+        requireSeparateTransitions(scene, lod->get("band"));
+    }
     requireNoProblem(root, scene);
     return scene;
 }

@@ -38,7 +38,7 @@ Track readTrack(const TomlValue& path, const std::string& name);
 /// `[tolerance]`: metric name → worst value that a viewer accepts.
 std::map<std::string, double> readTolerances(const TomlValue& value);
 
-/// `[expect]`: the techniques that the scene breaks and those that hold.
+/// `[expect]`: the techniques that the scene breaks, those that hold, and where they break as a quantity moves.
 void readExpectations(const TomlValue& value, Scene& scene);
 
 /// Whether an object or scene belongs to `profile`: its `profile` key names it, or it has none.

@@ -1,6 +1,8 @@
 // What a scene file says of scores: a viewer's tolerances, and what is expected of techniques.
 #include "harness/scene/loader.h"
 
+#include <fmt/format.h>
+
 namespace shadowbench {
 namespace {
 
@@ -42,6 +44,26 @@ std::vector<Expectation> readExpectationList(const TomlValue& list, const std::s
     return expectations;
 }
 
+glm::dvec2 readRange(const TomlValue& value) {
+    const std::vector<TomlValue> ends = value.list();
+    if (ends.size() != 2) value.fail(fmt::format("expected 2 numbers, got {}", ends.size()));
+    const glm::dvec2 range(ends[0].number(), ends[1].number());
+    if (range.x > range.y) value.fail("expected the smaller number first");
+    return range;
+}
+
+/// `ranged`: every entry says between which values its technique breaks.
+void readBreaks(const TomlValue& list, bool ranged, Scene& scene) {
+    for (const TomlValue& entry : list.list()) {
+        std::vector<std::string> keys{"technique", "axis", "reason"};
+        if (ranged) keys.emplace_back("between");
+        entry.only(keys);
+        scene.breaks.push_back({readSentence(entry.get("technique")), readSentence(entry.get("axis")),
+                                ranged ? std::optional(readRange(entry.get("between"))) : std::nullopt,
+                                readSentence(entry.get("reason"))});
+    }
+}
+
 } // namespace
 
 std::map<std::string, double> readTolerances(const TomlValue& value) {
@@ -52,9 +74,11 @@ std::map<std::string, double> readTolerances(const TomlValue& value) {
 }
 
 void readExpectations(const TomlValue& value, Scene& scene) {
-    value.only({"fails", "holds"});
+    value.only({"fails", "holds", "breaks", "never_breaks"});
     if (const auto fails = value.find("fails")) scene.fails = readExpectationList(*fails, "above");
     if (const auto holds = value.find("holds")) scene.holds = readExpectationList(*holds, "below");
+    if (const auto breaks = value.find("breaks")) readBreaks(*breaks, true, scene);
+    if (const auto never = value.find("never_breaks")) readBreaks(*never, false, scene);
 }
 
 } // namespace shadowbench

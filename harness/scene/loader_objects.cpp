@@ -20,13 +20,21 @@ void requireGrowing(const std::vector<Level>& levels, const TomlValue& value) {
         if (!(levels[i].until > levels[i - 1].until)) value.fail("the distances of until must grow from level to level");
 }
 
+glm::vec3 readColour(const TomlValue& value) {
+    const glm::dvec3 colour = value.vector();
+    for (int i = 0; i < 3; ++i)
+        if (colour[i] < 0 || colour[i] > 1) value.fail("expected 3 numbers from 0 to 1");
+    return glm::vec3(colour);
+}
+
 std::vector<Level> levelsFromList(const TomlValue& list, MeshStore& meshes) {
     std::vector<Level> levels;
     const std::vector<TomlValue> entries = list.list();
     if (entries.empty()) list.fail("expected at least one level");
     for (std::size_t i = 0; i < entries.size(); ++i) {
-        entries[i].only({"mesh", "until"});
+        entries[i].only({"mesh", "until", "colour"});
         Level level{meshes.get(entries[i].get("mesh"))};
+        if (const auto colour = entries[i].find("colour")) level.colour = readColour(*colour);
         if (const auto until = entries[i].find("until"))
             level.until = until->positive();
         else if (i + 1 < entries.size())
@@ -139,13 +147,6 @@ void readSpin(const TomlValue& spin, Object& object) {
     object.motion.degreesPerFrame = spin.get("degrees_per_frame").number();
     const std::vector<double> phases = readPhases(spin, object.instances.size());
     for (std::size_t i = 0; i < phases.size(); ++i) object.instances[i].phase = phases[i];
-}
-
-glm::vec3 readColour(const TomlValue& value) {
-    const glm::dvec3 colour = value.vector();
-    for (int i = 0; i < 3; ++i)
-        if (colour[i] < 0 || colour[i] > 1) value.fail("expected 3 numbers from 0 to 1");
-    return glm::vec3(colour);
 }
 
 } // namespace

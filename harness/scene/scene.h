@@ -10,6 +10,7 @@
 #include <glm/mat4x4.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,7 @@ struct Instance {
 struct Level {
     std::shared_ptr<const Mesh> mesh;
     double until = std::numeric_limits<double>::infinity();
+    std::optional<glm::vec3> colour{}; // instead of the object's, in pictures and for level-of-detail techniques
 };
 
 struct Object {
@@ -69,11 +71,28 @@ struct Timeline {
     [[nodiscard]] int frames() const { return still + moving; }
 };
 
+/// The walk that level-of-detail techniques are scored on: a camera path along which instances change levels. Motions of
+/// objects start with it. Shadows are scored on the Timeline, not here.
+struct LodWalk {
+    int frames = 2;
+    double band = 0.2; // length of a transition as a share of the distance in its middle, Level::until
+    Track eye, target; // of the camera, by the walk's frames
+};
+
 /// What a scene is there to show of one technique: a bound on one metric.
 struct Expectation {
     std::string technique; // a variant; may name a technique that the catalogue does not have yet
     std::string metric;    // one that `tolerance` may name
     double bound = 0;      // of an expected failure: the metric lies above; of a technique that holds: below
+    std::string reason;
+};
+
+/// Where a technique's error over one axis of `sweep` (harness/sweep/axis.h) first exceeds the scene's tolerance, in the
+/// order of the axis' own values.
+struct BreakExpectation {
+    std::string technique; // a variant; without the axis where that is one of its parameters
+    std::string axis;
+    std::optional<glm::dvec2> between; // the break point, ends included, x ≤ y; nothing: the whole axis is tolerated
     std::string reason;
 };
 
@@ -89,9 +108,11 @@ struct Scene {
     Light light;
     Track lightCentre, lightDirection;
     std::vector<Object> objects;
+    std::optional<LodWalk> lod;
     std::map<std::string, double> tolerance; // metric name → worst value a viewer of this scene accepts
     std::vector<Expectation> fails;          // techniques that the scene breaks: one that stops failing is an error too
     std::vector<Expectation> holds;          // techniques that it does not break
+    std::vector<BreakExpectation> breaks;    // where techniques break as one of its quantities moves
     int referenceSamples = 1024;             // light samples of an area light's reference on the scored frame …
     int movingReferenceSamples = 256;        // … and on the moving frames
 };
@@ -121,6 +142,9 @@ struct Snapshot {
     [[nodiscard]] Bounds bounds() const;
     [[nodiscard]] std::size_t triangles() const;
 };
+
+/// World from object of an instance after `frames` frames of its object's motion.
+glm::dmat4 placeAt(const Object& object, const Instance& instance, double frames);
 
 /// The scene at `frame`; levels of detail chosen by distance from the eye.
 Snapshot snapshot(const Scene& scene, int frame);

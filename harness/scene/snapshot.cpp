@@ -24,13 +24,6 @@ Light lightAt(const Scene& scene, double frame) {
     return light;
 }
 
-glm::dmat4 placeAt(const Object& object, const Instance& instance, double frame) {
-    const glm::dvec3 shift = object.motion.shift.at(frame, glm::dvec3(0));
-    const double turn = instance.phase + object.motion.degreesPerFrame * frame;
-    glm::dmat4 world = glm::translate(glm::dmat4(1), shift) * instance.place;
-    return turn == 0 ? world : glm::rotate(world, glm::radians(turn), object.motion.axis);
-}
-
 std::size_t levelAt(const Object& object, double distance) {
     for (std::size_t level = 0; level + 1 < object.levels.size(); ++level)
         if (distance <= object.levels[level].until) return level;
@@ -65,6 +58,13 @@ std::size_t Snapshot::triangles() const {
     return count;
 }
 
+glm::dmat4 placeAt(const Object& object, const Instance& instance, double frames) {
+    const glm::dvec3 shift = object.motion.shift.at(frames, glm::dvec3(0));
+    const double turn = instance.phase + object.motion.degreesPerFrame * frames;
+    glm::dmat4 world = glm::translate(glm::dmat4(1), shift) * instance.place;
+    return turn == 0 ? world : glm::rotate(world, glm::radians(turn), object.motion.axis);
+}
+
 Snapshot snapshot(const Scene& scene, int frame) {
     const double now = motionFrame(scene, frame);
     const double before = motionFrame(scene, frame > 0 ? frame - 1 : 0);
@@ -74,7 +74,7 @@ Snapshot snapshot(const Scene& scene, int frame) {
     for (const Object& object : scene.objects) {
         std::vector<Batch> byLevel(object.levels.size());
         for (std::size_t i = 0; i < object.levels.size(); ++i)
-            byLevel[i] = {object.levels[i].mesh, object.colour, false, {}};
+            byLevel[i] = {object.levels[i].mesh, object.levels[i].colour.value_or(object.colour), false, {}};
         for (const Instance& instance : object.instances) {
             const Placement placement{placeAt(object, instance, now), placeAt(object, instance, before), ++id};
             const double distance = glm::distance(result.camera.eye, glm::dvec3(placement.world[3]));

@@ -87,16 +87,21 @@ void setLightSize(Scene& scene, double factor) {
 }
 
 /// The first object is the ground.
+double casters(const Scene& scene) {
+    double count = 0;
+    for (std::size_t i = 1; i < scene.objects.size(); ++i) count += static_cast<double>(scene.objects[i].instances.size());
+    return count;
+}
+
 void setCasters(Scene& scene, double count) {
+    if (!(count >= 0) || count > casters(scene))
+        throw BadInput(fmt::format("scene {} has {:g} casters; {:g} were asked for", scene.id, casters(scene), count));
     auto left = static_cast<std::size_t>(count);
-    std::size_t all = 0;
     for (std::size_t i = 1; i < scene.objects.size(); ++i) {
         std::vector<Instance>& instances = scene.objects[i].instances;
-        all += instances.size();
         instances.resize(std::min(instances.size(), left));
         left -= instances.size();
     }
-    if (left > 0) throw BadInput(fmt::format("scene {} has {} casters; {:g} were asked for", scene.id, all, count));
     std::erase_if(scene.objects, [](const Object& object) { return object.instances.empty(); });
 }
 
@@ -138,7 +143,14 @@ const std::array allAxes{
          true,
          false,
          setLightSize},
-    Axis{"casters", "", "number of casters, in the order of the scene file", {1, 2, 4, 8}, true, true, setCasters},
+    Axis{"casters",
+         "",
+         "number of casters, in the order of the scene file",
+         {1, 2, 4, 8, 16, 32, 64, 128, 256},
+         true,
+         true,
+         setCasters,
+         casters},
     Axis{"tessellation",
          "",
          "how often every triangle is cut into four; the shapes stay the same",
@@ -149,21 +161,29 @@ const std::array allAxes{
     Axis{"map", "texels", "side of the shadow map", {4096, 2048, 1024, 512, 256, 128, 64}, true, true, {}},
     Axis{"units",
          "",
-         "constant depth bias of the shadow map, in 2⁻²⁴ of the depth range",
-         {0, 4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144},
+         "constant depth bias of the shadow map (with bias=constant, or beside a slope bias), in 2⁻²⁴ of the depth range",
+         {0, 4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1048576, 4194304},
          true,
          false,
          {}},
     Axis{"factor",
          "",
          "slope depth bias of the shadow map, in depth slopes per texel",
-         {0, 0.25, 0.5, 1, 2, 4, 8, 16},
+         {0, 0.25, 0.5, 1, 2, 4, 8, 16, 32, 64},
          false,
          false,
          {}},
 };
 
 } // namespace
+
+std::vector<double> Axis::valuesFor(const Scene& scene) const {
+    std::vector<double> result = values;
+    if (!most) return result;
+    std::erase_if(result, [largest = most(scene)](double value) { return value >= largest; });
+    result.push_back(most(scene));
+    return result;
+}
 
 std::span<const Axis> axes() { return allAxes; }
 

@@ -23,7 +23,13 @@ struct Axis {
     /// is the techniques' parameter of the same name.
     std::function<void(Scene&, double)> move;
 
+    /// The largest value that a scene can take. Empty if every scene can take them all.
+    std::function<double(const Scene&)> most = {};
+
     [[nodiscard]] bool isParameter() const { return !move; }
+
+    /// `values` as far as the scene can take them, and then its largest.
+    [[nodiscard]] std::vector<double> valuesFor(const Scene& scene) const;
 };
 
 /// All axes, in the order they are listed.

@@ -5,7 +5,6 @@
 #include "harness/run/progress_line.h"
 #include "harness/sweep/axis.h"
 #include "harness/sweep/variants.h"
-#include "techniques/gl/context.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +19,7 @@ std::vector<Variant> chosenVariants(const SweepOptions& options, const Axis& axi
     std::vector<Variant> variants;
     for (const std::string& pattern : options.techniques.empty() ? std::vector<std::string>{"*"} : options.techniques)
         for (Variant& variant : techniques::matchVariants(pattern)) {
-            if (axis.isParameter() && !parameterOf(variant, axis.id)) continue;
+            if (variant.isLod() || (axis.isParameter() && !parameterOf(variant, axis.id))) continue;
             if (std::ranges::none_of(variants, [&](const Variant& v) { return v.name == variant.name; }))
                 variants.push_back(std::move(variant));
         }
@@ -42,13 +41,14 @@ class Sweeper {
 public:
     explicit Sweeper(const SweepOptions& options)
         : options_(options), axis_(axisNamed(options.axis)), variants_(chosenVariants(options, axis_)),
-          values_(options.values.empty() ? axis_.values : options.values),
           scene_(atRest(loadScene(options.scene, options.profile))),
-          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), context_(gl::Context::create()),
-          curves_(variants_.size()) {
-        for (const double value : values_)
+          values_(options.values.empty() ? axis_.valuesFor(scene_) : options.values),
+          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), curves_(variants_.size()) {
+        for (const double value : values_) {
             if (axis_.whole && value != std::floor(value))
                 throw BadInput(fmt::format("axis {} takes whole numbers; {:g} is none", axis_.id, value));
+            requireTakenBySome(value);
+        }
     }
 
     SweepResult all() {
@@ -69,6 +69,24 @@ public:
     }
 
 private:
+    /// Sets the axis' parameter; why not, if the variant does not take the value.
+    std::string setParameter(Variant& variant, double value) const {
+        try {
+            variant = withParameter(variant, axis_.id, fmt::format("{}", value));
+            return "";
+        } catch (const BadInput& error) {
+            return error.what();
+        }
+    }
+
+    void requireTakenBySome(double value) const {
+        if (!axis_.isParameter()) return;
+        std::string reason;
+        for (Variant variant : variants_)
+            if ((reason = setParameter(variant, value)).empty()) return;
+        throw BadInput(reason);
+    }
+
     void step(double value, const Progress& progress) {
         Scene scene = scene_;
         if (!axis_.isParameter()) axis_.move(scene, value);
@@ -81,20 +99,22 @@ private:
         Stage stage(scene);
         Truths truths(scene, cache_);
         for (std::size_t i = 0; i < variants_.size(); ++i) {
-            const Variant variant =
-                axis_.isParameter() ? withParameter(variants_[i], axis_.id, fmt::format("{}", value)) : variants_[i];
+            Variant variant = variants_[i];
+            std::string reason = unsound;
+            if (axis_.isParameter()) reason = setParameter(variant, value);
             progress(static_cast<double>(i) / static_cast<double>(variants_.size()),
-                     fmt::format("{:g} {}", value, variant.name));
+                     fmt::format("{} {}", value, variant.name));
             Record record = blankRecord(scene, variant, options_.seed);
             record.sweep = SweepStep{axis_.id, axis_.unit, variants_[i].name, value, {}};
-            score(scene, stage, truths, variant, unsound, record);
+            score(scene, stage, truths, variant, reason, record);
             curves_[i].push_back(std::move(record));
         }
     }
 
-    void score(const Scene& scene, Stage& stage, Truths& truths, const Variant& variant, const std::string& unsound,
+    /// `excluded`: why there is nothing to score; empty if there is.
+    void score(const Scene& scene, Stage& stage, Truths& truths, const Variant& variant, const std::string& excluded,
                Record& record) {
-        if (const auto reason = unsound.empty() ? notApplicable(scene, variant) : std::optional(unsound)) {
+        if (const auto reason = excluded.empty() ? notApplicable(scene, variant) : std::optional(excluded)) {
             record.status = Status::NotApplicable;
             record.reason = *reason;
             return;
@@ -119,10 +139,9 @@ private:
     const SweepOptions& options_;
     const Axis& axis_;
     std::vector<Variant> variants_;
-    std::vector<double> values_;
     Scene scene_;
+    std::vector<double> values_;
     groundtruth::Cache cache_;
-    std::unique_ptr<gl::Context> context_;
     std::vector<std::vector<Record>> curves_;
     SweepResult result_;
 };

@@ -11,6 +11,14 @@ namespace {
 constexpr std::array<GLenum, 3> statistics{GL_FRAGMENT_SHADER_INVOCATIONS_ARB, GL_VERTICES_SUBMITTED_ARB,
                                            GL_PRIMITIVES_SUBMITTED_ARB};
 
+/// Mesa's libOSMesa does not export the 64-bit query results by name.
+GLuint64 resultOf(GLuint query) {
+    const auto result = reinterpret_cast<PFNGLGETQUERYOBJECTUI64VPROC>(Context::current().function("glGetQueryObjectui64v"));
+    GLuint64 count = 0;
+    result(query, GL_QUERY_RESULT, &count);
+    return count;
+}
+
 } // namespace
 
 WorkMeter::WorkMeter() : start_(Context::current().tally()) {
@@ -32,12 +40,29 @@ WorkCount WorkMeter::finish() {
     end();
     Context& context = Context::current();
     context.finish();
-    // Mesa's libOSMesa does not export the 64-bit query results by name.
-    const auto result = reinterpret_cast<PFNGLGETQUERYOBJECTUI64VPROC>(context.function("glGetQueryObjectui64v"));
-    std::array<GLuint64, 3> counts{};
-    for (std::size_t i = 0; i < counts.size(); ++i) result(queries_[i], GL_QUERY_RESULT, &counts[i]);
     const Tally now = context.tally();
-    return {counts[0], counts[1], counts[2], now.draws - start_.draws, now.passes - start_.passes};
+    return {resultOf(queries_[0]), resultOf(queries_[1]), resultOf(queries_[2]), now.draws - start_.draws,
+            now.passes - start_.passes};
+}
+
+FragmentMeter::FragmentMeter() {
+    glGenQueries(1, &query_);
+    glBeginQuery(GL_SAMPLES_PASSED, query_);
+}
+
+FragmentMeter::~FragmentMeter() {
+    if (running_) end();
+    glDeleteQueries(1, &query_);
+}
+
+void FragmentMeter::end() {
+    glEndQuery(GL_SAMPLES_PASSED);
+    running_ = false;
+}
+
+std::uint64_t FragmentMeter::finish() {
+    end();
+    return resultOf(query_);
 }
 
 } // namespace shadowbench::gl

@@ -37,4 +37,21 @@ private:
     void end();
 };
 
+/// Counts the fragments that pass depth and stencil test and are not discarded, between construction and `finish`. One at a
+/// time.
+class FragmentMeter {
+public:
+    FragmentMeter();
+    ~FragmentMeter();
+    FragmentMeter(const FragmentMeter&) = delete;
+    FragmentMeter& operator=(const FragmentMeter&) = delete;
+
+    std::uint64_t finish();
+
+private:
+    unsigned query_ = 0;
+    bool running_ = true;
+    void end();
+};
+
 } // namespace shadowbench::gl

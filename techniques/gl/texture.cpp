@@ -35,6 +35,8 @@ FormatFacts facts(Format format) {
         return {GL_RGBA16F, 8};
     case Format::RGBA32F:
         return {GL_RGBA32F, 16};
+    case Format::RG16UI:
+        return {GL_RG16UI, 4};
     case Format::R32UI:
         return {GL_R32UI, 4};
     case Format::Depth32F:
@@ -113,6 +115,13 @@ void Texture::compareDepth() {
     glBindTexture(GL_TEXTURE_2D, id_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+}
+
+void Texture::upload(const Image<std::uint8_t>& texels) {
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texels.width(), texels.height(), GL_RED, GL_UNSIGNED_BYTE, texels.data());
+    Context::current().check("uploading a texture");
 }
 
 std::size_t Texture::bytes() const {

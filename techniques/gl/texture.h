@@ -4,6 +4,7 @@
 #include "harness/scene/image.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -11,7 +12,7 @@
 
 namespace shadowbench::gl {
 
-enum class Format { R8, RGBA8, R32F, RG16F, RG32F, RGBA16F, RGBA32F, R32UI, Depth32F, Depth32FStencil8 };
+enum class Format { R8, RGBA8, R32F, RG16F, RG32F, RGBA16F, RGBA32F, RG16UI, R32UI, Depth32F, Depth32FStencil8 };
 
 /// How a sampler reads between texels and outside [0, 1]².
 enum class Filter { Nearest, Linear };
@@ -29,6 +30,9 @@ public:
 
     /// Makes sampler2DShadow lookups compare (reference ≤ texel); with Filter::Linear the four comparisons are interpolated.
     void compareDepth();
+
+    /// Replaces the texels of an R8 texture of the image's size; row 0 of the image is at texture coordinate 0.
+    void upload(const Image<std::uint8_t>& texels);
 
     [[nodiscard]] unsigned id() const { return id_; }
     [[nodiscard]] glm::ivec2 size() const { return size_; }

@@ -1,6 +1,7 @@
 #include "techniques/maps/depth_map.h"
 
 #include "techniques/gl/api.h"
+#include "techniques/gl/counters.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -72,10 +73,32 @@ CasterPass::~CasterPass() {
 DepthMap::DepthMap(int side, Bias bias, Lookup lookup, bool cutsCasters)
     : depth_(gl::Format::Depth32F, {side, side},
              lookup == Lookup::CompareBilinear ? gl::Filter::Linear : gl::Filter::Nearest, gl::Wrap::BorderFar),
-      target_{&depth_}, program_("maps/depth_map.vert", "maps/depth_map.frag",
-                                 cutsCasters ? gl::Defines{{"CASTER_PLANE", "1"}} : gl::Defines{}),
-      bias_(bias) {
+      target_{&depth_}, cutsCasters_(cutsCasters), program_(program(cutsCasters)), bias_(bias) {
     if (lookup != Lookup::Raw) depth_.compareDepth();
+}
+
+gl::Program DepthMap::program(bool cutsCasters) {
+    return {"maps/depth_map.vert", "maps/depth_map.frag", cutsCasters ? gl::Defines{{"CASTER_PLANE", "1"}} : gl::Defines{}};
+}
+
+CasterFragments DepthMap::fragments(const LightView& light, const gl::SceneBuffers& scene) const {
+    gl::Program again = program(cutsCasters_);
+    const auto drawn = [&](GLenum depthFunction, GLboolean write) {
+        target_.bind();
+        const CasterPass pass(again, light, bias_);
+        glDepthFunc(depthFunction);
+        glDepthMask(write);
+        gl::FragmentMeter meter;
+        scene.draw();
+        glDepthMask(GL_TRUE);
+        glDepthFunc(GL_LESS);
+        return meter.finish();
+    };
+    CasterFragments count;
+    count.rasterised = drawn(GL_ALWAYS, GL_FALSE);
+    target_.clearDepth(1);
+    count.written = drawn(GL_LESS, GL_TRUE);
+    return count;
 }
 
 void DepthMap::draw(const LightView& light, const gl::SceneBuffers& scene) {

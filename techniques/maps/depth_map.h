@@ -7,6 +7,7 @@
 #include "techniques/maps/light_view.h"
 #include "techniques/parameters.h"
 
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,11 @@ public:
     [[nodiscard]] virtual const gl::Texture& texture() const = 0;
 };
 
+/// Fragments of casters that a map's drawing rasterises, and those of them that it writes.
+struct CasterFragments {
+    std::uint64_t rasterised = 0, written = 0;
+};
+
 /// Nearest depths.
 class DepthMap final : public ShadowMap {
 public:
@@ -53,12 +59,18 @@ public:
 
     void draw(const LightView& light, const gl::SceneBuffers& scene) override;
 
+    /// Counted by drawing the same map again.
+    [[nodiscard]] CasterFragments fragments(const LightView& light, const gl::SceneBuffers& scene) const;
+
     [[nodiscard]] const gl::Texture& texture() const override { return depth_; }
     [[nodiscard]] int side() const { return depth_.size().x; }
 
 private:
     gl::Texture depth_;
     gl::RenderTarget target_;
+    static gl::Program program(bool cutsCasters);
+
+    bool cutsCasters_;
     gl::Program program_;
     Bias bias_;
 };

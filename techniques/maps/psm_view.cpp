@@ -107,17 +107,30 @@ Camera movedBack(const Camera& camera, double shift) {
     return moved;
 }
 
+Camera virtualCamera(const Snapshot& snapshot, double aspect, const PsmOptions& options) {
+    Camera camera = snapshot.camera;
+    camera.far = visibleDepths(snapshot.bounds(), camera, aspect).far;
+    double shift = options.shift;
+    if (options.behindEye == BehindEye::MoveBack) shift = std::max(shift, clearance(snapshot, camera));
+    return movedBack(camera, shift);
+}
+
+double nearDepthShare(const Camera& camera, const Camera& eye, double aspect) {
+    const glm::dmat4 clipFromWorld = eye.projection(aspect) * eye.view();
+    const auto depth = [&](double distance) { // in [0, 1]
+        const glm::dvec3 onAxis = camera.eye + distance * camera.basis().forward;
+        return 0.5 + 0.5 * divided(clipFromWorld * glm::dvec4(onAxis, 1)).z;
+    };
+    return depth(2 * camera.near) - depth(camera.near);
+}
+
 LightView fitPsm(const Light& light, const Snapshot& snapshot, double aspect, const PsmOptions& options) {
     LightView view = fitToScene(light.centreOnly(), snapshot);
     const glm::dvec4 nearPlane = view.depthFromWorld - glm::dvec4(0, 0, 0, view.near);
     std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), snapshot.camera, aspect, {&nearPlane, 1});
     if (body.size() < 3) return view;
 
-    Camera camera = snapshot.camera;
-    camera.far = visibleDepths(snapshot.bounds(), camera, aspect).far;
-    double shift = options.shift;
-    if (options.behindEye == BehindEye::MoveBack) shift = std::max(shift, clearance(snapshot, camera));
-    const Camera eye = movedBack(camera, shift);
+    const Camera eye = virtualCamera(snapshot, aspect, options);
     const glm::dmat4 clipFromWorld = eye.projection(aspect) * eye.view();
 
     const std::vector<glm::dvec4> points = inClipSpace(body, clipFromWorld, options.body);

@@ -5,13 +5,19 @@
 #include "techniques/technique.h"
 
 #include <functional>
+#include <map>
+#include <memory>
+#include <string>
 
 namespace shadowbench::techniques {
 
 /// How a map is fitted to a frame.
 using FitView = std::function<LightView(const Frame&)>;
 
-std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit);
+/// What such a technique tells of a frame (`Technique::figures`).
+using TellFigures = std::function<std::map<std::string, double>(const Frame&)>;
+
+std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit, TellFigures figures = {});
 
 /// The same over a depth map with these `depthMapParameters`.
 std::unique_ptr<Technique> makeSingleMap(const Parameters& parameters, FitView fit);

@@ -13,6 +13,8 @@ public:
         volumes_.render(frame, glm::mat4(frame.clipFromWorld), frame.gbuffer.depthStencil(), visibility);
     }
 
+    [[nodiscard]] std::map<std::string, double> figures() const override { return volumes_.figures(); }
+
 private:
     StencilVolumes volumes_;
 };

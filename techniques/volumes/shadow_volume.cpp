@@ -63,15 +63,19 @@ void appendCaps(const EdgeMesh& mesh, const std::vector<bool>& facing, bool atIn
 
 } // namespace
 
-void appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, Caps caps, std::vector<std::uint32_t>& indices) {
+std::size_t appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, Caps caps,
+                               std::vector<std::uint32_t>& indices) {
     const std::vector<bool> facing = mesh.facing(light);
     const auto vertexCount = static_cast<std::uint32_t>(mesh.mesh().positions.size());
     const bool endsInPoint = light.w == 0;
+    const std::size_t before = indices.size();
     if (caps == Caps::Both) appendCaps(mesh, facing, !endsInPoint, indices);
+    const std::size_t capIndices = indices.size() - before;
     for (const auto& [a, b] : silhouette(mesh, facing)) {
         indices.insert(indices.end(), {b, a, a + vertexCount});
         if (!endsInPoint) indices.insert(indices.end(), {b, a + vertexCount, b + vertexCount});
     }
+    return capIndices;
 }
 
 glm::dmat4 infiniteProjection(const glm::dmat4& projection, double near) {

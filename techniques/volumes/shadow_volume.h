@@ -3,6 +3,7 @@
 
 #include "harness/scene/mesh.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -44,8 +45,10 @@ enum class Caps { None, Both };
 
 /// Triangles of the shadow volume as indices into the mesh's vertices; index + vertexCount is the same vertex projected to
 /// infinity away from the light. With caps, facing triangles close it at the front; averted ones, projected, close it at
-/// infinity, except for a directional light, whose volume ends in a point there.
-void appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, Caps caps, std::vector<std::uint32_t>& indices);
+/// infinity, except for a directional light, whose volume ends in a point there. The caps' indices come first; returns how
+/// many they are.
+std::size_t appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, Caps caps,
+                               std::vector<std::uint32_t>& indices);
 
 /// The projection `projection` (perspective) with its far plane moved to infinity: P_inf (Everitt–Kilgard 3.2.1).
 glm::dmat4 infiniteProjection(const glm::dmat4& projection, double near);

@@ -32,6 +32,14 @@ void setStencilOperations(VolumeTest test) {
 
 } // namespace
 
+std::vector<Figure> volumeFigures() {
+    return {{"volume_triangles", "triangles of all shadow volumes"},
+            {"volume_fragments", "pixels that these triangles cover, counted as often as they are covered"},
+            {"stencil_updates", "times that a stencil value changes"},
+            {"stencil_bytes", "bytes that counting reads and writes: depth and stencil of a pixel are one word of 4 bytes, "
+                              "read for every fragment and written for every update"}};
+}
+
 StencilVolumes::VolumeMesh::VolumeMesh(std::shared_ptr<const Mesh> mesh) : source(std::move(mesh)), edges(*source) {
     std::vector<glm::vec4> doubled;
     for (const float w : {1.0F, 0.0F})
@@ -45,21 +53,21 @@ StencilVolumes::StencilVolumes(VolumeTest test)
 
 void StencilVolumes::render(const Frame& frame, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,
                             const gl::Texture& visibility) {
-    const std::vector<Draw> draws = buildVolumes(frame);
+    buildVolumes(frame);
+    depthStencil_ = &depthStencil;
     indices_.upload(corners_.data(), corners_.size() * sizeof(std::uint32_t));
     volume_.set("clipFromWorld", clipFromWorld).set("light", glm::vec4(frame.snapshot.light.centreOnly().homogeneous()));
 
     const gl::RenderTarget target({&visibility, &depthStencil});
     target.clearColour(0, glm::vec4(1));
     // A parity has no range that it could leave.
-    const std::size_t group = test_ == VolumeTest::ExclusiveOr ? draws.size() : countedTogether;
-    for (std::size_t first = 0; first < draws.size(); first += group) {
+    const std::size_t group = test_ == VolumeTest::ExclusiveOr ? draws_.size() : countedTogether;
+    for (std::size_t first = 0; first < draws_.size(); first += group) {
         target.clearStencil();
         target.bind();
-        count(draws, first, std::min(first + group, draws.size()));
+        count(first, std::min(first + group, draws_.size()));
         darken(target);
     }
-    gl::Context::current().tally().draws += draws.size();
 }
 
 const StencilVolumes::VolumeMesh& StencilVolumes::volumeMesh(const std::shared_ptr<const Mesh>& mesh,
@@ -76,46 +84,87 @@ const StencilVolumes::VolumeMesh& StencilVolumes::volumeMesh(const std::shared_p
 }
 
 /// The volumes of all placements, each with its own light position in object space.
-std::vector<StencilVolumes::Draw> StencilVolumes::buildVolumes(const Frame& frame) {
+void StencilVolumes::buildVolumes(const Frame& frame) {
     const glm::dvec4 light = frame.snapshot.light.centreOnly().homogeneous();
     const Caps caps = test_ == VolumeTest::DepthFail ? Caps::Both : Caps::None;
-    std::vector<Draw> draws;
+    draws_.clear();
     corners_.clear();
     for (const Batch& batch : frame.snapshot.batches) {
         const VolumeMesh& mesh = volumeMesh(batch.mesh, frame.scene);
         for (const Placement& placement : batch.placements) {
             const std::size_t first = corners_.size();
-            appendShadowVolume(mesh.edges, glm::inverse(placement.world) * light, caps, corners_);
-            draws.push_back({&mesh, first, corners_.size() - first});
+            const std::size_t capCorners =
+                appendShadowVolume(mesh.edges, glm::inverse(placement.world) * light, caps, corners_);
+            draws_.push_back({&mesh, first, capCorners, corners_.size() - first - capCorners});
         }
     }
-    return draws;
 }
 
-void StencilVolumes::count(const std::vector<Draw>& draws, std::size_t first, std::size_t last) const {
+void StencilVolumes::count(std::size_t first, std::size_t last) const {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_STENCIL_TEST);
+    setStencilOperations(test_);
     glDepthFunc(GL_LESS);
+    drawVolumes(first, last);
+    glDisable(GL_STENCIL_TEST);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+/// Depth is tested and clamped, not written.
+void StencilVolumes::drawVolumes(std::size_t first, std::size_t last) const {
+    glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
     glEnable(GL_DEPTH_CLAMP);
     glDisable(GL_CULL_FACE);
-    glEnable(GL_STENCIL_TEST);
-    setStencilOperations(test_);
-
     volume_.use();
     for (std::size_t placement = first; placement < last; ++placement) {
-        const Draw& draw = draws[placement];
+        const Draw& draw = draws_[placement];
         draw.mesh->layout.bind();
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
-        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(draw.count), GL_UNSIGNED_INT,
-                                            reinterpret_cast<const void*>(draw.first * sizeof(std::uint32_t)), 1,
-                                            static_cast<GLuint>(placement));
+        drawCaps(draw, placement);
+        drawCorners(draw.first + draw.caps, draw.sides, placement);
     }
-
-    glDisable(GL_STENCIL_TEST);
     glDisable(GL_DEPTH_CLAMP);
     glDepthMask(GL_TRUE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+std::uint64_t StencilVolumes::fragmentsPassing(unsigned depthFunction) const {
+    const gl::RenderTarget depthOnly({depthStencil_});
+    depthOnly.bind();
+    glDepthFunc(depthFunction);
+    gl::FragmentMeter meter;
+    drawVolumes(0, draws_.size());
+    glDepthFunc(GL_LESS);
+    return meter.finish();
+}
+
+std::map<std::string, double> StencilVolumes::figures() const {
+    if (depthStencil_ == nullptr) return {};
+    const std::uint64_t fragments = fragmentsPassing(GL_ALWAYS), passing = fragmentsPassing(GL_LESS);
+    const std::uint64_t updates = test_ == VolumeTest::DepthFail ? fragments - passing : passing;
+    return {{"volume_triangles", static_cast<double>(corners_.size() / 3)},
+            {"volume_fragments", static_cast<double>(fragments)},
+            {"stencil_updates", static_cast<double>(updates)},
+            {"stencil_bytes", 4.0 * static_cast<double>(fragments + updates)}};
+}
+
+/// A front cap lies on a surface of the scene and must count as behind it. No equality of depths assures that: the surface
+/// was clipped at the camera's far plane, where the cap is clamped, and their depths round differently. So caps are pushed
+/// away: nothing that is seen lies behind a cap, but where the near plane cuts the cap off, and there depth is far from it.
+void StencilVolumes::drawCaps(const Draw& draw, std::size_t placement) const {
+    constexpr float units = 1024; // 2⁻¹⁴ of the depth range: far above the rounding
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(0, units);
+    drawCorners(draw.first, draw.caps, placement);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void StencilVolumes::drawCorners(std::size_t first, std::size_t count, std::size_t placement) const {
+    if (count == 0) return;
+    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                                        reinterpret_cast<const void*>(first * sizeof(std::uint32_t)), 1,
+                                        static_cast<GLuint>(placement));
+    ++gl::Context::current().tally().draws;
 }
 
 void StencilVolumes::darken(const gl::RenderTarget& target) const {

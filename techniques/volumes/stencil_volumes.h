@@ -5,7 +5,10 @@
 #include "techniques/technique.h"
 #include "techniques/volumes/shadow_volume.h"
 
+#include <cstdint>
+#include <map>
 #include <memory>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -18,6 +21,9 @@ enum class VolumeTest {
     ExclusiveOr, // those before it invert one bit
 };
 
+/// What every technique over `StencilVolumes` tells of a frame.
+std::vector<Figure> volumeFigures();
+
 class StencilVolumes {
 public:
     explicit StencilVolumes(VolumeTest test);
@@ -26,6 +32,9 @@ public:
     /// of what `clipFromWorld` shows; its stencil is overwritten.
     void render(const Frame& frame, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,
                 const gl::Texture& visibility);
+
+    /// `volumeFigures` of the frame last rendered: its volumes are drawn again without a trace.
+    [[nodiscard]] std::map<std::string, double> figures() const;
 
 private:
     /// A mesh's vertices twice, at w = 1 and at w = 0, and its edges.
@@ -37,20 +46,26 @@ private:
         gl::VertexArray layout;
     };
 
-    /// The volume of one placement, as a range of `corners_`.
+    /// The volume of one placement, as a range of `corners_`: its caps, then its sides.
     struct Draw {
         const VolumeMesh* mesh;
-        std::size_t first, count;
+        std::size_t first, caps, sides;
     };
 
     const VolumeMesh& volumeMesh(const std::shared_ptr<const Mesh>& mesh, const gl::SceneBuffers& scene);
-    std::vector<Draw> buildVolumes(const Frame& frame);
-    void count(const std::vector<Draw>& draws, std::size_t first, std::size_t last) const;
+    void buildVolumes(const Frame& frame);
+    void count(std::size_t first, std::size_t last) const;
+    void drawVolumes(std::size_t first, std::size_t last) const;
+    [[nodiscard]] std::uint64_t fragmentsPassing(unsigned depthFunction) const;
+    void drawCaps(const Draw& draw, std::size_t placement) const;
+    void drawCorners(std::size_t first, std::size_t count, std::size_t placement) const;
     void darken(const gl::RenderTarget& target) const;
 
     VolumeTest test_;
     gl::Program volume_, shadowed_;
     std::unordered_map<const Mesh*, std::unique_ptr<VolumeMesh>> meshes_;
+    std::vector<Draw> draws_; // of the frame last rendered, and the depth it was counted against
+    const gl::Texture* depthStencil_ = nullptr;
     std::vector<std::uint32_t> corners_;
     gl::Buffer indices_;
 };

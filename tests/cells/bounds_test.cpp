@@ -1,5 +1,6 @@
 // What each technique must show against ground truth on the standard scenes, in the gate profile.
 #include "cell_stage.h"
+#include "test_names.h"
 
 #include <gtest/gtest.h>
 
@@ -21,13 +22,7 @@ TEST_P(StandardScene, AFinerUniformMapIsAtLeastTwiceAsGood) {
     EXPECT_LE(fine, 0.5 * coarse);
 }
 
-std::string sceneName(const testing::TestParamInfo<std::string>& tested) {
-    std::string name = tested.param;
-    std::erase(name, '-');
-    return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Gate, StandardScene, testing::ValuesIn(standardScenes()), sceneName);
+INSTANTIATE_TEST_SUITE_P(Gate, StandardScene, testing::ValuesIn(standardScenes()), nameOfText);
 
 TEST(DuelingFrusta, WarpingIsNoBetterThanAUniformMap) {
     const Scene scene = stillScene("dueling-frusta");

@@ -4,7 +4,9 @@
 #include "harness/scene/error.h"
 
 #include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace shadowbench::adequacy {
 namespace {
@@ -96,6 +98,20 @@ TEST(CasterLevels, NeedAToleranceAndAReceiver) {
     EXPECT_THROW((void)recommended(scene, {"0.01"}), BadInput);
 }
 
+// Silhouettes of all of `paper`'s trees at once would take 22 GiB.
+TEST(PolygonShadows, OfCastersInPartsAreThoseOfAllAtOnce) {
+    const Scene scene = loadScene("windmills", Profile::Gate);
+    const Casters casters(scene, 59, ownBands(scene));
+    const Receivers ground = receivers(snapshot(scene, 59), scene.size, casters);
+    const Snapshot finest = casters.cast(casters.finest());
+    const Shadow whole = polygonOracle(ground).shadow(finest);
+    for (const std::size_t most : {1U, 5000U}) {
+        const Shadow parts = polygonOracle(ground, most).shadow(finest);
+        EXPECT_EQ(parts.visibility, whole.visibility) << most;
+        EXPECT_EQ(parts.labelled, whole.labelled) << most;
+    }
+}
+
 /// The recommended levels again, label by label, by shadow rays only.
 double mismatchByRays(const Scene& scene, const Chains& chains, const CasterRecommendation& r, const Levels& levels) {
     const Casters casters(withChains(scene, chains), r.frame, ownBands(scene));
@@ -167,6 +183,54 @@ INSTANTIATE_TEST_SUITE_P(Gate, CasterLevelsOn,
                          [](const auto& tested) {
                              return tested.param.scene + (tested.param.chains.empty() ? "" : "Simplified");
                          });
+
+/// The same casters, but those of `model` as drawn.
+Snapshot withOwnShadow(Snapshot casters, const Snapshot& drawn, const std::set<std::uint32_t>& model) {
+    const auto own = [&](const Placement& placement) { return model.contains(placement.id); };
+    for (Batch& batch : casters.batches) std::erase_if(batch.placements, own);
+    for (Batch batch : drawn.batches) {
+        std::erase_if(batch.placements, std::not_fn(own));
+        if (!batch.placements.empty()) casters.batches.push_back(std::move(batch));
+    }
+    return casters;
+}
+
+/// Surface ids of the instances that stand at the same place, one of each object with levels: the parts of a model.
+std::vector<std::set<std::uint32_t>> modelsOf(const Scene& scene) {
+    std::vector<std::set<std::uint32_t>> models(scene.objects.back().instances.size());
+    std::uint32_t id = 1; // the ground's
+    for (std::size_t object = 1; object < scene.objects.size(); ++object)
+        for (std::set<std::uint32_t>& model : models) model.insert(++id);
+    return models;
+}
+
+/// Pixels of models whose labels differ between two choices of the other models' levels.
+std::size_t wrongOnModels(const Scene& scene, const Snapshot& fine, const Snapshot& coarse, int frame) {
+    const Snapshot drawn = snapshot(scene, frame);
+    const groundtruth::PrimaryHits all = groundtruth::primaryHits(drawn, scene.size);
+    std::size_t wrong = 0;
+    for (const std::set<std::uint32_t>& model : modelsOf(scene)) {
+        groundtruth::PrimaryHits own = all;
+        for (std::size_t i = 0; i < own.id.size(); ++i)
+            if (!model.contains(own.id[i])) own.surface[i] = groundtruth::Surface::Background;
+        groundtruth::Reference exact, labels;
+        groundtruth::labelByRays(withOwnShadow(fine, drawn, model), scene.size, own, exact);
+        groundtruth::labelByRays(withOwnShadow(coarse, drawn, model), scene.size, own, labels);
+        for (std::size_t i = 0; i < own.id.size(); ++i) wrong += labels.visibility[i] != exact.visibility[i] ? 1 : 0;
+    }
+    return wrong;
+}
+
+// Why only the ground counts: where it is within tolerance, so are the shadows that models throw on one another.
+TEST_P(CasterLevelsOn, HardLightAreRightOnOtherModelsToo) {
+    const Scene scene = loadScene(GetParam().scene, Profile::Gate);
+    CasterOptions options;
+    options.chains = GetParam().chains;
+    const CasterRecommendation r = recommendCasters(scene, options);
+    const Casters casters(withChains(scene, options.chains), r.frame, ownBands(scene));
+    const std::size_t wrong = wrongOnModels(scene, casters.cast(casters.finest()), casters.cast(levelsOf(r)), r.frame);
+    EXPECT_LE(static_cast<double>(wrong), 0.005 * static_cast<double>(r.allReceiverPixels - r.receiverPixels));
+}
 
 // A box is no stand-in for a sphere's shadow: by the search's exact fractions and by the verification's 16 points of the
 // light it errs by more than six times the tolerance, so that 16 points decide.

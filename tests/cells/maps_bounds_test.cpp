@@ -1,5 +1,6 @@
 // What the shadow maps must show against ground truth, in the gate profile.
 #include "cell_stage.h"
+#include "test_names.h"
 
 #include <gtest/gtest.h>
 
@@ -19,13 +20,7 @@ TEST_P(MapsOnStandardScene, FocusingIsNoWorseThanAUniformMap) {
     EXPECT_LE(*scored(scene, "sm-focused").accuracy.mismatch, uniform);
 }
 
-std::string sceneName(const testing::TestParamInfo<std::string>& tested) {
-    std::string name = tested.param;
-    std::erase(name, '-');
-    return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Gate, MapsOnStandardScene, testing::ValuesIn(standardScenes()), sceneName);
+INSTANTIATE_TEST_SUITE_P(Gate, MapsOnStandardScene, testing::ValuesIn(standardScenes()), nameOfText);
 
 // Not at most half: the visible depths have a ratio of 6, and of a focused map with four times the texels, which is more
 // than slices can give, 0.55 of the error is left.

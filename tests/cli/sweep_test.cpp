@@ -48,10 +48,22 @@ TEST_F(Sweep, OfASceneMovesTheSceneAndTheTruthWithIt) {
     EXPECT_NE(all[0].reference->key, all[1].reference->key);
 }
 
+TEST_F(Sweep, AValueThatOneTechniqueDoesNotTakeIsSaidInItsRecord) {
+    const Outcome outcome = sweep("--axis map --values 2048,256 --technique sm-uniform --technique deep-sm");
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const std::vector<Record> all = records();
+    ASSERT_EQ(all.size(), 4U);
+    EXPECT_EQ(all[0].status, Status::Scored);
+    EXPECT_EQ(all[2].status, Status::NotApplicable); // deep-sm has at most 1,024
+    EXPECT_NE(all[2].reason.find("16…1024"), std::string::npos) << all[2].reason;
+    EXPECT_EQ(all[3].status, Status::Scored);
+}
+
 TEST_F(Sweep, WrongWordsAreToldBeforeAnythingIsWritten) {
     EXPECT_EQ(sweep("--axis light-view-angel").code, 2);
     EXPECT_EQ(sweep("--axis map --technique none").code, 2);
     EXPECT_EQ(sweep("--axis map --values 0.5 --technique sm-uniform").code, 2);
+    EXPECT_EQ(sweep("--axis map --values 2048 --technique deep-sm").code, 2);
     EXPECT_EQ(sweep("--axis light-size").code, 2);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }

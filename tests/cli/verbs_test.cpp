@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 TEST(CommandLine, HelpOfTheProgramAndOfEveryVerbHasAnExample) {
     EXPECT_EQ(shell("shadowbench --help").code, 0);
-    for (const std::string verb : {"list", "run", "reference", "sweep", "claims", "compare", "report", "cache", "cache list",
-                                   "cache verify", "cache prune"}) {
+    for (const std::string verb : {"list", "run", "reference", "sweep", "recommend", "claims", "compare", "report", "cache",
+                                   "cache list", "cache verify", "cache prune"}) {
         const Outcome help = shell("shadowbench " + verb + " --help");
         EXPECT_EQ(help.code, 0) << verb;
         EXPECT_NE(help.output.find("Example"), std::string::npos) << verb;
@@ -31,6 +31,11 @@ TEST(CommandLine, ListNamesEveryTechniqueWithItsParameters) {
     const auto uniform = std::find_if(all.begin(), all.end(), [](const auto& entry) { return entry["id"] == "sm-uniform"; });
     ASSERT_NE(uniform, all.end());
     EXPECT_EQ((*uniform)["parameters"][0]["name"], "map");
+    EXPECT_TRUE((*uniform)["figures"].empty());
+    const auto pass = std::find_if(all.begin(), all.end(), [](const auto& entry) { return entry["id"] == "volume-zpass"; });
+    ASSERT_NE(pass, all.end());
+    EXPECT_EQ((*pass)["figures"][0]["name"], "volume_triangles");
+    EXPECT_NE(shell("shadowbench list techniques").output.find("figures.stencil_bytes: bytes"), std::string::npos);
     EXPECT_NE(shell("shadowbench list scenes").output.find("dueling-frusta"), std::string::npos);
     EXPECT_NE(shell("shadowbench list metrics --format md").output.find("| mismatch |"), std::string::npos);
 }

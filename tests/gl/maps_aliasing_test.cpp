@@ -40,7 +40,8 @@ class EveryMap : public testing::TestWithParam<std::string> {};
 // Exact but for the free rim of prefiltered maps, 6 texels whatever the size: (1 − 12/1024) / (1 − 12/512) = 1.012; for the
 // tiles of cube and paraboloid maps, rounded to whole texels (1/200); and for the texel of room of a turned map.
 TEST_P(EveryMap, HalvingItsSizeDoublesTheRatio) {
-    Stage stage(boxScene());
+    const Scene scene = boxScene();
+    Stage stage(scene);
     stage.show(0);
     const std::optional<Aliasing> whole = aliasingOf(stage, GetParam() + ":map=1024");
     const std::optional<Aliasing> half = aliasingOf(stage, GetParam() + ":map=512");
@@ -69,7 +70,8 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryMap, testing::ValuesIn(everyMap()), tes
 
 // One tile that is not weighed by what the map shows is a focused map.
 TEST(TiledMap, HalvingItsSizeDoublesTheRatioOfOneTile) {
-    Stage stage(boxScene());
+    const Scene scene = boxScene();
+    Stage stage(scene);
     stage.show(0);
     const std::optional<Aliasing> whole = aliasingOf(stage, "sm-tiled:tiles=1,discontinuity=0,map=1024");
     const std::optional<Aliasing> half = aliasingOf(stage, "sm-tiled:tiles=1,discontinuity=0,map=512");
@@ -97,7 +99,8 @@ TEST(AdaptiveMap, HasNoTexelLongerThanAPixel) {
 }
 
 TEST(TechniquesWithoutAMap, HaveNoRatio) {
-    Stage stage(boxScene());
+    const Scene scene = boxScene();
+    Stage stage(scene);
     stage.show(0);
     for (const char* variant : {"none", "planar-hard", "volume-zfail", "sm-alias-free"})
         EXPECT_FALSE(aliasingOf(stage, variant)) << variant;

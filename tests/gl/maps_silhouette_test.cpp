@@ -2,6 +2,7 @@
 #include "ground_score.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace shadowbench {
@@ -54,16 +55,69 @@ TEST(SmSilhouette, OutlinesThatTheLightDoesNotSeeAreLeftOut) {
     EXPECT_EQ(mismatchOn(2, scene, "sm-silhouette:map=128", plateTop), alone);
 }
 
-// Course, "Optimizations": silhouette pixels are about one in a hundred. They are the ones whose four tests disagree, hence
-// those that 2×2 percentage-closer filtering leaves grey.
-TEST(SmSilhouette, SplitsTheTexelOfAtMostThreeInAHundredPixels) {
+/// Pixels that show a surface, and those of them that face the light of the scene.
+struct Shown {
+    double seen = 0, facing = 0;
+};
+
+Shown shown(const Scene& scene, const Stage& stage) {
+    const metrics::Drawn drawn = stage.drawn();
+    const Image<glm::vec3> normals = stage.normals();
+    const glm::dvec4 light = scene.light.centreOnly().homogeneous();
+    Shown count;
+    for (std::size_t i = 0; i < drawn.id.size(); ++i) {
+        if (drawn.id[i] == 0) continue;
+        const glm::dvec3 toLight = glm::dvec3(light) - light.w * glm::dvec3(drawn.position[i]);
+        ++count.seen;
+        if (glm::dot(glm::dvec3(normals[i]), toLight) > 0) ++count.facing;
+    }
+    return count;
+}
+
+double pixelsOfTheBranch(const std::map<std::string, double>& figures, const Shown& pixels) {
+    return figures.at("silhouette_branch") * pixels.facing + figures.at("averted_branch") * (pixels.seen - pixels.facing);
+}
+
+// The pixels of the branch are those whose four tests differ, hence those that 2×2 percentage-closer filtering leaves grey;
+// a few read a texel's very centre.
+TEST(SmSilhouette, CountsThePixelsThatFilteringLeavesGrey) {
     const Scene scene = boxScene(256);
     Stage stage(scene);
     stage.show(0);
     const Image<float> v = rendered(stage, "pcf:kernel=2,map=512,factor=2");
-    const auto grey = std::count_if(v.begin(), v.end(), [](float x) { return x > 0 && x < 1; });
-    EXPECT_GT(grey, 0);
-    EXPECT_LE(static_cast<double>(grey), 0.03 * static_cast<double>(v.size()));
+    const auto grey = static_cast<double>(std::count_if(v.begin(), v.end(), [](float x) { return x > 0 && x < 1; }));
+    EXPECT_GT(grey, 100);
+    EXPECT_NEAR(pixelsOfTheBranch(figuresOf(stage, "sm-silhouette:map=512"), shown(scene, stage)), grey, 0.02 * grey);
+}
+
+// Course, "Optimizations": silhouette pixels are about one in a hundred of the image, here of those that face the light.
+// Twice the texels per side make the edges half as wide.
+TEST(SmSilhouette, TakesItsBranchInAtMostThreeInAHundredPixelsOfTheBasicScene) {
+    testContext();
+    const Scene scene = loadScene("basic", Profile::Standard);
+    ASSERT_EQ(scene.size, glm::ivec2(512));
+    Stage stage(scene);
+    stage.show(0);
+    const double coarse = figuresOf(stage, "sm-silhouette:map=512").at("silhouette_branch");
+    const double fine = figuresOf(stage, "sm-silhouette:map=1024").at("silhouette_branch");
+    EXPECT_LE(coarse, 0.03);
+    EXPECT_NEAR(fine, 0.5 * coarse, 0.1 * coarse);
+}
+
+TEST(SmSilhouette, CountsItsBytesWithoutATrace) {
+    const Scene scene = boxScene();
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> untouched = rendered(stage, "sm-silhouette:map=128");
+    const auto small = figuresOf(stage, "sm-silhouette:map=128"), large = figuresOf(stage, "sm-silhouette:map=512");
+    EXPECT_EQ(rendered(stage, "sm-silhouette:map=128"), untouched);
+    EXPECT_EQ(figuresOf(stage, "sm-silhouette:map=128"), small);
+    // Slab, box and their backs cover the map: 16 times the texels are 16 times the depths; outlines grow by 4 only.
+    EXPECT_GT(large.at("map_bytes"), 12 * small.at("map_bytes"));
+    EXPECT_LT(large.at("map_bytes"), 16 * small.at("map_bytes"));
+    // Four depths of 4 bytes for each pixel that shows something, five points of 4 for those of the branch.
+    const Shown pixels = shown(scene, stage);
+    EXPECT_NEAR(small.at("lookup_bytes"), 16 * pixels.seen + 20 * pixelsOfTheBranch(small, pixels), 1);
 }
 
 } // namespace

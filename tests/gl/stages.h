@@ -6,6 +6,7 @@
 #include "techniques/gl/context.h"
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -82,6 +83,14 @@ inline Image<float> rendered(Stage& stage, const std::string& variant, int frame
     const auto technique = parsed.entry->make(parsed.parameters);
     for (int frame = 0; frame < frames; ++frame) stage.render(*technique, frame, seed);
     return stage.visibility();
+}
+
+/// The figures of the first frame.
+inline std::map<std::string, double> figuresOf(Stage& stage, const std::string& variant) {
+    const techniques::Variant parsed = techniques::parseVariant(variant);
+    const auto technique = parsed.entry->make(parsed.parameters);
+    stage.render(*technique, 0, 1);
+    return techniques::declaredFigures(*parsed.entry, *technique);
 }
 
 } // namespace shadowbench

@@ -59,6 +59,52 @@ TEST(Claims, FiguresOfASweepAreTakenFromItsCurveOnly) {
     EXPECT_EQ(verdict(claim(check("a", "at most", "\"bound\": 0.01")), {swept, with("a", 0.001)}), Verdict::Reproduced);
 }
 
+/// Records of variant `curve` swept over casters, with one figure.
+std::vector<Record> swept(const std::string& curve, const std::string& figure, const std::vector<double>& numbers) {
+    std::vector<Record> records;
+    double casters = 1;
+    for (const double number : numbers) {
+        Record record = with(curve, 0.1);
+        record.figures = {{figure, number}};
+        record.sweep = SweepStep{"casters", "", curve, casters, {}};
+        records.push_back(record);
+        casters *= 2;
+    }
+    return records;
+}
+
+const std::string bytesOverCasters =
+    R"("left": {"scene": "dueling-frusta", "variant": "a", "metric": "figures.bytes", "over": {"variant": "b", "metric": "figures.size"}, "axis": "casters")";
+
+TEST(Claims, QuotientsAreTakenAtTheSamePlace) {
+    std::vector<Record> records = swept("a", "bytes", {6, 20});
+    for (const Record& record : swept("b", "size", {3, 5})) records.push_back(record);
+    const auto bounded = [](const std::string& rest) { return claim(R"({"says": "s", )" + bytesOverCasters + rest + "}"); };
+    EXPECT_EQ(verdict(bounded(R"(, "value": 1}, "is": "at most", "bound": 2)"), records), Verdict::Reproduced);
+    EXPECT_EQ(verdict(bounded(R"(, "value": 2}, "is": "at least", "bound": 4)"), records), Verdict::Reproduced);
+    EXPECT_EQ(verdict(bounded(R"(, "value": 2}, "is": "at least", "bound": 4.1)"), records), Verdict::NotReproduced);
+    EXPECT_EQ(verdict(bounded(R"(, "value": 4}, "is": "at least", "bound": 0)"), records), Verdict::NotMeasured);
+    records[2].figures["size"] = 0; // no quotient by zero
+    EXPECT_EQ(verdict(bounded(R"(, "value": 1}, "is": "at least", "bound": 0)"), records), Verdict::NotMeasured);
+}
+
+TEST(Claims, GrowthIsStrictAndNeedsEveryPlace) {
+    const std::string grows =
+        claim(R"({"says": "s", "left": {"scene": "dueling-frusta", "variant": "a", "metric": "figures.bytes", "axis": )"
+              R"("casters"}, "grows over": [1, 2, 4]})");
+    EXPECT_EQ(verdict(grows, swept("a", "bytes", {1, 2, 3})), Verdict::Reproduced);
+    EXPECT_EQ(verdict(grows, swept("a", "bytes", {1, 2, 2})), Verdict::NotReproduced);
+    EXPECT_EQ(verdict(grows, swept("a", "bytes", {3, 2, 4})), Verdict::NotReproduced);
+    EXPECT_EQ(verdict(grows, swept("a", "bytes", {1, 2})), Verdict::NotMeasured);
+
+    const std::vector<Claim> parsed = parseClaims(grows);
+    EXPECT_NE(claimsReport({judge(parsed.front(), swept("a", "bytes", {1, 2}))}, "text")
+                  .find("figures.bytes of a on dueling-frusta at casters 1, 2, 4 = 1, 2, missing grows: not measured"),
+              std::string::npos);
+    EXPECT_NE(claimsReport({judge(parsed.front(), swept("a", "bytes", {1, 2, 3}))}, "json").find("\"holds\": true"),
+              std::string::npos);
+}
+
 TEST(Claims, MistakesNameClaimAndKey) {
     const auto message = [](const std::string& json) -> std::string {
         try {
@@ -74,6 +120,8 @@ TEST(Claims, MistakesNameClaimAndKey) {
     EXPECT_EQ(message(R"([{"id": "K0", "says": "s", "wehre": "w", "checks": []}])"),
               "reading claims: K0: \"wehre\" is no key");
     EXPECT_EQ(message("{}"), "reading claims: not a JSON list");
+    EXPECT_EQ(message(claim(R"({"says": "s", )" + bytesOverCasters + R"(}, "grows over": [1]})")),
+              "reading claims: K0: \"grows over\" must list two values of the axis or more");
 }
 
 TEST(Claims, TheReportNamesTheFigures) {

@@ -70,6 +70,36 @@ inline Record softRecord() {
     return r;
 }
 
+inline Record lodRecord() {
+    Record r = hardRecord();
+    r.scene = "windmills";
+    r.technique = "lod-frame-sequential";
+    r.variant = "lod-frame-sequential:vis=checker";
+    r.parameters = {{"vis", "checker"}, {"reproject", "camera"}};
+    r.reference.reset();
+    r.accuracy = {};
+    r.stability = {};
+    r.cost.time.reset();
+    Lod lod;
+    lod.pop = 0.0011;
+    lod.changedRegion = 41;
+    lod.walkPop = -0.0002;
+    lod.colourError = 0.064;
+    lod.noise = -0.003;
+    lod.transitions = 19;
+    lod.primitives = 8694.5;
+    lod.primitiveChange = 0.019;
+    lod.time = LodTime{4.5, 1.1, 0.03};
+    lod.popByFrame = {0.0011, 0.0004};
+    lod.walkPopByFrame = {-0.0003, -0.0002};
+    lod.primitivesByFrame = {8700, 8700, 8683.5};
+    lod.millisecondsByFrame = {4.5, 4.6, 4.4};
+    r.lod = lod;
+    r.toleranceMetric.clear();
+    r.tolerance = 0;
+    return r;
+}
+
 inline Record unscored(Status status, const std::string& reason) {
     Record r = hardRecord();
     r.status = status;
@@ -91,8 +121,9 @@ inline Record expectedFailure() {
 }
 
 inline std::vector<Record> recordOfEveryStatus() {
-    return {hardRecord(), softRecord(), unscored(Status::NotApplicable, "needs an area light"), expectedFailure(),
-            unscored(Status::Error, "primary hits differ on 3 % of the pixels")};
+    return {hardRecord(),      softRecord(),
+            lodRecord(),       unscored(Status::NotApplicable, "needs an area light"),
+            expectedFailure(), unscored(Status::Error, "primary hits differ on 3 % of the pixels")};
 }
 
 } // namespace shadowbench::test

@@ -60,6 +60,21 @@ TEST_F(RecordSchema, RefusesATypoAtEveryLevel) {
     }
 }
 
+TEST_F(RecordSchema, ALevelOfDetailRecordHasNoAccuracyAndNoTypos) {
+    for (const char* place : {"/lod", "/lod/time", "/lod/by_frame"}) {
+        Json record = Json::parse(toJson(lodRecord()));
+        ASSERT_TRUE(valid(record)) << why_;
+        record[Json::json_pointer(place)]["popp"] = 0.1;
+        EXPECT_FALSE(valid(record)) << place;
+    }
+    Json record = Json::parse(toJson(lodRecord()));
+    record["accuracy"] = {{"primary_mismatch", 0.0}};
+    EXPECT_FALSE(valid(record));
+    record = Json::parse(toJson(unscored(Status::Error, "x")));
+    record["lod"] = Json::parse(toJson(lodRecord()))["lod"];
+    EXPECT_FALSE(valid(record));
+}
+
 TEST_F(RecordSchema, RefusesANullAndAZeroLengthCurve) {
     Json record = Json::parse(toJson(hardRecord()));
     record["accuracy"]["leak"] = nullptr;

@@ -44,7 +44,7 @@ TEST(TerminalTable, SaysThatNothingIsWithinToleranceAndNamesErrors) {
               " scene: dueling-frusta · 256² · error = mismatching pixels · cost = frames of sm-uniform\n"
               " technique     error   false shadow     leak   edge error px   flicker   cost   front\n"
               " sm-uniform   4.87 %         0.05 %   0.04 %            0.40     0.016   1.00       ●\n"
-              " cheapest within tolerance (0.5 %): none\n"
+              " no technique is within tolerance (0.5 %)\n"
               " error: sm-history:base=lispsm (primary hits differ)\n");
     EXPECT_EQ(report::terminalTable(records, "no-such-scene"), "");
 }
@@ -61,11 +61,20 @@ TEST(MarkdownTable, HasARowARecordAndEscapesWhatMarkdownWouldRead) {
     records[0].accuracy = {};
     records[0].accuracy.mismatch = 0.01;
     records[0].stability = {};
+    records[0].aliasing.reset();
+    records[0].figures.clear();
     EXPECT_EQ(report::markdownTable(records, "dueling-frusta"), "| technique | error | cost | front |\n"
                                                                 "|:---|---:|---:|---:|\n"
                                                                 "| a\\_b\\|c | 1.00 % | 1.00 | ● |\n"
                                                                 "\n"
-                                                                "cheapest within tolerance (0.5 %): none\n");
+                                                                "no technique is within tolerance (0.5 %)\n");
+}
+
+TEST(MarkdownTable, ShowsTexelsInPixelsAndWhatOnlyTheTechniqueKnows) {
+    const std::string table = report::markdownTable({hardCell("sm-uniform", 0.01, 1)}, "dueling-frusta");
+    EXPECT_NE(table.find("| texel px | texel px p95 |"), std::string::npos) << table;
+    EXPECT_NE(table.find("| 1.80 | 4.20 |"), std::string::npos) << table;
+    EXPECT_NE(table.find("\nfigures of sm-uniform: confident 0.31, tiles 6\n"), std::string::npos) << table;
 }
 
 TEST(ParetoFront, HoldsWhatNoOtherRecordBeatsByRisingCost) {
@@ -107,7 +116,7 @@ TEST(CheapestAdequate, IsAbsentWithoutATolerance) {
 
 TEST(Csv, HasOneRowARecordAndTheSameColumnsInEveryRow) {
     const std::string text = report::csv(recordOfEveryStatus());
-    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 6);
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 7);
     const auto commas = [](const std::string& line) { // outside quotes
         bool inside = false;
         return std::count_if(line.begin(), line.end(), [&](char c) {

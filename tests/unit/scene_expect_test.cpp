@@ -1,4 +1,5 @@
 // What scene files expect of techniques, and that the failure scenes say it.
+#include "harness/scene/error.h"
 #include "harness/scene/scene.h"
 
 #include <algorithm>
@@ -24,6 +25,36 @@ TEST(SceneExpect, IsReadWithItsBoundsAndReasons) {
     ASSERT_EQ(scene.holds.size(), 1U);
     EXPECT_EQ(scene.holds[0].technique, "pcf:kernel=7");
     EXPECT_EQ(scene.holds[0].bound, 0.3);
+}
+
+Scene withExpectations(const std::string& lines) {
+    return parseScene(
+        "title = \"x\"\ncamera = { eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60 }\n"
+        "light = { kind = \"point\", centre = [1, 5, 2] }\n[[object]]\nmesh = { box = { size = [2, 1, 2] } }\n[expect]\n" +
+            lines,
+        "x.toml", Profile::Gate);
+}
+
+TEST(SceneExpect, SaysWhereTechniquesBreak) {
+    const Scene scene = withExpectations(
+        "breaks = [{ technique = \"sm-psm\", axis = \"near-plane\", between = [0.1, 0.5], reason = \"a\" }]\n"
+        "never_breaks = [{ technique = \"sm-lispsm\", axis = \"near-plane\", reason = \"b\" }]\n");
+    ASSERT_EQ(scene.breaks.size(), 2U);
+    EXPECT_EQ(scene.breaks[0].technique, "sm-psm");
+    EXPECT_EQ(scene.breaks[0].axis, "near-plane");
+    EXPECT_EQ(scene.breaks[0].between, glm::dvec2(0.1, 0.5));
+    EXPECT_EQ(scene.breaks[0].reason, "a");
+    EXPECT_EQ(scene.breaks[1].technique, "sm-lispsm");
+    EXPECT_FALSE(scene.breaks[1].between);
+}
+
+TEST(SceneExpect, ABreakNeedsTwoBoundsInOrderAndNoBreakHasNone) {
+    for (const std::string wrong :
+         {"breaks = [{ technique = \"t\", axis = \"map\", reason = \"a\" }]",
+          "breaks = [{ technique = \"t\", axis = \"map\", between = [2], reason = \"a\" }]",
+          "breaks = [{ technique = \"t\", axis = \"map\", between = [2, 1], reason = \"a\" }]",
+          "never_breaks = [{ technique = \"t\", axis = \"map\", between = [1, 2], reason = \"a\" }]"})
+        EXPECT_THROW(withExpectations(wrong), BadInput) << wrong;
 }
 
 TEST(SceneExpect, IsEmptyWhereASceneSaysNothing) {

@@ -81,6 +81,13 @@ TEST(Axes, CastersAreCountedWithoutTheGround) {
     EXPECT_THROW(axisNamed("casters").move(scene, 6), BadInput);
 }
 
+TEST(Axes, CasterCountsEndWithAllThatTheSceneHas) {
+    EXPECT_EQ(axisNamed("casters").valuesFor(loadScene("depth-complexity", Profile::Gate)),
+              (std::vector<double>{1, 2, 4, 7}));
+    EXPECT_EQ(axisNamed("near-plane").valuesFor(loadScene("depth-complexity", Profile::Gate)),
+              axisNamed("near-plane").values);
+}
+
 TEST(Axes, WhatASceneLacksIsAnError) {
     Scene scene = loadScene("dueling-frusta", Profile::Gate);
     EXPECT_THROW(axisNamed("light-size").move(scene, 2), BadInput);
@@ -125,6 +132,10 @@ TEST(Sweep, RecordsKeepTheirStep) {
     EXPECT_EQ(read.sweep->curve, "sm-psm");
     EXPECT_EQ(read.sweep->value, 0.25);
     EXPECT_EQ(read.sweep->breakPoint, 0.125);
+}
+
+TEST(Sweep, ATableWritesLargeValuesInFull) {
+    EXPECT_NE(report::sweepTable(curve({{1048576, 0.001}})).find("| 1048576 |"), std::string::npos);
 }
 
 TEST(Sweep, ATableHasARowATechniqueAndAColumnAValue) {

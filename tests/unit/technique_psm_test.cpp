@@ -35,6 +35,16 @@ TEST(Psm, NearToTwiceNearTakesHalfOfTheMapOfTheWholeFrustum) { // course: z → 
     EXPECT_NEAR((along(2 * n) - along(n)) / (along(f) - along(n)), 0.5 / (1 - n / f), 1e-3);
 }
 
+TEST(Psm, TheShareOfNearDepthFallsAsTheVirtualCameraMovesBack) {
+    const Camera camera = groundScene(sun({0, -1, 0})).camera;
+    const double n = camera.near, f = camera.far;
+    for (const double shift : {0.0, 1.0, 20.0}) { // depth after the perspective: (1/N − 1/z) / (1/N − 1/F)
+        const double expected = (1 / (n + shift) - 1 / (2 * n + shift)) / (1 / (n + shift) - 1 / (f + shift));
+        EXPECT_NEAR(nearDepthShare(camera, movedBack(camera, shift), 1), expected, 1e-9) << shift;
+    }
+    EXPECT_NEAR(nearDepthShare(camera, camera, 1), 0.5 * f / (f - n), 1e-9); // the course's half
+}
+
 TEST(Psm, ALightParallelToTheImagePlaneGivesEveryPixelEqualWidth) {
     for (const Light& light : {sun({0, -1, 0}), sun({0.5, -1, 0})}) {
         const Snapshot scene = groundScene(light);

@@ -11,11 +11,15 @@
 
 #include "techniques/entries.h"
 #include "techniques/filtered/prefiltered_map.h"
+#include "techniques/gl/counters.h"
 #include "techniques/resolve.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <map>
+#include <optional>
+#include <string>
 
 namespace shadowbench::techniques {
 
@@ -45,19 +49,14 @@ namespace {
 class CsmFourier final : public Technique {
 public:
     explicit CsmFourier(const Parameters& p)
-        : terms_(p.integer("terms")), map_(p, {"filtered/csm-fourier/basis.frag", {}, gl::Format::RGBA8, terms_ / 2}),
-          resolve_(gl::Program::screen("filtered/csm-fourier/csm-fourier.frag", {{"TERMS", p.text("terms")}})) {
-        const double damping = p.real("damping");
-        const double offset = 0.5 * p.real("offset") / terms_;
-        const auto used = static_cast<float>(usedDepth(terms_));
-        map_.basis().set("usedDepth", used);
-        resolve_.set("usedDepth", used)
-            .set("offset", static_cast<float>(offset))
-            .set("damping", static_cast<float>(damping))
-            .set("gain", static_cast<float>(litGain(terms_, damping, offset)));
+        : terms_(p.integer("terms")), damping_(p.real("damping")), offset_(0.5 * p.real("offset") / terms_),
+          map_(p, {"filtered/csm-fourier/basis.frag", {}, gl::Format::RGBA8, terms_ / 2}), resolve_(program({})) {
+        map_.basis().set("usedDepth", static_cast<float>(usedDepth(terms_)));
+        resolve_.set("gain", static_cast<float>(litGain(terms_, damping_, offset_)));
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
+        last_.emplace(frame);
         map_.draw(frame);
         map_.bindTo(resolve_, frame);
         resolveInto({&visibility}, resolve_);
@@ -65,8 +64,41 @@ public:
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return map_.pointAt(world); }
 
+    [[nodiscard]] std::map<std::string, double> figures() const override {
+        if (!last_) return {};
+        gl::Program series = program({{"SERIES", "1"}});
+        map_.bindTo(series, *last_);
+        const gl::Texture sums(gl::Format::R32F, last_->size);
+        const gl::RenderTarget target{&sums};
+        target.clearColour(0, glm::vec4(0.5F)); // neither above 1 nor below 0
+        target.bind();
+        gl::FragmentMeter meter;
+        series.drawScreen();
+        const std::uint64_t pixels = meter.finish();
+        if (pixels == 0) return {};
+
+        double greatest = 0, squares = 0;
+        for (const float sum : target.readFloat(0)) {
+            const double excess = std::max({static_cast<double>(sum) - 1, -static_cast<double>(sum), 0.0});
+            greatest = std::max(greatest, excess);
+            squares += excess * excess;
+        }
+        return {{"overshoot", greatest}, {"ringing", std::sqrt(squares / static_cast<double>(pixels))}};
+    }
+
 private:
+    [[nodiscard]] gl::Program program(gl::Defines defines) const {
+        defines.emplace_back("TERMS", std::to_string(terms_));
+        gl::Program program = gl::Program::screen("filtered/csm-fourier/csm-fourier.frag", defines);
+        program.set("usedDepth", static_cast<float>(usedDepth(terms_)))
+            .set("offset", static_cast<float>(offset_))
+            .set("damping", static_cast<float>(damping_));
+        return program;
+    }
+
     int terms_;
+    double damping_, offset_;
+    std::optional<Frame> last_; // the frame last rendered, for `figures`
     PrefilteredMap map_;
     gl::Program resolve_;
 };
@@ -86,6 +118,8 @@ Entry csmFourier() {
             .source = {Seed::Dissertation, "2.2.1"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
+            .figures = {{"overshoot", "largest excess of the Fourier sum above 1 or below 0 in the image (1 = full light)"},
+                        {"ringing", "root mean square of that excess over the pixels that the map holds"}},
             .variants = {""},
             .make = [](const Parameters& p) { return std::make_unique<CsmFourier>(p); }};
 }

@@ -20,12 +20,20 @@ float term(int k, float depth, vec2 wave) {
 void main() {
     FilteredReceiver receiver = filteredReceiver();
     visibility = 1.0;
+#ifdef SERIES  // the sum as it is, where there is one: to be measured
+    if (!receiver.known) discard;
+#else
     if (!receiver.known) return;
+#endif
     float depth = usedDepth * receiver.depth - offset;
     float sum = 0.5;
     for (int layer = 0; layer < TERMS / 2; ++layer) {
         vec4 waves = 2.0 * filtered(receiver, layer) - 1.0;
         sum += term(2 * layer + 1, depth, waves.xy) + term(2 * layer + 2, depth, waves.zw);
     }
+#ifdef SERIES
+    visibility = sum;
+#else
     visibility = clamp(gain * sum, 0.0, 1.0);
+#endif
 }

@@ -38,14 +38,20 @@ Entry smPsm() {
             .source = {Seed::Course, "Perspective Shadow Maps"},
             .answer = Answer::Hard,
             .parameters = std::move(parameters),
+            .figures = {{"near_depth", "share of post-perspective depth between the near plane and twice its distance"}},
             .variants = {""},
             .make = [](const Parameters& p) {
                 const PsmOptions options = optionsFrom(p);
                 auto map = std::make_unique<DepthMap>(p.integer("map"), biasFrom(p), Lookup::Compare,
                                                       options.behindEye == BehindEye::Lost);
-                return makeSingleMap(std::move(map), [options](const Frame& frame) {
+                const FitView fit = [options](const Frame& frame) {
                     return fitPsm(frame.snapshot.light, frame.snapshot, frame.aspect(), options);
-                });
+                };
+                const TellFigures tell = [options](const Frame& frame) -> std::map<std::string, double> {
+                    const Camera eye = virtualCamera(frame.snapshot, frame.aspect(), options);
+                    return {{"near_depth", nearDepthShare(frame.snapshot.camera, eye, frame.aspect())}};
+                };
+                return makeSingleMap(std::move(map), fit, tell);
             }};
 }
 

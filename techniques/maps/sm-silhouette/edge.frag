@@ -42,6 +42,8 @@ void main() {
     vec2 cell = floor(gl_FragCoord.xy);
     float t = pick(from.xy - cell, to.xy - cell);
     if (t < 0.0) discard;
+#ifndef CROSSED  // else: all cells that edges cross, to be counted
     if (mix(from.z, to.z, t) > deepestCorner(ivec2(cell))) discard;  // hidden from the light
+#endif
     point = toHalf(mix(from.xy, to.xy, t) - cell);
 }

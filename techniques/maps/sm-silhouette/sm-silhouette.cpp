@@ -5,13 +5,17 @@
 #include "techniques/entries.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
+#include "techniques/gl/counters.h"
 #include "techniques/maps/depth_map.h"
 #include "techniques/maps/single_map.h"
 #include "techniques/maps/sm-silhouette/outline.h"
 #include "techniques/resolve.h"
 
 #include <glm/matrix.hpp>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
 #include <unordered_map>
 
 namespace shadowbench::techniques {
@@ -35,14 +39,32 @@ public:
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
+        last_.emplace(frame);
         light_ = uniformView(frame);
         map_.draw(light_, frame.scene);
-        drawOutlines(outlines(frame, light_));
-        resolve_.set("positions", frame.gbuffer.position())
-            .set("mapFromWorld", mapFromWorld(light_))
-            .set("depthMap", map_.texture())
-            .set("silhouetteMap", points_);
+        const std::vector<DualEdge> edges = outlines(frame, light_);
+        edgeCount_ = edges.size();
+        buffer_.upload(edges.data(), edges.size() * sizeof(DualEdge));
+        drawOutlines(edge_);
+        bindTo(resolve_);
         resolveInto({&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::map<std::string, double> figures() const override {
+        if (!last_) return {};
+        constexpr double depth = 4, point = 4; // bytes
+        const CasterFragments casters = map_.fragments(light_, last_->scene);
+        const double cells = outlineFragments({{"CROSSED", "1"}}), points = outlineFragments({});
+        const double tested = pixels({{"TESTED", "1"}}), branch = pixels({{"BRANCH", "1"}});
+        const double facing = pixels({{"TESTED", "1"}, {"FACING", "1"}});
+        const double facingBranch = pixels({{"BRANCH", "1"}, {"FACING", "1"}});
+        std::map<std::string, double> figures{
+            {"map_bytes",
+             depth * static_cast<double>(casters.rasterised + casters.written) + 4 * depth * cells + point * points},
+            {"lookup_bytes", 4 * depth * tested + 5 * point * branch}};
+        if (facing > 0) figures["silhouette_branch"] = facingBranch / facing;
+        if (tested > facing) figures["averted_branch"] = (branch - facingBranch) / (tested - facing);
+        return figures;
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
@@ -79,19 +101,48 @@ private:
     }
 
     /// Every cell starts with its middle; later edges overwrite earlier ones.
-    void drawOutlines(const std::vector<DualEdge>& edges) {
+    void drawOutlines(gl::Program& edge) const {
         target_.clearColour(0, glm::vec4(0.5F));
-        buffer_.upload(edges.data(), edges.size() * sizeof(DualEdge));
         target_.bind();
         glDisable(GL_DEPTH_TEST);
         glDisable(GL_CULL_FACE);
-        edge_.set("depthMap", map_.texture()).set("cells", points_.size().x).use();
+        if (edge.uses("depthMap")) edge.set("depthMap", map_.texture());
+        edge.set("cells", points_.size().x).use();
         layout_.bind();
-        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(edges.size()));
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(edgeCount_));
         ++gl::Context::current().tally().draws;
     }
 
+    void bindTo(gl::Program& resolve) const {
+        resolve.set("positions", last_->gbuffer.position())
+            .set("mapFromWorld", mapFromWorld(light_))
+            .set("depthMap", map_.texture());
+        if (resolve.uses("silhouetteMap")) resolve.set("silhouetteMap", points_);
+        if (!resolve.uses("light")) return;
+        resolve.set("light", glm::vec4(last_->snapshot.light.centreOnly().homogeneous()))
+            .set("normals", last_->gbuffer.normal());
+    }
+
+    [[nodiscard]] double outlineFragments(const gl::Defines& defines) const {
+        gl::Program edge("maps/sm-silhouette/edge.vert", "maps/sm-silhouette/edge.frag", defines);
+        gl::FragmentMeter meter;
+        drawOutlines(edge);
+        return static_cast<double>(meter.finish());
+    }
+
+    /// Pixels of the image that get as far as `defines` says (sm-silhouette.frag).
+    [[nodiscard]] double pixels(const gl::Defines& defines) const {
+        const gl::Texture image(gl::Format::R8, last_->size);
+        gl::Program resolve = gl::Program::screen("maps/sm-silhouette/sm-silhouette.frag", defines);
+        bindTo(resolve);
+        gl::FragmentMeter meter;
+        resolveInto({&image}, resolve);
+        return static_cast<double>(meter.finish());
+    }
+
+    std::optional<Frame> last_; // the frame last rendered, for `figures`
     LightView light_;
+    std::size_t edgeCount_ = 0;
     DepthMap map_;
     gl::Texture points_;
     gl::RenderTarget target_;
@@ -112,6 +163,10 @@ Entry smSilhouette() {
             .source = {Seed::Course, "Shadow Silhouette Maps"},
             .answer = Answer::Hard,
             .parameters = std::move(parameters),
+            .figures = {{"silhouette_branch", "share of the pixels facing the light whose four depth tests differ"},
+                        {"averted_branch", "the same share of the pixels facing away from the light, which need no test"},
+                        {"map_bytes", "bytes that drawing both maps reads and writes: 4 for a depth, 4 for a point"},
+                        {"lookup_bytes", "bytes that the pixels' tests read from both maps"}},
             .variants = {""},
             .make = [](const Parameters& p) { return std::make_unique<SilhouetteMap>(p); }};
 }

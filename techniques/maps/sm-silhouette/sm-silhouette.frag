@@ -1,12 +1,25 @@
 // Shadow test against the deformed depth mesh: the receiver's cell of the dual grid is split into four quadrants by lines from its
 // silhouette point to those of its neighbours; each quadrant takes the test of the depth sample in its corner.
+// To be counted, with TESTED or BRANCH defined only the pixels are drawn that are tested at all, or that take the branch; with
+// FACING only those of them that face the light.
 #include "gl/receiver.glsl"
 #include "maps/light_space.glsl"
 
 uniform sampler2D depthMap;
 uniform sampler2D silhouetteMap;
 
+#ifdef FACING
+uniform sampler2D normals;
+uniform vec4 light;  // homogeneous
+#endif
+
 out float visibility;
+
+#if defined(TESTED) || defined(BRANCH)
+#define LEAVE discard
+#else
+#define LEAVE return
+#endif
 
 float testAt(ivec2 texel, float depth) {
     ivec2 size = textureSize(depthMap, 0);
@@ -33,14 +46,21 @@ void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
     MapPoint point = mapPoint(receiver.position);
     visibility = 1.0;
-    if (!receiver.seen || point.behind) return;
+    if (!receiver.seen || point.behind) LEAVE;
+#ifdef FACING
+    vec3 normal = texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz;
+    if (dot(normal, light.xyz - light.w * receiver.position) <= 0.0) LEAVE;
+#endif
 
     vec2 dual = point.at.xy * vec2(textureSize(depthMap, 0)) + 0.5;
     ivec2 cell = ivec2(floor(dual));
     float bottomLeft = testAt(cell - ivec2(1, 1), point.at.z), bottomRight = testAt(cell - ivec2(0, 1), point.at.z);
     float topLeft = testAt(cell - ivec2(1, 0), point.at.z), topRight = testAt(cell, point.at.z);
     visibility = bottomLeft;
-    if (bottomLeft == bottomRight && bottomLeft == topLeft && bottomLeft == topRight) return;
+#ifdef TESTED
+    return;
+#endif
+    if (bottomLeft == bottomRight && bottomLeft == topLeft && bottomLeft == topRight) LEAVE;
 
     vec2 centre = pointOf(cell, ivec2(0));
     vec2 p = fract(dual) - centre;

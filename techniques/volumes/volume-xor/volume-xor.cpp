@@ -13,6 +13,7 @@ Entry volumeXor() {
             .source = {Seed::Zapotocky, "2.4.5"},
             .answer = Answer::Hard,
             .parameters = {},
+            .figures = volumeFigures(),
             .variants = {""},
             .make = [](const Parameters&) { return std::make_unique<CountedVolumes>(VolumeTest::ExclusiveOr); }};
 }

@@ -2,8 +2,9 @@
 // Zápotocký 2.4.4). Back faces that fail the depth test increment, front faces decrement, both in one pass with wrapping
 // two-sided stencil; a pixel whose count ends at zero is lit. Vertices at infinity are homogeneous; `far=clamp` keeps the
 // camera's far plane and clamps depth (the paper's section 3.4), `far=infinity` draws depth again under P_inf.
-// Departure: at most 255 placements are counted together, since 256 volumes around a point wrap to a count of none; the
-// paper asks for a stencil of as many bits as the scene needs (its section 3.1).
+// Departures: at most 255 placements are counted together, since 256 volumes around a point wrap to a count of none; the
+// paper asks for a stencil of as many bits as the scene needs (its section 3.1). Caps are pushed away a little
+// (stencil_volumes.cpp): a front cap at the same depth as the surface that it lies on may round to before it.
 #include "techniques/entries.h"
 #include "techniques/gl/api.h"
 #include "techniques/volumes/stencil_volumes.h"
@@ -28,6 +29,8 @@ public:
         const glm::mat4 clipFromWorld(infiniteClip(frame));
         volumes_.render(frame, clipFromWorld, drawDepth(frame, clipFromWorld), visibility);
     }
+
+    [[nodiscard]] std::map<std::string, double> figures() const override { return volumes_.figures(); }
 
 private:
     static glm::dmat4 infiniteClip(const Frame& frame) {
@@ -64,6 +67,7 @@ Entry volumeZfail() {
             .answer = Answer::Hard,
             .parameters = {{"far", "clamp", OneOf{{"clamp", "infinity"}},
                             "clamp depth, or put the far plane at infinity (P_inf)", "course, 3.2.1 and 3.4"}},
+            .figures = volumeFigures(),
             .variants = {""},
             .make = [](const Parameters& p) { return std::make_unique<VolumeZfail>(p); }};
 }

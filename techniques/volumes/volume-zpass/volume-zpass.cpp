@@ -14,6 +14,7 @@ Entry volumeZpass() {
             .source = {Seed::Zapotocky, "2.4.3; course, Practical and Robust Stenciled Shadow Volumes, 2.2"},
             .answer = Answer::Hard,
             .parameters = {},
+            .figures = volumeFigures(),
             .variants = {""},
             .make = [](const Parameters&) { return std::make_unique<CountedVolumes>(VolumeTest::DepthPass); }};
 }

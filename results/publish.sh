@@ -1,0 +1,72 @@
+#!/bin/sh
+# Makes the published sets of records, their reports and the verdicts on the papers' claims:
+#   results/publish.sh [standard] [failures] [sweeps] [claims]     default: all four, in this order
+# Wall times are part of the first two: keep the machine quiet.
+set -eu
+cd "$(dirname "$0")/.."
+
+standard() { ./bench run --out results/published; }
+
+# Every technique on every other built-in scene, then the variants that single scenes are about (their `[expect]`).
+failures() {
+    out=results/failures
+    scenes="basic huge caster-behind-eye colonnade contact depth-complexity eye-in-shadow grazing-light light-behind-camera
+        light-jump moving-caster moving-light moving-receiver near-plane open-mesh overlapping-volumes picket-fence
+        screen-overlap tessellation"
+    # shellcheck disable=SC2046,SC2086 # lists of words
+    ./bench run $(printf ' --scene %s' $scenes) --out $out
+    also caster-behind-eye sm-psm:behind=lost sm-psm:behind=move-back
+    also contact sm-uniform:bias=constant,units=1600000
+    also depth-complexity vsm:kernel=32 esm:kernel=32
+    also eye-in-shadow volume-zfail:far=infinity
+    also grazing-light sm-uniform:bias=none sm-uniform:bias=constant,units=1000000
+    also near-plane sm-psm:fit=cube
+    also open-mesh sm-midpoint:second=backface
+    also picket-fence sm-uniform:map=256 sm-silhouette:map=256
+    also basic sm-uniform:map=512 sm-silhouette:map=512
+    ./bench report $out/results.jsonl --out $out
+}
+
+# Adds variants of techniques on one scene to the failure set.
+also() {
+    scene=$1
+    shift
+    # shellcheck disable=SC2046 # a list of words
+    ./bench run --scene "$scene" $(printf ' --technique %s' "$@") --resume --out results/failures
+}
+
+sweeps() {
+    sweep light-view-angle dueling-frusta 'sm-*' sm-psm:fit=cube volume-zfail
+    sweep near-plane near-plane 'sm-*' sm-psm:fit=cube sm-psm:fit=cube,shift=4 volume-zfail
+    sweep units contact sm-uniform:bias=constant sm-uniform sm-focused sm-silhouette pcf esm vsm
+    sweep factor contact sm-uniform sm-uniform:units=65536 sm-focused sm-silhouette pcf sm-history
+    sweep map dueling-frusta 'sm-*' pcf vsm esm deep-sm
+    sweep light-elevation grazing-light 'sm-*' sm-uniform:bias=none sm-uniform:bias=constant,units=65536 'planar-*' volume-zfail
+    sweep casters depth-complexity sm-uniform vsm vsm:kernel=32 esm esm:kernel=32 lvsm csm-fourier 'volume-*'
+    sweep tessellation tessellation sm-uniform sm-cube sm-dual-paraboloid sm-dual-paraboloid:map=2048,units=16384 'volume-*'
+}
+
+# One axis of one scene, with the techniques that follow.
+sweep() {
+    axis=$1
+    scene=$2
+    shift 2
+    set -f # patterns of techniques are no files
+    # shellcheck disable=SC2046 # a list of words
+    ./bench sweep --axis "$axis" --scene "$scene" $(printf ' --technique %s' "$@") --out "results/sweeps/$axis"
+    set +f
+}
+
+claims() {
+    ./bench claims results/published/results.jsonl results/failures/results.jsonl results/sweeps/*/sweep.jsonl \
+        --format md >results/claims.md.new
+    mv results/claims.md.new results/claims.md
+}
+
+[ $# -gt 0 ] || set -- standard failures sweeps claims
+for part in "$@"; do
+    case $part in
+    standard | failures | sweeps | claims) "$part" ;;
+    *) echo "publish.sh: unknown part \"$part\"; known are standard, failures, sweeps, claims" >&2; exit 2 ;;
+    esac
+done

@@ -1,0 +1,28 @@
+// What a cell's record says beside its scores.
+#include "cell_stage.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+TEST(CellRecord, HasTheFiguresAndTheTexelsOfItsTechnique) {
+    const Scene scene = stillScene("dueling-frusta");
+    const Record volumes = scored(scene, "volume-zpass");
+    EXPECT_GT(volumes.figures.at("stencil_bytes"), volumes.figures.at("stencil_updates"));
+    EXPECT_FALSE(volumes.aliasing);
+
+    const Record map = scored(scene, "sm-uniform"), half = scored(scene, "sm-uniform:map=512");
+    EXPECT_TRUE(map.figures.empty());
+    ASSERT_TRUE(map.aliasing && half.aliasing);
+    EXPECT_EQ(map.aliasing->mapped, 1); // fitted to the whole scene
+    EXPECT_NEAR(half.aliasing->median, 2 * map.aliasing->median, 1e-6 * map.aliasing->median);
+    EXPECT_NEAR(half.aliasing->p95, 2 * map.aliasing->p95, 1e-6 * map.aliasing->p95);
+
+    const Record silhouette = scored(scene, "sm-silhouette");
+    EXPECT_EQ(silhouette.aliasing->median, map.aliasing->median); // the same depth map
+    EXPECT_GT(silhouette.figures.at("silhouette_branch"), 0);
+}
+
+} // namespace
+} // namespace shadowbench

@@ -1,0 +1,93 @@
+// Where techniques break as one quantity of a scene moves: the `breaks` and `never_breaks` of every scene, in the gate
+// profile.
+#include "cell_stage.h"
+#include "expected_techniques.h"
+#include "harness/sweep/axis.h"
+#include "harness/sweep/sweep.h"
+#include "test_names.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+
+namespace shadowbench {
+namespace {
+
+struct Case {
+    std::string scene, axis;
+    friend auto operator<=>(const Case&, const Case&) = default;
+};
+
+/// How a failing case is printed.
+void PrintTo(const Case& sweep, std::ostream* out) { *out << sweep.scene << " over " << sweep.axis; }
+
+std::vector<Case> everyExpectedSweep() {
+    std::set<Case> cases;
+    for (const std::string& id : builtinScenes())
+        for (const BreakExpectation& expected : loadScene(id, Profile::Gate).breaks) cases.insert({id, expected.axis});
+    return {cases.begin(), cases.end()};
+}
+
+std::vector<Record> swept(const std::string& scene, const std::string& axis, std::vector<std::string> techniques) {
+    testContext();
+    SweepOptions options;
+    options.scene = scene;
+    options.axis = axis;
+    options.techniques = std::move(techniques);
+    options.cache = testCache().folder();
+    options.quiet = true;
+    return sweep(options).records;
+}
+
+class ExpectedBreaks : public testing::TestWithParam<Case> {};
+
+TEST_P(ExpectedBreaks, LieWhereTheSceneSays) {
+    const auto& [id, axis] = GetParam();
+    std::vector<BreakExpectation> expectations = loadScene(id, Profile::Gate).breaks;
+    std::erase_if(expectations, [&](const BreakExpectation& e) { return e.axis != axis || isToCome(idOf(e.technique)); });
+    if (expectations.empty()) GTEST_SKIP() << "all techniques are still to come";
+    std::vector<std::string> techniques;
+    for (const BreakExpectation& expected : expectations) techniques.push_back(expected.technique);
+
+    const std::vector<Record> records = swept(id, axis, techniques);
+    for (const Record& record : records)
+        EXPECT_NE(record.status, Status::Error) << record.variant << " at " << record.sweep->value << ": " << record.reason;
+    for (const BreakExpectation& expected : expectations) {
+        const std::string curve = techniques::parseVariant(expected.technique).name;
+        const auto record = std::ranges::find_if(records, [&](const Record& r) { return r.sweep->curve == curve; });
+        ASSERT_NE(record, records.end()) << curve << " has no parameter " << axis;
+        const std::optional<double> point = record->sweep->breakPoint;
+        if (!expected.between) {
+            EXPECT_FALSE(point) << curve << " breaks at " << *point << ", though " << expected.reason;
+            continue;
+        }
+        ASSERT_TRUE(point) << curve << " has stopped breaking, though " << expected.reason;
+        EXPECT_GE(*point, expected.between->x) << curve << ": " << expected.reason;
+        EXPECT_LE(*point, expected.between->y) << curve << ": " << expected.reason;
+    }
+}
+
+std::string caseName(const testing::TestParamInfo<Case>& tested) {
+    return testName(tested.param.scene + "_over_" + tested.param.axis);
+}
+
+INSTANTIATE_TEST_SUITE_P(Gate, ExpectedBreaks, testing::ValuesIn(everyExpectedSweep()), caseName);
+
+TEST(ExpectedBreaks, AreStatedOfTechniquesThatBehaveDifferentlyOnEveryAxisOfHardShadows) {
+    std::map<std::string, std::set<std::string>> techniques, outcomes;
+    for (const std::string& id : builtinScenes())
+        for (const BreakExpectation& expected : loadScene(id, Profile::Gate).breaks) {
+            techniques[expected.axis].insert(expected.technique);
+            outcomes[expected.axis].insert(expected.between ? fmt::format("{}", expected.between->x) : "never");
+        }
+    for (const Axis& axis : axes()) {
+        if (axis.id == "light-size") continue; // of soft shadows
+        EXPECT_GE(techniques[axis.id].size(), 2U) << axis.id;
+        EXPECT_GE(outcomes[axis.id].size(), 2U) << axis.id;
+    }
+}
+
+} // namespace
+} // namespace shadowbench
