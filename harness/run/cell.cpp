@@ -193,7 +193,7 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
 }
 
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed) {
-    std::string inputs = fmt::format("schema 1\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
+    std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
                                      scene.timeline.still, scene.timeline.moving);
     for (const int frame : truths.scoredFrames())
         inputs += groundtruth::key(truths.request(mainTruth(variant), frame)) + "\n";

@@ -69,10 +69,12 @@ public:
     }
 
 private:
-    /// Sets the axis' parameter; why not, if the variant does not take the value.
+    /// Sets the axis' parameter; why not, if the variant does not take the value. Making the technique tells whether its
+    /// parameters go together.
     std::string setParameter(Variant& variant, double value) const {
         try {
             variant = withParameter(variant, axis_.id, fmt::format("{}", value));
+            variant.entry->make(variant.parameters);
             return "";
         } catch (const BadInput& error) {
             return error.what();

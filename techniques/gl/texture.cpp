@@ -35,8 +35,6 @@ FormatFacts facts(Format format) {
         return {GL_RGBA16F, 8};
     case Format::RGBA32F:
         return {GL_RGBA32F, 16};
-    case Format::RG16UI:
-        return {GL_RG16UI, 4};
     case Format::R32UI:
         return {GL_R32UI, 4};
     case Format::Depth32F:

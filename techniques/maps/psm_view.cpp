@@ -49,17 +49,32 @@ std::vector<glm::dvec4> inClipSpace(const std::vector<glm::dvec3>& body, const g
     return points;
 }
 
-/// Axis of about the narrowest cone around directions of unit length: centre of the smallest ball around them (Bădoiu,
-/// Clarkson 2003). A light close to what it lights needs all of the half turn that one map has.
+/// Axis of the narrowest cone around directions of unit length, if it is narrower than a half turn. Two or three of the
+/// directions lie on it. A light close to what it lights needs nearly all of the half turn that one map has, so no
+/// approximation will do.
 glm::dvec3 coneAxis(const std::vector<glm::dvec3>& directions) {
-    glm::dvec3 centre = directions.front();
-    for (int i = 2; i < 300; ++i) {
-        const auto farthestOne = std::max_element(directions.begin(), directions.end(), [&](const auto& a, const auto& b) {
-            return glm::distance(a, centre) < glm::distance(b, centre);
-        });
-        centre += (*farthestOne - centre) / static_cast<double>(i);
-    }
-    return glm::normalize(centre);
+    glm::dvec3 best = directions.front();
+    double most = -1; // cosine of the cone's half angle
+    const auto consider = [&](const glm::dvec3& axis) {
+        if (!(glm::length(axis) > 1e-12)) return;
+        const glm::dvec3 unit = glm::normalize(axis);
+        double least = 1;
+        for (const glm::dvec3& d : directions)
+            if ((least = std::min(least, glm::dot(unit, d))) <= most) return;
+        most = least;
+        best = unit;
+    };
+    consider(best);
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            consider(directions[i] + directions[j]);
+            for (std::size_t k = 0; k < j; ++k) {
+                const glm::dvec3 normal = glm::cross(directions[i] - directions[k], directions[j] - directions[k]);
+                consider(normal);
+                consider(-normal);
+            }
+        }
+    return best;
 }
 
 /// Projection from the homogeneous point `light` onto a map that just holds `points` (w > 0), all in one projective space.
@@ -69,8 +84,12 @@ glm::dmat4 projectionFrom(glm::dvec4 light, const std::vector<glm::dvec4>& point
     if (std::abs(light.w) < least) light.w = light.w < 0 ? -least : least;
     const glm::dvec3 centre = divided(light);
 
-    std::vector<glm::dvec3> directions;
-    for (const glm::dvec4& q : points) directions.push_back(glm::normalize(divided(q) - centre));
+    std::vector<glm::dvec3> directions; // each once: corners of the body come with every face
+    for (const glm::dvec4& q : points) {
+        const glm::dvec3 direction = glm::normalize(divided(q) - centre);
+        if (std::ranges::none_of(directions, [&](const auto& known) { return glm::distance(known, direction) < 1e-9; }))
+            directions.push_back(direction);
+    }
     const glm::dvec3 axis = coneAxis(directions);
     const glm::dvec3 hint = std::abs(axis.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
     const glm::dvec3 right = glm::normalize(glm::cross(axis, hint)), up = glm::cross(right, axis);

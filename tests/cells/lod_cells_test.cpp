@@ -55,10 +55,10 @@ TEST_P(LodScenes, FrameSequentialTransitionsPopAtMostAFifthOfSwitching) { // cla
 }
 
 TEST_P(LodScenes, BlendingDependsOnTheOrderOfPolygonsAndTheOthersDoNot) { // claim of dissertation 5.2 on TREES
-    // What is left for the others are pixels where two surfaces meet at the same depth.
+    // What is left for the others are pixels where two surfaces meet at the same depth, as the bars of a vane do.
     for (const char* variant : {"lod-full", "lod-switch", "lod-frame-sequential"})
-        EXPECT_LT(scores(GetParam(), variant).orderError, 0.0015) << variant;
-    EXPECT_GT(scores(GetParam(), "lod-blend").orderError, 0.004);
+        EXPECT_LT(scores(GetParam(), variant).orderError, 0.0025) << variant;
+    EXPECT_GT(scores(GetParam(), "lod-blend").orderError, 0.005);
 }
 
 INSTANTIATE_TEST_SUITE_P(Gate, LodScenes, testing::Values("simple", "windmills", "trees"),

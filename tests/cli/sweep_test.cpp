@@ -59,6 +59,16 @@ TEST_F(Sweep, AValueThatOneTechniqueDoesNotTakeIsSaidInItsRecord) {
     EXPECT_EQ(all[3].status, Status::Scored);
 }
 
+TEST_F(Sweep, ParametersThatDoNotGoTogetherAtAValueAreSaidInItsRecord) {
+    const Outcome outcome = sweep("--axis map --values 256,64 --technique sm-uniform --technique sm-adaptive");
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const std::vector<Record> all = records();
+    ASSERT_EQ(all.size(), 4U);
+    EXPECT_EQ(all[2].status, Status::Scored);
+    EXPECT_EQ(all[3].status, Status::NotApplicable); // a page has 128² texels
+    EXPECT_NE(all[3].reason.find("does not fit into a map of 64²"), std::string::npos) << all[3].reason;
+}
+
 TEST_F(Sweep, WrongWordsAreToldBeforeAnythingIsWritten) {
     EXPECT_EQ(sweep("--axis light-view-angel").code, 2);
     EXPECT_EQ(sweep("--axis map --technique none").code, 2);

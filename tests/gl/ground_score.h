@@ -40,6 +40,15 @@ inline BoxScore scoreOnGround(const Scene& scene, Stage& stage, const Image<floa
             static_cast<double>(leak) / static_cast<double>(dark)};
 }
 
+/// How much a technique's first frame adds to a tally: draw calls or passes.
+inline std::uint64_t tallied(Stage& stage, const std::string& name, std::uint64_t gl::Tally::*counter) {
+    const techniques::Variant variant = techniques::parseVariant(name);
+    const auto technique = variant.entry->make(variant.parameters);
+    const std::uint64_t before = testContext().tally().*counter;
+    stage.render(*technique, 0, 1);
+    return testContext().tally().*counter - before;
+}
+
 /// Boxes all around a light that is close to the slab: a single map cannot see half of them.
 inline Scene ringScene() {
     Scene scene = groundScene(256);

@@ -215,6 +215,7 @@ TEST(LodBlend, FadesTheNewLevelInOverTheOldOneThenTheOldOneOut) {
 }
 
 TEST(LodBlend, DependsOnTheOrderOfDrawingAndOthersDoNot) {
+    testContext();
     const Scene scene = [] {
         Scene result = loadScene("trees", Profile::Gate);
         result.size = {128, 128};

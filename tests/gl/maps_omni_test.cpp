@@ -9,13 +9,7 @@ namespace {
 constexpr float slabTop = -0.001F;
 
 /// Draw calls of a frame.
-std::uint64_t drawsOf(Stage& stage, const std::string& name) {
-    const techniques::Variant variant = techniques::parseVariant(name);
-    const auto technique = variant.entry->make(variant.parameters);
-    const std::uint64_t before = testContext().tally().draws;
-    stage.render(*technique, 0, 1);
-    return testContext().tally().draws - before;
-}
+std::uint64_t drawsOf(Stage& stage, const std::string& name) { return tallied(stage, name, &gl::Tally::draws); }
 
 TEST(SmCube, HoldsAllAroundALightInsideTheSceneWhereOneMapCannot) {
     const Scene scene = ringScene();

@@ -12,13 +12,7 @@ namespace {
 constexpr float slabTop = -0.001F;
 
 /// Passes of a frame.
-std::uint64_t passesOf(Stage& stage, const std::string& name) {
-    const techniques::Variant variant = techniques::parseVariant(name);
-    const auto technique = variant.entry->make(variant.parameters);
-    const std::uint64_t before = testContext().tally().passes;
-    stage.render(*technique, 0, 1);
-    return testContext().tally().passes - before;
-}
+std::uint64_t passesOf(Stage& stage, const std::string& name) { return tallied(stage, name, &gl::Tally::passes); }
 
 TEST(SmTiled, LeavesAQuarterOfAUniformMapsErrorAtEqualTexelsOverALongDepthRange) {
     const Scene scene = avenueScene(0.5);

@@ -110,7 +110,8 @@ TEST(VisibilityTexture, NoiseHasNoPatternAndTheCentreComesFirst) {
     EXPECT_LT(std::abs(sum / (63 * 64)), 350);
     EXPECT_EQ(centre(31, 31), 1);
     EXPECT_EQ(centre(0, 0), 255);
-    for (int x = 32; x < 63; ++x) EXPECT_LT(centre(x, 32), centre(x + 1, 32));
+    for (int x = 32; x < 63; ++x) EXPECT_LE(centre(x, 32), centre(x + 1, 32)); // sixteen texels share a value
+    for (int x = 32; x < 60; x += 4) EXPECT_LT(centre(x, 32), centre(x + 4, 32));
 }
 
 TEST(VisibilityTexture, TheCheckerboardHasTwoEqualHalves) {

@@ -45,6 +45,17 @@ TEST(Psm, TheShareOfNearDepthFallsAsTheVirtualCameraMovesBack) {
     EXPECT_NEAR(nearDepthShare(camera, camera, 1), 0.5 * f / (f - n), 1e-9); // the course's half
 }
 
+TEST(Psm, ALightCloseToThePostPerspectiveBodyStillHasItAllInItsMap) { // course, "Deep Light Sources"
+    const Light facing = lamp({3, 1.5, -130}); // low behind the ground's end, a hundredth beyond the body
+    const Snapshot scene = groundScene(facing);
+    const LightView view = fitPsm(facing, scene, 1, {});
+    ASSERT_FALSE(view.covered.empty());
+    for (const glm::dvec3& corner : view.covered) {
+        const glm::dvec3 at = mapped(view, corner);
+        EXPECT_LE(std::max(std::abs(at.x), std::abs(at.y)), 1 + 1e-6) << corner.x << " " << corner.y << " " << corner.z;
+    }
+}
+
 TEST(Psm, ALightParallelToTheImagePlaneGivesEveryPixelEqualWidth) {
     for (const Light& light : {sun({0, -1, 0}), sun({0.5, -1, 0})}) {
         const Snapshot scene = groundScene(light);

@@ -24,8 +24,8 @@ struct Fragment {
 };
 
 Fragment fetch(sampler2D colours, usampler2D data, ivec2 pixel) {
-    uvec2 depthAndId = texelFetch(data, pixel, 0).rg;
-    return Fragment(texelFetch(colours, pixel, 0), unpackHalf2x16(depthAndId.x).x, depthAndId.y);
+    uint depthAndId = texelFetch(data, pixel, 0).r;
+    return Fragment(texelFetch(colours, pixel, 0), unpackHalf2x16(depthAndId).x, depthAndId >> 16);
 }
 
 void main() {

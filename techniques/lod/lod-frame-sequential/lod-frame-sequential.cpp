@@ -39,7 +39,7 @@ struct LodBuffer {
     gl::RenderTarget target;
 
     LodBuffer(glm::ivec2 size, const gl::Texture& depth)
-        : colour(gl::Format::RGBA8, size), data(gl::Format::RG16UI, size), target{&colour, &data, &depth} {}
+        : colour(gl::Format::RGBA8, size), data(gl::Format::R32UI, size), target{&colour, &data, &depth} {}
 
     void clear() const {
         target.clearColour(0, lodBackground);

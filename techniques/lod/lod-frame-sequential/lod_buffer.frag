@@ -1,14 +1,14 @@
 // One LOD buffer: colour, depth and instance id (listing 5.1). TRANSITION: instances whose fragments the visibility texture picks.
 #include "lod/shading.glsl"
 
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint depthAndId;  // a 16-bit float and, above it, 16 bits of id
+
+#ifdef TRANSITION
 in vec3 object;
 flat in float visibility;
 flat in uint id;
 
-layout(location = 0) out vec4 colour;
-layout(location = 1) out uvec2 depthAndId;
-
-#ifdef TRANSITION
 uniform sampler2D visibilityTexture;
 
 /// The texture repeats every metre of object space.
@@ -17,6 +17,8 @@ float visibilityAt(vec3 p) {
     ivec2 texel = ivec2(floor(fract(p.xy + p.z) * vec2(side)));
     return texelFetch(visibilityTexture, min(texel, side - 1), 0).r;
 }
+#else
+const uint id = 0u;
 #endif
 
 void main() {
@@ -25,5 +27,5 @@ void main() {
     if (visibilityAt(object) > visibility) discard;  // eq. 5.1
 #endif
     float depth = 1.0 / gl_FragCoord.w;  // along the view direction, metres
-    depthAndId = uvec2(packHalf2x16(vec2(depth, 0.0)), id);
+    depthAndId = packHalf2x16(vec2(depth, 0.0)) | id << 16;
 }
