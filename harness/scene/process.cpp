@@ -140,6 +140,24 @@ Descriptor openNothing() {
     return nothing;
 }
 
+/// A file in `folder` that is gone when nobody has it open.
+Descriptor openNameless(const std::filesystem::path& folder) {
+    Descriptor file(open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR));
+    if (file.get() < 0) throw Inconclusive(fmt::format("cannot start a program: {}: {}", folder.string(), reason(errno)));
+    return file;
+}
+
+/// The last line of a file, without its end; nothing if it is empty.
+std::string lastLine(int file) {
+    std::array<char, longestLine> buffer{};
+    const off_t size = lseek(file, 0, SEEK_END);
+    const ssize_t count =
+        pread(file, buffer.data(), buffer.size(), std::max<off_t>(0, size - static_cast<off_t>(buffer.size())));
+    std::string_view text(buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+    while (text.ends_with('\n')) text.remove_suffix(1);
+    return std::string(text.substr(text.rfind('\n') + 1)); // npos + 1 is the start
+}
+
 /// A running child, killed with its group when it goes out of scope.
 class Child {
 public:
@@ -268,14 +286,17 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
 struct Dialogue::Running {
     std::string name;
     std::chrono::milliseconds limit;
-    Descriptor input, output;
+    Descriptor input, output, errors;
     Child child;
 
-    Running(const Command& command, Descriptor in, Descriptor out, pid_t pid)
+    Running(const Command& command, Descriptor in, Descriptor out, Descriptor errorFile, pid_t pid)
         : name(command.program.filename().string()), limit(command.limit), input(std::move(in)), output(std::move(out)),
-          child(pid) {}
+          errors(std::move(errorFile)), child(pid) {}
 
-    [[noreturn]] void fail(const std::string& what) const { throw Inconclusive(fmt::format("{} {}", name, what)); }
+    [[noreturn]] void fail(const std::string& what) const {
+        const std::string said = lastLine(errors.get());
+        throw Inconclusive(fmt::format("{} {}{}{}", name, what, said.empty() ? "" : "; it said: ", said));
+    }
 
     void send(std::string_view line) const {
         const std::string bytes = std::string(line) + '\n';
@@ -298,7 +319,8 @@ struct Dialogue::Running {
             }
             const ssize_t count = read(output.get(), &c, 1);
             if (count < 0 && errno == EINTR) continue;
-            if (count <= 0 || line.size() == longestLine) fail("ended while it was being asked");
+            if (count <= 0) fail("ended while it was being asked");
+            if (line.size() == longestLine) fail("answered without end");
             if (c == '\n') return line;
             line += c;
         }
@@ -309,8 +331,9 @@ Dialogue::Dialogue(const Command& command) {
     const Launch launch(command);
     auto [input, inputEnd] = makeSockets();
     auto [output, outputEnd] = makePipe();
-    const pid_t pid = start(launch, input.get(), outputEnd.get(), STDERR_FILENO);
-    running_ = std::make_unique<Running>(command, std::move(inputEnd), std::move(output), pid);
+    Descriptor errors = openNameless(command.folder);
+    const pid_t pid = start(launch, input.get(), outputEnd.get(), errors.get());
+    running_ = std::make_unique<Running>(command, std::move(inputEnd), std::move(output), std::move(errors), pid);
 }
 
 Dialogue::~Dialogue() = default;

@@ -40,8 +40,8 @@ using OnLine = std::function<void(std::string_view)>;
 /// interrupts while a DeferredInterrupts is held.
 Finished runProcess(const Command& command, const OnLine& onLine);
 
-/// A program that runs on and answers each line it is sent with a line. Its standard error is ours. It dies with the object
-/// or the thread that made it.
+/// A program that runs on and answers each line it is sent with a line. It dies with the object or the thread that made it,
+/// however that ends.
 class Dialogue {
 public:
     /// Starts it. `command.limit` bounds the wait for each answer. Throws Inconclusive when it cannot be started.
@@ -50,8 +50,8 @@ public:
     Dialogue(Dialogue&&) noexcept;
     Dialogue& operator=(Dialogue&&) noexcept;
 
-    /// Sends `line` (without its end) and waits for the answer. Throws Inconclusive when the program has ended, is late, or
-    /// the user interrupts while a DeferredInterrupts is held.
+    /// Sends `line` (without its end) and waits for the answer. Throws Inconclusive, with the last line of the program's
+    /// standard error, when it has ended, is late, or the user interrupts while a DeferredInterrupts is held.
     std::string ask(std::string_view line);
 
 private:
