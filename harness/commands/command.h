@@ -25,5 +25,6 @@ void addCache(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
 void addCountFrames(CLI::App& app, Action& action);
+void addTimeFrames(CLI::App& app, Action& action);
 
 } // namespace shadowbench
