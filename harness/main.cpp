@@ -32,7 +32,7 @@ ExitCode dispatch(int argc, char** argv) {
         "5 inconclusive.\nEvery verb has --help with an example.");
 
     Action action;
-    for (const auto& add : {addList, addRun, addReference, addSweep, addRecommend, addClaims, addCompare, addCache,
+    for (const auto& add : {addList, addRun, addReference, addSweep, addRecommend, addClaims, addCompare, addGate, addCache,
                             addReport, addCountFrames, addTimeFrames})
         add(app, action);
 
