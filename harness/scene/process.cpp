@@ -213,7 +213,10 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
 
     const pid_t parent = getpid();
     const pid_t pid = fork();
-    if (pid < 0) throw Inconclusive(fmt::format("cannot start {}: {}", command.program.string(), reason(errno)));
+    if (pid < 0) {
+        const int error = errno;
+        throw Inconclusive(fmt::format("cannot start {}: {}", command.program.string(), reason(error)), failureOf(error));
+    }
     if (pid == 0) launch.exec(parent, outputEnd.get(), failureEnd.get());
 
     Child child(pid);
@@ -235,7 +238,8 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
             open = readSome(output.get(), lines);
         status = child.poll();
         if (!status && DeferredInterrupts::pending())
-            throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()));
+            throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()),
+                               Failure::Transient);
         if (!status && Clock::now() >= end) {
             Finished late = decoded(child.kill());
             late.timedOut = true;
