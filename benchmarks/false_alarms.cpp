@@ -71,7 +71,7 @@ Evaluation evaluate(const std::filesystem::path& base, const std::filesystem::pa
         if (judgement.verdict == gate::TimeVerdict::Slower)
             fmt::print("slower: {} on {}, {:.3f}, at least {:.3f}\n", judgement.cell.variant, judgement.cell.scene,
                        judgement.ratio, judgement.lowerBound);
-        evaluation.cells.push_back({judgement.cell, judgement.doubled, std::move(judgement.samples)});
+        evaluation.cells.push_back({judgement.cell, std::move(judgement.samples)});
     }
     evaluation.loadAverage = loadAverage();
     return evaluation;

@@ -29,6 +29,10 @@ double spread(const Pool& pool) {
     return (timing::percentile(ratios, 0.75) - timing::percentile(ratios, 0.25)) / 1.349;
 }
 
+gate::TimeJudgement judged(const MeasuredCell& measured, const Evaluation& evaluation, const gate::PairedOptions& options) {
+    return gate::judgeSamples(measured.cell, measured.samples, options, static_cast<int>(evaluation.cells.size()));
+}
+
 struct Counted {
     Verdicts cells;
     int evaluations = 0, withAlarm = 0, withControlAlarm = 0, rounds = 0;
@@ -40,8 +44,7 @@ Counted countMeasured(const Experiment& experiment, const gate::PairedOptions& o
     for (const Evaluation& evaluation : experiment.evaluations) {
         Verdicts verdicts;
         for (const MeasuredCell& measured : evaluation.cells) {
-            const gate::TimeJudgement judgement = gate::judgeSamples(
-                measured.cell, measured.samples, options.rule, static_cast<int>(evaluation.cells.size()), measured.doubled);
+            const gate::TimeJudgement judgement = judged(measured, evaluation, options);
             count(verdicts, judgement);
             counted.rounds += judgement.rounds;
         }
@@ -88,8 +91,7 @@ std::string cellTable(const Experiment& experiment, const gate::PairedOptions& o
         for (const Evaluation& evaluation : experiment.evaluations)
             for (const MeasuredCell& measured : evaluation.cells)
                 if (measured.cell.scene == pool.cell.scene && measured.cell.variant == pool.cell.variant)
-                    count(verdicts, gate::judgeSamples(measured.cell, measured.samples, options.rule,
-                                                       static_cast<int>(evaluation.cells.size()), measured.doubled));
+                    count(verdicts, judged(measured, evaluation, options));
         text += fmt::format("| {} | `{}` | {:.2f} | {} | {:.1f} % | {} | {} of {} | {} |\n", pool.cell.scene,
                             pool.cell.variant, timing::median(base), pool.samples.framesPerTurn, 100 * spread(pool),
                             pool.samples.restarts.size(), verdicts.slower, verdicts.all(), verdicts.unclear);

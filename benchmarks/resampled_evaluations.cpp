@@ -19,12 +19,6 @@ Rounds exchanged(Rounds rounds, double slowdown, std::mt19937& random) {
     return rounds;
 }
 
-void addRestarts(const Pool& pool, const Resampling& resampling, std::mt19937& random, gate::PairedSamples& samples) {
-    std::uniform_int_distribution<std::size_t> any(0, pool.samples.restarts.size() - 1);
-    for (int i = 0; i < resampling.options.restarts; ++i)
-        samples.restarts.push_back(exchanged(pool.samples.restarts[any(random)], resampling.slowdown, random));
-}
-
 } // namespace
 
 void count(Verdicts& verdicts, const gate::TimeJudgement& judgement) {
@@ -58,12 +52,11 @@ std::vector<Pool> pools(const std::vector<Evaluation>& evaluations) {
 }
 
 gate::TimeJudgement judgeResample(const Pool& pool, const Resampling& resampling, std::mt19937& random) {
+    std::uniform_int_distribution<std::size_t> any(0, pool.samples.restarts.size() - 1);
     gate::PairedSamples samples{pool.samples.framesPerTurn, {}};
-    addRestarts(pool, resampling, random, samples);
-    gate::TimeJudgement judgement = gate::judgeSamples(pool.cell, samples, resampling.options.rule, resampling.cells, false);
-    if (judgement.verdict != gate::TimeVerdict::Unclear) return judgement;
-    addRestarts(pool, resampling, random, samples);
-    return gate::judgeSamples(pool.cell, std::move(samples), resampling.options.rule, resampling.cells, true);
+    while (!gate::enough(samples, resampling.options, resampling.cells))
+        samples.restarts.push_back(exchanged(pool.samples.restarts[any(random)], resampling.slowdown, random));
+    return gate::judgeSamples(pool.cell, std::move(samples), resampling.options, resampling.cells);
 }
 
 } // namespace shadowbench::benchmarks

@@ -24,13 +24,13 @@ struct Pool {
 std::vector<Pool> pools(const std::vector<Evaluation>& evaluations);
 
 struct Resampling {
-    gate::PairedOptions options; // the rule, and restarts an evaluation
-    int cells = 1;               // that share the rule's α
-    double slowdown = 0;         // by which the head's CPU time is made longer
+    gate::PairedOptions options;
+    int cells = 1;       // that share the rule's α
+    double slowdown = 0; // by which the head's CPU time is made longer
 };
 
-/// Draws restarts of the pool with replacement, exchanges base, head and control at random in each (they are one program),
-/// and judges them as the gate would: once more with as many restarts again when that leaves it unclear.
+/// Draws restarts of the pool with replacement, as many as the gate would measure, exchanges base, head and control at
+/// random in each (they are one program), and judges them.
 gate::TimeJudgement judgeResample(const Pool& pool, const Resampling& resampling, std::mt19937& random);
 
 } // namespace shadowbench::benchmarks

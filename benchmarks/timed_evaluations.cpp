@@ -50,7 +50,6 @@ std::string lineOf(const Evaluation& evaluation) {
         json cell = toJson(measured.samples);
         cell["scene"] = measured.cell.scene;
         cell["variant"] = measured.cell.variant;
-        cell["doubled"] = measured.doubled;
         cells.push_back(std::move(cell));
     }
     const json object{{"seed", evaluation.seed},
@@ -69,9 +68,8 @@ Evaluation evaluationFrom(const std::string& line) {
                           object.at("load_average").get<double>(),
                           {}};
     for (const json& cell : object.at("cells"))
-        evaluation.cells.push_back({{cell.at("scene").get<std::string>(), cell.at("variant").get<std::string>()},
-                                    cell.at("doubled").get<bool>(),
-                                    samplesFrom(cell)});
+        evaluation.cells.push_back(
+            {{cell.at("scene").get<std::string>(), cell.at("variant").get<std::string>()}, samplesFrom(cell)});
     return evaluation;
 }
 

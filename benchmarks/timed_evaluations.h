@@ -12,7 +12,6 @@ namespace shadowbench::benchmarks {
 /// What one cell's frames took.
 struct MeasuredCell {
     gate::TimedCell cell;
-    bool doubled = false;
     gate::PairedSamples samples;
 };
 
