@@ -11,6 +11,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -67,6 +68,14 @@ void limit(__rlimit_resource resource, rlim_t value) {
     setrlimit(resource, &both);
 }
 
+void stayOn(std::optional<int> cpu) {
+    if (!cpu) return;
+    cpu_set_t only;
+    CPU_ZERO(&only);
+    CPU_SET(*cpu, &only);
+    sched_setaffinity(0, sizeof only, &only);
+}
+
 /// Everything the child needs, laid out before the fork: afterwards only async-signal-safe calls are allowed.
 struct Launch {
     const Command& command;
@@ -95,6 +104,7 @@ struct Launch {
         limit(RLIMIT_FSIZE, command.fileLimit);
         limit(RLIMIT_AS, command.memoryLimit);
         limit(RLIMIT_NOFILE, mostOpenFiles);
+        stayOn(command.cpu);
         sigset_t none;
         sigemptyset(&none);
         sigprocmask(SIG_SETMASK, &none, nullptr);
