@@ -7,24 +7,17 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <tuple>
 
 namespace shadowbench::gate {
 namespace {
 
-/// A metric that is watched from commit to commit; smaller is better.
-struct Watched {
-    std::string_view metric; // path in the record
-    Class watchedClass;
-    std::optional<double> (*value)(const Record&);
-    bool graded = false; // compared with the truth's fractions, so that the truth's σ counts
-    double pixels = 0;   // this many pixels of change mean nothing
-    double relative = 0; // nor does this share of the base's value
-};
-
 /// Rendering is the same to the bit from run to run, so the only allowance that exact truths need is for what an innocent
 /// change of rounding may do: a pixel or two whose centre lies on an edge.
 constexpr double onePixel = 1, twoPixels = 2;
+
+std::optional<double> lodScore(const Record& record, double Lod::*score) {
+    return record.lod ? std::optional(*record.lod.*score) : std::nullopt;
+}
 
 constexpr std::array watched{
     Watched{"accuracy.mismatch", Class::Labels, [](const Record& r) { return r.accuracy.mismatch; }, false, twoPixels},
@@ -54,6 +47,12 @@ constexpr std::array watched{
             [](const Record& r) {
                 return r.stability.convergence ? std::optional<double>(*r.stability.convergence) : std::nullopt;
             }},
+    Watched{"lod.pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::pop); }, false, 0, 0.01},
+    Watched{"lod.walk_pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::walkPop); }, false, 0, 0.01},
+    Watched{"lod.colour_error", Class::Colour, [](const Record& r) { return lodScore(r, &Lod::colourError); }, false, 0,
+            0.01},
+    Watched{"lod.order_error", Class::Colour, [](const Record& r) { return lodScore(r, &Lod::orderError); }, false, 0, 0.01},
+    Watched{"lod.noise", Class::Colour, [](const Record& r) { return r.lod ? r.lod->noise : std::nullopt; }, false, 0, 0.01},
     Watched{"cost.instructions", Class::Instructions,
             [](const Record& r) {
                 return r.cost.instructions ? std::optional(static_cast<double>(*r.cost.instructions)) : std::nullopt;
@@ -61,44 +60,20 @@ constexpr std::array watched{
             false, 0, 0.005},
 };
 
-auto cellOf(const Record& r) {
-    const SweepStep step = r.sweep.value_or(SweepStep{});
-    return std::tuple(r.scene, r.variant, r.profile, r.width, r.height, r.seed, step.axis, step.curve, step.value);
-}
-
 void requireOneEnvironment(const Record& base, const Record& head) {
     if (!base.cost.instructions || !head.cost.instructions) return;
-    const auto of = [](const Environment& e) {
-        return fmt::format("{}, {}, {} raster threads, {} bits, {}, {}", e.renderer, e.gl, e.rasterThreads, e.vectorBits,
-                           e.valgrind.value_or("no Valgrind"), e.cpu);
-    };
-    if (of(base.environment) == of(head.environment)) return;
+    const std::string before = countingEnvironment(base.environment), now = countingEnvironment(head.environment);
+    if (before == now) return;
     throw Inconclusive(fmt::format("instructions counted in different environments cannot be compared: base \"{}\", head "
                                    "\"{}\"; count both on one machine",
-                                   of(base.environment), of(head.environment)));
+                                   before, now));
 }
 
 void requireOneTruth(const Record& base, const Record& head) {
-    const auto key = [](const std::optional<ReferenceInfo>& reference) { return reference ? reference->key : ""; };
-    if (key(base.reference) == key(head.reference) && key(base.softReference) == key(head.softReference)) return;
+    if (truthOf(base) == truthOf(head)) return;
     throw Inconclusive(fmt::format("{} on {} was scored against different truths: the scene or the ground truth changed, so "
                                    "the records cannot be compared; make the base's again",
                                    head.variant, head.scene));
-}
-
-/// How much of a change in `metric` may be the truth's own error, a stray pixel or noise.
-double allowance(const Watched& metric, const Record& base, double value) {
-    const double pixels = metric.pixels / (static_cast<double>(base.width) * base.height);
-    const ReferenceInfo none;
-    const double sigma = (base.softReference ? base.softReference : base.reference).value_or(none).sigma;
-    // An error e measured against a truth that is off by σ reads √(e² + σ²).
-    const double truth = metric.graded ? std::hypot(value, sigma) - value : 0;
-    return std::max(pixels, truth) + metric.relative * value;
-}
-
-Direction directionOf(double base, double head, double allowance) {
-    if (head > base + allowance) return Direction::Worse;
-    return head < base - allowance ? Direction::Better : Direction::Same;
 }
 
 std::string changed(const Watched& metric, const Record& record, double base, double head) {
@@ -147,7 +122,8 @@ void compareBreakPoints(const Curves& base, const Curves& head, std::vector<Chan
                            : is > was ? Direction::Better
                                       : Direction::Same,
                            fmt::format("{} on {} along {}: it {}, before it {}", step.curve, curve.first->scene, step.axis,
-                                       curve.breakText(), found->second.breakText())});
+                                       curve.breakText(), found->second.breakText()),
+                           step.axis});
     }
 }
 
@@ -206,18 +182,53 @@ std::string_view name(Class c) {
         return "penumbra";
     case Class::Flicker:
         return "flicker";
+    case Class::Colour:
+        return "colour";
     case Class::BreakPoint:
         return "break point";
     case Class::Instructions:
         return "instructions";
+    case Class::Time:
+        return "time";
     case Class::Status:
         return "status";
     }
     return "";
 }
 
+std::span<const Watched> watchedMetrics() { return watched; }
+
+double allowance(const Watched& metric, const Record& base, double value) {
+    const double pixels = metric.pixels / (static_cast<double>(base.width) * base.height);
+    const ReferenceInfo none;
+    const double sigma = (base.softReference ? base.softReference : base.reference).value_or(none).sigma;
+    // An error e measured against a truth that is off by σ reads √(e² + σ²).
+    const double truth = metric.graded ? std::hypot(value, sigma) - value : 0;
+    return std::max(pixels, truth) + metric.relative * std::abs(value);
+}
+
+Direction directionOf(double base, double head, double allowance) {
+    if (head > base + allowance) return Direction::Worse;
+    return head < base - allowance ? Direction::Better : Direction::Same;
+}
+
+CellKey cellOf(const Record& r) {
+    const SweepStep step = r.sweep.value_or(SweepStep{});
+    return {r.scene, r.variant, r.profile, r.width, r.height, r.seed, step.axis, step.curve, step.value};
+}
+
+std::string countingEnvironment(const Environment& e) {
+    return fmt::format("{}, {}, {} raster threads, {} bits, {}, {}", e.renderer, e.gl, e.rasterThreads, e.vectorBits,
+                       e.valgrind.value_or("no Valgrind"), e.cpu);
+}
+
+std::string truthOf(const Record& record) {
+    const auto key = [](const std::optional<ReferenceInfo>& reference) { return reference ? reference->key : ""; };
+    return key(record.reference) + " " + key(record.softReference);
+}
+
 std::vector<Change> compare(const std::vector<Record>& base, const std::vector<Record>& head) {
-    std::map<decltype(cellOf(base.front())), const Record*> before;
+    std::map<CellKey, const Record*> before;
     for (const Record& record : base) before[cellOf(record)] = &record;
     std::vector<Change> changes;
     for (const Record& record : head) {
