@@ -9,30 +9,32 @@
 namespace shadowbench::history {
 namespace {
 
-using report::grey;
 using report::literal;
 
 constexpr int width = 960, plotHeight = 440; // pixels
 constexpr double top = 60, bottomMargin = 84;
 constexpr std::size_t mostLabels = 30, mostNamed = 14;
 
+/// The series of one cell, one for each of its conditions; drawn in one colour.
 struct Curve {
-    const Series* series;
-    const std::vector<Level>* levels;
+    std::string variant, cell;
+    std::vector<std::size_t> series; // indices in the history's
+    bool changes = false;
 };
 
 /// Those of the metric on the scene, the changed ones first, by the size of their largest change.
 std::vector<Curve> curvesOf(const Findings& f, const std::string& metric, const std::string& scene) {
-    std::vector<std::size_t> order;
-    const auto add = [&](std::size_t i) {
-        const Series& series = f.history.series[i];
-        if (series.metric == metric && series.scene == scene && std::ranges::find(order, i) == order.end())
-            order.push_back(i);
-    };
-    for (const LevelChange& change : f.changes) add(change.series);
-    for (std::size_t i = 0; i < f.history.series.size(); ++i) add(i);
     std::vector<Curve> curves;
-    for (const std::size_t i : order) curves.push_back({&f.history.series[i], &f.levels[i]});
+    const auto add = [&](std::size_t i, bool changes) {
+        const Series& series = f.history.series[i];
+        if (series.metric != metric || series.scene != scene) return;
+        auto curve = std::ranges::find_if(
+            curves, [&](const Curve& c) { return c.variant == series.variant && c.cell == series.cell; });
+        if (curve == curves.end()) curve = curves.insert(curves.end(), {series.variant, series.cell, {}, changes});
+        if (std::ranges::find(curve->series, i) == curve->series.end()) curve->series.push_back(i);
+    };
+    for (const LevelChange& change : f.changes) add(change.series, true);
+    for (std::size_t i = 0; i < f.history.series.size(); ++i) add(i, false);
     return curves;
 }
 
@@ -45,24 +47,33 @@ std::string commitsAxis(const std::vector<Commit>& commits) {
                        static_cast<double>(commits.size()) - 0.5, labels);
 }
 
-/// Named where the metric is known under several conditions or in several cells.
 std::string nameOf(const Curve& curve, const std::vector<Curve>& all) {
-    const auto same = [&](const Curve& other) { return other.series->variant == curve.series->variant; };
-    if (std::ranges::count_if(all, same) == 1) return curve.series->variant;
-    return fmt::format("{} ({}, conditions {})", curve.series->variant, curve.series->cell, curve.series->conditions + 1);
+    return std::ranges::count(all, curve.variant, &Curve::variant) == 1 ? curve.variant
+                                                                        : fmt::format("{} ({})", curve.variant, curve.cell);
 }
 
-/// A figure a line; a noisy series is drawn as points with its levels as lines.
-std::string dataOf(const Curve& curve, std::size_t i, const report::LogAxis& axis) {
+/// A figure a line, its levels and the starts of new ones.
+std::string dataOf(const Findings& f, std::size_t i, const report::LogAxis& axis) {
     std::string text = fmt::format("$figures{} << EOD\n", i);
-    for (const Point& point : curve.series->points) text += fmt::format("{} {}\n", point.commit, axis.drawn(point.value));
+    for (const Point& point : f.history.series[i].points)
+        text += fmt::format("{} {}\n", point.commit, axis.drawn(point.value));
     text += fmt::format("EOD\n$levels{} << EOD\n", i);
-    for (const Level& level : *curve.levels)
+    for (const Level& level : f.levels[i])
         text += fmt::format("{0} {2}\n{1} {2}\n\n", level.first, level.last, axis.drawn(level.value));
     text += fmt::format("EOD\n$starts{} << EOD\n", i);
-    for (std::size_t k = 1; k < curve.levels->size(); ++k)
-        text += fmt::format("{} {}\n", (*curve.levels)[k].first, axis.drawn((*curve.levels)[k].value));
+    for (std::size_t k = 1; k < f.levels[i].size(); ++k)
+        text += fmt::format("{} {}\n", f.levels[i][k].first, axis.drawn(f.levels[i][k].value));
     return text + "EOD\n";
+}
+
+/// A line through the figures, or, of noisy ones, points with their levels as lines; circles where a new level begins.
+std::string plotOf(const Findings& f, std::size_t i, const std::string& style) {
+    const bool noisy = f.history.series[i].noisy;
+    std::string plot =
+        fmt::format("$figures{} with {} pt 7 ps 0.35 {} notitle, ", i, noisy ? "points" : "linespoints", style);
+    if (noisy) plot += fmt::format("$levels{} with lines {} notitle, ", i, style);
+    if (f.levels[i].size() > 1) plot += fmt::format("$starts{} with points pt 6 ps 1 {} notitle, ", i, style);
+    return plot;
 }
 
 } // namespace
@@ -72,42 +83,33 @@ std::string chartName(const std::string& metric, const std::string& scene) { ret
 std::string chart(const Findings& findings, const std::string& metric, const std::string& scene) {
     const std::vector<Curve> curves = curvesOf(findings, metric, scene);
     std::vector<double> values;
-    for (const Curve& curve : curves)
-        for (const Point& point : curve.series->points) values.push_back(point.value);
-    const report::LogAxis axis(values);
-
     std::vector<std::string> names;
-    for (const Curve& curve : curves)
-        if (curve.levels->size() > 1 && names.size() < mostNamed) names.push_back(nameOf(curve, curves));
+    for (const Curve& curve : curves) {
+        if (curve.changes && names.size() < mostNamed) names.push_back(nameOf(curve, curves));
+        for (const std::size_t i : curve.series)
+            for (const Point& point : findings.history.series[i].points) values.push_back(point.value);
+    }
+    const report::LogAxis axis(values);
     const report::Legend legend{names, plotHeight};
     const double height = legend.bottom();
-
-    const std::string last = metric.substr(metric.rfind('.') + 1);
-    const bool share = report::isShare(last) || last == "flip_rate", millions = last == "instructions";
+    const Unit unit = unitOf(metric);
     std::string script = report::heading(fmt::format("{}: {} over commits", scene, metric), legend.bottom()) +
                          legend.script() + commitsAxis(findings.history.commits) +
-                         axis.script("y",
-                                     share      ? 100
-                                     : millions ? 1e-6
-                                                : 1,
-                                     share      ? " %%"
-                                     : millions ? " M"
-                                                : "");
+                         axis.script("y", unit.factor, unit.name == " %" ? " %%" : unit.name);
     script += fmt::format(
         "set lmargin at screen 0.085\nset rmargin at screen 0.98\nset tmargin at screen {}\nset bmargin at screen {}\n",
         1 - top / height, 1 - (plotHeight - bottomMargin) / height);
     std::string plots;
     for (std::size_t k = curves.size(); k > 0; --k) { // the named ones over the others
-        const std::size_t i = k - 1;
-        const std::string style = i < names.size() ? report::lineStyle(i) : fmt::format("lw 1 lc rgb '{}'", grey);
-        const bool noisy = curves[i].series->noisy;
-        script += dataOf(curves[i], i, axis);
-        plots += fmt::format("{0}$figures{1} with {2} pt 7 ps 0.35 {3} notitle", plots.empty() ? "plot " : ", ", i,
-                             noisy ? "points" : "linespoints", style);
-        if (noisy) plots += fmt::format(", $levels{} with lines {} notitle", i, style);
-        if (curves[i].levels->size() > 1) plots += fmt::format(", $starts{} with points pt 6 ps 1 {} notitle", i, style);
+        const std::string style =
+            k <= names.size() ? report::lineStyle(k - 1) : fmt::format("lw 1 lc rgb '{}'", report::grey);
+        for (const std::size_t i : curves[k - 1].series) {
+            script += dataOf(findings, i, axis);
+            plots += plotOf(findings, i, style);
+        }
     }
-    return report::svgOf(script + plots + "\n", width, legend.bottom());
+    plots.resize(plots.size() - 2); // the last comma
+    return report::svgOf(script + "plot " + plots + "\n", width, legend.bottom());
 }
 
 } // namespace shadowbench::history

@@ -113,9 +113,10 @@ std::string commitsTable(const Findings& f) {
 
 constexpr const char* reading =
     R"(A figure that is the same in every run changes when it moves by more than the gate's allowance; times change when a permutation
-test of the energy statistic says so (E-divisive). `size` is the share of the larger level that the change is, less where it is but a
-few allowances. A change is first seen at one commit and was last not there at another that was measured: the commits between are
-suspects, the first seen included. Figures under different conditions are different series and never compared.
+test of the energy statistic says so (E-divisive). `size` is the share of the larger level that the change is, less where it is
+but a few allowances. A change is first seen at one commit and was last not there at another that was measured: the commits
+between are suspects, the first seen included. Of `edge_error.signed` the magnitude counts. Figures under different conditions,
+listed below, are different series and never compared.
 )";
 
 std::string asMarkdown(const Findings& f, bool charts) {
@@ -124,7 +125,7 @@ std::string asMarkdown(const Findings& f, bool charts) {
     if (const std::string steps = narrowing(f); !steps.empty())
         text += fmt::format("\n## Narrowing a change to its commit\n\n```\n{}```\n", steps);
     std::string scene;
-    for (const auto& [ofScene, metric] : chartedMetrics(f.history)) {
+    for (const auto& [ofScene, metric] : chartedMetrics(f)) {
         if (ofScene != scene) text += fmt::format("\n## {}\n", scene = ofScene);
         text += fmt::format("\n### {}\n\n", metric);
         if (charts) text += fmt::format("![{} on {}]({})\n\n", metric, scene, chartName(metric, scene));
@@ -204,11 +205,16 @@ std::string quoted(const Findings& f, const Suspects& suspects, const Word& word
 
 std::string shortHash(const std::string& commit) { return commit.substr(0, 7); }
 
-std::string shownFigure(const std::string& metric, double value) {
+Unit unitOf(const std::string& metric) {
     const std::string last = metric.substr(metric.rfind('.') + 1);
-    if (report::isShare(last) || last == "flip_rate") return fmt::format("{:.4g} %", 100 * value);
-    if (last == "instructions") return fmt::format("{:.5g} M", value / 1e6);
-    return fmt::format("{:.4g}", value);
+    if (report::isShare(last) || last == "flip_rate") return {100, " %"};
+    if (last == "instructions") return {1e-6, " M"};
+    return {};
+}
+
+std::string shownFigure(const std::string& metric, double value) {
+    const Unit unit = unitOf(metric);
+    return fmt::format("{:.5g}{}", unit.factor * value, unit.name);
 }
 
 std::string narrowingCommand(const Findings& findings, const Suspects& suspects) {
@@ -222,19 +228,21 @@ std::string report(const Findings& findings, const std::string& format, bool cha
     return format == "md" ? asMarkdown(findings, charts) : asText(findings);
 }
 
-std::vector<std::pair<std::string, std::string>> chartedMetrics(const History& history) {
+std::vector<std::pair<std::string, std::string>> chartedMetrics(const Findings& findings) {
     std::vector<std::pair<std::string, std::string>> metrics;
-    for (const Series& series : history.series) {
+    for (std::size_t i = 0; i < findings.history.series.size(); ++i) {
+        const Series& series = findings.history.series[i];
         const std::pair metric(series.scene, series.metric);
-        const bool several = series.points.size() > 1 && series.points.front().commit != series.points.back().commit;
-        if (several && (metrics.empty() || metrics.back() != metric)) metrics.push_back(metric);
+        const bool several = series.points.front().commit != series.points.back().commit;
+        const bool tells = series.metricClass != gate::Class::Status || findings.levels[i].size() > 1;
+        if (several && tells && (metrics.empty() || metrics.back() != metric)) metrics.push_back(metric);
     }
     return metrics;
 }
 
 std::vector<std::filesystem::path> writeReport(const Findings& findings, const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files{folder / "report.md"};
-    for (const auto& [scene, metric] : chartedMetrics(findings.history)) {
+    for (const auto& [scene, metric] : chartedMetrics(findings)) {
         files.push_back(folder / chartName(metric, scene));
         writeFile(files.back(), chart(findings, metric, scene));
     }

@@ -19,7 +19,14 @@ struct Findings {
     std::vector<Suspects> suspects;
 };
 
-/// A figure with its unit: shares in per cent, instructions in millions.
+/// How figures of a metric are shown: shares in per cent, instructions in millions.
+struct Unit {
+    double factor = 1;
+    std::string name; // " %"
+};
+Unit unitOf(const std::string& metric);
+
+/// A figure with its unit.
 std::string shownFigure(const std::string& metric, double value);
 
 /// The first digits of a commit.
@@ -34,11 +41,12 @@ std::string report(const Findings& findings, const std::string& format, bool cha
 /// "<metric>-<scene>.svg".
 std::string chartName(const std::string& metric, const std::string& scene);
 
-/// The curves of a metric on a scene over commits as SVG: those that change in colour, others in grey.
+/// The figures of a metric on a scene over commits as SVG: techniques that change in colour, others in grey.
 std::string chart(const Findings& findings, const std::string& metric, const std::string& scene);
 
-/// Scenes and metrics that have a series over several commits, in the order of the history's series.
-std::vector<std::pair<std::string, std::string>> chartedMetrics(const History& history); // scene, metric
+/// Scenes and metrics that have a series over several commits, in the order of the history's series; whether cells are in
+/// error only where that changes.
+std::vector<std::pair<std::string, std::string>> chartedMetrics(const Findings& findings); // scene, metric
 
 /// Writes `folder`/report.md and its charts.
 std::vector<std::filesystem::path> writeReport(const Findings& findings, const std::filesystem::path& folder);

@@ -1,8 +1,9 @@
 #!/bin/sh
 # Measures past commits and takes their records into the history:
-#   results/history/backfill.sh [COMMIT …]     default: the commits below; those that the history holds are left out
+#   results/history/backfill.sh [COMMIT …]     default: the commits below that the history does not hold yet
 # Each commit is checked out, built and run in a scratch clone ($SHADOWBENCH_BACKFILL or a folder of /tmp, kept for the next
-# time), with a cache of references of its own, so that nothing else here changes. $JOBS compilers run at once (default: 2).
+# time), with a cache of references of its own, so that nothing else here changes. $SCENES and $TECHNIQUES say which cells
+# (default: below); $JOBS compilers run at once (default: 2).
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 scratch=${SHADOWBENCH_BACKFILL:-/tmp/shadowbench-backfill}
@@ -10,8 +11,8 @@ source=$scratch/source
 
 # First parents of main, from the first that the present program reads the records of.
 commits='64331f8 d41c407 9afa401 1e4b952 97b5d2b 535dca6 256d0e6 dfd9b11 ca1fe33 b3e9328 6536706 4e1abb3 12d2dab'
-techniques='sm-uniform sm-focused sm-lispsm sm-psm sm-history volume-zpass volume-zfail volume-xor pcf pcss'
-scenes='dueling-frusta overlapping-occluders'
+techniques=${TECHNIQUES:-sm-uniform sm-focused sm-lispsm sm-psm sm-history volume-zpass volume-zfail volume-xor pcf pcss}
+scenes=${SCENES:-dueling-frusta overlapping-occluders}
 
 build() {
     [ -d "$source" ] || git clone --quiet --shared --no-checkout "$root" "$source"
@@ -31,25 +32,35 @@ measure() {
     options=--no-time
     if "$program" run --help | grep -q -- --cost; then options='--cost instructions'; fi
     for technique in $techniques; do
-        if echo "$known" | grep -qx "$technique"; then options="$options --technique $technique"; fi
+        if echo "$known" | grep -qx "${technique%%:*}"; then options="$options --technique $technique"; fi
     done
     # shellcheck disable=SC2046,SC2086 # lists of words
     nice "$program" run --quiet $options $(printf ' --scene %s' $scenes) --cache "$scratch/cache" --out "$1"
 }
 
-[ $# -gt 0 ] || eval "set -- $commits"
-mkdir -p "$scratch"
-for commit in "$@"; do
-    hash=$(git -C "$root" rev-parse --verify --quiet "$commit^{commit}") ||
-        { echo "backfill.sh: there is no commit $commit" >&2; exit 2; }
-    if ls "$root/results/history/"*"-$(echo "$hash" | cut -c1-12)-"*.jsonl >/dev/null 2>&1; then continue; fi
+# Of an exit status: a run with a cell that is an error has been measured, too.
+finished() { [ "$1" -lt 6 ] && [ -f "$2/results.jsonl" ]; }
+
+held() { ls "$root/results/history/"*"-$(echo "$1" | cut -c1-12)-"*.jsonl >/dev/null 2>&1; }
+
+hash_of() {
+    git -C "$root" rev-parse --verify --quiet "$1^{commit}" || { echo "backfill.sh: there is no commit $1" >&2; exit 2; }
+}
+
+add() {
+    hash=$(hash_of "$1")
+    echo "backfill.sh: $(git -C "$root" log -1 --format='%h %s' "$hash")" >&2
     out=$scratch/records/$hash
-    if [ ! -f "$out/results.jsonl" ]; then
-        echo "backfill.sh: $(git -C "$root" log -1 --format='%h %s' "$hash")" >&2
-        build "$hash" || { echo "backfill.sh: $commit does not build; see $scratch/build.log" >&2; continue; }
-        measure "$out.new" >"$scratch/run.log" || { echo "backfill.sh: $commit does not run; see $scratch/run.log" >&2; continue; }
-        mv "$out.new" "$out"
-    fi
-    "$root/bench" history add "$out/results.jsonl" --to "$root/results/history" ||
-        echo "backfill.sh: the records of $commit are left out" >&2
+    rm -rf "$out"
+    build "$hash" || { echo "backfill.sh: $1 does not build; see $scratch/build.log" >&2; return; }
+    measure "$out" >"$scratch/run.log" 2>&1 || finished $? "$out" ||
+        { echo "backfill.sh: $1 does not run; see $scratch/run.log" >&2; return; }
+    "$root/bench" history add "$out" --to "$root/results/history" || echo "backfill.sh: $1 is left out" >&2
+}
+
+mkdir -p "$scratch"
+for commit in "$@"; do add "$commit"; done
+[ $# -eq 0 ] || exit 0
+for commit in $commits; do
+    held "$(hash_of "$commit")" || add "$commit"
 done

@@ -114,9 +114,9 @@ TEST(DistributionChanges, FalseAlarmsAreNoMoreThanStatedWhateverTheNoise) {
 TEST(DistributionChanges, StepsOfThreeStandardDeviationsAreFound) {
     // Two sample means of ten lie 3 / √(2/10) = 6.7 standard errors apart: no test at 1 % should miss one in a hundred.
     EXPECT_GE(found(10, 3, 0.01, normal), 990);
-    // Four figures after the step: 3 / √(1/16 + 1/4) = 5.4 standard errors; a t-test at 1 % with 18 degrees of freedom
-    // misses about one in a hundred (5.4 − 2.9 = 2.5), the energy statistic, which also looks for the place, may miss three.
-    EXPECT_GE(found(16, 3, 0.01, normal), 970);
+    // Four figures after the step: 5.4 standard errors. A t-test with 18 degrees of freedom that shares the 1 % among the 15
+    // places where a step may be finds 862 of 1,000; the rest is four times the deviation of such a count, 11.
+    EXPECT_GE(found(16, 3, 0.01, normal), 820);
 }
 
 } // namespace
