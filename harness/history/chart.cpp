@@ -38,6 +38,34 @@ std::vector<Curve> curvesOf(const Findings& f, const std::string& metric, const 
     return curves;
 }
 
+/// Logarithmic, but linear where the logarithm would have no room for ticks.
+class FiguresAxis {
+public:
+    FiguresAxis(const std::vector<double>& values, const Unit& unit) : logarithmic_(values), unit_(unit) {
+        const auto [low, high] = std::ranges::minmax(values);
+        const double room = high > low ? 0.15 * (high - low) : 0.1 * high;
+        low_ = low - room;
+        high_ = high + room;
+        linear_ = low > 0 && high < narrow * low;
+    }
+
+    [[nodiscard]] double drawn(double value) const { return linear_ ? unit_.factor * value : logarithmic_.drawn(value); }
+
+    [[nodiscard]] std::string script() const {
+        const std::string unit = unit_.name == " %" ? " %%" : unit_.name; // tick labels are formats
+        if (!linear_) return logarithmic_.script("y", unit_.factor, unit);
+        return fmt::format("set yrange [{}:{}]\nset format y '%g{}'\n", unit_.factor * low_, unit_.factor * high_, unit);
+    }
+
+private:
+    static constexpr double narrow = 10; // largest figure by smallest
+
+    report::LogAxis logarithmic_;
+    Unit unit_;
+    double low_, high_;
+    bool linear_;
+};
+
 std::string commitsAxis(const std::vector<Commit>& commits) {
     const std::size_t step = (commits.size() + mostLabels - 1) / mostLabels;
     std::string labels;
@@ -53,7 +81,7 @@ std::string nameOf(const Curve& curve, const std::vector<Curve>& all) {
 }
 
 /// A figure a line, its levels and the starts of new ones.
-std::string dataOf(const Findings& f, std::size_t i, const report::LogAxis& axis) {
+std::string dataOf(const Findings& f, std::size_t i, const FiguresAxis& axis) {
     std::string text = fmt::format("$figures{} << EOD\n", i);
     for (const Point& point : f.history.series[i].points)
         text += fmt::format("{} {}\n", point.commit, axis.drawn(point.value));
@@ -89,13 +117,11 @@ std::string chart(const Findings& findings, const std::string& metric, const std
         for (const std::size_t i : curve.series)
             for (const Point& point : findings.history.series[i].points) values.push_back(point.value);
     }
-    const report::LogAxis axis(values);
+    const FiguresAxis axis(values, unitOf(metric));
     const report::Legend legend{names, plotHeight};
     const double height = legend.bottom();
-    const Unit unit = unitOf(metric);
     std::string script = report::heading(fmt::format("{}: {} over commits", scene, metric), legend.bottom()) +
-                         legend.script() + commitsAxis(findings.history.commits) +
-                         axis.script("y", unit.factor, unit.name == " %" ? " %%" : unit.name);
+                         legend.script() + commitsAxis(findings.history.commits) + axis.script();
     script += fmt::format(
         "set lmargin at screen 0.085\nset rmargin at screen 0.98\nset tmargin at screen {}\nset bmargin at screen {}\n",
         1 - top / height, 1 - (plotHeight - bottomMargin) / height);

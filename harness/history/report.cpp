@@ -112,11 +112,11 @@ std::string commitsTable(const Findings& f) {
 }
 
 constexpr const char* reading =
-    R"(A figure that is the same in every run changes when it moves by more than the gate's allowance; times change when a permutation
-test of the energy statistic says so (E-divisive). `size` is the share of the larger level that the change is, less where it is
-but a few allowances. A change is first seen at one commit and was last not there at another that was measured: the commits
-between are suspects, the first seen included. Of `edge_error.signed` the magnitude counts. Figures under different conditions,
-listed below, are different series and never compared.
+    R"(A figure that is the same in every run changes when it moves by more than the gate's allowance; times change where a permutation
+test of the energy statistic says so (E-divisive), at the likeliest commit. `size` is the share of the larger level that the
+change is, less where it is but a few allowances. A change is first seen at one commit and was last not there at another that
+was measured: the commits between are suspects, the first seen included. Of `edge_error.signed` the magnitude counts. Figures
+under different conditions, listed below, are different series and never compared.
 )";
 
 std::string asMarkdown(const Findings& f, bool charts) {
