@@ -33,7 +33,7 @@ ExitCode dispatch(int argc, char** argv) {
 
     Action action;
     for (const auto& add : {addList, addRun, addReference, addSweep, addRecommend, addClaims, addCompare, addHistory,
-                            addCache, addReport, addCountFrames})
+                            addCache, addReport, addCountFrames, addTimeFrames})
         add(app, action);
 
     requireKnownVerb(app, {argv + std::min(argc, 1), argv + argc});

@@ -26,5 +26,6 @@ void addCompare(CLI::App& app, Action& action);
 void addHistory(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
 void addCountFrames(CLI::App& app, Action& action);
+void addTimeFrames(CLI::App& app, Action& action);
 
 } // namespace shadowbench

@@ -15,6 +15,10 @@ namespace {
 /// change of rounding may do: a pixel or two whose centre lies on an edge.
 constexpr double onePixel = 1, twoPixels = 2;
 
+std::optional<double> lodScore(const Record& record, double Lod::*score) {
+    return record.lod ? std::optional(*record.lod.*score) : std::nullopt;
+}
+
 constexpr std::array watched{
     Watched{"accuracy.mismatch", Class::Labels, [](const Record& r) { return r.accuracy.mismatch; }, false, twoPixels},
     Watched{"accuracy.false_shadow", Class::FalseShadow, [](const Record& r) { return r.accuracy.falseShadow; }, false,
@@ -43,6 +47,12 @@ constexpr std::array watched{
             [](const Record& r) {
                 return r.stability.convergence ? std::optional<double>(*r.stability.convergence) : std::nullopt;
             }},
+    Watched{"lod.pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::pop); }, false, 0, 0.01},
+    Watched{"lod.walk_pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::walkPop); }, false, 0, 0.01},
+    Watched{"lod.colour_error", Class::Colour, [](const Record& r) { return lodScore(r, &Lod::colourError); }, false, 0,
+            0.01},
+    Watched{"lod.order_error", Class::Colour, [](const Record& r) { return lodScore(r, &Lod::orderError); }, false, 0, 0.01},
+    Watched{"lod.noise", Class::Colour, [](const Record& r) { return r.lod ? r.lod->noise : std::nullopt; }, false, 0, 0.01},
     Watched{"cost.instructions", Class::Instructions,
             [](const Record& r) {
                 return r.cost.instructions ? std::optional(static_cast<double>(*r.cost.instructions)) : std::nullopt;
@@ -171,10 +181,14 @@ std::string_view name(Class c) {
         return "penumbra";
     case Class::Flicker:
         return "flicker";
+    case Class::Colour:
+        return "colour";
     case Class::BreakPoint:
         return "break point";
     case Class::Instructions:
         return "instructions";
+    case Class::Time:
+        return "time";
     case Class::Status:
         return "status";
     }
@@ -189,7 +203,7 @@ double allowance(const Watched& metric, const Record& base, double value) {
     const double sigma = (base.softReference ? base.softReference : base.reference).value_or(none).sigma;
     // An error e measured against a truth that is off by σ reads √(e² + σ²).
     const double truth = metric.graded ? std::hypot(value, sigma) - value : 0;
-    return std::max(pixels, truth) + metric.relative * value;
+    return std::max(pixels, truth) + metric.relative * std::abs(value);
 }
 
 Direction directionOf(double base, double head, double allowance) {

@@ -20,8 +20,10 @@ enum class Class {
     Edge,         // where the shadow's edge lies
     Penumbra,     // graded visibility
     Flicker,      // stability over time
+    Colour,       // of levels of detail, against the finest
     BreakPoint,   // stability over parameters
     Instructions, // cost, the same in every run
+    Time,         // cost, measured in pairs of frames
     Status,       // a cell that is no longer scored, or no longer there
 };
 std::string_view name(Class c);

@@ -47,10 +47,11 @@ double allowanceAt(const Series& series, std::size_t commit) {
 
 LevelChange changeBetween(const History& history, std::size_t index, const Level& before, const Level& after) {
     const Series& series = history.series[index];
-    const double change = std::abs(after.value - before.value), larger = std::max(before.value, after.value);
+    const double change = std::abs(after.value - before.value),
+                 larger = std::max(std::abs(before.value), std::abs(after.value));
     const double allowance = std::max(allowanceAt(series, before.first), allowanceAt(series, after.first));
     const auto direction = after.value > before.value ? gate::Direction::Worse : gate::Direction::Better;
-    return {index, before, after, direction, change / std::max(larger, 100 * allowance)};
+    return {index, before, after, direction, std::min(1.0, change / std::max(larger, 100 * allowance))};
 }
 
 } // namespace

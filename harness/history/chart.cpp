@@ -4,6 +4,7 @@
 #include "harness/report/summary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace shadowbench::history {
@@ -38,15 +39,15 @@ std::vector<Curve> curvesOf(const Findings& f, const std::string& metric, const 
     return curves;
 }
 
-/// Logarithmic, but linear where the logarithm would have no room for ticks.
+/// Logarithmic, but linear where figures are negative and where the logarithm would have no room for ticks.
 class FiguresAxis {
 public:
     FiguresAxis(const std::vector<double>& values, const Unit& unit) : logarithmic_(values), unit_(unit) {
         const auto [low, high] = std::ranges::minmax(values);
-        const double room = high > low ? 0.15 * (high - low) : 0.1 * high;
+        const double room = high > low ? 0.15 * (high - low) : 0.1 * std::abs(high);
         low_ = low - room;
         high_ = high + room;
-        linear_ = low > 0 && high < narrow * low;
+        linear_ = low < 0 || high < narrow * low;
     }
 
     [[nodiscard]] double drawn(double value) const { return linear_ ? unit_.factor * value : logarithmic_.drawn(value); }

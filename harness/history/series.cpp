@@ -11,7 +11,7 @@
 namespace shadowbench::history {
 namespace {
 
-constexpr std::string_view timeMetric = "cost.time.ratio", errorMetric = "status.error";
+constexpr std::string_view errorMetric = "status.error";
 
 bool matches(const std::vector<std::string>& patterns, const std::string& text) {
     return std::ranges::any_of(patterns, [&](const std::string& p) { return fnmatch(p.c_str(), text.c_str(), 0) == 0; });
@@ -51,10 +51,12 @@ std::vector<Figure> figuresOf(const Record& record) {
         figures.push_back({metric.metric, metric.watchedClass, false, *value, gate::allowance(metric, record, *value),
                            counted ? gate::countingEnvironment(record.environment) : scoredIn});
     }
-    if (record.cost.time)
-        figures.push_back({timeMetric, Class::Instructions, true, record.cost.time->ratio,
-                           gate::TimeRule{}.floor * record.cost.time->ratio,
+    const auto timed = [&](std::string_view metric, double ratio) {
+        figures.push_back({metric, Class::Time, true, ratio, gate::TimeRule{}.floor * ratio,
                            fmt::format("{}, {}", rasteriser(record.environment), record.environment.cpu)});
+    };
+    if (record.cost.time) timed("cost.time.ratio", record.cost.time->ratio);
+    if (record.lod && record.lod->time) timed("lod.time.ratio", record.lod->time->ratio);
     return figures;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,5 +39,24 @@ using OnLine = std::function<void(std::string_view)>;
 /// when this returns or `onLine` throws. Throws Inconclusive when the program cannot be started, and when the user
 /// interrupts while a DeferredInterrupts is held.
 Finished runProcess(const Command& command, const OnLine& onLine);
+
+/// A program that runs on and answers each line it is sent with a line. It dies with the object or the thread that made it,
+/// however that ends.
+class Dialogue {
+public:
+    /// Starts it. `command.limit` bounds the wait for each answer. Throws Inconclusive when it cannot be started.
+    explicit Dialogue(const Command& command);
+    ~Dialogue();
+    Dialogue(Dialogue&&) noexcept;
+    Dialogue& operator=(Dialogue&&) noexcept;
+
+    /// Sends `line` (without its end) and waits for the answer. Throws Inconclusive, with the last line of the program's
+    /// standard error, when it has ended, is late, or the user interrupts while a DeferredInterrupts is held.
+    std::string ask(std::string_view line);
+
+private:
+    struct Running;
+    std::unique_ptr<Running> running_;
+};
 
 } // namespace shadowbench

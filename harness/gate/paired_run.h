@@ -1,0 +1,66 @@
+// Frames of two programs in turns, and what the paired-time rule makes of them (GATE.md, "Time").
+#pragma once
+
+#include "harness/gate/paired.h"
+#include "harness/scene/progress.h"
+#include "harness/timing/timed_frames.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shadowbench::gate {
+
+/// A shadow technique on a scene; techniques of levels of detail have no paired time.
+struct TimedCell {
+    std::string scene; // id, or an absolute path
+    std::string variant;
+};
+
+struct PairedOptions {
+    Profile profile = Profile::Gate;
+    TimeRule rule;
+    int restarts = 5;       // of all workers: where a process lies in memory moves its speed
+    int rounds = 20;        // a restart, one turn of each worker a round
+    std::uint32_t seed = 1; // of the order of turns, and of the techniques' pseudo-random choices
+};
+
+/// One turn of each: the base, the head, and the base again as the control.
+struct PairedRound {
+    timing::FrameTime base, head, control; // of `framesPerTurn` frames
+};
+
+struct PairedSamples {
+    int framesPerTurn = 1;
+    std::vector<std::vector<PairedRound>> restarts; // rounds of each
+};
+
+/// Logarithms of the CPU time of `who` over the base's, one a round.
+std::vector<double> logRatios(const PairedSamples& samples, timing::FrameTime PairedRound::*who);
+
+struct TimeJudgement {
+    TimedCell cell;
+    TimeVerdict verdict = TimeVerdict::Unclear; // Unclear for good: slower in the median, but that is not certain enough
+    double ratio = 1;                           // head's CPU time over the base's, median of the rounds
+    double lowerBound = 0;                      // one-sided, of `ratio`'s true value; 0 when there are too few rounds
+    int rounds = 0;                             // in all
+    bool doubled = false;                       // measured again, for the first rounds left it unclear
+    bool controlAlarm = false;                  // two equal programs were measured as different: inconclusive
+    PairedSamples samples;
+};
+
+/// Judges samples of one of `cells` cells, the only ones there will be (`doubled`) or the first ones.
+TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const TimeRule& rule, int cells, bool doubled);
+
+/// Whether each cell is slower with the program `head` than with `base`, in the order of `cells`. Each restart starts three
+/// workers a scene, base, head and base again as the control, which take all cells of the scene one after the other: warm
+/// up, then rounds of one turn each in an order that is drawn anew and then reversed. What is judged is CPU time, in which
+/// another process on the core does not count. A turn is as many frames as take the base some milliseconds, the same for all
+/// three. Cells left unclear are measured as often again, once, and judged by all their rounds. Throws what the workers
+/// throw.
+std::vector<TimeJudgement> judgePairedTime(const std::filesystem::path& base, const std::filesystem::path& head,
+                                           const std::vector<TimedCell>& cells, const PairedOptions& options,
+                                           const Progress& progress);
+
+} // namespace shadowbench::gate
