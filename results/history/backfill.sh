@@ -2,7 +2,7 @@
 # Measures past commits and takes their records into the history:
 #   results/history/backfill.sh [COMMIT …]     default: the commits below that the history does not hold yet
 # Each commit is checked out, built and run in a scratch clone ($SHADOWBENCH_BACKFILL or a folder of /tmp, kept for the next
-# time), with a cache of references of its own, so that nothing else here changes. $SCENES and $TECHNIQUES say which cells
+# time), with a cache of references of its own ($SHADOWBENCH_CACHE), so that nothing else here changes. $SCENES and $TECHNIQUES say which cells
 # (default: below); $JOBS compilers run at once (default: 2).
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -35,7 +35,7 @@ measure() {
         if echo "$known" | grep -qx "${technique%%:*}"; then options="$options --technique $technique"; fi
     done
     # shellcheck disable=SC2046,SC2086 # lists of words
-    nice "$program" run --quiet $options $(printf ' --scene %s' $scenes) --cache "$scratch/cache" --out "$1"
+    nice "$program" run --quiet $options $(printf ' --scene %s' $scenes) --cache "${SHADOWBENCH_CACHE:-$scratch/cache}" --out "$1"
 }
 
 # Of an exit status: a run with a cell that is an error has been measured, too.
