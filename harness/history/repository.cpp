@@ -12,13 +12,14 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The lines that git prints; nothing if it fails.
-std::optional<std::vector<std::string>> git(const fs::path& folder, std::vector<std::string> arguments) {
+std::optional<std::vector<std::string>> git(const fs::path& folder, const std::vector<std::string>& arguments) {
     const auto program = findProgram("git");
     if (!program) return {};
     std::vector<std::string> lines;
     Command command;
     command.program = *program;
-    command.arguments = std::move(arguments);
+    command.arguments = {"-c", "safe.directory=*"}; // a container's user need not own the clone
+    command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
     command.folder = folder;
     const Finished end = runProcess(command, [&](std::string_view line) { lines.emplace_back(line); });
     if (end.timedOut || end.signal != 0 || end.exitCode != 0) return {};

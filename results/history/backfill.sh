@@ -9,8 +9,8 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 scratch=${SHADOWBENCH_BACKFILL:-/tmp/shadowbench-backfill}
 source=$scratch/source
 
-# First parents of main, from the first that the present program reads the records of.
-commits='64331f8 d41c407 9afa401 1e4b952 97b5d2b 535dca6 256d0e6 dfd9b11 ca1fe33 b3e9328 6536706 4e1abb3 12d2dab'
+# First parents of main, over the project's life.
+commits='d41c407 9afa401 1e4b952 97b5d2b 535dca6 dfd9b11 b3e9328 6536706 4e1abb3 a57e74d 12d2dab'
 techniques=${TECHNIQUES:-sm-uniform sm-focused sm-lispsm sm-psm sm-history volume-zpass volume-zfail volume-xor pcf pcss}
 scenes=${SCENES:-dueling-frusta overlapping-occluders}
 
