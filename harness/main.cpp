@@ -32,7 +32,7 @@ ExitCode dispatch(int argc, char** argv) {
         "5 inconclusive.\nEvery verb has --help with an example.");
 
     Action action;
-    for (const auto& add : {addList, addRun, addReference, addSweep, addRecommend, addClaims, addCompare, addGate,
+    for (const auto& add : {addList, addRun, addMerge, addReference, addSweep, addRecommend, addClaims, addCompare, addGate,
                             addHistory, addCache, addReport, addCountFrames, addTimeFrames})
         add(app, action);
 

@@ -48,6 +48,7 @@ public:
         const Program head(ownProgram(), cache_);
         const Commit commit = builtFrom();
         result_.base = base.name;
+        noteStrangers();
         result_.head = commit.hash.substr(0, 12) + (commit.dirty ? " with changes" : "");
         if (base.kind == Base::Kind::Records)
             judgeAgainstRecords(base, head);
@@ -121,6 +122,14 @@ private:
         for (const Record& record : before) known.insert(cellOf(record));
         if (std::ranges::none_of(now, [&](const Record& r) { return known.contains(cellOf(r)); }))
             result_.unjudged.emplace_back("the base holds none of the cells: nothing is compared");
+    }
+
+    void noteStrangers() {
+        std::vector<std::string> known;
+        for (const PlannedScene& scene : plan_.scenes) known.push_back(scene.id);
+        for (const std::string& scene : plan_.watchlist.strangers(known))
+            result_.notes.push_back(fmt::format("{} speaks of a scene \"{}\" that is not among the chosen ones",
+                                                options_.bounds.string(), scene));
     }
 
     void noteWhatIsGone(const Program& base, const Program& head) {

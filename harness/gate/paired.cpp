@@ -10,6 +10,11 @@
 namespace shadowbench::gate {
 namespace {
 
+std::vector<double> negated(std::vector<double> samples) {
+    for (double& sample : samples) sample = -sample;
+    return samples;
+}
+
 double logFloor(const TimeRule& rule) { return std::log1p(rule.floor); }
 
 } // namespace
@@ -33,11 +38,13 @@ TimeVerdict judgeTime(const std::vector<double>& logRatios, const TimeRule& rule
     return medianLowerBound(logRatios, rule.alpha / cells / looks) > floor ? TimeVerdict::Slower : TimeVerdict::Unclear;
 }
 
+bool surelyNotSlower(const std::vector<double>& logRatios, const TimeRule& rule) {
+    return -medianLowerBound(negated(logRatios), rule.beta) <= logFloor(rule);
+}
+
 bool controlAlarms(const std::vector<double>& logRatios, const TimeRule& rule, int cells) {
-    std::vector<double> inverse(logRatios.size());
-    std::transform(logRatios.begin(), logRatios.end(), inverse.begin(), std::negate<>());
     const double alpha = rule.alpha / cells / 2; // two sides
-    return std::max(medianLowerBound(logRatios, alpha), medianLowerBound(inverse, alpha)) > logFloor(rule);
+    return std::max(medianLowerBound(logRatios, alpha), medianLowerBound(negated(logRatios), alpha)) > logFloor(rule);
 }
 
 } // namespace shadowbench::gate

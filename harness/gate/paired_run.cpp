@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <sched.h>
 
 namespace shadowbench::gate {
 namespace {
@@ -31,18 +32,17 @@ public:
                 const PairedOptions& options, const Progress& progress)
         : base_(base), head_(head), cells_(cells), options_(options), progress_(progress), random_(options.seed) {}
 
-    /// Adds the options' restarts to the samples of these cells.
-    void measure(const std::vector<std::size_t>& which, std::vector<PairedSamples>& samples) {
-        const auto total = static_cast<double>(which.size()) * options_.restarts;
-        double done = 0;
-        for (int restart = 0; restart < options_.restarts; ++restart)
-            for (const auto& ofScene : byScene(which)) {
-                std::array<timing::FrameWorker, 3> workers = startWorkers(cells_[ofScene.front()].scene);
-                for (const std::size_t cell : ofScene) {
-                    if (progress_) progress_(done++ / total, cells_[cell].variant);
-                    addRestart(workers, cells_[cell].variant, samples[cell]);
-                }
+    /// Adds one restart, the `restart`-th from 0, to the samples of these cells.
+    void measure(const std::vector<std::size_t>& which, int restart, std::vector<PairedSamples>& samples) {
+        std::size_t done = 0;
+        for (const auto& ofScene : byScene(which)) {
+            std::array<timing::FrameWorker, 3> workers = startWorkers(cells_[ofScene.front()].scene);
+            for (const std::size_t cell : ofScene) {
+                const double share = static_cast<double>(done++) / static_cast<double>(which.size());
+                if (progress_) progress_(std::min(1.0, (restart + share) / options_.restarts), cells_[cell].variant);
+                addRestart(workers, cells_[cell].variant, samples[cell]);
             }
+        }
     }
 
 private:
@@ -61,7 +61,7 @@ private:
     }
 
     [[nodiscard]] std::array<timing::FrameWorker, 3> startWorkers(const std::string& scene) const {
-        const timing::WorkerJob job{scene, options_.profile, options_.seed};
+        const timing::WorkerJob job{scene, options_.profile, options_.seed, sched_getcpu()};
         return {timing::FrameWorker(base_, job), timing::FrameWorker(head_, job), timing::FrameWorker(base_, job)};
     }
 
@@ -101,16 +101,25 @@ std::vector<double> logRatios(const PairedSamples& samples, timing::FrameTime Pa
     return ratios;
 }
 
-TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const TimeRule& rule, int cells, bool doubled) {
+bool enough(const PairedSamples& samples, const PairedOptions& options, int cells) {
+    const auto done = static_cast<int>(samples.restarts.size());
+    if (done == 0) return false;
+    const std::vector<double> head = logRatios(samples, &PairedRound::head);
+    if (surelyNotSlower(head, options.rule)) return true;
+    if (done == options.restarts) return judgeTime(head, options.rule, cells, looks) != TimeVerdict::Unclear;
+    return done >= 2 * options.restarts;
+}
+
+TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const PairedOptions& options, int cells) {
     const std::vector<double> head = logRatios(samples, &PairedRound::head);
     TimeJudgement judgement;
     judgement.cell = cell;
-    judgement.verdict = judgeTime(head, rule, cells, looks);
+    judgement.verdict = judgeTime(head, options.rule, cells, looks);
     judgement.ratio = std::exp(timing::median(head));
-    judgement.lowerBound = std::exp(medianLowerBound(head, rule.alpha / cells / looks));
+    judgement.lowerBound = std::exp(medianLowerBound(head, options.rule.alpha / cells / looks));
     judgement.rounds = static_cast<int>(head.size());
-    judgement.doubled = doubled;
-    judgement.controlAlarm = controlAlarms(logRatios(samples, &PairedRound::control), rule, cells);
+    judgement.doubled = static_cast<int>(samples.restarts.size()) > options.restarts;
+    judgement.controlAlarm = controlAlarms(logRatios(samples, &PairedRound::control), options.rule, cells);
     judgement.samples = std::move(samples);
     return judgement;
 }
@@ -119,20 +128,17 @@ std::vector<TimeJudgement> judgePairedTime(const std::filesystem::path& base, co
                                            const std::vector<TimedCell>& cells, const PairedOptions& options,
                                            const Progress& progress) {
     Measurement measurement(base, head, cells, options, progress);
-    std::vector<PairedSamples> samples(cells.size());
-    std::vector<std::size_t> which(cells.size());
-    std::iota(which.begin(), which.end(), std::size_t{0});
-    measurement.measure(which, samples);
-
     const auto count = static_cast<int>(cells.size());
+    std::vector<PairedSamples> samples(cells.size());
+    std::vector<std::size_t> open(cells.size());
+    std::iota(open.begin(), open.end(), std::size_t{0});
+    for (int restart = 0; !open.empty(); ++restart) {
+        measurement.measure(open, restart, samples);
+        std::erase_if(open, [&](std::size_t cell) { return enough(samples[cell], options, count); });
+    }
     std::vector<TimeJudgement> judgements;
-    for (const std::size_t cell : which)
-        judgements.push_back(judgeSamples(cells[cell], samples[cell], options.rule, count, false));
-
-    std::erase_if(which, [&](std::size_t cell) { return judgements[cell].verdict != TimeVerdict::Unclear; });
-    measurement.measure(which, samples);
-    for (const std::size_t cell : which)
-        judgements[cell] = judgeSamples(cells[cell], samples[cell], options.rule, count, true);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        judgements.push_back(judgeSamples(cells[i], std::move(samples[i]), options, count));
     return judgements;
 }
 

@@ -21,7 +21,7 @@ struct TimedCell {
 struct PairedOptions {
     Profile profile = Profile::Gate;
     TimeRule rule;
-    int restarts = 5;       // of all workers: where a process lies in memory moves its speed
+    int restarts = 5;       // of all workers, for where a process lies in memory moves its speed; as many again if unclear
     int rounds = 20;        // a restart, one turn of each worker a round
     std::uint32_t seed = 1; // of the order of turns, and of the techniques' pseudo-random choices
 };
@@ -50,15 +50,19 @@ struct TimeJudgement {
     PairedSamples samples;
 };
 
-/// Judges samples of one of `cells` cells, the only ones there will be (`doubled`) or the first ones.
-TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const TimeRule& rule, int cells, bool doubled);
+/// Whether no more restarts are wanted of one of `cells` cells: it is surely not slower, or the options' restarts are done
+/// and leave nothing unclear, or twice as many are.
+bool enough(const PairedSamples& samples, const PairedOptions& options, int cells);
+
+/// What the rule says of samples that are enough.
+TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const PairedOptions& options, int cells);
 
 /// Whether each cell is slower with the program `head` than with `base`, in the order of `cells`. Each restart starts three
-/// workers a scene, base, head and base again as the control, which take all cells of the scene one after the other: warm
-/// up, then rounds of one turn each in an order that is drawn anew and then reversed. What is judged is CPU time, in which
-/// another process on the core does not count. A turn is as many frames as take the base some milliseconds, the same for all
-/// three. Cells left unclear are measured as often again, once, and judged by all their rounds. Throws what the workers
-/// throw.
+/// workers a scene on one core, base, head and base again as the control, which take all cells of the scene one after the
+/// other: warm up, then rounds of one turn each in an order that is drawn anew and then reversed. What is judged is CPU
+/// time, in which another process on the core does not count. A turn is as many frames as take the base some milliseconds,
+/// the same for all three. Takes one to twice `options.restarts` restarts a cell (see `enough`). Throws what the workers
+/// throw; `progress` stays at 1 while unclear cells are measured on.
 std::vector<TimeJudgement> judgePairedTime(const std::filesystem::path& base, const std::filesystem::path& head,
                                            const std::vector<TimedCell>& cells, const PairedOptions& options,
                                            const Progress& progress);

@@ -41,6 +41,13 @@ std::vector<std::string> watched(const std::vector<Watch>& watches, const std::v
     return result;
 }
 
+Watchlist readBounds(const GateOptions& options) {
+    if (!fs::exists(options.bounds))
+        throw Inconclusive(
+            fmt::format("the gate's bounds file {} is missing; name another with --bounds", options.bounds.string()));
+    return readWatchlist(options.bounds, options.profile);
+}
+
 bool has(const Program& program, const PlannedScene& scene) {
     return !scene.content.empty() || program.knowsScene(scene.id);
 }
@@ -48,8 +55,7 @@ bool has(const Program& program, const PlannedScene& scene) {
 } // namespace
 
 Plan::Plan(const GateOptions& options)
-    : variants(namesOf(options.techniques)), watchlist(readWatchlist(options.bounds, options.profile)),
-      profile(options.profile), seed(options.seed) {
+    : variants(namesOf(options.techniques)), watchlist(readBounds(options)), profile(options.profile), seed(options.seed) {
     for (const std::string& scene : options.scenes.empty() ? standardScenes() : options.scenes)
         scenes.push_back(planned(scene, profile));
 }

@@ -30,8 +30,7 @@ std::vector<std::string> readPatterns(const TomlValue& list) {
 }
 
 Watch readWatch(const TomlValue& entry) {
-    Watch watch{
-        entry.get("scene").oneOf(builtinScenes()), readPatterns(entry.get("techniques")), {}, entry.get("reason").text()};
+    Watch watch{entry.get("scene").text(), readPatterns(entry.get("techniques")), {}, entry.get("reason").text()};
     if (watch.reason.empty()) entry.get("reason").fail("is empty; say it in a few words");
     if (const auto except = entry.find("except")) watch.except = readPatterns(*except);
     return watch;
@@ -93,6 +92,21 @@ bool anyMatches(const std::vector<std::string>& patterns, const std::string& var
 
 bool Watch::covers(const std::string& variant) const {
     return anyMatches(techniques, variant) && !anyMatches(except, variant);
+}
+
+std::vector<std::string> Watchlist::strangers(const std::vector<std::string>& known) const {
+    const std::vector<std::string> builtin = builtinScenes();
+    std::vector<std::string> scenes;
+    for (const Bound& bound : bounds) scenes.push_back(bound.cells.scene);
+    for (const WatchedSweep& sweep : sweeps) scenes.push_back(sweep.cells.scene);
+    for (const Watch& watch : counted) scenes.push_back(watch.scene);
+    for (const Watch& watch : timed) scenes.push_back(watch.scene);
+    std::ranges::sort(scenes);
+    scenes.erase(std::ranges::unique(scenes).begin(), scenes.end());
+    std::erase_if(scenes, [&](const std::string& scene) {
+        return std::ranges::find(builtin, scene) != builtin.end() || std::ranges::find(known, scene) != known.end();
+    });
+    return scenes;
 }
 
 Watchlist readWatchlist(const std::filesystem::path& file, Profile profile) {

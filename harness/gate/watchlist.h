@@ -40,10 +40,13 @@ struct Watchlist {
     std::vector<WatchedSweep> sweeps;
     std::vector<Watch> counted; // instructions
     std::vector<Watch> timed;   // in pairs
+
+    /// Scenes that are neither built in nor among `known`: misspelt, or of another gate.
+    [[nodiscard]] std::vector<std::string> strangers(const std::vector<std::string>& known) const;
 };
 
-/// Throws BadInput, with file and line, for what is no such file: unknown keys, scenes, metrics or techniques, a missing
-/// reason.
+/// Throws BadInput, with file and line, for what is no such file: unknown keys, metrics, axes or techniques, a missing
+/// reason. A scene may be one that only its user has: `strangers` tells.
 Watchlist readWatchlist(const std::filesystem::path& file, Profile profile);
 
 } // namespace shadowbench::gate

@@ -11,6 +11,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -67,6 +68,14 @@ void limit(__rlimit_resource resource, rlim_t value) {
     setrlimit(resource, &both);
 }
 
+void stayOn(std::optional<int> cpu) {
+    if (!cpu) return;
+    cpu_set_t only;
+    CPU_ZERO(&only);
+    CPU_SET(*cpu, &only);
+    sched_setaffinity(0, sizeof only, &only);
+}
+
 /// Everything the child needs, laid out before the fork: afterwards only async-signal-safe calls are allowed.
 struct Launch {
     const Command& command;
@@ -95,6 +104,7 @@ struct Launch {
         limit(RLIMIT_FSIZE, command.fileLimit);
         limit(RLIMIT_AS, command.memoryLimit);
         limit(RLIMIT_NOFILE, mostOpenFiles);
+        stayOn(command.cpu);
         sigset_t none;
         sigemptyset(&none);
         sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -123,7 +133,11 @@ pid_t start(const Launch& launch, int input, int output, int error) {
     auto [failure, failureEnd] = makePipe();
     const pid_t parent = getpid();
     const pid_t pid = fork();
-    if (pid < 0) throw Inconclusive(fmt::format("cannot start {}: {}", launch.command.program.string(), reason(errno)));
+    if (pid < 0) {
+        const int reasonNumber = errno;
+        throw Inconclusive(fmt::format("cannot start {}: {}", launch.command.program.string(), reason(reasonNumber)),
+                           failureOf(reasonNumber));
+    }
     if (pid == 0) launch.exec(parent, input, output, error, failureEnd.get());
     setpgid(pid, pid); // here too: whoever is first, the group exists before anyone kills it
     failureEnd.close();
@@ -271,7 +285,8 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
             open = readSome(output.get(), lines);
         status = child.poll();
         if (!status && DeferredInterrupts::pending())
-            throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()));
+            throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()),
+                               Failure::Transient);
         if (!status && Clock::now() >= end) {
             Finished late = decoded(child.kill());
             late.timedOut = true;

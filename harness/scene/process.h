@@ -24,6 +24,7 @@ struct Command {
     std::chrono::seconds cpuLimit{120};                   // of all its threads
     std::uintmax_t fileLimit = 64 << 20;                  // bytes, largest file the child may write
     std::uintmax_t memoryLimit = std::uintmax_t{4} << 30; // bytes of address space, more than is ever used of it
+    std::optional<int> cpu = {};                          // the only one it may run on
 };
 
 struct Finished {

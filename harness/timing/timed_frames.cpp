@@ -118,6 +118,7 @@ struct FrameWorker::Running {
         c.limit = longestAnswer;
         c.cpuLimit = longestLife;
         c.memoryLimit = std::uintmax_t{16} << 30U;
+        c.cpu = job.cpu;
         return c;
     }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace shadowbench::timing {
@@ -16,6 +17,7 @@ struct WorkerJob {
     std::string scene; // id, or an absolute path
     Profile profile = Profile::Gate;
     std::uint32_t seed = 1;
+    std::optional<int> cpu = {}; // the only one it runs on: cores of one machine may differ
 };
 
 /// The worker's half. Each line asks for a number of frames of a variant, "3 pcss:taps=32+32", and is answered with the
