@@ -33,7 +33,7 @@ ExitCode dispatch(int argc, char** argv) {
 
     Action action;
     for (const auto& add : {addList, addRun, addMerge, addReference, addSweep, addRecommend, addClaims, addCompare, addGate,
-                            addCache, addReport, addCountFrames, addTimeFrames})
+                            addHistory, addCache, addReport, addCountFrames, addTimeFrames})
         add(app, action);
 
     requireKnownVerb(app, {argv + std::min(argc, 1), argv + argc});

@@ -24,6 +24,7 @@ void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
+void addHistory(CLI::App& app, Action& action);
 void addGate(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
 void addCountFrames(CLI::App& app, Action& action);
