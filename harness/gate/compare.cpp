@@ -122,7 +122,8 @@ void compareBreakPoints(const Curves& base, const Curves& head, std::vector<Chan
                            : is > was ? Direction::Better
                                       : Direction::Same,
                            fmt::format("{} on {} along {}: it {}, before it {}", step.curve, curve.first->scene, step.axis,
-                                       curve.breakText(), found->second.breakText())});
+                                       curve.breakText(), found->second.breakText()),
+                           step.axis});
     }
 }
 

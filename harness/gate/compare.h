@@ -65,7 +65,8 @@ struct Change {
     std::optional<double> base, head; // nothing where the record lacks the metric or there is no record
     double allowance = 0;             // changes up to this are Same
     Direction direction = Direction::Same;
-    std::string sentence; // for people: what changed, by how much
+    std::string sentence;  // for people: what changed, by how much
+    std::string axis = {}; // of the sweep, for a break point
 };
 
 /// Every watched metric of every cell of either set, in the order of `head`, then what only `base` holds, then the break

@@ -196,7 +196,7 @@ std::string cellId(const Truths& truths, const Scene& scene, const techniques::V
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
                                      scene.timeline.still, scene.timeline.moving);
     for (const int frame : truths.scoredFrames())
-        inputs += groundtruth::key(truths.request(mainTruth(variant), frame)) + "\n";
+        inputs += truths.key(mainTruth(variant), frame) + "\n";
     const XXH128_hash_t hash = XXH3_128bits(inputs.data(), inputs.size());
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }

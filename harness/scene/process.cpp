@@ -133,7 +133,11 @@ pid_t start(const Launch& launch, int input, int output, int error) {
     auto [failure, failureEnd] = makePipe();
     const pid_t parent = getpid();
     const pid_t pid = fork();
-    if (pid < 0) throw Inconclusive(fmt::format("cannot start {}: {}", launch.command.program.string(), reason(errno)));
+    if (pid < 0) {
+        const int reasonNumber = errno;
+        throw Inconclusive(fmt::format("cannot start {}: {}", launch.command.program.string(), reason(reasonNumber)),
+                           failureOf(reasonNumber));
+    }
     if (pid == 0) launch.exec(parent, input, output, error, failureEnd.get());
     setpgid(pid, pid); // here too: whoever is first, the group exists before anyone kills it
     failureEnd.close();
@@ -281,7 +285,8 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
             open = readSome(output.get(), lines);
         status = child.poll();
         if (!status && DeferredInterrupts::pending())
-            throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()));
+            throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()),
+                               Failure::Transient);
         if (!status && Clock::now() >= end) {
             Finished late = decoded(child.kill());
             late.timedOut = true;
