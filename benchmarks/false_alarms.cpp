@@ -21,7 +21,7 @@
 namespace shadowbench::benchmarks {
 namespace {
 
-constexpr int resamples = 20'000;
+constexpr int resamples = 5'000;
 
 struct Settings {
     std::filesystem::path base, head, samples = "false-alarms-samples", out;

@@ -6,6 +6,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 namespace shadowbench::gate {
 namespace {
@@ -24,8 +25,9 @@ double medianLowerBound(std::vector<double> samples, double alpha) {
     if (n == 0) return -std::numeric_limits<double>::infinity();
     // The k-th smallest lies above the median when fewer than k samples lie below it: P(Bin(n, ½) ≤ k − 1).
     const boost::math::binomial below(n, 0.5);
-    int rank = 0;
-    while (rank < n && boost::math::cdf(below, rank) <= alpha) ++rank;
+    const auto ranks = std::views::iota(0, n);
+    const auto sure = [&](int k) { return boost::math::cdf(below, k) <= alpha; };
+    const auto rank = std::ranges::partition_point(ranks, sure) - ranks.begin();
     if (rank == 0) return -std::numeric_limits<double>::infinity();
     std::nth_element(samples.begin(), samples.begin() + (rank - 1), samples.end());
     return samples[static_cast<std::size_t>(rank - 1)];
