@@ -30,14 +30,18 @@ std::string_view name(Class c);
 
 enum class Direction { Better, Same, Worse };
 
+/// Of a metric that is compared with the truth's fractions, how it sums differences up: the truth's σ counts then.
+enum class Graded { No, Mean, Rms };
+
 /// A metric that is watched from commit to commit; smaller is better.
 struct Watched {
     std::string_view metric; // path in the record
     Class watchedClass;
     std::optional<double> (*value)(const Record&);
-    bool graded = false; // compared with the truth's fractions, so that the truth's σ counts
+    Graded graded = Graded::No;
     double pixels = 0;   // this many pixels of change mean nothing
     double relative = 0; // nor does this share of the base's value
+    double absolute = 0; // nor does this much, in the metric's unit
 };
 std::span<const Watched> watchedMetrics();
 
