@@ -15,7 +15,8 @@ struct Experiment {
 };
 
 /// What the rule makes of the evaluations, counted; and, where base and head are one program, of `resamples` cells a line
-/// made of their restarts, as they are and with the head's times made longer. `options` are those of the evaluations.
+/// made of their restarts with the head's times made longer, and of twenty times as many as they are. `options` are those of
+/// the evaluations.
 std::string errorReport(const std::vector<Experiment>& experiments, const gate::PairedOptions& options, int resamples);
 
 } // namespace shadowbench::benchmarks
