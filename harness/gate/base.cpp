@@ -69,7 +69,7 @@ public:
         step("git", {"-c", "safe.directory=*", "-C", source.string(), "checkout", "-q", "--detach", commit_});
         step("cmake", {"-S", source.string(), "-B", build.string(), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                        "-DSHADOWBENCH_TESTS=OFF", "-DSHADOWBENCH_BENCHMARKS=OFF"});
-        step("cmake", {"-E", "env", "CCACHE_DIR=" + compilerCache(), "CCACHE_NOHASHDIR=1",
+        step("cmake", {"-E", "env", "CCACHE_DIR=" + compilerCache(), "CCACHE_NOHASHDIR=1", "CCACHE_SLOPPINESS=locale",
                        "CCACHE_BASEDIR=" + source.string(), "cmake", "--build", build.string(), "--target", "shadowbench"});
         fs::create_directories(file.parent_path());
         const fs::path partial = file.string() + fmt::format(".{}", getpid());
