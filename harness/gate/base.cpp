@@ -62,15 +62,15 @@ public:
 
     /// Leaves the built program in `file`.
     void into(const fs::path& file) {
-        const fs::path source = folder_.path() / "source", build = folder_.path() / "build";
+        // Where `bench` builds, seen from the source: the compiler cache then knows what the head's build has compiled.
+        const fs::path source = folder_.path() / "source", build = source / "build" / "release";
         step("git",
              {"-c", "safe.directory=*", "clone", "-q", "--shared", "--no-checkout", repository_.string(), source.string()});
         step("git", {"-c", "safe.directory=*", "-C", source.string(), "checkout", "-q", "--detach", commit_});
         step("cmake", {"-S", source.string(), "-B", build.string(), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                        "-DSHADOWBENCH_TESTS=OFF", "-DSHADOWBENCH_BENCHMARKS=OFF"});
-        step("cmake",
-             {"-E", "env", "CCACHE_DIR=" + compilerCache(), "CCACHE_NOHASHDIR=1",
-              "CCACHE_BASEDIR=" + folder_.path().string(), "cmake", "--build", build.string(), "--target", "shadowbench"});
+        step("cmake", {"-E", "env", "CCACHE_DIR=" + compilerCache(), "CCACHE_NOHASHDIR=1", "CCACHE_SLOPPINESS=locale",
+                       "CCACHE_BASEDIR=" + source.string(), "cmake", "--build", build.string(), "--target", "shadowbench"});
         fs::create_directories(file.parent_path());
         const fs::path partial = file.string() + fmt::format(".{}", getpid());
         fs::copy_file(build / "shadowbench", partial, fs::copy_options::overwrite_existing);

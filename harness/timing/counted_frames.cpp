@@ -79,11 +79,11 @@ private:
 
 void renderCountedFrames(const CountJob& job) {
     const Scene scene = loadScene(job.scene, job.profile);
-    const auto context = gl::Context::create();
-    CountedScene counted(scene, job.seed);
     for (const std::string& name : job.variants) {
         try {
-            counted.countFrame(techniques::parseVariant(name));
+            // A rasteriser of its own, so that the count does not depend on which techniques came before.
+            const auto context = gl::Context::create();
+            CountedScene(scene, job.seed).countFrame(techniques::parseVariant(name));
         } catch (const Error& error) {
             fmt::print(stderr, "{}: {}\n", name, error.what());
             continue;
