@@ -54,6 +54,15 @@ constexpr std::array watched{
             [](const Record& r) {
                 return r.stability.convergence ? std::optional<double>(*r.stability.convergence) : std::nullopt;
             }},
+    Watched{"lod.pop", Class::Flicker, [](const Record& r) { return r.lod ? std::optional(r.lod->pop) : std::nullopt; },
+            false, 0, 0.01},
+    Watched{"lod.walk_pop", Class::Flicker,
+            [](const Record& r) { return r.lod ? std::optional(r.lod->walkPop) : std::nullopt; }, false, twoPixels, 0.01},
+    Watched{"lod.colour_error", Class::Colour,
+            [](const Record& r) { return r.lod ? std::optional(r.lod->colourError) : std::nullopt; }, false, 0, 0.01},
+    Watched{"lod.noise", Class::Colour, [](const Record& r) { return r.lod ? r.lod->noise : std::nullopt; }, false, 0, 0.01},
+    Watched{"lod.order_error", Class::Colour,
+            [](const Record& r) { return r.lod ? std::optional(r.lod->orderError) : std::nullopt; }, false, 0, 0.01},
     Watched{"cost.instructions", Class::Instructions,
             [](const Record& r) {
                 return r.cost.instructions ? std::optional(static_cast<double>(*r.cost.instructions)) : std::nullopt;
@@ -93,7 +102,7 @@ double allowance(const Watched& metric, const Record& base, double value) {
     const double sigma = (base.softReference ? base.softReference : base.reference).value_or(none).sigma;
     // An error e measured against a truth that is off by σ reads √(e² + σ²).
     const double truth = metric.graded ? std::hypot(value, sigma) - value : 0;
-    return std::max(pixels, truth) + metric.relative * value;
+    return std::max(pixels, truth) + metric.relative * std::abs(value); // what exceeds lod-full's may be negative
 }
 
 Direction directionOf(double base, double head, double allowance) {
@@ -204,6 +213,8 @@ std::string_view name(Class c) {
         return "edge";
     case Class::Penumbra:
         return "penumbra";
+    case Class::Colour:
+        return "colour";
     case Class::Flicker:
         return "flicker";
     case Class::BreakPoint:

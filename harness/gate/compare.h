@@ -17,6 +17,7 @@ enum class Class {
     Leak,         // light where there is none
     Edge,         // where the shadow's edge lies
     Penumbra,     // graded visibility
+    Colour,       // pictures of levels of detail
     Flicker,      // stability over time
     BreakPoint,   // stability over parameters
     Instructions, // cost, the same in every run
