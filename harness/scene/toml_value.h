@@ -1,5 +1,5 @@
-// Reading TOML with errors that name file, line and key. Only the loader's sources include this: toml++ stays in this
-// folder.
+// Reading TOML with errors that name file, line and key. Only sources of readers include this: toml++ stays out of
+// other headers.
 #pragma once
 
 #include "harness/scene/scene.h"
