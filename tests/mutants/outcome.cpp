@@ -146,8 +146,11 @@ std::string mutantsReport(const std::vector<Outcome>& outcomes, const std::strin
                         "any class.\n",
                         techniqueCount(faults), share(count(faults, &Outcome::caughtInClass), faults.size()),
                         share(count(faults, &Outcome::caught), faults.size()));
-    text += fmt::format("* Slowdowns: {} caught by instructions.\n",
-                        share(count(slowdowns, &Outcome::caughtInClass), slowdowns.size()));
+    const std::vector<Outcome> noticeable =
+        those(slowdowns, [](const Outcome& o) { return o.slowdown.value_or(0) >= 0.01; });
+    text += fmt::format("* Slowdowns: {} caught by instructions; of 1 % or more, {}.\n",
+                        share(count(slowdowns, &Outcome::caughtInClass), slowdowns.size()),
+                        share(count(noticeable, &Outcome::caughtInClass), noticeable.size()));
     text += byClass(outcomes);
 
     text += "\n## Faults\n\n`Beyond` is the change in units of what `compare` allows.\n\n"
