@@ -49,7 +49,8 @@ constexpr std::array watched{
                 return r.stability.convergence ? std::optional<double>(*r.stability.convergence) : std::nullopt;
             }},
     Watched{"lod.pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::pop); }, Graded::No, 0, 0.01},
-    Watched{"lod.walk_pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::walkPop); }, Graded::No, 0, 0.01},
+    Watched{"lod.walk_pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::walkPop); }, Graded::No,
+            twoPixels, 0.01},
     Watched{"lod.colour_error", Class::Colour, [](const Record& r) { return lodScore(r, &Lod::colourError); }, Graded::No, 0,
             0.01},
     Watched{"lod.order_error", Class::Colour, [](const Record& r) { return lodScore(r, &Lod::orderError); }, Graded::No, 0,

@@ -10,6 +10,7 @@ namespace shadowbench::gate {
 namespace {
 
 using test::hardRecord;
+using test::lodRecord;
 using test::softRecord;
 
 std::vector<Change> worse(const Record& base, const Record& head) {
@@ -69,6 +70,28 @@ TEST(Compare, GradedErrorsAreComparedInUnitsOfTheTruthsOwn) {
     EXPECT_TRUE(worse(base, head).empty());
     head.accuracy.rmse = 0.031 + 7e-6;
     EXPECT_EQ(onlyWorseClass(base, head), Class::Penumbra);
+}
+
+TEST(Compare, LevelsOfDetailAreWatched) {
+    const Record base = lodRecord(); // its walk pops less than lod-full: −0.0002
+    EXPECT_TRUE(worse(base, base).empty());
+    Record head = base;
+    head.lod->pop = 0.0012;
+    EXPECT_EQ(onlyWorseClass(base, head), Class::Flicker);
+
+    head = base;
+    head.lod->walkPop = -0.0002 + 2.0 / (256 * 256); // two pixels from black to white
+    EXPECT_TRUE(worse(base, head).empty());
+    head.lod->walkPop = -0.0002 + 3.0 / (256 * 256);
+    EXPECT_EQ(onlyWorseClass(base, head), Class::Flicker);
+
+    head = base;
+    head.lod->colourError = 0.065;
+    EXPECT_EQ(onlyWorseClass(base, head), Class::Colour);
+
+    head = base;
+    head.lod->noise = -0.0029; // nearer to 0 from below is worse, too
+    EXPECT_EQ(onlyWorseClass(base, head), Class::Colour);
 }
 
 TEST(Compare, HalfAPerCentOfInstructionsIsTheLimit) {
