@@ -32,8 +32,8 @@ ExitCode dispatch(int argc, char** argv) {
         "5 inconclusive.\nEvery verb has --help with an example.");
 
     Action action;
-    for (const auto& add :
-         {addList, addRun, addReference, addSweep, addRecommend, addClaims, addCompare, addCache, addReport, addCountFrames})
+    for (const auto& add : {addList, addRun, addMerge, addReference, addSweep, addRecommend, addClaims, addCompare, addGate,
+                            addHistory, addCache, addReport, addCountFrames, addTimeFrames})
         add(app, action);
 
     requireKnownVerb(app, {argv + std::min(argc, 1), argv + argc});

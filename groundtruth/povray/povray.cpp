@@ -86,7 +86,8 @@ bool diskIsFull(const std::filesystem::path& folder) {
 
 [[noreturn]] void throwDiskFull(const std::filesystem::path& folder) {
     throw Inconclusive(fmt::format("POV-Ray could not render: the disk of {} is full; free some space or set TMPDIR",
-                                   folder.parent_path().string()));
+                                   folder.parent_path().string()),
+                       Failure::Transient);
 }
 
 void writeScene(const std::filesystem::path& file, const std::string& text) {
@@ -103,14 +104,17 @@ void requireSuccess(const Finished& finished, const Messages& messages, const Co
     const double seconds = std::chrono::duration<double>(command.limit).count();
     if (finished.timedOut)
         throw Inconclusive(
-            fmt::format("POV-Ray was stopped after its limit of {:g} s; ask for fewer samples or pixels", seconds));
+            fmt::format("POV-Ray was stopped after its limit of {:g} s; ask for fewer samples or pixels", seconds),
+            Failure::Transient);
     if (finished.signal == 0 && finished.exitCode == 0) return;
     if (diskIsFull(command.folder)) throwDiskFull(command.folder);
     if (finished.signal != 0)
         throw Inconclusive(fmt::format("POV-Ray was killed by signal {} ({}): {}; run it again", finished.signal,
-                                       strsignal(finished.signal), messages.relevant()));
+                                       strsignal(finished.signal), messages.relevant()),
+                           Failure::Transient);
     throw Inconclusive(
-        fmt::format("POV-Ray failed with exit code {}: {}; run it again", finished.exitCode, messages.relevant()));
+        fmt::format("POV-Ray failed with exit code {}: {}; run it again", finished.exitCode, messages.relevant()),
+        Failure::Transient);
 }
 
 /// A channel holds k/unit for a whole k ≤ most; anything else means that POV-Ray did not render the scene that was written.
@@ -151,7 +155,7 @@ Image<float> readImage(const std::filesystem::path& file, int channel, glm::ivec
         if (image.width() == size.x && image.height() == size.y) return image;
     }
     if (diskIsFull(file.parent_path())) throwDiskFull(file.parent_path());
-    throw Inconclusive("POV-Ray ended without a complete image; run it again");
+    throw Inconclusive("POV-Ray ended without a complete image; run it again", Failure::Transient);
 }
 
 /// Blue without the hit mask's share, which goes to `hit`.

@@ -7,107 +7,77 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <tuple>
 
 namespace shadowbench::gate {
 namespace {
 
-/// A metric that is watched from commit to commit; smaller is better.
-struct Watched {
-    std::string_view metric; // path in the record
-    Class watchedClass;
-    std::optional<double> (*value)(const Record&);
-    bool graded = false; // compared with the truth's fractions, so that the truth's σ counts
-    double pixels = 0;   // this many pixels of change mean nothing
-    double relative = 0; // nor does this share of the base's value
-};
-
 /// Rendering is the same to the bit from run to run, so the only allowance that exact truths need is for what an innocent
 /// change of rounding may do: a pixel or two whose centre lies on an edge.
 constexpr double onePixel = 1, twoPixels = 2;
+constexpr double strayEdge = 0.002; // px: two pixels beside an edge of a thousand, as long as the scenes' are
+
+std::optional<double> lodScore(const Record& record, double Lod::*score) {
+    return record.lod ? std::optional(*record.lod.*score) : std::nullopt;
+}
 
 constexpr std::array watched{
-    Watched{"accuracy.mismatch", Class::Labels, [](const Record& r) { return r.accuracy.mismatch; }, false, twoPixels},
-    Watched{"accuracy.false_shadow", Class::FalseShadow, [](const Record& r) { return r.accuracy.falseShadow; }, false,
+    Watched{"accuracy.mismatch", Class::Labels, [](const Record& r) { return r.accuracy.mismatch; }, Graded::No, twoPixels},
+    Watched{"accuracy.false_shadow", Class::FalseShadow, [](const Record& r) { return r.accuracy.falseShadow; }, Graded::No,
             twoPixels},
-    Watched{"accuracy.leak", Class::Leak, [](const Record& r) { return r.accuracy.leak; }, false, twoPixels},
-    Watched{"accuracy.mismatch_off_edge", Class::Labels, [](const Record& r) { return r.accuracy.mismatchOffEdge; }, false,
-            onePixel},
+    Watched{"accuracy.leak", Class::Leak, [](const Record& r) { return r.accuracy.leak; }, Graded::No, twoPixels},
+    Watched{"accuracy.mismatch_off_edge", Class::Labels, [](const Record& r) { return r.accuracy.mismatchOffEdge; },
+            Graded::No, onePixel},
     Watched{"accuracy.edge_error.mean", Class::Edge,
             [](const Record& r) { return r.accuracy.edgeError ? std::optional(r.accuracy.edgeError->mean) : std::nullopt; },
-            false, 0, 0.01},
+            Graded::No, 0, 0.01, strayEdge},
     Watched{"accuracy.edge_error.signed", Class::Edge,
             [](const Record& r) {
                 return r.accuracy.edgeError ? std::optional(std::abs(r.accuracy.edgeError->signedMean)) : std::nullopt;
             },
-            false, 0, 0.01},
-    Watched{"accuracy.rmse", Class::Penumbra, [](const Record& r) { return r.accuracy.rmse; }, true},
-    Watched{"accuracy.penumbra_rmse", Class::Penumbra, [](const Record& r) { return r.accuracy.penumbraRmse; }, true},
-    Watched{"accuracy.umbra_leak", Class::Leak, [](const Record& r) { return r.accuracy.umbraLeak; }, true},
-    Watched{"accuracy.bad30", Class::Penumbra, [](const Record& r) { return r.accuracy.bad30; }, false, twoPixels},
+            Graded::No, 0, 0.01, strayEdge},
+    Watched{"accuracy.rmse", Class::Penumbra, [](const Record& r) { return r.accuracy.rmse; }, Graded::Rms},
+    Watched{"accuracy.penumbra_rmse", Class::Penumbra, [](const Record& r) { return r.accuracy.penumbraRmse; }, Graded::Rms},
+    Watched{"accuracy.umbra_leak", Class::Leak, [](const Record& r) { return r.accuracy.umbraLeak; }, Graded::Mean},
+    Watched{"accuracy.bad30", Class::Penumbra, [](const Record& r) { return r.accuracy.bad30; }, Graded::No, twoPixels},
     Watched{"stability.flicker.mean", Class::Flicker,
             [](const Record& r) { return r.stability.flicker ? std::optional(r.stability.flicker->mean) : std::nullopt; },
-            true, 0, 0.01},
-    Watched{"stability.flip_rate", Class::Flicker, [](const Record& r) { return r.stability.flipRate; }, false, twoPixels,
-            0.01},
+            Graded::Mean, 0, 0.01},
+    Watched{"stability.flip_rate", Class::Flicker, [](const Record& r) { return r.stability.flipRate; }, Graded::No,
+            twoPixels, 0.01},
     Watched{"stability.convergence", Class::Flicker,
             [](const Record& r) {
                 return r.stability.convergence ? std::optional<double>(*r.stability.convergence) : std::nullopt;
             }},
-    Watched{"lod.pop", Class::Flicker, [](const Record& r) { return r.lod ? std::optional(r.lod->pop) : std::nullopt; },
-            false, 0, 0.01},
-    Watched{"lod.walk_pop", Class::Flicker,
-            [](const Record& r) { return r.lod ? std::optional(r.lod->walkPop) : std::nullopt; }, false, twoPixels, 0.01},
-    Watched{"lod.colour_error", Class::Colour,
-            [](const Record& r) { return r.lod ? std::optional(r.lod->colourError) : std::nullopt; }, false, 0, 0.01},
-    Watched{"lod.noise", Class::Colour, [](const Record& r) { return r.lod ? r.lod->noise : std::nullopt; }, false, 0, 0.01},
-    Watched{"lod.order_error", Class::Colour,
-            [](const Record& r) { return r.lod ? std::optional(r.lod->orderError) : std::nullopt; }, false, 0, 0.01},
+    Watched{"lod.pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::pop); }, Graded::No, 0, 0.01},
+    Watched{"lod.walk_pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::walkPop); }, Graded::No,
+            twoPixels, 0.01},
+    Watched{"lod.colour_error", Class::Colour, [](const Record& r) { return lodScore(r, &Lod::colourError); }, Graded::No, 0,
+            0.01},
+    Watched{"lod.order_error", Class::Colour, [](const Record& r) { return lodScore(r, &Lod::orderError); }, Graded::No, 0,
+            0.01},
+    Watched{"lod.noise", Class::Colour, [](const Record& r) { return r.lod ? r.lod->noise : std::nullopt; }, Graded::No, 0,
+            0.01},
     Watched{"cost.instructions", Class::Instructions,
             [](const Record& r) {
                 return r.cost.instructions ? std::optional(static_cast<double>(*r.cost.instructions)) : std::nullopt;
             },
-            false, 0, 0.005},
+            Graded::No, 0, 0.005},
 };
-
-auto cellOf(const Record& r) {
-    const SweepStep step = r.sweep.value_or(SweepStep{});
-    return std::tuple(r.scene, r.variant, r.profile, r.width, r.height, r.seed, step.axis, step.curve, step.value);
-}
 
 void requireOneEnvironment(const Record& base, const Record& head) {
     if (!base.cost.instructions || !head.cost.instructions) return;
-    const auto of = [](const Environment& e) {
-        return fmt::format("{}, {}, {} raster threads, {} bits, {}, {}", e.renderer, e.gl, e.rasterThreads, e.vectorBits,
-                           e.valgrind.value_or("no Valgrind"), e.cpu);
-    };
-    if (of(base.environment) == of(head.environment)) return;
+    const std::string before = countingEnvironment(base.environment), now = countingEnvironment(head.environment);
+    if (before == now) return;
     throw Inconclusive(fmt::format("instructions counted in different environments cannot be compared: base \"{}\", head "
                                    "\"{}\"; count both on one machine",
-                                   of(base.environment), of(head.environment)));
+                                   before, now));
 }
 
 void requireOneTruth(const Record& base, const Record& head) {
-    const auto key = [](const std::optional<ReferenceInfo>& reference) { return reference ? reference->key : ""; };
-    if (key(base.reference) == key(head.reference) && key(base.softReference) == key(head.softReference)) return;
+    if (truthOf(base) == truthOf(head)) return;
     throw Inconclusive(fmt::format("{} on {} was scored against different truths: the scene or the ground truth changed, so "
                                    "the records cannot be compared; make the base's again",
                                    head.variant, head.scene));
-}
-
-/// How much of a change in `metric` may be the truth's own error, a stray pixel or noise.
-double allowance(const Watched& metric, const Record& base, double value) {
-    const double pixels = metric.pixels / (static_cast<double>(base.width) * base.height);
-    const ReferenceInfo none;
-    const double sigma = (base.softReference ? base.softReference : base.reference).value_or(none).sigma;
-    // An error e measured against a truth that is off by σ reads √(e² + σ²).
-    const double truth = metric.graded ? std::hypot(value, sigma) - value : 0;
-    return std::max(pixels, truth) + metric.relative * std::abs(value); // what exceeds lod-full's may be negative
-}
-
-Direction directionOf(double base, double head, double allowance) {
-    if (head > base + allowance) return Direction::Worse;
-    return head < base - allowance ? Direction::Better : Direction::Same;
 }
 
 std::string changed(const Watched& metric, const Record& record, double base, double head) {
@@ -156,7 +126,8 @@ void compareBreakPoints(const Curves& base, const Curves& head, std::vector<Chan
                            : is > was ? Direction::Better
                                       : Direction::Same,
                            fmt::format("{} on {} along {}: it {}, before it {}", step.curve, curve.first->scene, step.axis,
-                                       curve.breakText(), found->second.breakText())});
+                                       curve.breakText(), found->second.breakText()),
+                           step.axis});
     }
 }
 
@@ -213,22 +184,59 @@ std::string_view name(Class c) {
         return "edge";
     case Class::Penumbra:
         return "penumbra";
-    case Class::Colour:
-        return "colour";
     case Class::Flicker:
         return "flicker";
+    case Class::Colour:
+        return "colour";
     case Class::BreakPoint:
         return "break point";
     case Class::Instructions:
         return "instructions";
+    case Class::Time:
+        return "time";
     case Class::Status:
         return "status";
     }
     return "";
 }
 
+std::span<const Watched> watchedMetrics() { return watched; }
+
+double allowance(const Watched& metric, const Record& base, double value) {
+    const double pixels = metric.pixels / (static_cast<double>(base.width) * base.height);
+    const ReferenceInfo none;
+    const double sigma = (base.softReference ? base.softReference : base.reference).value_or(none).sigma;
+    // An error e measured against a truth that is off by σ reads √(e² + σ²). An exact truth is off by nothing, but the label
+    // of a pixel whose centre lies on an edge is anyone's.
+    const double stray = twoPixels / (static_cast<double>(base.width) * base.height);
+    const double off = sigma > 0 ? sigma : metric.graded == Graded::Rms ? std::sqrt(stray) : 0;
+    double truth = metric.graded == Graded::No ? 0 : std::hypot(value, off) - value;
+    if (metric.graded == Graded::Mean && sigma == 0) truth = stray;
+    return std::max({pixels, truth, metric.absolute}) + metric.relative * std::abs(value);
+}
+
+Direction directionOf(double base, double head, double allowance) {
+    if (head > base + allowance) return Direction::Worse;
+    return head < base - allowance ? Direction::Better : Direction::Same;
+}
+
+CellKey cellOf(const Record& r) {
+    const SweepStep step = r.sweep.value_or(SweepStep{});
+    return {r.scene, r.variant, r.profile, r.width, r.height, r.seed, step.axis, step.curve, step.value};
+}
+
+std::string countingEnvironment(const Environment& e) {
+    return fmt::format("{}, {}, {} raster threads, {} bits, {}, {}", e.renderer, e.gl, e.rasterThreads, e.vectorBits,
+                       e.valgrind.value_or("no Valgrind"), e.cpu);
+}
+
+std::string truthOf(const Record& record) {
+    const auto key = [](const std::optional<ReferenceInfo>& reference) { return reference ? reference->key : ""; };
+    return key(record.reference) + " " + key(record.softReference);
+}
+
 std::vector<Change> compare(const std::vector<Record>& base, const std::vector<Record>& head) {
-    std::map<decltype(cellOf(base.front())), const Record*> before;
+    std::map<CellKey, const Record*> before;
     for (const Record& record : base) before[cellOf(record)] = &record;
     std::vector<Change> changes;
     for (const Record& record : head) {

@@ -6,9 +6,15 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 namespace shadowbench::gate {
 namespace {
+
+std::vector<double> negated(std::vector<double> samples) {
+    for (double& sample : samples) sample = -sample;
+    return samples;
+}
 
 double logFloor(const TimeRule& rule) { return std::log1p(rule.floor); }
 
@@ -19,8 +25,9 @@ double medianLowerBound(std::vector<double> samples, double alpha) {
     if (n == 0) return -std::numeric_limits<double>::infinity();
     // The k-th smallest lies above the median when fewer than k samples lie below it: P(Bin(n, ½) ≤ k − 1).
     const boost::math::binomial below(n, 0.5);
-    int rank = 0;
-    while (rank < n && boost::math::cdf(below, rank) <= alpha) ++rank;
+    const auto ranks = std::views::iota(0, n);
+    const auto sure = [&](int k) { return boost::math::cdf(below, k) <= alpha; };
+    const auto rank = std::ranges::partition_point(ranks, sure) - ranks.begin();
     if (rank == 0) return -std::numeric_limits<double>::infinity();
     std::nth_element(samples.begin(), samples.begin() + (rank - 1), samples.end());
     return samples[static_cast<std::size_t>(rank - 1)];
@@ -33,11 +40,13 @@ TimeVerdict judgeTime(const std::vector<double>& logRatios, const TimeRule& rule
     return medianLowerBound(logRatios, rule.alpha / cells / looks) > floor ? TimeVerdict::Slower : TimeVerdict::Unclear;
 }
 
+bool surelyNotSlower(const std::vector<double>& logRatios, const TimeRule& rule) {
+    return -medianLowerBound(negated(logRatios), rule.beta) <= logFloor(rule);
+}
+
 bool controlAlarms(const std::vector<double>& logRatios, const TimeRule& rule, int cells) {
-    std::vector<double> inverse(logRatios.size());
-    std::transform(logRatios.begin(), logRatios.end(), inverse.begin(), std::negate<>());
     const double alpha = rule.alpha / cells / 2; // two sides
-    return std::max(medianLowerBound(logRatios, alpha), medianLowerBound(inverse, alpha)) > logFloor(rule);
+    return std::max(medianLowerBound(logRatios, alpha), medianLowerBound(negated(logRatios), alpha)) > logFloor(rule);
 }
 
 } // namespace shadowbench::gate

@@ -12,6 +12,7 @@ double medianLowerBound(std::vector<double> samples, double alpha);
 struct TimeRule {
     double floor = 0.01; // slowdowns up to this are never a regression: machines differ by as much from one hour to the next
     double alpha = 0.01; // of a false alarm in the whole gate, shared by all cells
+    double beta = 0.01;  // of passing a cell early that is slower by more than the floor, each time it is looked at
 };
 
 enum class TimeVerdict { Pass, Slower, Unclear };
@@ -20,6 +21,10 @@ enum class TimeVerdict { Pass, Slower, Unclear };
 /// `alpha` / `cells`. Unclear: the median does, its bound does not. `looks` is 1 for a cell that is judged once and 2 for
 /// both judgements of one that may be measured again: α is split between them.
 TimeVerdict judgeTime(const std::vector<double>& logRatios, const TimeRule& rule, int cells, int looks);
+
+/// Whether no more rounds are needed to pass the cell: the one-sided upper bound of the median lies at or under the floor
+/// with probability 1 − β.
+bool surelyNotSlower(const std::vector<double>& logRatios, const TimeRule& rule);
 
 /// Whether two equal programs were measured as different, in either direction: then the machine cannot be trusted and the
 /// gate is inconclusive.

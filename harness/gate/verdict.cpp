@@ -9,7 +9,7 @@
 namespace shadowbench::gate {
 namespace {
 
-bool isCost(const Change& change) { return change.changeClass == Class::Instructions; }
+bool isCost(const Change& change) { return change.changeClass == Class::Instructions || change.changeClass == Class::Time; }
 
 bool isWorse(const Change& change) { return change.direction == Direction::Worse; }
 

@@ -55,4 +55,15 @@ std::optional<double> accuracyMetric(const Accuracy& accuracy, std::string_view 
     return finder.found();
 }
 
+std::optional<double> boundedMetric(const Record& record, std::string_view metric) {
+    const Stability& stability = record.stability;
+    if (metric == "flicker") return stability.flicker ? std::optional(stability.flicker->mean) : std::nullopt;
+    if (metric == "flip_rate") return stability.flipRate;
+    if (metric == "convergence") return stability.convergence ? std::optional<double>(*stability.convergence) : std::nullopt;
+    if (metric == "edge_error")
+        return record.accuracy.edgeError ? std::optional(record.accuracy.edgeError->mean) : std::nullopt;
+    if (metric == "pop") return record.lod ? std::optional(record.lod->pop) : std::nullopt;
+    return accuracyMetric(record.accuracy, metric);
+}
+
 } // namespace shadowbench

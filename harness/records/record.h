@@ -179,4 +179,8 @@ std::optional<Headline> headline(const Record& record);
 /// name.
 std::optional<double> accuracyMetric(const Accuracy& accuracy, std::string_view metric);
 
+/// A metric that a scene or the gate may put a bound on, by its name there: those of `accuracy`, and "edge_error", "flicker",
+/// "flip_rate", "convergence", "pop". Nothing where the record lacks it.
+std::optional<double> boundedMetric(const Record& record, std::string_view metric);
+
 } // namespace shadowbench

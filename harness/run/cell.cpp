@@ -196,7 +196,7 @@ std::string cellId(const Truths& truths, const Scene& scene, const techniques::V
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
                                      scene.timeline.still, scene.timeline.moving);
     for (const int frame : truths.scoredFrames())
-        inputs += groundtruth::key(truths.request(mainTruth(variant), frame)) + "\n";
+        inputs += truths.key(mainTruth(variant), frame) + "\n";
     const XXH128_hash_t hash = XXH3_128bits(inputs.data(), inputs.size());
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
@@ -211,11 +211,12 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
 
 void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
              const CellOptions& options, Record& record, CellImages& images) {
-    const std::uint64_t bytesBefore = gl::Context::current().tally().bytes;
-    const auto technique = variant.entry->make(variant.parameters);
     const Truth kind = mainTruth(variant);
     const int scored = scene.timeline.still - 1;
     const bool temporal = variant.entry->temporal;
+    stage.show(temporal ? 0 : scored); // the scene's own buffers, made for the first cell, are not the technique's
+    const std::uint64_t bytesBefore = gl::Context::current().tally().bytes;
+    const auto technique = variant.entry->make(variant.parameters);
 
     const Reference& graded = truths.at(scene.light.isArea() ? Truth::Soft : Truth::Hard, scored);
     StillCurve curve(truths.at(kind, scored), graded, kind == Truth::Hard);

@@ -29,6 +29,12 @@ std::vector<int> scoredFrames(const Scene& scene) {
     return frames;
 }
 
+const std::string& Truths::key(Truth truth, int frame) const {
+    std::string& key = keys_[{truth, frame}];
+    if (key.empty()) key = groundtruth::key(request(truth, frame));
+    return key;
+}
+
 const groundtruth::Reference& Truths::at(Truth truth, int frame, const Progress& progress) {
     const auto found = known_.find({truth, frame});
     if (found != known_.end()) return found->second;

@@ -6,6 +6,7 @@
 #include "harness/scene/scene.h"
 
 #include <map>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -33,6 +34,9 @@ public:
     }
     [[nodiscard]] std::vector<int> scoredFrames() const { return shadowbench::scoredFrames(scene_); }
 
+    /// groundtruth::key of that request, computed once: it asks the tools for their versions.
+    [[nodiscard]] const std::string& key(Truth truth, int frame) const;
+
     /// The reference, valid as long as this object.
     const groundtruth::Reference& at(Truth truth, int frame, const Progress& progress = {});
 
@@ -40,6 +44,7 @@ private:
     const Scene& scene_;
     const groundtruth::Cache& cache_;
     std::map<std::pair<Truth, int>, groundtruth::Reference> known_;
+    mutable std::map<std::pair<Truth, int>, std::string> keys_;
 };
 
 } // namespace shadowbench

@@ -17,8 +17,13 @@ namespace shadowbench {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void failToWrite(const fs::path& file, std::string_view reason) {
-    throw InternalError(fmt::format("cannot write {}: {}; free some space or choose another place", file.string(), reason));
+[[noreturn]] void failToWrite(const fs::path& file, std::string_view reason, Failure failure) {
+    throw InternalError(fmt::format("cannot write {}: {}; free some space or choose another place", file.string(), reason),
+                        failure);
+}
+
+[[noreturn]] void failToWrite(const fs::path& file, int errorNumber) {
+    failToWrite(file, std::strerror(errorNumber), failureOf(errorNumber));
 }
 
 /// A file of its own name beside `target`, removed again unless it was renamed to its target.
@@ -28,7 +33,7 @@ public:
         const std::string extension = target.extension().string();
         std::string name = (target.parent_path() / fmt::format(".{}.XXXXXX{}", target.stem().string(), extension)).string();
         const int descriptor = ::mkstemps(name.data(), static_cast<int>(extension.size()));
-        if (descriptor < 0) failToWrite(target, std::strerror(errno));
+        if (descriptor < 0) failToWrite(target, errno);
         ::fchmod(descriptor, 0644); // mkstemps makes it private to its owner
         ::close(descriptor);
         path_ = name;
@@ -43,17 +48,17 @@ public:
 
     void moveToTarget() {
         flush();
-        if (::rename(path_.c_str(), target_.c_str()) != 0) failToWrite(target_, std::strerror(errno));
+        if (::rename(path_.c_str(), target_.c_str()) != 0) failToWrite(target_, errno);
         path_.clear();
     }
 
 private:
     void flush() const {
         const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-        if (descriptor < 0) failToWrite(target_, std::strerror(errno));
+        if (descriptor < 0) failToWrite(target_, errno);
         const int failed = ::fsync(descriptor) == 0 ? 0 : errno;
         ::close(descriptor);
-        if (failed != 0) failToWrite(target_, std::strerror(failed));
+        if (failed != 0) failToWrite(target_, failed);
     }
 
     fs::path target_, path_;
@@ -61,10 +66,10 @@ private:
 
 void writeWhole(const fs::path& path, const fs::path& target, std::string_view content) {
     std::FILE* stream = std::fopen(path.c_str(), "wb");
-    if (stream == nullptr) failToWrite(target, std::strerror(errno));
+    if (stream == nullptr) failToWrite(target, errno);
     int failed = std::fwrite(content.data(), 1, content.size(), stream) == content.size() ? 0 : errno;
     if (std::fclose(stream) != 0 && failed == 0) failed = errno;
-    if (failed != 0) failToWrite(target, std::strerror(failed));
+    if (failed != 0) failToWrite(target, failed);
 }
 
 /// Insertions, deletions, replacements and swaps of neighbours (optimal string alignment).
@@ -95,9 +100,9 @@ void writeFileWith(const fs::path& file, const std::function<void(const fs::path
     std::error_code failure;
     // Renaming would replace a device or a pipe by a file of the same name.
     if (fs::exists(file, failure) && !fs::is_regular_file(file, failure))
-        failToWrite(file, "it exists and is not a regular file");
+        failToWrite(file, "it exists and is not a regular file", Failure::Lasting);
     if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
-    if (failure) failToWrite(file, failure.message());
+    if (failure) failToWrite(file, failure.value());
     TemporaryFile temporary(file);
     write(temporary.path());
     temporary.moveToTarget();

@@ -159,14 +159,6 @@ std::string firstComment(std::string_view toml) {
     return "";
 }
 
-toml::table parseToml(std::string_view text, const std::string& file) {
-    try {
-        return toml::parse(text, file);
-    } catch (const toml::parse_error& error) {
-        throw BadInput(fmt::format("{}:{}: not valid TOML: {}", file, error.source().begin.line, error.description()));
-    }
-}
-
 /// Points a problem of the whole scene at the deepest key of the file that it is about.
 void requireNoProblem(const TomlValue& root, const Scene& scene) {
     const std::optional<Problem> problem = findProblem(scene);

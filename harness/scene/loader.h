@@ -38,6 +38,9 @@ Track readTrack(const TomlValue& path, const std::string& name);
 /// `[tolerance]`: metric name → worst value that a viewer accepts.
 std::map<std::string, double> readTolerances(const TomlValue& value);
 
+/// Metrics that a bound can be put on, by their names in files.
+const std::vector<std::string>& boundedMetrics();
+
 /// `[expect]`: the techniques that the scene breaks, those that hold, and where they break as a quantity moves.
 void readExpectations(const TomlValue& value, Scene& scene);
 

@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 
 namespace shadowbench {
-namespace {
-
-/// Metrics that a bound can be put on.
 const std::vector<std::string>& boundedMetrics() {
     static const std::vector<std::string> names{"mismatch",
                                                 "mismatch_off_edge",
@@ -26,6 +23,8 @@ const std::vector<std::string>& boundedMetrics() {
                                                 "pop"};
     return names;
 }
+
+namespace {
 
 std::string readSentence(const TomlValue& value) {
     std::string text = value.text();

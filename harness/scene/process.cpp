@@ -11,8 +11,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -53,9 +55,25 @@ std::pair<Descriptor, Descriptor> makePipe() {
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
+/// Like a pipe, but writing to one whose other end is closed is an error and no signal.
+std::pair<Descriptor, Descriptor> makeSockets() {
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+        throw Inconclusive("cannot start a program: " + reason(errno));
+    return {Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
 void limit(__rlimit_resource resource, rlim_t value) {
     const rlimit both{value, value};
     setrlimit(resource, &both);
+}
+
+void stayOn(std::optional<int> cpu) {
+    if (!cpu) return;
+    cpu_set_t only;
+    CPU_ZERO(&only);
+    CPU_SET(*cpu, &only);
+    sched_setaffinity(0, sizeof only, &only);
 }
 
 /// Everything the child needs, laid out before the fork: afterwards only async-signal-safe calls are allowed.
@@ -77,7 +95,7 @@ struct Launch {
     }
 
     /// In the child. Reports errno through `failure` when the program cannot be run.
-    [[noreturn]] void exec(pid_t parent, int output, int failure) const {
+    [[noreturn]] void exec(pid_t parent, int input, int output, int error, int failure) const {
         setpgid(0, 0);
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (getppid() != parent) _exit(127); // it died before the line above took effect
@@ -86,20 +104,73 @@ struct Launch {
         limit(RLIMIT_FSIZE, command.fileLimit);
         limit(RLIMIT_AS, command.memoryLimit);
         limit(RLIMIT_NOFILE, mostOpenFiles);
+        stayOn(command.cpu);
         sigset_t none;
         sigemptyset(&none);
         sigprocmask(SIG_SETMASK, &none, nullptr);
         std::signal(SIGPIPE, SIG_DFL);
 
-        const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
-        if (nothing >= 0 && dup2(nothing, 0) >= 0 && dup2(output, 1) >= 0 && dup2(output, 2) >= 0 &&
-            chdir(command.folder.c_str()) == 0)
+        if (dup2(input, 0) >= 0 && dup2(output, 1) >= 0 && dup2(error, 2) >= 0 && chdir(command.folder.c_str()) == 0)
             execve(argv[0], argv.data(), envp.data());
-        const int error = errno;
-        [[maybe_unused]] const ssize_t written = write(failure, &error, sizeof error);
+        const int cause = errno;
+        [[maybe_unused]] const ssize_t written = write(failure, &cause, sizeof cause);
         _exit(127);
     }
 };
+
+/// Why the child could not run the program; 0 when it does (the pipe closes on exec).
+int startError(int fd) {
+    int error = 0;
+    ssize_t count = 0;
+    do {
+        count = read(fd, &error, sizeof error);
+    } while (count < 0 && errno == EINTR);
+    return count == sizeof error ? error : 0;
+}
+
+/// Starts the program with these descriptors as its standard ones; returns once it runs.
+pid_t start(const Launch& launch, int input, int output, int error) {
+    auto [failure, failureEnd] = makePipe();
+    const pid_t parent = getpid();
+    const pid_t pid = fork();
+    if (pid < 0) {
+        const int reasonNumber = errno;
+        throw Inconclusive(fmt::format("cannot start {}: {}", launch.command.program.string(), reason(reasonNumber)),
+                           failureOf(reasonNumber));
+    }
+    if (pid == 0) launch.exec(parent, input, output, error, failureEnd.get());
+    setpgid(pid, pid); // here too: whoever is first, the group exists before anyone kills it
+    failureEnd.close();
+    if (const int failed = startError(failure.get())) {
+        waitpid(pid, nullptr, 0);
+        throw Inconclusive(fmt::format("cannot start {}: {}", launch.command.program.string(), reason(failed)));
+    }
+    return pid;
+}
+
+Descriptor openNothing() {
+    Descriptor nothing(open("/dev/null", O_RDONLY | O_CLOEXEC));
+    if (nothing.get() < 0) throw Inconclusive("cannot start a program: /dev/null: " + reason(errno));
+    return nothing;
+}
+
+/// A file in `folder` that is gone when nobody has it open.
+Descriptor openNameless(const std::filesystem::path& folder) {
+    Descriptor file(open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR));
+    if (file.get() < 0) throw Inconclusive(fmt::format("cannot start a program: {}: {}", folder.string(), reason(errno)));
+    return file;
+}
+
+/// The last line of a file, without its end; nothing if it is empty.
+std::string lastLine(int file) {
+    std::array<char, longestLine> buffer{};
+    const off_t size = lseek(file, 0, SEEK_END);
+    const ssize_t count =
+        pread(file, buffer.data(), buffer.size(), std::max<off_t>(0, size - static_cast<off_t>(buffer.size())));
+    std::string_view text(buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+    while (text.ends_with('\n')) text.remove_suffix(1);
+    return std::string(text.substr(text.rfind('\n') + 1)); // npos + 1 is the start
+}
 
 /// A running child, killed with its group when it goes out of scope.
 class Child {
@@ -171,16 +242,6 @@ bool readSome(int fd, Lines& lines) {
     return count > 0;
 }
 
-/// Why the child could not run the program; 0 when it does (the pipe closes on exec).
-int startError(int fd) {
-    int error = 0;
-    ssize_t count = 0;
-    do {
-        count = read(fd, &error, sizeof error);
-    } while (count < 0 && errno == EINTR);
-    return count == sizeof error ? error : 0;
-}
-
 Finished decoded(int status) {
     if (WIFSIGNALED(status)) return {0, WTERMSIG(status), false};
     return {WEXITSTATUS(status), 0, false};
@@ -209,19 +270,8 @@ std::optional<std::filesystem::path> findProgram(const std::filesystem::path& na
 Finished runProcess(const Command& command, const OnLine& onLine) {
     const Launch launch(command);
     auto [output, outputEnd] = makePipe();
-    auto [failure, failureEnd] = makePipe();
-
-    const pid_t parent = getpid();
-    const pid_t pid = fork();
-    if (pid < 0) throw Inconclusive(fmt::format("cannot start {}: {}", command.program.string(), reason(errno)));
-    if (pid == 0) launch.exec(parent, outputEnd.get(), failureEnd.get());
-
-    Child child(pid);
-    setpgid(pid, pid); // here too: whoever is first, the group exists before anyone kills it
+    Child child(start(launch, openNothing().get(), outputEnd.get(), outputEnd.get()));
     outputEnd.close();
-    failureEnd.close();
-    if (const int error = startError(failure.get()))
-        throw Inconclusive(fmt::format("cannot start {}: {}", command.program.string(), reason(error)));
 
     Lines lines(onLine);
     const Clock::time_point end = Clock::now() + command.limit;
@@ -235,7 +285,8 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
             open = readSome(output.get(), lines);
         status = child.poll();
         if (!status && DeferredInterrupts::pending())
-            throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()));
+            throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()),
+                               Failure::Transient);
         if (!status && Clock::now() >= end) {
             Finished late = decoded(child.kill());
             late.timedOut = true;
@@ -245,6 +296,68 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
     while (open && readable(output.get(), {})) open = readSome(output.get(), lines); // what was still in the pipe
     lines.flush();
     return decoded(*status);
+}
+
+struct Dialogue::Running {
+    std::string name;
+    std::chrono::milliseconds limit;
+    Descriptor input, output, errors;
+    Child child;
+
+    Running(const Command& command, Descriptor in, Descriptor out, Descriptor errorFile, pid_t pid)
+        : name(command.program.filename().string()), limit(command.limit), input(std::move(in)), output(std::move(out)),
+          errors(std::move(errorFile)), child(pid) {}
+
+    [[noreturn]] void fail(const std::string& what) const {
+        const std::string said = lastLine(errors.get());
+        throw Inconclusive(fmt::format("{} {}{}{}", name, what, said.empty() ? "" : "; it said: ", said));
+    }
+
+    void send(std::string_view line) const {
+        const std::string bytes = std::string(line) + '\n';
+        for (std::size_t sent = 0; sent < bytes.size();) {
+            const ssize_t count = ::send(input.get(), bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+            if (count < 0 && errno == EINTR) continue;
+            if (count < 0) fail("ended while it was being asked");
+            sent += static_cast<std::size_t>(count);
+        }
+    }
+
+    [[nodiscard]] std::string receive() const {
+        const Clock::time_point end = Clock::now() + limit;
+        std::string line;
+        for (char c = 0;;) {
+            if (!readable(output.get(), std::chrono::milliseconds(100))) {
+                if (DeferredInterrupts::pending()) fail("was stopped: the run was interrupted");
+                if (Clock::now() >= end) fail("did not answer in time");
+                continue;
+            }
+            const ssize_t count = read(output.get(), &c, 1);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) fail("ended while it was being asked");
+            if (line.size() == longestLine) fail("answered without end");
+            if (c == '\n') return line;
+            line += c;
+        }
+    }
+};
+
+Dialogue::Dialogue(const Command& command) {
+    const Launch launch(command);
+    auto [input, inputEnd] = makeSockets();
+    auto [output, outputEnd] = makePipe();
+    Descriptor errors = openNameless(command.folder);
+    const pid_t pid = start(launch, input.get(), outputEnd.get(), errors.get());
+    running_ = std::make_unique<Running>(command, std::move(inputEnd), std::move(output), std::move(errors), pid);
+}
+
+Dialogue::~Dialogue() = default;
+Dialogue::Dialogue(Dialogue&&) noexcept = default;
+Dialogue& Dialogue::operator=(Dialogue&&) noexcept = default;
+
+std::string Dialogue::ask(std::string_view line) {
+    running_->send(line);
+    return running_->receive();
 }
 
 } // namespace shadowbench

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,7 @@ struct Command {
     std::chrono::seconds cpuLimit{120};                   // of all its threads
     std::uintmax_t fileLimit = 64 << 20;                  // bytes, largest file the child may write
     std::uintmax_t memoryLimit = std::uintmax_t{4} << 30; // bytes of address space, more than is ever used of it
+    std::optional<int> cpu = {};                          // the only one it may run on
 };
 
 struct Finished {
@@ -38,5 +40,24 @@ using OnLine = std::function<void(std::string_view)>;
 /// when this returns or `onLine` throws. Throws Inconclusive when the program cannot be started, and when the user
 /// interrupts while a DeferredInterrupts is held.
 Finished runProcess(const Command& command, const OnLine& onLine);
+
+/// A program that runs on and answers each line it is sent with a line. It dies with the object or the thread that made it,
+/// however that ends.
+class Dialogue {
+public:
+    /// Starts it. `command.limit` bounds the wait for each answer. Throws Inconclusive when it cannot be started.
+    explicit Dialogue(const Command& command);
+    ~Dialogue();
+    Dialogue(Dialogue&&) noexcept;
+    Dialogue& operator=(Dialogue&&) noexcept;
+
+    /// Sends `line` (without its end) and waits for the answer. Throws Inconclusive, with the last line of the program's
+    /// standard error, when it has ended, is late, or the user interrupts while a DeferredInterrupts is held.
+    std::string ask(std::string_view line);
+
+private:
+    struct Running;
+    std::unique_ptr<Running> running_;
+};
 
 } // namespace shadowbench

@@ -22,8 +22,10 @@ constexpr std::string_view unique = "XXXXXX"; // replaced by mkdtemp
 int openFolder(const fs::path& folder) { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC); }
 
 [[noreturn]] void failToMake(const fs::path& parent) {
+    const int error = errno;
     throw Inconclusive(fmt::format("cannot make a temporary folder in {}: {}; free some space or set TMPDIR",
-                                   parent.string(), std::generic_category().message(errno)));
+                                   parent.string(), std::generic_category().message(error)),
+                       failureOf(error));
 }
 
 fs::path makeFolder(const fs::path& parent) {

@@ -146,4 +146,12 @@ TomlValue TomlValue::get(std::string_view name) const {
 
 std::string_view TomlValue::lastKey() const { return std::string_view(key_).substr(key_.rfind('.') + 1); }
 
+toml::table parseToml(std::string_view text, const std::string& file) {
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& error) {
+        throw BadInput(fmt::format("{}:{}: not valid TOML: {}", file, error.source().begin.line, error.description()));
+    }
+}
+
 } // namespace shadowbench

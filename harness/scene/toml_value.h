@@ -1,5 +1,4 @@
-// Reading TOML with errors that name file, line and key. Only sources of readers include this: toml++ stays out of
-// other headers.
+// Reading TOML with errors that name file, line and key. Only sources that read a TOML file include this: it brings toml++.
 #pragma once
 
 #include "harness/scene/scene.h"
@@ -57,5 +56,8 @@ private:
     std::string key_;
     const toml::node* node_;
 };
+
+/// The root table of a file's text. Throws BadInput with file and line when it is not TOML.
+toml::table parseToml(std::string_view text, const std::string& file);
 
 } // namespace shadowbench

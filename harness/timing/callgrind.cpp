@@ -82,7 +82,8 @@ Counts countInstructions(const CountJob& job, const std::function<void(std::stri
     });
     if (finished.timedOut || finished.signal != 0 || finished.exitCode != 0)
         throw Inconclusive(fmt::format("counting instructions on scene {} {}: {}", job.scene,
-                                       finished.timedOut ? "took more than 30 minutes" : "failed under Valgrind", last));
+                                       finished.timedOut ? "took more than 30 minutes" : "failed under Valgrind", last),
+                           finished.signal != 0 ? Failure::Transient : Failure::Lasting);
     Counts counts;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
         if (!entry.path().filename().string().starts_with("counts.")) continue; // "counts" itself is what came after

@@ -22,7 +22,8 @@ struct CountJob {
     std::uint32_t seed = 1;
 };
 
-/// Instructions a frame by variant: G-buffer and technique, once shaders are compiled and history is warm.
+/// Instructions a frame by variant, once shaders are compiled and history is warm: G-buffer and technique, or what a
+/// level-of-detail technique draws in the third frame of the walk.
 using Counts = std::map<std::string, std::uint64_t>;
 
 /// "valgrind-3.19.0"; throws Inconclusive, naming the package to install, when there is no Valgrind.

@@ -21,16 +21,6 @@ std::vector<std::string> scenesWithExpectations() {
     return ids;
 }
 
-/// A metric that scenes may put a bound on; nothing where the cell has none.
-std::optional<double> metricOf(const Record& record, const std::string& metric) {
-    const auto& stability = record.stability;
-    if (metric == "flicker") return stability.flicker ? std::optional(stability.flicker->mean) : std::nullopt;
-    if (metric == "flip_rate") return stability.flipRate;
-    if (metric == "convergence" && stability.convergence) return *stability.convergence;
-    if (metric == "edge_error" && record.accuracy.edgeError) return record.accuracy.edgeError->mean;
-    return accuracyMetric(record.accuracy, metric);
-}
-
 bool needsMovingFrames(const Scene& scene) {
     const auto aboutMotion = [](const Expectation& e) { return e.metric == "flicker" || e.metric == "flip_rate"; };
     return std::any_of(scene.fails.begin(), scene.fails.end(), aboutMotion) ||
@@ -60,7 +50,7 @@ protected:
         auto known = records_.find(expectation.technique);
         if (known == records_.end())
             known = records_.emplace(expectation.technique, scored(scene_, expectation.technique)).first;
-        const std::optional<double> value = metricOf(known->second, expectation.metric);
+        const std::optional<double> value = boundedMetric(known->second, expectation.metric);
         EXPECT_TRUE(value.has_value()) << expectation.technique << " has no " << expectation.metric << " on this scene";
         return value;
     }

@@ -44,6 +44,18 @@ TEST_F(Gate, InstructionCountsAreTheSameInEveryRun) {
     EXPECT_EQ(compare("first", "second").code, 0);
 }
 
+TEST_F(Gate, LevelsOfDetailAreCountedToo) {
+    const Outcome outcome = shell("shadowbench run --quiet --scene simple --cost instructions --technique lod-switch "
+                                  "--technique lod-frame-sequential --cache " +
+                                  (folder_ / "cache") + " --out " + (folder_ / "lod"));
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const std::vector<Record> counted = records("lod");
+    ASSERT_EQ(counted.size(), 2U);
+    ASSERT_TRUE(counted[0].cost.instructions && counted[1].cost.instructions);
+    EXPECT_GT(*counted[1].cost.instructions, *counted[0].cost.instructions); // it draws as much, and combines two buffers
+    EXPECT_EQ(compare("lod", "lod").code, 0);
+}
+
 TEST_F(Gate, WithoutValgrindAnInstructionCountIsInconclusive) {
     const Outcome outcome =
         shell("PATH=/nowhere " + std::string(PROGRAM) + " run --quiet --scene " + scene_ + " --cache " +

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 TEST(CommandLine, HelpOfTheProgramAndOfEveryVerbHasAnExample) {
     EXPECT_EQ(shell("shadowbench --help").code, 0);
-    for (const std::string verb : {"list", "run", "reference", "sweep", "recommend", "claims", "compare", "report", "cache",
+    for (const std::string verb : {"list", "run", "merge", "reference", "sweep", "recommend", "claims", "compare", "report", "cache",
                                    "cache list", "cache verify", "cache prune"}) {
         const Outcome help = shell("shadowbench " + verb + " --help");
         EXPECT_EQ(help.code, 0) << verb;

@@ -165,5 +165,28 @@ TEST(Verdict, AnnotationsAreOneLineForEachThingThatIsWorse) {
     EXPECT_TRUE(lines.starts_with("::error title="));
 }
 
+TEST(Compare, AgainstAnExactTruthTwoPixelsOnAnEdgeMeanNothing) {
+    Record base = hardRecord(), head = base; // a filtered technique's, σ = 0; of 256² pixels two are 3.1e-5
+    base.accuracy.rmse = 0.1;
+    base.accuracy.umbraLeak = 1.4e-11;
+    head.accuracy.rmse = 0.1 + 1e-4; // √(0.1² + 3.1e-5) − 0.1 = 1.5e-4
+    head.accuracy.umbraLeak = 1.7e-11;
+    EXPECT_TRUE(worse(base, head).empty());
+    head.accuracy.rmse = 0.1 + 2e-4;
+    EXPECT_EQ(onlyWorseClass(base, head), Class::Penumbra);
+    head.accuracy.rmse = 0.1;
+    head.accuracy.umbraLeak = 5e-5;
+    EXPECT_EQ(onlyWorseClass(base, head), Class::Leak);
+}
+
+TEST(Compare, AnEdgeMovedByLessThanTwoPixelsInAThousandStays) {
+    Record base = hardRecord(), head = base;
+    base.accuracy.edgeError->signedMean = 0.0002;
+    head.accuracy.edgeError->signedMean = 0.0021;
+    EXPECT_TRUE(worse(base, head).empty());
+    head.accuracy.edgeError->signedMean = -0.0030;
+    EXPECT_EQ(onlyWorseClass(base, head), Class::Edge);
+}
+
 } // namespace
 } // namespace shadowbench::gate

@@ -1,6 +1,7 @@
 // The paired-time rule against the binomial distribution's own figures, then its error rates on simulated frames.
 #include "harness/gate/paired.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -35,6 +36,19 @@ TEST(TimeRule, AConstantSlowdownIsJudgedByTheFloor) {
     EXPECT_EQ(judgeTime(std::vector<double>(100, std::log(1.009)), rule, 200, 1), TimeVerdict::Pass);
     EXPECT_EQ(judgeTime(std::vector<double>(100, std::log(0.9)), rule, 200, 1), TimeVerdict::Pass);
     EXPECT_EQ(judgeTime(std::vector<double>(10, std::log(1.5)), rule, 200, 1), TimeVerdict::Unclear); // 2⁻¹⁰ > 0.01/200
+}
+
+TEST(TimeRule, ACellPassesEarlyOnlyByItsUpperBound) {
+    const TimeRule rule;
+    EXPECT_TRUE(surelyNotSlower(std::vector<double>(20, std::log(1.009)), rule));
+    EXPECT_FALSE(surelyNotSlower(std::vector<double>(20, std::log(1.011)), rule));
+    EXPECT_FALSE(surelyNotSlower(std::vector<double>(6, 0), rule)); // 2⁻⁶ > 0.01: too few to be sure of anything
+    // The upper bound of 20 rounds at 1 % is the fifth largest, P(Bin(20, ½) ≤ 4) = 0.0059: five slow rounds are too many.
+    std::vector<double> ratios(20, 0);
+    std::fill_n(ratios.begin(), 4, 0.1);
+    EXPECT_TRUE(surelyNotSlower(ratios, rule));
+    ratios[4] = 0.1;
+    EXPECT_FALSE(surelyNotSlower(ratios, rule));
 }
 
 TEST(TimeRule, TheControlAlarmsInBothDirections) {

@@ -1,0 +1,60 @@
+#include "harness/gate/bounds.h"
+
+#include <fmt/format.h>
+
+namespace shadowbench::gate {
+namespace {
+
+Class classOf(const std::string& metric) {
+    if (metric == "false_shadow") return Class::FalseShadow;
+    if (metric == "leak" || metric == "umbra_leak") return Class::Leak;
+    if (metric == "edge_error") return Class::Edge;
+    if (metric == "flicker" || metric == "flip_rate" || metric == "convergence" || metric == "pop") return Class::Flicker;
+    return metric.starts_with("mismatch") ? Class::Labels : Class::Penumbra;
+}
+
+Change judged(const Record& record, const Bound& bound) {
+    const std::optional<double> value = boundedMetric(record, bound.metric);
+    const bool kept = value && (bound.below ? *value < bound.value : *value > bound.value);
+    const std::string is = value ? fmt::format("is {}", *value) : "is not measured";
+    const std::string what = bound.below ? fmt::format("must be below {}", bound.value)
+                                         : fmt::format("is expected to fail, above {}", bound.value);
+    return {
+        record.scene,
+        record.variant,
+        "bound." + bound.metric,
+        classOf(bound.metric),
+        bound.value,
+        value,
+        0,
+        kept ? Direction::Same : Direction::Worse,
+        fmt::format("{} on {}: {} {} and {}: {}", record.variant, record.scene, bound.metric, is, what, bound.cells.reason)};
+}
+
+std::vector<Bound> listOf(const Scene& scene, const std::vector<Expectation>& expectations, bool below) {
+    std::vector<Bound> bounds;
+    for (const Expectation& e : expectations)
+        bounds.push_back({{scene.id, {e.technique}, {}, e.reason}, e.metric, e.bound, below});
+    return bounds;
+}
+
+} // namespace
+
+std::vector<Bound> boundsOf(const Scene& scene) {
+    std::vector<Bound> bounds = listOf(scene, scene.holds, true);
+    for (Bound& failure : listOf(scene, scene.fails, false)) bounds.push_back(std::move(failure));
+    return bounds;
+}
+
+std::vector<Change> judgeBounds(const std::vector<Record>& records, const std::vector<Bound>& bounds) {
+    std::vector<Change> changes;
+    for (const Record& record : records) {
+        if (record.status != Status::Scored || record.sweep) continue;
+        for (const Bound& bound : bounds)
+            if (bound.cells.scene == record.scene && bound.cells.covers(record.variant))
+                changes.push_back(judged(record, bound));
+    }
+    return changes;
+}
+
+} // namespace shadowbench::gate

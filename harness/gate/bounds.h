@@ -1,0 +1,18 @@
+// Scores that techniques must keep, whatever they were before.
+#pragma once
+
+#include "harness/gate/compare.h"
+#include "harness/gate/watchlist.h"
+
+#include <vector>
+
+namespace shadowbench::gate {
+
+/// What a scene's `[expect]` says, as bounds.
+std::vector<Bound> boundsOf(const Scene& scene);
+
+/// One change for every bound and record that it covers: Worse when the bound is broken. An expected failure that has
+/// stopped failing is broken, too; a metric that the record lacks as well.
+std::vector<Change> judgeBounds(const std::vector<Record>& records, const std::vector<Bound>& bounds);
+
+} // namespace shadowbench::gate

@@ -1,0 +1,61 @@
+#include "harness/gate/failure_pictures.h"
+
+#include "harness/run/cell_images.h"
+
+#include <algorithm>
+
+namespace shadowbench::gate {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t mostCells = 12; // more show the same fault again
+
+using Cells = std::vector<std::pair<std::string, std::string>>; // scene, variant
+
+Cells failing(const std::vector<Change>& changes, const Plan& plan) {
+    Cells cells;
+    for (const Change& change : changes) {
+        const bool drawn = change.direction == Direction::Worse && change.changeClass != Class::Instructions &&
+                           change.changeClass != Class::Time && change.changeClass != Class::BreakPoint;
+        if (!drawn || !plan.chooses(change.scene, change.variant) || cells.size() == mostCells) continue;
+        if (std::ranges::find(cells, std::pair(change.scene, change.variant)) == cells.end())
+            cells.emplace_back(change.scene, change.variant);
+    }
+    return cells;
+}
+
+void draw(const Program& program, const Cells& cells, const Plan& plan, const fs::path& out, const Progress& progress) {
+    for (const PlannedScene& scene : plan.scenes) {
+        Step step{"pictures of " + scene.id,
+                  {"run", "--scene", scene.argument, "--profile", std::string(name(plan.profile)), "--seed",
+                   std::to_string(plan.seed), "--cost", "none", "--images"},
+                  {},
+                  "results.jsonl"};
+        for (const auto& [id, variant] : cells)
+            if (id == scene.id && program.knowsVariant(variant)) step.techniques.push_back(variant);
+        if (!step.techniques.empty()) program.run(step, out, progress);
+    }
+}
+
+fs::path folderOf(const fs::path& out, const std::string& scene, const std::string& variant) {
+    const fs::path folder = out / "images" / scene / fileName(variant);
+    return fs::exists(folder) ? folder : fs::path();
+}
+
+} // namespace
+
+std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, const Plan& plan, const Program* base,
+                                          const Program& head, const fs::path& out, const Progress& progress) {
+    for (const char* side : {"head", "base"}) fs::remove_all(out / side);
+    const Cells cells = failing(changes, plan);
+    if (cells.empty()) return {};
+    draw(head, cells, plan, out / "head", progress);
+    if (base != nullptr) draw(*base, cells, plan, out / "base", progress);
+    std::vector<FailurePictures> pictures;
+    for (const auto& [scene, variant] : cells)
+        pictures.push_back({scene, variant, folderOf(out / "head", scene, variant), folderOf(out / "base", scene, variant)});
+    return pictures;
+}
+
+} // namespace shadowbench::gate

@@ -1,0 +1,52 @@
+// The gate: measures a base and this program on the same cells and decides whether this one is worse (GATE.md).
+#pragma once
+
+#include "harness/gate/compare.h"
+#include "harness/gate/program.h"
+#include "harness/scene/error.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shadowbench::gate {
+
+struct GateOptions {
+    std::string base;                    // see findBase
+    std::vector<std::string> scenes;     // ids or files; empty: the standard scenes
+    std::vector<std::string> techniques; // variants or globs; empty: all
+    Profile profile = Profile::Gate;
+    std::filesystem::path bounds = "results/bounds.toml";
+    std::filesystem::path out = "results/gate"; // of what is left for people: report and pictures of failing cells
+    std::filesystem::path cache;                // empty: the default
+    std::uint32_t seed = 1;
+    bool instructions = true, time = true; // which costs are judged
+    bool quiet = false;
+};
+
+/// A picture folder of one failing cell: visibility, reference and error.
+struct FailurePictures {
+    std::string scene, variant;
+    std::filesystem::path head, base; // `base` is empty when that is a file of records
+};
+
+struct GateResult {
+    std::string base, head; // names for people
+    std::vector<Change> changes;
+    std::vector<std::string> unjudged; // what nothing can be said of, and why: inconclusive
+    std::vector<std::string> notes;    // what was left out on purpose, or is not certain
+    std::vector<FailurePictures> pictures;
+    std::vector<StepTime> times;
+
+    /// A regression is one whatever else could not be judged; without one, anything unjudged is inconclusive.
+    [[nodiscard]] ExitCode code() const;
+};
+
+/// Throws BadInput for what the user named wrongly, Inconclusive when a program, tool or the base is missing or fails.
+GateResult gate(const GateOptions& options);
+
+/// The command that shows a change again. `base` as the user named it.
+std::string reproduction(const Change& change, const GateOptions& options);
+
+} // namespace shadowbench::gate

@@ -1,0 +1,106 @@
+#include "harness/gate/gate_report.h"
+
+#include "harness/gate/verdict.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace shadowbench::gate {
+namespace {
+
+constexpr std::size_t mostTimes = 5;
+
+std::string verdictText(ExitCode code) {
+    switch (code) {
+    case ExitCode::Pass:
+        return "pass";
+    case ExitCode::CostRegression:
+        return "cost regression";
+    case ExitCode::AccuracyRegression:
+        return "accuracy or stability regression";
+    default:
+        return "inconclusive";
+    }
+}
+
+/// A list under a heading; nothing when it is empty.
+std::string section(const std::string& heading, const std::vector<std::string>& lines, const std::string& format) {
+    if (lines.empty()) return "";
+    std::string text = format == "md" ? fmt::format("\n{}:\n\n", heading) : fmt::format("{}:\n", heading);
+    for (const std::string& line : lines) text += format == "md" ? "* " + line + "\n" : "  " + line + "\n";
+    return text;
+}
+
+std::vector<std::string> commands(const GateResult& result, const GateOptions& options, bool md) {
+    std::vector<std::string> lines;
+    for (const Change& change : result.changes) {
+        if (change.direction != Direction::Worse) continue;
+        const std::string command = reproduction(change, options), line = md ? "`" + command + "`" : command;
+        if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+    }
+    return lines;
+}
+
+std::vector<std::string> pictureLines(const GateResult& result, bool md) {
+    std::vector<std::string> lines;
+    for (const FailurePictures& cell : result.pictures) {
+        std::string line = fmt::format("{} on {}:", cell.variant, cell.scene);
+        for (const auto& [who, folder] : {std::pair("head", cell.head), std::pair("base", cell.base)}) {
+            if (folder.empty()) continue;
+            for (const char* picture : {"visibility", "reference", "error"})
+                line += md ? fmt::format(" [{} {}]({}/{}.png)", who, picture, folder.string(), picture) : "";
+            if (!md) line += fmt::format(" {}", (folder / "{visibility,reference,error}.png").string());
+        }
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+std::vector<std::string> slowest(std::vector<StepTime> times) {
+    std::ranges::sort(times, std::ranges::greater(), &StepTime::seconds);
+    times.resize(std::min(times.size(), mostTimes));
+    std::vector<std::string> lines;
+    for (const StepTime& time : times)
+        if (time.seconds >= 1) lines.push_back(fmt::format("{:.0f} s  {}", time.seconds, time.name));
+    return lines;
+}
+
+/// An argument as a shell takes it.
+std::string quoted(const std::string& word) {
+    return word.find_first_of("*?[]$&;()<>| '\"~") == std::string::npos ? word : "'" + word + "'";
+}
+
+} // namespace
+
+std::string reproduction(const Change& change, const GateOptions& options) {
+    const std::string which = fmt::format("--scene {} --technique {} --profile {} --seed {}", quoted(change.scene),
+                                          quoted(change.variant), name(options.profile), options.seed);
+    switch (change.changeClass) {
+    case Class::Time:
+        return fmt::format("./bench gate --base {} --cost time {}", quoted(options.base), which);
+    case Class::BreakPoint:
+        return fmt::format("./bench sweep --axis {} {}", change.axis, which);
+    case Class::Instructions:
+        return fmt::format("./bench run --cost instructions {}", which);
+    default:
+        return fmt::format("./bench run --images --cost none --out results/reproduced {}", which);
+    }
+}
+
+std::string gateReport(const GateResult& result, const GateOptions& options, const std::string& format) {
+    const bool md = format == "md";
+    std::string text =
+        md ? fmt::format("## shadowbench: {}\n\nHead {}, base {}. ", verdictText(result.code()), result.head, result.base)
+           : "";
+    text += changesReport(result.changes, format);
+    text += section("to see it again", commands(result, options, md), format);
+    text += section("pictures", pictureLines(result, md), format);
+    text += section("not judged", result.unjudged, format);
+    text += section("to note", result.notes, format);
+    text += section("slowest parts", slowest(result.times), format);
+    if (!md) text += fmt::format("gate: {} (head {}, base {})\n", verdictText(result.code()), result.head, result.base);
+    return text;
+}
+
+} // namespace shadowbench::gate

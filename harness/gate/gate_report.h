@@ -1,0 +1,14 @@
+// What a gate tells people.
+#pragma once
+
+#include "harness/gate/gate.h"
+
+#include <string>
+
+namespace shadowbench::gate {
+
+/// "text" for a terminal or "md": the verdict, what is worse and how to see it again, what could not be judged, and the
+/// slowest parts.
+std::string gateReport(const GateResult& result, const GateOptions& options, const std::string& format);
+
+} // namespace shadowbench::gate

@@ -1,0 +1,145 @@
+#include "harness/gate/paired_run.h"
+
+#include "harness/timing/statistics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <sched.h>
+
+namespace shadowbench::gate {
+namespace {
+
+constexpr double turnMilliseconds =
+    4;                         // at least: what a process finds in the caches after the others' turns is then little of it
+constexpr int mostFrames = 16; // a turn
+constexpr int looks = 2;       // a cell may be judged twice, so each time at half the error
+
+enum Contestant : std::size_t { Base, Head, Control };
+
+/// How many frames make a turn long enough: doubled until they do.
+int framesForATurn(timing::FrameWorker& base, const std::string& variant) {
+    int frames = 1;
+    while (frames < mostFrames && base.frames(variant, frames).cpu < turnMilliseconds) frames *= 2;
+    return frames;
+}
+
+class Measurement {
+public:
+    Measurement(const std::filesystem::path& base, const std::filesystem::path& head, const std::vector<TimedCell>& cells,
+                const PairedOptions& options, const Progress& progress)
+        : base_(base), head_(head), cells_(cells), options_(options), progress_(progress), random_(options.seed) {}
+
+    /// Adds one restart, the `restart`-th from 0, to the samples of these cells.
+    void measure(const std::vector<std::size_t>& which, int restart, std::vector<PairedSamples>& samples) {
+        std::size_t done = 0;
+        for (const auto& ofScene : byScene(which)) {
+            std::array<timing::FrameWorker, 3> workers = startWorkers(cells_[ofScene.front()].scene);
+            for (const std::size_t cell : ofScene) {
+                const double share = static_cast<double>(done++) / static_cast<double>(which.size());
+                if (progress_) progress_(std::min(1.0, (restart + share) / options_.restarts), cells_[cell].variant);
+                addRestart(workers, cells_[cell].variant, samples[cell]);
+            }
+        }
+    }
+
+private:
+    [[nodiscard]] std::vector<std::vector<std::size_t>> byScene(const std::vector<std::size_t>& which) const {
+        std::vector<std::vector<std::size_t>> groups;
+        for (const std::size_t cell : which) {
+            const auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<std::size_t>& g) {
+                return cells_[g.front()].scene == cells_[cell].scene;
+            });
+            if (group == groups.end())
+                groups.push_back({cell});
+            else
+                group->push_back(cell);
+        }
+        return groups;
+    }
+
+    [[nodiscard]] std::array<timing::FrameWorker, 3> startWorkers(const std::string& scene) const {
+        const timing::WorkerJob job{scene, options_.profile, options_.seed, sched_getcpu()};
+        return {timing::FrameWorker(base_, job), timing::FrameWorker(head_, job), timing::FrameWorker(base_, job)};
+    }
+
+    void addRestart(std::array<timing::FrameWorker, 3>& workers, const std::string& variant, PairedSamples& samples) {
+        for (timing::FrameWorker& worker : workers) worker.warmUp(variant);
+        if (samples.restarts.empty()) {
+            const int frames = samples.framesPerTurn = framesForATurn(workers[Base], variant);
+            for (const Contestant other : {Head, Control}) // that all have rendered as many: 1 + 2 + … + frames
+                workers[other].frames(variant, 2 * frames - 1);
+        }
+        samples.restarts.emplace_back();
+        std::array<std::size_t, 3> order{Base, Head, Control};
+        for (int round = 0; round < options_.rounds; ++round) {
+            if (round % 2 == 0)
+                std::shuffle(order.begin(), order.end(), random_);
+            else
+                std::reverse(order.begin(), order.end());
+            std::array<timing::FrameTime, 3> times;
+            for (const std::size_t who : order) times[who] = workers[who].frames(variant, samples.framesPerTurn);
+            samples.restarts.back().push_back({times[Base], times[Head], times[Control]});
+        }
+    }
+
+    const std::filesystem::path &base_, &head_;
+    const std::vector<TimedCell>& cells_;
+    const PairedOptions& options_;
+    const Progress& progress_;
+    std::mt19937 random_;
+};
+
+} // namespace
+
+std::vector<double> logRatios(const PairedSamples& samples, timing::FrameTime PairedRound::*who) {
+    std::vector<double> ratios;
+    for (const auto& rounds : samples.restarts)
+        for (const PairedRound& round : rounds) ratios.push_back(std::log((round.*who).cpu / round.base.cpu));
+    return ratios;
+}
+
+bool enough(const PairedSamples& samples, const PairedOptions& options, int cells) {
+    const auto done = static_cast<int>(samples.restarts.size());
+    if (done == 0) return false;
+    const std::vector<double> head = logRatios(samples, &PairedRound::head);
+    if (surelyNotSlower(head, options.rule)) return true;
+    if (done == options.restarts) return judgeTime(head, options.rule, cells, looks) != TimeVerdict::Unclear;
+    return done >= 2 * options.restarts;
+}
+
+TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const PairedOptions& options, int cells) {
+    const std::vector<double> head = logRatios(samples, &PairedRound::head);
+    TimeJudgement judgement;
+    judgement.cell = cell;
+    judgement.verdict = judgeTime(head, options.rule, cells, looks);
+    judgement.ratio = std::exp(timing::median(head));
+    judgement.lowerBound = std::exp(medianLowerBound(head, options.rule.alpha / cells / looks));
+    judgement.rounds = static_cast<int>(head.size());
+    judgement.doubled = static_cast<int>(samples.restarts.size()) > options.restarts;
+    judgement.controlAlarm = controlAlarms(logRatios(samples, &PairedRound::control), options.rule, cells);
+    judgement.samples = std::move(samples);
+    return judgement;
+}
+
+std::vector<TimeJudgement> judgePairedTime(const std::filesystem::path& base, const std::filesystem::path& head,
+                                           const std::vector<TimedCell>& cells, const PairedOptions& options,
+                                           const Progress& progress) {
+    Measurement measurement(base, head, cells, options, progress);
+    const auto count = static_cast<int>(cells.size());
+    std::vector<PairedSamples> samples(cells.size());
+    std::vector<std::size_t> open(cells.size());
+    std::iota(open.begin(), open.end(), std::size_t{0});
+    for (int restart = 0; !open.empty(); ++restart) {
+        measurement.measure(open, restart, samples);
+        std::erase_if(open, [&](std::size_t cell) { return enough(samples[cell], options, count); });
+    }
+    std::vector<TimeJudgement> judgements;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        judgements.push_back(judgeSamples(cells[i], std::move(samples[i]), options, count));
+    return judgements;
+}
+
+} // namespace shadowbench::gate

@@ -1,0 +1,121 @@
+#include "harness/gate/watchlist.h"
+
+#include "harness/scene/error.h"
+#include "harness/scene/files.h"
+#include "harness/scene/loader.h"
+#include "harness/scene/toml_value.h"
+#include "harness/sweep/axis.h"
+#include "techniques/technique.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+namespace shadowbench::gate {
+namespace {
+
+/// Patterns that the catalogue knows, or an error at their place.
+std::vector<std::string> readPatterns(const TomlValue& list) {
+    std::vector<std::string> patterns;
+    for (const TomlValue& entry : list.list()) {
+        patterns.push_back(entry.text());
+        try {
+            techniques::matchVariants(patterns.back());
+        } catch (const Error& error) {
+            entry.fail(error.what());
+        }
+    }
+    if (patterns.empty()) list.fail("names no technique");
+    return patterns;
+}
+
+Watch readWatch(const TomlValue& entry) {
+    Watch watch{entry.get("scene").text(), readPatterns(entry.get("techniques")), {}, entry.get("reason").text()};
+    if (watch.reason.empty()) entry.get("reason").fail("is empty; say it in a few words");
+    if (const auto except = entry.find("except")) watch.except = readPatterns(*except);
+    return watch;
+}
+
+Bound readBound(const TomlValue& entry) {
+    entry.only({"scene", "techniques", "except", "reason", "metric", "below", "above"});
+    const auto below = entry.find("below"), above = entry.find("above");
+    if (below.has_value() == above.has_value()) entry.fail("has either \"below\" or \"above\"");
+    return {readWatch(entry), entry.get("metric").oneOf(boundedMetrics()), (below ? *below : *above).positive(),
+            below.has_value()};
+}
+
+WatchedSweep readSweep(const TomlValue& entry) {
+    entry.only({"scene", "techniques", "except", "reason", "axis", "values"});
+    WatchedSweep sweep{readWatch(entry), entry.get("axis").text(), {}};
+    try {
+        axisNamed(sweep.axis);
+    } catch (const Error& error) {
+        entry.get("axis").fail(error.what());
+    }
+    if (const auto values = entry.find("values"))
+        for (const TomlValue& value : values->list()) sweep.values.push_back(value.number());
+    return sweep;
+}
+
+Watch readPlainWatch(const TomlValue& entry) {
+    entry.only({"scene", "techniques", "except", "reason"});
+    return readWatch(entry);
+}
+
+template <class Read>
+auto readList(const TomlValue& root, const char* key, Read read) {
+    std::vector<decltype(read(root))> list;
+    if (const auto entries = root.find(key))
+        for (const TomlValue& entry : entries->list()) list.push_back(read(entry));
+    return list;
+}
+
+/// The canonical name; nothing for a technique that is still to come, of which scenes may expect something.
+std::optional<std::string> canonical(const std::string& variant) {
+    try {
+        return techniques::parseVariant(variant).name;
+    } catch (const BadInput&) {
+        return std::nullopt;
+    }
+}
+
+bool matches(const std::string& pattern, const std::string& variant) {
+    if (pattern.find_first_of("*?[") == std::string::npos) return canonical(pattern) == variant;
+    return fnmatch(pattern.c_str(), variant.substr(0, variant.find(':')).c_str(), 0) == 0;
+}
+
+bool anyMatches(const std::vector<std::string>& patterns, const std::string& variant) {
+    return std::ranges::any_of(patterns, [&](const std::string& pattern) { return matches(pattern, variant); });
+}
+
+} // namespace
+
+bool Watch::covers(const std::string& variant) const {
+    return anyMatches(techniques, variant) && !anyMatches(except, variant);
+}
+
+std::vector<std::string> Watchlist::strangers(const std::vector<std::string>& known) const {
+    const std::vector<std::string> builtin = builtinScenes();
+    std::vector<std::string> scenes;
+    for (const Bound& bound : bounds) scenes.push_back(bound.cells.scene);
+    for (const WatchedSweep& sweep : sweeps) scenes.push_back(sweep.cells.scene);
+    for (const Watch& watch : counted) scenes.push_back(watch.scene);
+    for (const Watch& watch : timed) scenes.push_back(watch.scene);
+    std::ranges::sort(scenes);
+    scenes.erase(std::ranges::unique(scenes).begin(), scenes.end());
+    std::erase_if(scenes, [&](const std::string& scene) {
+        return std::ranges::find(builtin, scene) != builtin.end() || std::ranges::find(known, scene) != known.end();
+    });
+    return scenes;
+}
+
+Watchlist readWatchlist(const std::filesystem::path& file, Profile profile) {
+    const TomlSource source{file.string(), profile};
+    const toml::table table = parseToml(readFile(file), source.file);
+    const TomlValue root(source, "", table);
+    root.only({"bound", "sweep", "count", "time"});
+    return {readList(root, "bound", readBound), readList(root, "sweep", readSweep), readList(root, "count", readPlainWatch),
+            readList(root, "time", readPlainWatch)};
+}
+
+} // namespace shadowbench::gate

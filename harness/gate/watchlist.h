@@ -1,0 +1,52 @@
+// What the gate watches beside the run itself, as data: results/bounds.toml.
+#pragma once
+
+#include "harness/scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shadowbench::gate {
+
+/// Techniques on one scene; patterns as `run --technique` takes them.
+struct Watch {
+    std::string scene;                    // id
+    std::vector<std::string> techniques;  // variants, or globs over ids
+    std::vector<std::string> except = {}; // these of them are left out
+    std::string reason;
+
+    /// Whether a technique's variant, by its canonical name, is meant.
+    [[nodiscard]] bool covers(const std::string& variant) const;
+};
+
+/// A score that a technique must keep on a scene, whatever the base does.
+struct Bound {
+    Watch cells;
+    std::string metric; // as `boundedMetric` knows it
+    double value = 0;
+    bool below = true; // false: an expected failure, which must lie above
+};
+
+/// A curve whose break points are compared.
+struct WatchedSweep {
+    Watch cells;
+    std::string axis;
+    std::vector<double> values; // empty: the axis' own
+};
+
+struct Watchlist {
+    std::vector<Bound> bounds;
+    std::vector<WatchedSweep> sweeps;
+    std::vector<Watch> counted; // instructions
+    std::vector<Watch> timed;   // in pairs
+
+    /// Scenes that are neither built in nor among `known`: misspelt, or of another gate.
+    [[nodiscard]] std::vector<std::string> strangers(const std::vector<std::string>& known) const;
+};
+
+/// Throws BadInput, with file and line, for what is no such file: unknown keys, metrics, axes or techniques, a missing
+/// reason. A scene may be one that only its user has: `strangers` tells.
+Watchlist readWatchlist(const std::filesystem::path& file, Profile profile);
+
+} // namespace shadowbench::gate

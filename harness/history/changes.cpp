@@ -1,0 +1,111 @@
+#include "harness/history/changes.h"
+
+#include "harness/gate/paired.h"
+#include "harness/timing/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace shadowbench::history {
+namespace {
+
+std::vector<double> valuesOf(const Series& series) {
+    std::vector<double> values;
+    for (const Point& point : series.points) values.push_back(point.value);
+    return values;
+}
+
+/// Where levels begin. Noise is a factor: its figures are compared by their logarithms.
+std::vector<std::size_t> breaksOf(const Series& series, const NoiseRule& rule) {
+    std::vector<double> values = valuesOf(series);
+    if (!series.noisy) {
+        std::vector<double> allowances;
+        for (const Point& point : series.points) allowances.push_back(point.allowance);
+        return levelChanges(values, allowances);
+    }
+    std::vector<std::size_t> commits;
+    for (const Point& point : series.points) commits.push_back(point.commit);
+    for (double& value : values) value = std::log(value);
+    return distributionChanges(values, commits, rule);
+}
+
+Level levelOf(const Series& series, std::size_t first, std::size_t end) {
+    const std::vector<double> values = valuesOf(series);
+    const auto at = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
+    const double value = series.noisy ? timing::median({at(first), at(end)}) : values[first];
+    return {series.points[first].commit, series.points[end - 1].commit, value, end - first};
+}
+
+bool isWithinFloor(const Level& a, const Level& b) {
+    return std::abs(std::log(b.value / a.value)) <= std::log1p(gate::TimeRule{}.floor);
+}
+
+double allowanceAt(const Series& series, std::size_t commit) {
+    return std::ranges::find(series.points, commit, &Point::commit)->allowance;
+}
+
+LevelChange changeBetween(const History& history, std::size_t index, const Level& before, const Level& after) {
+    const Series& series = history.series[index];
+    const double change = std::abs(after.value - before.value),
+                 larger = std::max(std::abs(before.value), std::abs(after.value));
+    const double allowance = std::max(allowanceAt(series, before.first), allowanceAt(series, after.first));
+    const auto direction = after.value > before.value ? gate::Direction::Worse : gate::Direction::Better;
+    return {index, before, after, direction, std::min(1.0, change / std::max(larger, 100 * allowance))};
+}
+
+} // namespace
+
+std::vector<Level> levelsOf(const Series& series, const NoiseRule& rule) {
+    std::vector<std::size_t> ends = breaksOf(series, rule);
+    ends.push_back(series.points.size());
+    std::vector<Level> levels;
+    std::size_t start = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const Level level = levelOf(series, start, ends[i]);
+        const bool last = i + 1 == ends.size();
+        if (!last && series.noisy && isWithinFloor(level, levelOf(series, ends[i], ends[i + 1]))) continue;
+        levels.push_back(level);
+        start = ends[i];
+    }
+    return levels;
+}
+
+std::vector<std::vector<Level>> levelsOf(const History& history, double alpha) {
+    NoiseRule rule;
+    rule.alpha =
+        alpha / static_cast<double>(std::max<std::ptrdiff_t>(1, std::ranges::count(history.series, true, &Series::noisy)));
+    std::vector<std::vector<Level>> levels;
+    for (const Series& series : history.series) levels.push_back(levelsOf(series, rule));
+    return levels;
+}
+
+std::vector<LevelChange> changesBetween(const History& history, const std::vector<std::vector<Level>>& levels) {
+    std::vector<LevelChange> changes;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        for (std::size_t k = 1; k < levels[i].size(); ++k)
+            changes.push_back(changeBetween(history, i, levels[i][k - 1], levels[i][k]));
+    std::ranges::stable_sort(changes, std::greater{}, &LevelChange::size);
+    return changes;
+}
+
+std::vector<Suspects> suspectsOf(const History& history, const std::vector<LevelChange>& changes,
+                                 const std::optional<Repository>& repository) {
+    std::vector<Suspects> all;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        const std::size_t old = changes[i].before.last, now = changes[i].after.first;
+        auto found = std::ranges::find_if(all, [&](const Suspects& s) { return s.old == old && s.now == now; });
+        if (found == all.end()) found = all.insert(all.end(), Suspects{old, now, 0, "", {}});
+        found->changes.push_back(i);
+    }
+    if (!repository) return all;
+    for (Suspects& suspects : all) {
+        const std::string& old = history.commits[suspects.old].hash;
+        const std::string& now = history.commits[suspects.now].hash;
+        suspects.commits = repository->between(old, now).size();
+        if (suspects.commits > 1) suspects.middle = repository->middle(old, now);
+    }
+    return all;
+}
+
+} // namespace shadowbench::history

@@ -1,0 +1,47 @@
+// Figures of one metric of one cell over commits.
+#pragma once
+
+#include "harness/gate/compare.h"
+#include "harness/history/store.h"
+
+#include <string>
+#include <vector>
+
+namespace shadowbench::history {
+
+/// What is looked at; an empty list: everything. Patterns with * and ?.
+struct Selection {
+    std::vector<std::string> metrics; // paths in the record
+    std::vector<std::string> scenes;
+    std::vector<std::string> techniques; // ids or variants
+};
+
+struct Point {
+    std::size_t commit; // index in the history's commits
+    double value;
+    double allowance; // a change of another figure from this one means nothing up to it
+};
+
+struct Series {
+    std::string scene, variant, metric;
+    std::string cell; // what else tells it from other series: profile, size, seed, place in a sweep
+    gate::Class metricClass;
+    bool noisy;             // another run of the same commit gives another figure
+    std::size_t conditions; // index in the history's conditions
+    /// By commit. Of a metric without noise one a commit, its last; else one a record.
+    std::vector<Point> points;
+};
+
+struct History {
+    std::vector<Commit> commits; // without records, oldest first
+    /// What figures were measured in and against. Those of different conditions are never compared: rasteriser and truth for
+    /// scores; rasteriser, Valgrind and processor for instructions; rasteriser and processor for times.
+    std::vector<std::string> conditions;
+    std::vector<Series> series; // by scene, metric, variant
+};
+
+/// The series of scored cells: every metric that the gate watches, the cost in frames of sm-uniform, and whether a cell is
+/// in error. Smaller is better throughout.
+History historyOf(const std::vector<Commit>& commits, const Selection& selection);
+
+} // namespace shadowbench::history
