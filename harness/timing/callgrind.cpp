@@ -5,8 +5,10 @@
 #include "harness/scene/process.h"
 #include "harness/scene/temporary_folder.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
 
 namespace shadowbench::timing {
@@ -14,6 +16,7 @@ namespace {
 
 constexpr std::chrono::minutes longestJob{30};                    // some hundred times what a cell takes uncounted
 constexpr std::uintmax_t addressSpace = std::uintmax_t{64} << 30; // Valgrind reserves far more than it uses
+constexpr const char* variantsFile = "variants"; // not on the command line, whose length would move the counts
 constexpr std::string_view counted = "counted "; // how the worker reports a variant; see renderCountedFrames
 
 std::filesystem::path valgrind() {
@@ -25,21 +28,21 @@ std::filesystem::path valgrind() {
 std::string ownProgram() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
 std::vector<std::string> arguments(const CountJob& job) {
-    std::vector<std::string> words{"--tool=callgrind",
-                                   "--instr-atstart=no", // full speed but for the frames that count
-                                   "--collect-atstart=no",
-                                   "--dump-instr=no",
-                                   "--callgrind-out-file=counts",
-                                   ownProgram(),
-                                   "count-frames",
-                                   "--scene",
-                                   job.scene,
-                                   "--profile",
-                                   std::string(name(job.profile)),
-                                   "--seed",
-                                   std::to_string(job.seed)};
-    for (const std::string& variant : job.variants) words.insert(words.end(), {"--technique", variant});
-    return words;
+    return {"--tool=callgrind",
+            "--instr-atstart=no", // full speed but for the frames that count
+            "--collect-atstart=no",
+            "--dump-instr=no",
+            "--callgrind-out-file=counts.%p", // a process a variant
+            ownProgram(),
+            "count-frames",
+            "--scene",
+            job.scene,
+            "--profile",
+            std::string(name(job.profile)),
+            "--seed",
+            std::to_string(job.seed),
+            "--techniques",
+            variantsFile};
 }
 
 std::string_view lineAfter(std::string_view text, std::string_view prefix) {
@@ -71,6 +74,7 @@ CallgrindDump parseCallgrindDump(std::string_view text) {
 
 Counts countInstructions(const CountJob& job, const std::function<void(std::string_view)>& onVariant) {
     const TemporaryFolder folder;
+    writeFile(folder.path() / variantsFile, fmt::format("{}\n", fmt::join(job.variants, "\n")));
     Command command{valgrind(), arguments(job), folder.path()};
     command.limit = longestJob;
     command.cpuLimit = longestJob;
@@ -86,7 +90,9 @@ Counts countInstructions(const CountJob& job, const std::function<void(std::stri
                            finished.signal != 0 ? Failure::Transient : Failure::Lasting);
     Counts counts;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-        if (!entry.path().filename().string().starts_with("counts.")) continue; // "counts" itself is what came after
+        const std::string file = entry.path().filename().string();
+        // "counts.<process>.<dump>"; what comes after the dump, in "counts.<process>", does not count.
+        if (!file.starts_with("counts.") || std::ranges::count(file, '.') != 2) continue;
         const CallgrindDump dump = parseCallgrindDump(readFile(entry.path()));
         counts[dump.trigger] = dump.instructions;
     }

@@ -6,10 +6,16 @@
 #include "techniques/gl/context.h"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fmt/format.h>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <valgrind/callgrind.h>
 
 namespace shadowbench::timing {
@@ -75,21 +81,36 @@ private:
     std::optional<lod::LodStage> walk_;
 };
 
+/// Counts one variant and says so. In a process of its own, forked before there is a rasteriser: what is counted before it
+/// in the same run cannot move the count.
+void countAlone(const Scene& scene, std::uint32_t seed, const std::string& name) {
+    try {
+        const auto context = gl::Context::create();
+        CountedScene(scene, seed).countFrame(techniques::parseVariant(name));
+        fmt::print("counted {}\n", name);
+    } catch (const Error& error) {
+        fmt::print(stderr, "{}: {}\n", name, error.what());
+    }
+    std::fflush(stdout);
+}
+
 } // namespace
 
-void renderCountedFrames(const CountJob& job) {
+void renderCountedFrames(const CountJob& job, const std::filesystem::path& variants) {
     const Scene scene = loadScene(job.scene, job.profile);
-    for (const std::string& name : job.variants) {
-        try {
-            // A rasteriser of its own, so that the count does not depend on which techniques came before.
-            const auto context = gl::Context::create();
-            CountedScene(scene, job.seed).countFrame(techniques::parseVariant(name));
-        } catch (const Error& error) {
-            fmt::print(stderr, "{}: {}\n", name, error.what());
-            continue;
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> list(std::fopen(variants.c_str(), "r"), std::fclose);
+    if (!list) throw BadInput(fmt::format("reading {} failed: {}", variants.string(), std::strerror(errno)));
+    // Nothing on the heap grows with the list: what a child finds there is the same whatever else is counted.
+    std::array<char, 1024> line{};
+    while (std::fgets(line.data(), line.size(), list.get()) != nullptr) {
+        line[std::strcspn(line.data(), "\n")] = '\0';
+        const pid_t child = fork();
+        if (child < 0) throw Inconclusive(std::string("counting needs another process: ") + std::strerror(errno));
+        if (child == 0) {
+            countAlone(scene, job.seed, line.data());
+            _exit(0); // without what the parent would do at its end
         }
-        fmt::print("counted {}\n", name);
-        std::fflush(stdout);
+        waitpid(child, nullptr, 0); // one that crashed has left no count
     }
 }
 

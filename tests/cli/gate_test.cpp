@@ -44,6 +44,14 @@ TEST_F(Gate, InstructionCountsAreTheSameInEveryRun) {
     EXPECT_EQ(compare("first", "second").code, 0);
 }
 
+TEST_F(Gate, WhatIsCountedBeforeItDoesNotMoveACount) {
+    ASSERT_EQ(run("alone", "--cost instructions --technique volume-zfail").code, 0);
+    ASSERT_EQ(run("last", "--cost instructions --technique sm-silhouette --technique pcf --technique volume-zfail").code, 0);
+    const auto alone = static_cast<double>(records("alone").at(0).cost.instructions.value_or(0)),
+               last = static_cast<double>(records("last").at(2).cost.instructions.value_or(0));
+    EXPECT_NEAR(last / alone, 1, 1e-6); // after others in one process it was 0.8 %
+}
+
 TEST_F(Gate, LevelsOfDetailAreCountedToo) {
     const Outcome outcome = shell("shadowbench run --quiet --scene simple --cost instructions --technique lod-switch "
                                   "--technique lod-frame-sequential --cache " +
