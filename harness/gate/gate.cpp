@@ -112,7 +112,7 @@ private:
         for (const Record& record : now)
             if (!record.sweep) there.emplace(record.scene, record.variant);
         for (const PlannedScene& scene : plan_.scenes)
-            for (const std::string& variant : plan_.variants)
+            for (const std::string& variant : scene.variants)
                 if (!there.contains({scene.id, variant}))
                     result_.unjudged.push_back(fmt::format("{} on {} was not measured", variant, scene.id));
         if (std::ranges::any_of(steps, [](const Step& s) { return s.records == "sweep.jsonl"; }) &&

@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 PlannedScene planned(const std::string& idOrFile, Profile profile) {
     const Scene scene = loadScene(idOrFile, profile); // to refuse it now
     const std::vector<std::string> builtin = builtinScenes();
-    if (std::ranges::find(builtin, idOrFile) != builtin.end()) return {scene.id, idOrFile, ""};
-    return {scene.id, fs::absolute(idOrFile).string(), readFile(idOrFile)};
+    if (std::ranges::find(builtin, idOrFile) != builtin.end()) return {scene.id, idOrFile, "", {}};
+    return {scene.id, fs::absolute(idOrFile).string(), readFile(idOrFile), {}};
 }
 
 std::vector<std::string> namesOf(const std::vector<std::string>& patterns) {
@@ -54,15 +54,26 @@ bool has(const Program& program, const PlannedScene& scene) {
 
 } // namespace
 
-Plan::Plan(const GateOptions& options)
-    : variants(namesOf(options.techniques)), watchlist(readBounds(options)), profile(options.profile), seed(options.seed) {
-    for (const std::string& scene : options.scenes.empty() ? standardScenes() : options.scenes)
-        scenes.push_back(planned(scene, profile));
+Plan::Plan(const GateOptions& options) : watchlist(readBounds(options)), profile(options.profile), seed(options.seed) {
+    const std::vector<std::string> chosen = namesOf(options.techniques);
+    const auto add = [&](const std::string& scene, const Watch* only) {
+        PlannedScene planned = gate::planned(scene, profile);
+        std::ranges::copy_if(chosen, std::back_inserter(planned.variants),
+                             [&](const std::string& v) { return only == nullptr || only->covers(v); });
+        if (!planned.variants.empty()) scenes.push_back(std::move(planned));
+    };
+    for (const std::string& scene : options.scenes.empty() ? standardScenes() : options.scenes) add(scene, nullptr);
+    if (!options.scenes.empty()) return;
+    for (const Watch& watch : watchlist.scenes) add(watch.scene, &watch);
 }
 
 std::vector<Step> Plan::steps(const Program& program, bool instructions) const {
-    std::vector<std::string> known;
-    std::ranges::copy_if(variants, std::back_inserter(known), [&](const auto& v) { return program.knowsVariant(v); });
+    const auto knownOn = [&](const PlannedScene& scene) {
+        std::vector<std::string> known;
+        std::ranges::copy_if(scene.variants, std::back_inserter(known),
+                             [&](const auto& v) { return program.knowsVariant(v); });
+        return known;
+    };
     const auto arguments = [&](const char* verb, const PlannedScene& scene, std::vector<std::string> more) {
         std::vector<std::string> words{
             verb, "--scene", scene.argument, "--profile", std::string(name(profile)), "--seed", std::to_string(seed)};
@@ -76,6 +87,7 @@ std::vector<Step> Plan::steps(const Program& program, bool instructions) const {
     };
     for (const PlannedScene& scene : scenes) {
         if (!has(program, scene)) continue;
+        const std::vector<std::string> known = knownOn(scene);
         const auto counted = instructions ? watched(watchlist.counted, scenes, scene.id, known) : std::vector<std::string>{};
         std::vector<std::string> others;
         std::ranges::copy_if(known, std::back_inserter(others),
@@ -89,7 +101,8 @@ std::vector<Step> Plan::steps(const Program& program, bool instructions) const {
         if (scene == scenes.end() || !has(program, *scene)) continue;
         std::vector<std::string> more{"--axis", sweep.axis}, swept;
         for (const double value : sweep.values) more.insert(more.end(), {"--values", fmt::format("{}", value)});
-        std::ranges::copy_if(known, std::back_inserter(swept), [&](const auto& v) { return sweep.cells.covers(v); });
+        std::ranges::copy_if(knownOn(*scene), std::back_inserter(swept),
+                             [&](const auto& v) { return sweep.cells.covers(v); });
         add({fmt::format("{} over {}", scene->id, sweep.axis), arguments("sweep", *scene, more), swept, "sweep.jsonl",
              scene->content});
     }
@@ -97,13 +110,13 @@ std::vector<Step> Plan::steps(const Program& program, bool instructions) const {
 }
 
 std::vector<TimedCell> Plan::timedCells(const Program& base, const Program& head) const {
-    std::vector<std::string> known;
-    std::ranges::copy_if(variants, std::back_inserter(known), [&](const std::string& variant) {
-        return !techniques::parseVariant(variant).isLod() && base.knowsVariant(variant) && head.knowsVariant(variant);
-    });
     std::vector<TimedCell> cells;
     for (const PlannedScene& scene : scenes) {
         if (!has(base, scene)) continue;
+        std::vector<std::string> known;
+        std::ranges::copy_if(scene.variants, std::back_inserter(known), [&](const std::string& variant) {
+            return !techniques::parseVariant(variant).isLod() && base.knowsVariant(variant) && head.knowsVariant(variant);
+        });
         for (const std::string& variant : watched(watchlist.timed, scenes, scene.id, known))
             if (!notApplicable(loadScene(scene.argument, profile), techniques::parseVariant(variant)))
                 cells.push_back({scene.argument, variant});
@@ -112,8 +125,9 @@ std::vector<TimedCell> Plan::timedCells(const Program& base, const Program& head
 }
 
 bool Plan::chooses(const std::string& scene, const std::string& variant) const {
-    return std::ranges::find(scenes, scene, &PlannedScene::id) != scenes.end() &&
-           std::ranges::find(variants, variant) != variants.end();
+    return std::ranges::any_of(scenes, [&](const PlannedScene& planned) {
+        return planned.id == scene && std::ranges::find(planned.variants, variant) != planned.variants.end();
+    });
 }
 
 } // namespace shadowbench::gate

@@ -11,14 +11,14 @@
 namespace shadowbench::gate {
 
 struct PlannedScene {
-    std::string id, argument; // what `--scene` is given: the id, or an absolute path
-    std::string content;      // of the file; empty for a built-in scene
+    std::string id, argument;          // what `--scene` is given: the id, or an absolute path
+    std::string content;               // of the file; empty for a built-in scene
+    std::vector<std::string> variants; // that are judged there, by their canonical names
 };
 
 struct Plan {
-    std::vector<PlannedScene> scenes;
-    std::vector<std::string> variants; // canonical names
     Watchlist watchlist;
+    std::vector<PlannedScene> scenes;
     Profile profile = Profile::Gate;
     std::uint32_t seed = 1;
 

@@ -96,26 +96,27 @@ bool Watch::covers(const std::string& variant) const {
 
 std::vector<std::string> Watchlist::strangers(const std::vector<std::string>& known) const {
     const std::vector<std::string> builtin = builtinScenes();
-    std::vector<std::string> scenes;
-    for (const Bound& bound : bounds) scenes.push_back(bound.cells.scene);
-    for (const WatchedSweep& sweep : sweeps) scenes.push_back(sweep.cells.scene);
-    for (const Watch& watch : counted) scenes.push_back(watch.scene);
-    for (const Watch& watch : timed) scenes.push_back(watch.scene);
-    std::ranges::sort(scenes);
-    scenes.erase(std::ranges::unique(scenes).begin(), scenes.end());
-    std::erase_if(scenes, [&](const std::string& scene) {
+    std::vector<std::string> named;
+    for (const Watch& watch : scenes) named.push_back(watch.scene);
+    for (const Bound& bound : bounds) named.push_back(bound.cells.scene);
+    for (const WatchedSweep& sweep : sweeps) named.push_back(sweep.cells.scene);
+    for (const Watch& watch : counted) named.push_back(watch.scene);
+    for (const Watch& watch : timed) named.push_back(watch.scene);
+    std::ranges::sort(named);
+    named.erase(std::ranges::unique(named).begin(), named.end());
+    std::erase_if(named, [&](const std::string& scene) {
         return std::ranges::find(builtin, scene) != builtin.end() || std::ranges::find(known, scene) != known.end();
     });
-    return scenes;
+    return named;
 }
 
 Watchlist readWatchlist(const std::filesystem::path& file, Profile profile) {
     const TomlSource source{file.string(), profile};
     const toml::table table = parseToml(readFile(file), source.file);
     const TomlValue root(source, "", table);
-    root.only({"bound", "sweep", "count", "time"});
-    return {readList(root, "bound", readBound), readList(root, "sweep", readSweep), readList(root, "count", readPlainWatch),
-            readList(root, "time", readPlainWatch)};
+    root.only({"scene", "bound", "sweep", "count", "time"});
+    return {readList(root, "scene", readPlainWatch), readList(root, "bound", readBound), readList(root, "sweep", readSweep),
+            readList(root, "count", readPlainWatch), readList(root, "time", readPlainWatch)};
 }
 
 } // namespace shadowbench::gate

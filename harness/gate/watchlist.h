@@ -36,6 +36,7 @@ struct WatchedSweep {
 };
 
 struct Watchlist {
+    std::vector<Watch> scenes; // judged beside the standard ones when the user names none
     std::vector<Bound> bounds;
     std::vector<WatchedSweep> sweeps;
     std::vector<Watch> counted; // instructions

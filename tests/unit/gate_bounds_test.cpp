@@ -1,6 +1,7 @@
 // Bounds and the file that holds them.
 #include "harness/gate/bounds.h"
 #include "harness/gate/gate.h"
+#include "harness/gate/plan.h"
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
 #include "harness/scene/temporary_folder.h"
@@ -98,6 +99,20 @@ TEST_F(WatchlistFile, TheCommittedOneIsSound) {
     const Watchlist list = readWatchlist(std::filesystem::path(SOURCE_FOLDER) / "results/bounds.toml", Profile::Gate);
     EXPECT_FALSE(list.bounds.empty());
     EXPECT_TRUE(list.strangers({}).empty());
+}
+
+TEST(GatePlan, TheWatchlistsScenesComeWithTheirTechniquesUnlessTheUserNamesScenes) {
+    GateOptions options;
+    options.bounds = std::filesystem::path(SOURCE_FOLDER) / "results/bounds.toml";
+    options.techniques = {"sm-cube", "pcf"};
+    const Plan plan(options);
+    EXPECT_TRUE(plan.chooses("dueling-frusta", "pcf"));
+    EXPECT_TRUE(plan.chooses("colonnade", "sm-cube"));
+    EXPECT_FALSE(plan.chooses("colonnade", "pcf"));
+    options.scenes = {"trees"};
+    const Plan narrow(options);
+    EXPECT_TRUE(narrow.chooses("trees", "pcf"));
+    EXPECT_FALSE(narrow.chooses("colonnade", "sm-cube"));
 }
 
 TEST(GateCode, ARegressionCountsWhateverElseCouldNotBeJudged) {
