@@ -17,7 +17,6 @@ class DialogueWith : public ::testing::Test {
 protected:
     [[nodiscard]] Command command(const std::string& program, const std::vector<std::string>& arguments = {}) const {
         Command c{*findProgram(program), arguments, folder_.path()};
-        c.limit = std::chrono::milliseconds(300);
         return c;
     }
 
@@ -38,7 +37,9 @@ TEST_F(DialogueWith, AProgramThatHasEndedIsInconclusiveNotASignal) {
 }
 
 TEST_F(DialogueWith, AProgramThatDoesNotAnswerIsLate) {
-    Dialogue silent(command("sleep", {"30"}));
+    Command never = command("sleep", {"300"});
+    never.limit = std::chrono::milliseconds(300);
+    Dialogue silent(never);
     try {
         silent.ask("frame");
         FAIL() << "it answered";
