@@ -61,12 +61,7 @@ Mutant readMutant(const TomlValue& value) {
 
 std::vector<Mutant> readMutants(const std::filesystem::path& file) {
     const TomlSource source{file.string(), Profile::Gate};
-    toml::table table;
-    try {
-        table = toml::parse(readFile(file), file.string());
-    } catch (const toml::parse_error& error) {
-        throw BadInput(fmt::format("{}:{}: {}", file.string(), error.source().begin.line, error.description()));
-    }
+    const toml::table table = parseToml(readFile(file), source.file);
     const TomlValue root(source, "", table);
     root.only({"mutant"});
     std::vector<Mutant> mutants;
