@@ -1,6 +1,7 @@
 #include "harness/gate/base.h"
 
 #include "harness/scene/error.h"
+#include "harness/scene/git.h"
 #include "harness/scene/process.h"
 #include "harness/scene/temporary_folder.h"
 
@@ -33,19 +34,6 @@ fs::path required(const char* tool) {
     if (const auto program = findProgram(tool)) return *program;
     throw Inconclusive(
         fmt::format("building the base needs {}, which is not installed; install it with: apt-get install {}", tool, tool));
-}
-
-/// The first line of what git says; nothing when it fails.
-std::optional<std::string> git(const std::vector<std::string>& arguments) {
-    std::string first;
-    const TemporaryFolder home;
-    Command command{required("git"), {"-c", "safe.directory=*", "-C", fs::current_path().string()}, home.path()};
-    command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
-    const Finished finished = runProcess(command, [&](std::string_view line) {
-        if (first.empty()) first = line;
-    });
-    if (finished.exitCode != 0 || finished.signal != 0) return std::nullopt;
-    return first;
 }
 
 /// Where ccache keeps what it knows, for a build whose HOME is a scratch folder.
@@ -107,16 +95,17 @@ Base findBase(const std::string& text, const fs::path& cache, const Progress& pr
         throw Inconclusive(
             "the gate has nothing to compare with; name a build folder, a git revision or records with --base");
     if (const auto base = baseAt(text, text)) return *base;
-    const auto repository = git({"rev-parse", "--show-toplevel"});
-    const auto commit = git({"rev-parse", "--verify", "--quiet", text + "^{commit}"});
-    if (!repository || !commit)
+    const fs::path here = fs::current_path();
+    const std::string repository = firstLine(git(here, {"rev-parse", "--show-toplevel"}));
+    const std::string commit = firstLine(git(here, {"rev-parse", "--verify", "--quiet", text + "^{commit}"}));
+    if (repository.empty() || commit.empty())
         throw Inconclusive(
             fmt::format("the base \"{}\" is no build folder, no records and no git revision here; name one of "
                         "them with --base",
                         text));
-    const fs::path program = fs::absolute(cache) / "programs" / *commit / "shadowbench";
-    if (!isProgram(program)) Build(*repository, *commit, progress).into(program);
-    return {Base::Kind::Program, program, fmt::format("{} ({})", text, commit->substr(0, 12))};
+    const fs::path program = fs::absolute(cache) / "programs" / commit / "shadowbench";
+    if (!isProgram(program)) Build(repository, commit, progress).into(program);
+    return {Base::Kind::Program, program, fmt::format("{} ({})", text, commit.substr(0, 12))};
 }
 
 } // namespace shadowbench::gate

@@ -1,34 +1,16 @@
 #include "harness/history/repository.h"
 
-#include "harness/scene/process.h"
+#include "harness/scene/git.h"
 
 #include <algorithm>
 #include <ctime>
+#include <fmt/chrono.h>
 #include <map>
 #include <string_view>
 
 namespace shadowbench::history {
 namespace fs = std::filesystem;
 namespace {
-
-/// The lines that git prints; nothing if it fails.
-std::optional<std::vector<std::string>> git(const fs::path& folder, const std::vector<std::string>& arguments) {
-    const auto program = findProgram("git");
-    if (!program) return {};
-    std::vector<std::string> lines;
-    Command command;
-    command.program = *program;
-    command.arguments = {"-c", "safe.directory=*"}; // a container's user need not own the clone
-    command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
-    command.folder = folder;
-    const Finished end = runProcess(command, [&](std::string_view line) { lines.emplace_back(line); });
-    if (end.timedOut || end.signal != 0 || end.exitCode != 0) return {};
-    return lines;
-}
-
-std::string firstLine(const std::optional<std::vector<std::string>>& lines) {
-    return lines && !lines->empty() ? lines->front() : "";
-}
 
 constexpr std::string_view hexadecimal = "0123456789abcdef";
 
@@ -53,12 +35,7 @@ std::optional<Repository> Repository::around(const fs::path& folder) {
 std::optional<std::string> Repository::date(const std::string& commit) const {
     const std::string seconds = shown(folder_, commit, "%ct");
     if (seconds.empty()) return {};
-    const std::time_t time = std::stoll(seconds);
-    std::tm utc{};
-    gmtime_r(&time, &utc);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y%m%dT%H%M%SZ", &utc);
-    return text;
+    return fmt::format("{:%Y%m%dT%H%M%SZ}", fmt::gmtime(static_cast<std::time_t>(std::stoll(seconds))));
 }
 
 std::string Repository::subject(const std::string& commit) const { return shown(folder_, commit, "%s"); }
