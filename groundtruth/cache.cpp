@@ -6,9 +6,12 @@
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
 
+#include <cerrno>
 #include <cstdlib>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <pwd.h>
+#include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -43,6 +46,30 @@ void touch(const std::filesystem::path& file) {
     std::error_code ignored;
     std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored);
 }
+
+/// Held by the process that computes a reference, so that others wait for it instead of computing it, too: an advisory lock
+/// on the entry's folder, which needs no file of its own and ends with its holder. Keys that share a folder share the lock.
+/// Where there is none to be had (a cache that cannot be written), each computes for itself.
+class ComputingLock {
+public:
+    ComputingLock(const std::filesystem::path& folder, const Progress& progress) {
+        std::error_code ignored;
+        std::filesystem::create_directories(folder, ignored);
+        folder_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (folder_ < 0 || flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+        if (progress) progress(0, "waiting for another process to compute this or a neighbouring reference");
+        while (flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
+        }
+    }
+    ~ComputingLock() {
+        if (folder_ >= 0) close(folder_);
+    }
+    ComputingLock(const ComputingLock&) = delete;
+    ComputingLock& operator=(const ComputingLock&) = delete;
+
+private:
+    int folder_;
+};
 
 } // namespace
 
@@ -99,7 +126,10 @@ void Cache::store(const Reference& reference) const {
 
 Reference Cache::get(const Request& request, const Progress& progress) const {
     const Tools tools = toolVersions(request);
-    if (std::optional<Reference> known = find(key(request, tools))) return std::move(*known);
+    const std::string wanted = key(request, tools);
+    if (std::optional<Reference> known = find(wanted)) return std::move(*known);
+    const ComputingLock lock(entry(wanted).parent_path(), progress);
+    if (std::optional<Reference> known = find(wanted)) return std::move(*known); // by whom the lock waited for
     Reference reference = compute(request, tools, progress);
     try {
         store(reference);

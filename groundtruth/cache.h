@@ -61,7 +61,8 @@ public:
     /// last one's whole file stays.
     void store(const Reference& reference) const;
 
-    /// `find`, else `compute` and `store`; a cache that cannot be written costs a warning, not the run.
+    /// `find`, else `compute` and `store`, in one process at a time; a cache that cannot be written costs a warning, not the
+    /// run.
     Reference get(const Request& request, const Progress& progress = {}) const;
 
     /// Where the entry of `key` is or would be. Throws InternalError unless isKey(key).

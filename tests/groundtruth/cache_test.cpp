@@ -143,6 +143,14 @@ TEST_F(CacheFolder, GetComputesOnceAndThenReads) {
     expectEqual(first, second); // the recorded seconds too: it was not computed again
 }
 
+TEST_F(CacheFolder, WhoAsksWhileAReferenceIsBeingComputedWaitsForIt) {
+    std::vector<Reference> got(4);
+    std::vector<std::thread> asking;
+    for (Reference& reference : got) asking.emplace_back([&] { reference = cache().get(quick()); });
+    for (std::thread& thread : asking) thread.join();
+    for (const Reference& reference : got) expectEqual(reference, got.front()); // the recorded seconds too
+}
+
 TEST_F(CacheFolder, GetComputesADamagedEntryAgain) {
     const Reference first = cache().get(quick());
     writeFile(cache().entry(first.provenance.key), "rubbish");
