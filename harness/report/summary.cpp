@@ -112,17 +112,22 @@ std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const s
     return front;
 }
 
-std::optional<std::size_t> cheapestAdequate(const std::vector<Record>& records, const std::string& scene) {
+std::vector<std::size_t> adequate(const std::vector<Record>& records, const std::string& scene) {
     const std::optional<Tolerance> limit = tolerance(records, scene);
     if (!limit) return {};
+    std::vector<std::size_t> within = ofScene(records, scene);
+    std::erase_if(within, [&](std::size_t i) {
+        const std::optional<double> error = accuracyMetric(records[i].accuracy, limit->metric);
+        return !headline(records[i]) || !error || *error > limit->value;
+    });
+    return within;
+}
+
+std::optional<std::size_t> cheapestAdequate(const std::vector<Record>& records, const std::string& scene) {
     std::optional<std::size_t> best;
     const auto rank = [&](std::size_t i) { return std::tuple(place(records[i])->cost, place(records[i])->error); };
-    for (const std::size_t i : ofScene(records, scene)) {
-        if (!place(records[i])) continue;
-        const std::optional<double> error = accuracyMetric(records[i].accuracy, limit->metric);
-        if (!error || *error > limit->value) continue;
-        if (!best || rank(i) < rank(*best)) best = i;
-    }
+    for (const std::size_t i : adequate(records, scene))
+        if (place(records[i]) && (!best || rank(i) < rank(*best))) best = i;
     return best;
 }
 

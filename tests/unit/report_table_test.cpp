@@ -49,6 +49,13 @@ TEST(TerminalTable, SaysThatNothingIsWithinToleranceAndNamesErrors) {
     EXPECT_EQ(report::terminalTable(records, "no-such-scene"), "");
 }
 
+TEST(TerminalTable, OfRecordsWithoutTimesNamesAllThatAreWithinTolerance) {
+    std::vector<Record> records = {hardCell("a", 0.001, 1), hardCell("b", 0.01, 1), hardCell("c", 0.004, 1)};
+    for (Record& record : records) record.cost.time.reset();
+    const std::string table = report::terminalTable(records, "dueling-frusta");
+    EXPECT_NE(table.find(" within tolerance (0.5 %), none of them timed: a, c\n"), std::string::npos) << table;
+}
+
 TEST(TerminalTable, TellsATinyErrorFromNone) {
     const std::string table = report::terminalTable({hardCell("a", 0.00001, 1), hardCell("b", 0, 1)}, "dueling-frusta");
     EXPECT_NE(table.find("a           < 0.01 %"), std::string::npos) << table;
