@@ -3,6 +3,7 @@
 #include "harness/run/environment.h"
 #include "harness/scene/error.h"
 #include "harness/scene/files.h"
+#include "harness/scene/parallel.h"
 #include "harness/scene/process.h"
 #include "harness/scene/temporary_folder.h"
 #include "harness/timing/callgrind.h"
@@ -12,7 +13,9 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <xxhash.h>
 
 namespace shadowbench::gate {
@@ -133,22 +136,32 @@ int Program::run(const Step& step, const fs::path& out, const Progress& progress
 }
 
 Measured Program::measure(const std::vector<Step>& steps, const Progress& progress) const {
-    Measured measured;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
+    using Clock = std::chrono::steady_clock;
+    std::vector<std::vector<Record>> records(steps.size());
+    std::vector<std::optional<StepTime>> times(steps.size());
+    std::mutex mutex;
+    std::size_t ended = 0;
+    inParallel(steps.size(), [&](std::size_t i) {
         Step step = steps[i];
         const fs::path out = records_ / hashOf(text(step)), done = out / "done";
-        const auto show = [&](double, std::string_view line) {
-            progress(static_cast<double>(i) / static_cast<double>(steps.size()), line);
-        };
         if (!fs::exists(done)) {
-            const auto start = std::chrono::steady_clock::now();
+            const auto start = Clock::now();
             if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");
-            if (run(step, out, show) == 0) writeFile(done, text(steps[i])); // one with errors is tried again
-            measured.times.push_back(
-                {step.name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+            const int code = run(step, out, [&](double, std::string_view line) {
+                const std::scoped_lock lock(mutex);
+                progress(static_cast<double>(ended) / static_cast<double>(steps.size()), line);
+            });
+            if (code == 0) writeFile(done, text(steps[i])); // one with errors is tried again
+            times[i] = {step.name, std::chrono::duration<double>(Clock::now() - start).count()};
         }
-        const std::vector<Record> records = readRecords(out / step.records);
-        measured.records.insert(measured.records.end(), records.begin(), records.end());
+        records[i] = readRecords(out / step.records);
+        const std::scoped_lock lock(mutex);
+        ++ended;
+    });
+    Measured measured;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        std::ranges::move(records[i], std::back_inserter(measured.records));
+        if (times[i]) measured.times.push_back(*times[i]);
     }
     return measured;
 }

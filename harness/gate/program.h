@@ -46,8 +46,8 @@ public:
     /// Ids, in the order of its catalogue.
     [[nodiscard]] std::vector<std::string> techniques() const;
 
-    /// Runs the steps that have not been run to their end before, and reads the records of all of them. A killed one is gone
-    /// on with. Throws Inconclusive when a step fails otherwise than in some of its cells.
+    /// Runs the steps that have not been run to their end before, on all cores, and reads the records of all of them. A
+    /// killed one is gone on with. Throws Inconclusive when a step fails otherwise than in some of its cells.
     Measured measure(const std::vector<Step>& steps, const Progress& progress) const;
 
     /// Runs one step in `out`, whatever was run before, and returns its exit code: not 0 when some of its cells failed,

@@ -1,15 +1,11 @@
 #include "harness/run/instruction_costs.h"
 
 #include "harness/run/progress_line.h"
-#include "harness/scene/error.h"
+#include "harness/scene/parallel.h"
 #include "harness/timing/callgrind.h"
 
-#include <algorithm>
-#include <atomic>
 #include <filesystem>
-#include <future>
 #include <mutex>
-#include <thread>
 
 namespace shadowbench {
 namespace {
@@ -47,11 +43,7 @@ public:
           version_(timing::valgrindVersion()) {}
 
     void runAll() {
-        std::vector<std::future<void>> workers;
-        for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
-            workers.push_back(std::async(std::launch::async, [this] { work(); }));
-        for (std::future<void>& worker : workers) worker.wait();
-        for (std::future<void>& worker : workers) worker.get(); // throws what the first one threw
+        inParallel(jobs_.size(), [this](std::size_t i) { fillIn(jobs_[i]); });
     }
 
 private:
@@ -59,17 +51,6 @@ private:
         std::size_t cells = 0;
         for (const Job& job : jobs) cells += job.records.size();
         return static_cast<int>(cells);
-    }
-
-    void work() {
-        for (std::size_t next = next_++; next < jobs_.size() && !failed_; next = next_++) {
-            try {
-                fillIn(jobs_[next]);
-            } catch (...) {
-                failed_ = true;
-                throw;
-            }
-        }
     }
 
     void fillIn(const Job& job) {
@@ -95,8 +76,6 @@ private:
     ProgressLine line_;
     const std::function<void()>& onCounted_;
     std::string version_;
-    std::atomic<std::size_t> next_ = 0;
-    std::atomic<bool> failed_ = false;
     std::mutex mutex_;
     int done_ = 0;
 };
