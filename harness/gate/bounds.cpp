@@ -1,5 +1,7 @@
 #include "harness/gate/bounds.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace shadowbench::gate {
@@ -9,7 +11,8 @@ Class classOf(const std::string& metric) {
     if (metric == "false_shadow") return Class::FalseShadow;
     if (metric == "leak" || metric == "umbra_leak") return Class::Leak;
     if (metric == "edge_error") return Class::Edge;
-    if (metric == "flicker" || metric == "flip_rate" || metric == "convergence" || metric == "pop") return Class::Flicker;
+    constexpr std::array overTime{"flicker", "flip_rate", "moving_rmse", "disocclusion_error", "convergence", "pop"};
+    if (std::ranges::find(overTime, metric) != overTime.end()) return Class::Flicker;
     return metric.starts_with("mismatch") ? Class::Labels : Class::Penumbra;
 }
 

@@ -44,6 +44,8 @@ constexpr std::array watched{
             Graded::Mean, 0, 0.01},
     Watched{"stability.flip_rate", Class::Flicker, [](const Record& r) { return r.stability.flipRate; }, Graded::No,
             twoPixels, 0.01},
+    Watched{"stability.moving_rmse", Class::Flicker, [](const Record& r) { return r.stability.movingRmse; }, Graded::Rms, 0,
+            0.01},
     Watched{"stability.convergence", Class::Flicker,
             [](const Record& r) {
                 return r.stability.convergence ? std::optional<double>(*r.stability.convergence) : std::nullopt;

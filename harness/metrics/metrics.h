@@ -109,6 +109,19 @@ struct Flips {
 };
 Flips flips(const FrameResult& now, const FrameResult& before, const Image<glm::vec2>& warp);
 
+/// Squares of V − V*, to be summed over pixels and frames.
+struct SquareSum {
+    double sum = 0;
+    std::size_t count = 0;
+    [[nodiscard]] std::optional<double> root() const; // of the mean; nothing over nothing
+};
+
+/// Error while things move, over M of all frames, and over those pixels of it that the frame before did not show.
+struct MovingError {
+    SquareSum all, disoccluded;
+};
+void addMovingError(const FrameResult& now, const Image<glm::vec2>& warp, MovingError& error);
+
 /// Number of the first frame, counted from 1, from which the error stays ≤ 1.05 × its steady state, the mean of the last
 /// tenth of the frames (at least one). Absent without frames and for an error still restless at the end.
 std::optional<int> convergence(const std::vector<double>& errorByFrame);

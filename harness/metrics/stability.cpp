@@ -132,6 +132,24 @@ Flips flips(const FrameResult& now, const FrameResult& before, const Image<glm::
     return result;
 }
 
+std::optional<double> SquareSum::root() const {
+    return count > 0 ? std::optional(std::sqrt(sum / static_cast<double>(count))) : std::nullopt;
+}
+
+void addMovingError(const FrameResult& now, const Image<glm::vec2>& warp, MovingError& error) {
+    requireComparable(*now.v, *now.truth, *now.mask);
+    for (std::size_t i = 0; i < warp.size(); ++i) {
+        if (!now.mask->scored[i]) continue;
+        const double difference = (*now.v)[i] - now.truth->visibility[i];
+        const auto add = [&](SquareSum& sum) {
+            sum.sum += difference * difference;
+            ++sum.count;
+        };
+        add(error.all);
+        if (!isSomewhere(warp[i])) add(error.disoccluded);
+    }
+}
+
 std::optional<int> convergence(const std::vector<double>& errorByFrame) {
     if (errorByFrame.empty()) return {};
     const std::size_t last = std::max<std::size_t>(1, errorByFrame.size() / 10);

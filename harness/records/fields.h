@@ -57,6 +57,8 @@ void fields(auto& visit, Is<Flicker> auto& f) {
 void fields(auto& visit, Is<Stability> auto& s) {
     visit("flicker", s.flicker);
     visit("flip_rate", s.flipRate);
+    visit("moving_rmse", s.movingRmse);
+    visit("disocclusion_error", s.disocclusionError);
     visit("reuse", s.reuse);
     visit("convergence", s.convergence);
     const bool curves =

@@ -59,6 +59,8 @@ std::optional<double> boundedMetric(const Record& record, std::string_view metri
     const Stability& stability = record.stability;
     if (metric == "flicker") return stability.flicker ? std::optional(stability.flicker->mean) : std::nullopt;
     if (metric == "flip_rate") return stability.flipRate;
+    if (metric == "moving_rmse") return stability.movingRmse;
+    if (metric == "disocclusion_error") return stability.disocclusionError;
     if (metric == "convergence") return stability.convergence ? std::optional<double>(*stability.convergence) : std::nullopt;
     if (metric == "edge_error")
         return record.accuracy.edgeError ? std::optional(record.accuracy.edgeError->mean) : std::nullopt;

@@ -42,11 +42,13 @@ struct Flicker {
 };
 
 struct Stability {
-    std::optional<Flicker> flicker;      // over the moving frames
-    std::optional<double> flipRate;      // over the moving frames
-    std::optional<double> reuse;         // share of the moving frames' surface pixels that the frame before saw, too
-    std::optional<int> convergence;      // still frames needed from an empty history
-    std::vector<double> mismatchByFrame; // over the still frames from an empty history; techniques with history only
+    std::optional<Flicker> flicker;          // over the moving frames
+    std::optional<double> flipRate;          // over the moving frames
+    std::optional<double> movingRmse;        // of V − V* over the moving frames: what flicker does not see, a steady trail
+    std::optional<double> disocclusionError; // the same over the pixels in their first frame
+    std::optional<double> reuse;             // share of the moving frames' surface pixels that the frame before saw, too
+    std::optional<int> convergence;          // still frames needed from an empty history
+    std::vector<double> mismatchByFrame;     // over the still frames from an empty history; techniques with history only
     std::vector<double> rmseByFrame;
     std::vector<double> bad30ByFrame;
     std::vector<double> changedByFrame; // share of M differing by > 30/255 from the technique's own last still frame (EGSR
@@ -179,8 +181,8 @@ std::optional<Headline> headline(const Record& record);
 /// name.
 std::optional<double> accuracyMetric(const Accuracy& accuracy, std::string_view metric);
 
-/// A metric that a scene or the gate may put a bound on, by its name there: those of `accuracy`, and "edge_error", "flicker",
-/// "flip_rate", "convergence", "pop". Nothing where the record lacks it.
+/// A metric that a scene or the gate may put a bound on, by its name there: those of `accuracy`, and "edge_error",
+/// "flicker", "flip_rate", "moving_rmse", "disocclusion_error", "convergence", "pop". Nothing where the record lacks it.
 std::optional<double> boundedMetric(const Record& record, std::string_view metric);
 
 } // namespace shadowbench

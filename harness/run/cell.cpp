@@ -115,7 +115,7 @@ private:
     std::vector<Image<std::uint8_t>> frames_;
 };
 
-/// Flicker and flips from one scored frame to the next.
+/// Flicker and flips from one scored frame to the next, and the error of all after the first.
 class MotionScores {
 public:
     void add(const Snapshot& shown, const Reference& truth, Image<float> v, Mask mask) {
@@ -123,6 +123,7 @@ public:
             const Image<glm::vec2> warp = metrics::warp(shown, {v.width(), v.height()}, truth, *before_.truth);
             const FrameResult now{&v, &truth, &mask}, before{&before_.v, before_.truth, &before_.mask};
             metrics::flickerSamples(now, before, warp, samples_);
+            metrics::addMovingError(now, warp, error_);
             const metrics::Flips flips = metrics::flips(now, before, warp);
             flips_.flipped += flips.flipped;
             flips_.compared += flips.compared;
@@ -139,6 +140,8 @@ public:
         stability.flicker = metrics::flicker(std::move(samples_));
         if (flips_.compared > 0)
             stability.flipRate = static_cast<double>(flips_.flipped) / static_cast<double>(flips_.compared);
+        stability.movingRmse = error_.all.root();
+        stability.disocclusionError = error_.disoccluded.root();
         if (surfacePixels_ > 0) stability.reuse = static_cast<double>(seenBefore_) / static_cast<double>(surfacePixels_);
     }
 
@@ -151,6 +154,7 @@ private:
     Kept before_;
     std::vector<float> samples_;
     metrics::Flips flips_;
+    metrics::MovingError error_;
     std::size_t surfacePixels_ = 0, seenBefore_ = 0;
 };
 
@@ -195,8 +199,7 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed) {
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
                                      scene.timeline.still, scene.timeline.moving);
-    for (const int frame : truths.scoredFrames())
-        inputs += truths.key(mainTruth(variant), frame) + "\n";
+    for (const int frame : truths.scoredFrames()) inputs += truths.key(mainTruth(variant), frame) + "\n";
     const XXH128_hash_t hash = XXH3_128bits(inputs.data(), inputs.size());
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }

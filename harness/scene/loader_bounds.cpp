@@ -19,6 +19,8 @@ const std::vector<std::string>& boundedMetrics() {
                                                 "umbra_leak",
                                                 "flicker",
                                                 "flip_rate",
+                                                "moving_rmse",
+                                                "disocclusion_error",
                                                 "convergence",
                                                 "pop"};
     return names;

@@ -22,7 +22,10 @@ std::vector<std::string> scenesWithExpectations() {
 }
 
 bool needsMovingFrames(const Scene& scene) {
-    const auto aboutMotion = [](const Expectation& e) { return e.metric == "flicker" || e.metric == "flip_rate"; };
+    const auto aboutMotion = [](const Expectation& e) {
+        return e.metric == "flicker" || e.metric == "flip_rate" || e.metric == "moving_rmse" ||
+               e.metric == "disocclusion_error";
+    };
     return std::any_of(scene.fails.begin(), scene.fails.end(), aboutMotion) ||
            std::any_of(scene.holds.begin(), scene.holds.end(), aboutMotion);
 }

@@ -154,6 +154,29 @@ TEST(Flips, CountClassesThatChangeWhileTheTruthDoesNot) {
     EXPECT_EQ(compare().flipped, 1);
 }
 
+TEST(MovingError, SumsSquaresOverFramesAndApartWhereNothingWasSeenBefore) {
+    const TwoFrames frames;
+    Image<float> v = frames.truthNow.visibility;
+    for (int y = 0; y < size.y; ++y) v(63, y) += 0.5F; // of the two columns that came into view
+    v(20, 20) += 1;
+    metrics::MovingError error;
+    EXPECT_FALSE(error.all.root());
+    for (int i = 0; i < 2; ++i) metrics::addMovingError(frames.resultNow(v), frames.warp, error);
+    EXPECT_NEAR(*error.all.root(), std::sqrt((64 * 0.25 + 1) / (64.0 * 64)), 1e-9);
+    EXPECT_NEAR(*error.disoccluded.root(), std::sqrt(0.25 / 2), 1e-9);
+}
+
+TEST(MovingError, CountsPixelsOfTheMaskOnly) {
+    TwoFrames frames;
+    frames.maskNow.scored(20, 20) = 0;
+    Image<float> v = frames.truthNow.visibility;
+    v(20, 20) += 1;
+    metrics::MovingError error;
+    metrics::addMovingError(frames.resultNow(v), frames.warp, error);
+    EXPECT_EQ(error.all.root(), 0.0);
+    EXPECT_EQ(error.all.count, 64U * 64U - 1U);
+}
+
 TEST(Convergence, IsTheFirstFrameOfTheSteadyState) {
     std::vector<double> error(40, 0.1);
     error[0] = 0.8;
