@@ -131,7 +131,9 @@ ExitCode verdict(const std::vector<Outcome>& outcomes) {
 }
 
 ExitCode run(const Options& options) {
-    const std::vector<Mutant> all = readMutants(std::filesystem::path(SOURCE_FOLDER) / "tests/mutants/mutants.toml");
+    const std::filesystem::path source = SOURCE_FOLDER;
+    const std::vector<Mutant> all = onTheGatesScenes(readMutants(source / "tests/mutants/mutants.toml"),
+                                                     gate::readWatchlist(source / "results/bounds.toml", Profile::Gate));
     const std::vector<Mutant> chosen = matching(all, options.only);
     if (options.list) {
         print(chosen);

@@ -74,6 +74,17 @@ std::vector<Mutant> readMutants(const std::filesystem::path& file) {
     return mutants;
 }
 
+std::vector<Mutant> onTheGatesScenes(std::vector<Mutant> mutants, const gate::Watchlist& watchlist) {
+    for (Mutant& mutant : mutants) {
+        if (!mutant.scenes.empty()) continue;
+        mutant.scenes = standardScenes();
+        for (const gate::Watch& watch : watchlist.scenes)
+            if (std::ranges::all_of(mutant.techniques, [&](const std::string& t) { return watch.covers(t); }))
+                mutant.scenes.push_back(watch.scene);
+    }
+    return mutants;
+}
+
 std::vector<Mutant> matching(const std::vector<Mutant>& mutants, const std::vector<std::string>& globs) {
     const auto matches = [](const std::string& glob, const Mutant& mutant) {
         return fnmatch(glob.c_str(), mutant.id.c_str(), 0) == 0;

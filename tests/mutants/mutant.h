@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/gate/compare.h"
+#include "harness/gate/watchlist.h"
 
 #include <filesystem>
 #include <optional>
@@ -23,7 +24,7 @@ struct Mutant {
     std::filesystem::path file;
     std::string find, replace;
     std::vector<std::string> techniques; // variants, at least one
-    std::vector<std::string> scenes;     // empty: the standard scenes; exactly one with a sweep
+    std::vector<std::string> scenes;     // empty: those that the gate judges; exactly one with a sweep
     std::optional<Sweep> sweep;
     gate::Class expected = gate::Class::Labels; // that must tell it
     std::string survives;                       // why it is not told, if it is known not to be
@@ -33,6 +34,9 @@ struct Mutant {
 
 /// Throws BadInput, naming file, line and key, for what is no list of mutants with distinct ids.
 std::vector<Mutant> readMutants(const std::filesystem::path& file);
+
+/// The mutants, each that names no scenes now with the standard ones and those that the gate judges all its techniques on.
+std::vector<Mutant> onTheGatesScenes(std::vector<Mutant> mutants, const gate::Watchlist& watchlist);
 
 /// The mutants whose id matches one of the globs; all without a glob. Throws BadInput for a glob that matches none.
 std::vector<Mutant> matching(const std::vector<Mutant>& mutants, const std::vector<std::string>& globs);

@@ -106,6 +106,19 @@ TEST(Mutants, GlobsChooseAndOneThatMatchesNothingIsAnError) {
     EXPECT_THROW(matching({example(), other}, {"pcf*"}), BadInput);
 }
 
+TEST(Mutants, OneWithoutScenesRunsOnThoseThatTheGateJudgesItsTechniquesOn) {
+    gate::Watchlist watchlist;
+    watchlist.scenes = {{"moving-caster", {"sm-history", "temporal-soft"}, {}, "trails"},
+                        {"colonnade", {"sm-cube"}, {}, "all sides"}};
+    Mutant withOwn = example();
+    withOwn.scenes = {"simple"};
+    std::vector<std::string> expected = standardScenes();
+    expected.emplace_back("moving-caster");
+    const std::vector<Mutant> mutants = onTheGatesScenes({example(), withOwn}, watchlist);
+    EXPECT_EQ(mutants[0].scenes, expected);
+    EXPECT_EQ(mutants[1].scenes, std::vector<std::string>{"simple"});
+}
+
 TEST(Mutants, FaultsRunWithoutTimeAndSlowdownsAreCounted) {
     Mutant mutant = example();
     EXPECT_EQ(arguments(mutant),
