@@ -12,7 +12,7 @@ standard() { ./bench run --out results/published; }
 failures() {
     out=results/failures
     scenes="basic huge caster-behind-eye colonnade contact depth-complexity eye-in-shadow grazing-light light-behind-camera
-        light-jump moving-caster moving-light moving-receiver near-plane open-mesh overlapping-volumes picket-fence
+        light-jump moving-camera moving-caster moving-light moving-receiver near-plane open-mesh overlapping-volumes picket-fence
         screen-overlap tessellation"
     # shellcheck disable=SC2046,SC2086 # lists of words
     ./bench run --cost none $(printf ' --scene %s' $scenes) --out $out

@@ -27,6 +27,7 @@ constexpr const char* legend = R"(## The columns
 | penumbra rmse, penumbra width | error in and around the penumbra; relative error of its width |
 | umbra leak | mean visibility where the light is fully hidden |
 | flicker, flips | mean change between moving frames beyond the truth's own; share of pixels whose label changes while the truth's does not |
+| moving rmse | error over the moving frames: a steady trail does not flicker |
 | converged at | still frame, counted from 1, from which the error stays within 5 % of its final value |
 | MiB | textures and buffers |
 | cost | frame time, G-buffer included, as a multiple of `sm-uniform` in the same rounds |

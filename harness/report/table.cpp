@@ -58,6 +58,7 @@ std::span<const Column> columns() {
         {"texel px p95", true, [](const Record& r) { return r.aliasing ? decimals(r.aliasing->p95, 2) : Cell(); }},
         {"flicker", false, flickerMean},
         {"flips", true, [](const Record& r) { return percentOf(r.stability.flipRate); }},
+        {"moving rmse", true, [](const Record& r) { return decimals(r.stability.movingRmse, 4); }},
         {"converged at", true, convergence},
         {"MiB", true, mebibytes},
         {"cost", false, cost},

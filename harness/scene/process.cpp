@@ -100,7 +100,7 @@ struct Launch {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (getppid() != parent) _exit(127); // it died before the line above took effect
         limit(RLIMIT_CORE, 0);
-        limit(RLIMIT_CPU, static_cast<rlim_t>(command.cpuLimit.count()));
+        if (command.cpuLimit) limit(RLIMIT_CPU, static_cast<rlim_t>(command.cpuLimit->count()));
         limit(RLIMIT_FSIZE, command.fileLimit);
         limit(RLIMIT_AS, command.memoryLimit);
         limit(RLIMIT_NOFILE, mostOpenFiles);

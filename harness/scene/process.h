@@ -19,9 +19,11 @@ std::optional<std::filesystem::path> findProgram(const std::filesystem::path& na
 struct Command {
     std::filesystem::path program; // as findProgram returns it
     std::vector<std::string> arguments;
-    std::filesystem::path folder;                         // working directory, HOME and TMPDIR of the child
-    std::chrono::milliseconds limit{60'000};              // wall clock; the child's whole process group is killed after it
-    std::chrono::seconds cpuLimit{120};                   // of all its threads
+    std::filesystem::path folder;            // working directory, HOME and TMPDIR of the child
+    std::chrono::milliseconds limit{60'000}; // wall clock; the child's whole process group is killed after it
+    // Of all its threads. A process under any such limit reads its own CPU time from a clock of some milliseconds: the
+    // kernel then takes it from what it has last added up.
+    std::optional<std::chrono::seconds> cpuLimit{120};
     std::uintmax_t fileLimit = 64 << 20;                  // bytes, largest file the child may write
     std::uintmax_t memoryLimit = std::uintmax_t{4} << 30; // bytes of address space, more than is ever used of it
     std::optional<int> cpu = {};                          // the only one it may run on

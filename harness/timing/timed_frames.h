@@ -35,7 +35,7 @@ struct FrameTime {
 /// of its own (harness/scene/process.h) and fixes the rasteriser by itself, as everything that renders does.
 class FrameWorker {
 public:
-    /// Throws Inconclusive when the program cannot be started.
+    /// Throws Inconclusive when the program cannot be started, and where a limit on CPU time makes its clock coarse.
     FrameWorker(const std::filesystem::path& shadowbench, const WorkerJob& job);
     ~FrameWorker();
     FrameWorker(FrameWorker&&) noexcept;
