@@ -19,7 +19,8 @@ constexpr int largeGate = 100; // cells
 std::string share(int events, int trials) {
     using boost::math::binomial;
     const double bound = events == trials ? 1 : binomial::find_upper_bound_on_p(trials, events, 0.05);
-    return fmt::format("{} of {} (≤ {:.2g} %)", events, trials, 100 * bound);
+    return fmt::format("{} of {} (≤ {} %)", events, trials,
+                       bound > 0.1 ? fmt::format("{:.0f}", 100 * bound) : fmt::format("{:.2g}", 100 * bound));
 }
 
 std::string percent(int events, int trials) { return fmt::format("{:.2f} %", 100.0 * events / trials); }
@@ -135,7 +136,7 @@ std::string resampledTable(const std::vector<Experiment>& experiments, const gat
 } // namespace
 
 std::string errorReport(const std::vector<Experiment>& experiments, const gate::PairedOptions& options, int resamples) {
-    std::string text = fmt::format("# How often paired time errs\n\nMade by `false_alarms` (benchmarks/). Each evaluation "
+    std::string text = fmt::format("# How often paired time errs\n\nMade by `false_alarms` (benchmarks/; README, section The gate, names the experiments). Each evaluation "
                                    "is a gate: {} restarts of three workers, "
                                    "{} rounds a restart, as many again where that\nleaves a cell unclear, floor {:.0f} %, α "
                                    "= {:.0f} % over the cells of an "

@@ -209,6 +209,11 @@ ExitCode GateResult::code() const {
     return verdict;
 }
 
-GateResult gate(const GateOptions& options) { return Gate(options).judged(); }
+GateResult gate(const GateOptions& options) {
+    const auto start = Clock::now();
+    GateResult result = Gate(options).judged();
+    result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return result;
+}
 
 } // namespace shadowbench::gate

@@ -37,7 +37,8 @@ struct GateResult {
     std::vector<std::string> unjudged; // what nothing can be said of, and why: inconclusive
     std::vector<std::string> notes;    // what was left out on purpose, or is not certain
     std::vector<FailurePictures> pictures;
-    std::vector<StepTime> times;
+    std::vector<StepTime> times; // of the parts, some of which ran side by side
+    double seconds = 0;          // of all
 
     /// A regression is one whatever else could not be judged; without one, anything unjudged is inconclusive.
     [[nodiscard]] ExitCode code() const;

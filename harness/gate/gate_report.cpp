@@ -98,7 +98,8 @@ std::string gateReport(const GateResult& result, const GateOptions& options, con
     text += section("pictures", pictureLines(result, md), format);
     text += section("not judged", result.unjudged, format);
     text += section("to note", result.notes, format);
-    text += section("slowest parts", slowest(result.times), format);
+    text +=
+        section(fmt::format("slowest parts of {:.0f} s, some side by side", result.seconds), slowest(result.times), format);
     if (!md) text += fmt::format("gate: {} (head {}, base {})\n", verdictText(result.code()), result.head, result.base);
     return text;
 }
