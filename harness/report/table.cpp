@@ -101,10 +101,10 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
         const std::string bound = metric + shownBound(*limit);
         std::vector<std::string_view> within;
         for (const std::size_t i : adequate(records, scene)) within.push_back(records[i].variant);
-        lines.push_back(best             ? fmt::format("cheapest within tolerance ({}): {}", bound, records[*best].variant)
-                        : within.empty() ? fmt::format("no technique is within tolerance ({})", bound)
-                                         : fmt::format("within tolerance ({}), none of them timed: {}", bound,
-                                                       fmt::join(within, ", ")));
+        lines.push_back(best ? fmt::format("cheapest within tolerance ({}): {}", bound, records[*best].variant)
+                        : within.empty()
+                            ? fmt::format("no technique is within tolerance ({})", bound)
+                            : fmt::format("within tolerance ({}), none of them timed: {}", bound, fmt::join(within, ", ")));
     }
     std::vector<std::pair<std::string, std::string>> inapplicable; // reason → variants, in order of first occurrence
     for (const std::size_t i : ofScene(records, scene)) {
