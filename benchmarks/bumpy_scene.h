@@ -1,8 +1,8 @@
 // The benchmark's scene: a bumpy body over a planar ground, a point light and a camera that sees mostly ground.
 #pragma once
 
-#include "groundtruth/cgal/exact.h"
-#include "harness/scene/primitives.h"
+#include "groundtruth/cgal/hard/exact.h"
+#include "scene/meshes/primitives.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

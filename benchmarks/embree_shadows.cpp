@@ -1,8 +1,8 @@
 #include "benchmarks/embree_shadows.h"
 
-#include "groundtruth/cgal/parallel.h"
-#include "groundtruth/cgal/triangles.h"
-#include "harness/scene/error.h"
+#include "base/error.h"
+#include "base/parallel_loop.h"
+#include "groundtruth/cgal/geometry/triangles.h"
 
 #include <algorithm>
 #include <embree3/rtcore.h>

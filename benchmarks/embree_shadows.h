@@ -1,7 +1,7 @@
 // Shadow rays by Embree 3 in single precision: the speed anchor of the exact oracles, not truth.
 #pragma once
 
-#include "groundtruth/reference.h"
+#include "groundtruth/contract/reference.h"
 
 #include <memory>
 

@@ -6,10 +6,10 @@
 // Without --head a copy of the base is the head: every alarm is a false one. All samples are kept in FOLDER/NAME.jsonl, one
 // evaluation a line; a run adds what is missing to --evaluations, so one that was killed goes on. The report is about all
 // experiments in the folder; --evaluations 0 only writes it.
+#include "base/error.h"
+#include "base/files.h"
+#include "base/temporary_folder.h"
 #include "benchmarks/false_alarms_report.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
-#include "harness/scene/temporary_folder.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

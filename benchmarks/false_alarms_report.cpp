@@ -1,7 +1,7 @@
 #include "benchmarks/false_alarms_report.h"
 
 #include "benchmarks/resampled_evaluations.h"
-#include "harness/timing/statistics.h"
+#include "harness/measure/statistics.h"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>

@@ -4,9 +4,9 @@
 //   instruction_spread FOLDER… [--out FILE]
 //
 // Each folder holds the results.jsonl of a `run --cost instructions` of the same program. Without --out prints Markdown.
-#include "harness/gate/compare.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "harness/records/compare.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -4,12 +4,12 @@
 //
 // Prints Markdown tables; --out writes them to a file, too. A round measures Embree, polygon and rays one after the other;
 // the tables show medians over the rounds. All start from the same primary hits, which are timed apart.
+#include "base/error.h"
+#include "base/files.h"
 #include "benchmarks/bumpy_scene.h"
 #include "benchmarks/embree_shadows.h"
 #include "benchmarks/peak_memory.h"
 #include "benchmarks/shared_hits.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

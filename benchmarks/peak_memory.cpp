@@ -1,6 +1,6 @@
 #include "benchmarks/peak_memory.h"
 
-#include "harness/scene/error.h"
+#include "base/error.h"
 
 #include <exception>
 #include <sys/resource.h>

@@ -1,6 +1,6 @@
 #include "benchmarks/shared_hits.h"
 
-#include "harness/scene/error.h"
+#include "base/error.h"
 
 #include <sys/mman.h>
 

@@ -1,7 +1,7 @@
 // Primary hits in memory that a process shares with its children.
 #pragma once
 
-#include "groundtruth/reference.h"
+#include "groundtruth/contract/reference.h"
 
 #include <memory>
 

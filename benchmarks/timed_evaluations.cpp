@@ -1,7 +1,7 @@
 #include "benchmarks/timed_evaluations.h"
 
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
+#include "base/error.h"
+#include "base/files.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,47 +1,18 @@
-#include "techniques/entries.h"
+#include "techniques/catalog.h"
 
 #include <array>
 
 namespace shadowbench::techniques {
 
+#define TECHNIQUE(name) Entry name();
+#include "techniques/catalog.inc"
+#undef TECHNIQUE
+
 std::span<const Entry> catalog() {
     static const std::array entries{
-        none(),             //
-        planarHard(),       //
-        planarSoft(),       //
-        planarFake(),       //
-        smUniform(),        //
-        smMidpoint(),       //
-        smFocused(),        //
-        smPsm(),            //
-        smLispsm(),         //
-        smTsm(),            //
-        smCascaded(),       //
-        smTiled(),          //
-        smAdaptive(),       //
-        smCube(),           //
-        smDualParaboloid(), //
-        smHistory(),        //
-        smSilhouette(),     //
-        smAliasFree(),      //
-        volumeZpass(),      //
-        volumeZfail(),      //
-        volumeXor(),        //
-        pcf(),              //
-        pcfPoisson(),       //
-        vsm(),              //
-        lvsm(),             //
-        esm(),              //
-        csmFourier(),       //
-        deepSm(),           //
-        pcss(),             //
-        sampledMaps(),      //
-        temporalSoft(),     //
-
-        lodFull(),            //
-        lodSwitch(),          //
-        lodBlend(),           //
-        lodFrameSequential(), //
+#define TECHNIQUE(name) name(),
+#include "techniques/catalog.inc"
+#undef TECHNIQUE
     };
     return entries;
 }

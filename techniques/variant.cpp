@@ -1,9 +1,8 @@
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
-#include "techniques/technique.h"
+#include "techniques/catalog.h"
 
-#include <algorithm>
-#include <cmath>
+#include "base/error.h"
+#include "base/files.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fnmatch.h>
@@ -25,39 +24,11 @@ Variant make(const Entry& entry, std::string_view assignments) {
 
 } // namespace
 
-std::string_view title(Seed seed) {
-    switch (seed) {
-    case Seed::Dissertation:
-        return "Scherzer, dissertation";
-    case Seed::PixelCorrectPaper:
-        return "Scherzer et al., EGSR 2007";
-    case Seed::Course:
-        return "SIGGRAPH 2004 course, Real-Time Shadowing Techniques";
-    case Seed::Zapotocky:
-        return "Zápotocký, thesis";
-    }
-    return "";
-}
-
 const Entry& entryNamed(std::string_view id) {
     for (const Entry& entry : catalog())
         if (entry.id == id) return entry;
     throw BadInput(fmt::format("there is no technique \"{}\"{}; the techniques are: {}", id, didYouMean(id, ids()),
                                fmt::join(ids(), ", ")));
-}
-
-std::map<std::string, double> declaredFigures(const Entry& entry, const Technique& technique) {
-    std::map<std::string, double> figures = technique.figures();
-    for (const auto& [name, value] : figures) {
-        const bool declared = std::ranges::any_of(entry.figures, [&](const Figure& f) { return f.name == name; });
-        if (!declared)
-            throw InternalError(
-                fmt::format("technique {} tells a figure \"{}\" that its catalogue entry does not declare", entry.id, name));
-        if (!std::isfinite(value))
-            throw InternalError(
-                fmt::format("technique {}: its figure \"{}\" is {}; leave out what has no value", entry.id, name, value));
-    }
-    return figures;
 }
 
 Variant parseVariant(std::string_view text) {

@@ -1,7 +1,7 @@
 // The points at which POV-Ray samples an area light.
 #include "groundtruth/povray/povray.h"
 
-#include "harness/scene/random.h"
+#include "base/random.h"
 
 #include <bit>
 #include <cstdint>

@@ -1,9 +1,10 @@
 #include "groundtruth/povray/povray.h"
 
-#include "harness/scene/error.h"
-#include "harness/scene/image_io.h"
-#include "harness/scene/process.h"
-#include "harness/scene/temporary_folder.h"
+#include "base/error.h"
+#include "base/image_io.h"
+#include "base/process.h"
+#include "base/progress.h"
+#include "base/temporary_folder.h"
 
 #include <bit>
 #include <cerrno>

@@ -1,7 +1,8 @@
 // Area-light visibility by densely sampled POV-Ray renders (GROUNDTRUTH.md: "POV-Ray soft shadows").
 #pragma once
 
-#include "groundtruth/reference.h"
+#include "base/progress.h"
+#include "groundtruth/contract/reference.h"
 
 #include <chrono>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // Scene text for POV-Ray. Everything in it is a number or a word of ours: no string of the user's gets into it.
 #include "groundtruth/povray/povray.h"
 
-#include "harness/scene/error.h"
+#include "base/error.h"
 
 #include <algorithm>
 #include <bit>

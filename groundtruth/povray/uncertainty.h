@@ -1,5 +1,5 @@
 // How far a sampled visible fraction may be from the true one, estimated from the render itself: where it is better known
-// than elsewhere. How large it is over all, a certificate tells (groundtruth/certificate.h).
+// than elsewhere. How large it is over all, a certificate tells (groundtruth/certify/certificate.h).
 #pragma once
 
 #include "groundtruth/povray/povray.h"

@@ -1,8 +1,8 @@
 // Scores that techniques must keep, whatever they were before.
 #pragma once
 
-#include "harness/gate/compare.h"
 #include "harness/gate/watchlist.h"
+#include "harness/records/compare.h"
 
 #include <vector>
 

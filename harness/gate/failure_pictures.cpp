@@ -1,6 +1,6 @@
 #include "harness/gate/failure_pictures.h"
 
-#include "harness/run/cell_images.h"
+#include "harness/cells/cell_images.h"
 
 #include <algorithm>
 

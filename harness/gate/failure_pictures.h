@@ -2,7 +2,7 @@
 #pragma once
 
 #include "harness/gate/gate.h"
-#include "harness/gate/plan.h"
+#include "harness/gate/judged_cells.h"
 
 namespace shadowbench::gate {
 

@@ -1,14 +1,15 @@
 #include "harness/gate/gate.h"
 
-#include "groundtruth/cache.h"
-#include "harness/gate/base.h"
+#include "base/progress_line.h"
+#include "groundtruth/store/cache.h"
+#include "harness/cells/environment.h"
+#include "harness/gate/baseline.h"
 #include "harness/gate/bounds.h"
 #include "harness/gate/failure_pictures.h"
-#include "harness/gate/plan.h"
+#include "harness/gate/judged_cells.h"
 #include "harness/gate/verdict.h"
-#include "harness/run/environment.h"
-#include "harness/run/progress_line.h"
-#include "harness/timing/callgrind.h"
+#include "harness/measure/callgrind.h"
+#include "scene/load/load.h"
 
 #include <algorithm>
 #include <chrono>

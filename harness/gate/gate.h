@@ -1,9 +1,9 @@
 // The gate: measures a base and this program on the same cells and decides whether this one is worse (GATE.md).
 #pragma once
 
-#include "harness/gate/compare.h"
-#include "harness/gate/program.h"
-#include "harness/scene/error.h"
+#include "base/error.h"
+#include "harness/gate/measured_program.h"
+#include "harness/records/compare.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +17,7 @@ struct GateOptions {
     std::vector<std::string> scenes;     // ids or files; empty: the standard scenes
     std::vector<std::string> techniques; // variants or globs; empty: all
     Profile profile = Profile::Gate;
-    std::filesystem::path bounds = "results/bounds.toml";
+    std::filesystem::path bounds = "harness/gate/bounds.toml";
     std::filesystem::path out = "results/gate"; // of what is left for people: report and pictures of failing cells
     std::filesystem::path cache;                // empty: the default
     std::uint32_t seed = 1;

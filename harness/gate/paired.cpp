@@ -1,6 +1,6 @@
 #include "harness/gate/paired.h"
 
-#include "harness/timing/statistics.h"
+#include "harness/measure/statistics.h"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>

@@ -1,9 +1,9 @@
 // Frames of two programs in turns, and what the paired-time rule makes of them (GATE.md, "Time").
 #pragma once
 
+#include "base/progress.h"
 #include "harness/gate/paired.h"
-#include "harness/scene/progress.h"
-#include "harness/timing/timed_frames.h"
+#include "harness/measure/timed_frames.h"
 
 #include <cstdint>
 #include <filesystem>

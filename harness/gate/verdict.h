@@ -1,8 +1,8 @@
 // What a comparison means for a commit, and how machines and people are told.
 #pragma once
 
-#include "harness/gate/compare.h"
-#include "harness/scene/error.h"
+#include "base/error.h"
+#include "harness/records/compare.h"
 
 #include <string>
 #include <vector>

@@ -1,11 +1,12 @@
 #include "harness/gate/watchlist.h"
 
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
-#include "harness/scene/loader.h"
-#include "harness/scene/toml_value.h"
-#include "harness/sweep/axis.h"
-#include "techniques/technique.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/toml_value.h"
+#include "harness/studies/sweep/axis.h"
+#include "scene/load/load.h"
+#include "scene/load/scene_file.h"
+#include "techniques/catalog.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -111,7 +112,7 @@ std::vector<std::string> Watchlist::strangers(const std::vector<std::string>& kn
 }
 
 Watchlist readWatchlist(const std::filesystem::path& file, Profile profile) {
-    const TomlSource source{file.string(), profile};
+    const TomlSource source{file.string(), profileNames(), std::string(name(profile))};
     const toml::table table = parseToml(readFile(file), source.file);
     const TomlValue root(source, "", table);
     root.only({"scene", "bound", "sweep", "count", "time"});

@@ -1,7 +1,7 @@
-// What the gate watches beside the run itself, as data: results/bounds.toml.
+// What the gate watches beside the run itself, as data: harness/gate/bounds.toml.
 #pragma once
 
-#include "harness/scene/scene.h"
+#include "scene/scene.h"
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 #include "harness/history/change_points.h"
 
-#include "harness/scene/random.h"
+#include "base/random.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "harness/history/changes.h"
 
 #include "harness/gate/paired.h"
-#include "harness/timing/statistics.h"
+#include "harness/measure/statistics.h"
 
 #include <algorithm>
 #include <cmath>

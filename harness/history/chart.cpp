@@ -1,5 +1,5 @@
 // A metric of a scene over commits.
-#include "harness/history/report.h"
+#include "harness/history/history_report.h"
 #include "harness/report/gnuplot.h"
 #include "harness/report/summary.h"
 

@@ -1,6 +1,6 @@
 #include "harness/history/repository.h"
 
-#include "harness/scene/git.h"
+#include "base/git.h"
 
 #include <algorithm>
 #include <ctime>

@@ -1,8 +1,8 @@
 // Figures of one metric of one cell over commits.
 #pragma once
 
-#include "harness/gate/compare.h"
 #include "harness/history/store.h"
+#include "harness/records/compare.h"
 
 #include <string>
 #include <vector>

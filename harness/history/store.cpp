@@ -1,7 +1,7 @@
 #include "harness/history/store.h"
 
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
+#include "base/error.h"
+#include "base/files.h"
 
 #include <algorithm>
 #include <fmt/format.h>

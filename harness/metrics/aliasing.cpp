@@ -1,5 +1,5 @@
+#include "base/error.h"
 #include "harness/metrics/pixels.h"
-#include "harness/scene/error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Scores of hard labels.
+#include "base/error.h"
 #include "harness/metrics/pixels.h"
-#include "harness/scene/error.h"
 
 namespace shadowbench::metrics {
 namespace {

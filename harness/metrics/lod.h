@@ -2,7 +2,7 @@
 // of one call have the same size; otherwise InternalError.
 #pragma once
 
-#include "harness/scene/image.h"
+#include "base/image.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -5,9 +5,9 @@
 // technique that wrote a non-finite V inside M, or images of different sizes, throw InternalError.
 #pragma once
 
-#include "groundtruth/reference.h"
-#include "harness/records/record.h"
-#include "harness/scene/image.h"
+#include "base/image.h"
+#include "groundtruth/contract/reference.h"
+#include "harness/metrics/scores.h"
 
 #include <cstddef>
 #include <cstdint>

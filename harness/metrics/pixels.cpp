@@ -1,6 +1,6 @@
 #include "harness/metrics/pixels.h"
 
-#include "harness/scene/error.h"
+#include "base/error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Scores of graded visibility.
+#include "base/error.h"
 #include "harness/metrics/pixels.h"
-#include "harness/scene/error.h"
 
 #include <cmath>
 

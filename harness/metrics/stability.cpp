@@ -1,6 +1,6 @@
 // Stability over time: reprojection, flicker, flips, convergence.
+#include "base/error.h"
 #include "harness/metrics/pixels.h"
-#include "harness/scene/error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Records from JSON lines; strict, so that a typo in a file is an error and not a missing metric.
+#include "base/error.h"
+#include "base/files.h"
 #include "harness/records/fields.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
 
 #include <cstdint>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Records as JSON lines.
+#include "base/error.h"
+#include "base/files.h"
 #include "harness/records/fields.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Records as comma-separated values (RFC 4180): one column a number or text of the record, lists left out.
 #include "harness/records/fields.h"
-#include "harness/report/report.h"
+#include "harness/report/run_report.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "harness/report/gnuplot.h"
 
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
-#include "harness/scene/process.h"
-#include "harness/scene/temporary_folder.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/process.h"
+#include "base/temporary_folder.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 // The published page: report.md, results.csv and the charts.
+#include "base/files.h"
+#include "harness/cells/cell_images.h"
 #include "harness/report/charts.h"
 #include "harness/report/lod_report.h"
-#include "harness/report/report.h"
+#include "harness/report/run_report.h"
 #include "harness/report/summary.h"
-#include "harness/run/cell_images.h"
-#include "harness/scene/files.h"
-#include "harness/scene/scene.h"
-#include "techniques/technique.h"
+#include "scene/load/load.h"
+#include "techniques/catalog.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "harness/report/charts.h"
 #include "harness/report/gnuplot.h"
 #include "harness/report/labels.h"
-#include "harness/report/report.h"
+#include "harness/report/run_report.h"
 #include "harness/report/summary.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "harness/report/summary.h"
 
-#include "harness/report/report.h"
+#include "harness/report/run_report.h"
 
 #include <algorithm>
 #include <array>

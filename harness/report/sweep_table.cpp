@@ -1,5 +1,5 @@
 // A sweep as a table: a row a technique, a column a value, and where it breaks.
-#include "harness/report/report.h"
+#include "harness/report/run_report.h"
 #include "harness/report/summary.h"
 
 #include <algorithm>

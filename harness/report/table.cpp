@@ -1,5 +1,5 @@
 // Tables of one scene, for a terminal and in Markdown.
-#include "harness/report/report.h"
+#include "harness/report/run_report.h"
 #include "harness/report/summary.h"
 #include "harness/report/text_table.h"
 

@@ -1,8 +1,8 @@
 // The truth report's figures: numbers, pictures and charts of references.
 #pragma once
 
+#include "base/image.h"
 #include "harness/report/truth_report.h"
-#include "harness/scene/image.h"
 
 #include <glm/vec3.hpp>
 #include <string>

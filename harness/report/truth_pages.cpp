@@ -1,8 +1,8 @@
 // The truth report's Markdown, and what lies beside it.
+#include "base/files.h"
+#include "base/image_io.h"
 #include "harness/report/summary.h"
 #include "harness/report/truth_figures.h"
-#include "harness/scene/files.h"
-#include "harness/scene/image_io.h"
 
 #include <fmt/format.h>
 #include <functional>

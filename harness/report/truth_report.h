@@ -1,9 +1,9 @@
 // The truth itself as pages: what the references show, how sure they are, whether oracles agree, how long they took.
 #pragma once
 
-#include "groundtruth/agreement.h"
-#include "groundtruth/reference.h"
-#include "harness/report/report.h"
+#include "groundtruth/certify/agreement.h"
+#include "groundtruth/contract/reference.h"
+#include "harness/report/run_report.h"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 #include "techniques/filtered/prefiltered_map.h"
 
-#include "techniques/maps/single_map.h"
-#include "techniques/resolve.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/maps/single_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // plane, so that it does not jump where another surface begins in the image; long ones are read at several places along
 // their longer axis, as anisotropic hardware filters do.
 #include "gl/receiver.glsl"
-#include "maps/light_space.glsl"
+#include "shared/maps/light_space.glsl"
 
 uniform sampler2DArray maps;
 uniform sampler2D normals;

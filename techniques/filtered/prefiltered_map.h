@@ -3,11 +3,11 @@
 // functions, the basis, and in the test.
 #pragma once
 
+#include "techniques/contract/parameters.h"
+#include "techniques/contract/technique.h"
 #include "techniques/gl/program.h"
 #include "techniques/gl/texture.h"
-#include "techniques/maps/linear_depth_map.h"
-#include "techniques/parameters.h"
-#include "techniques/technique.h"
+#include "techniques/shared/maps/linear_depth_map.h"
 
 #include <glm/vec4.hpp>
 #include <string>

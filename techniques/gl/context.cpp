@@ -1,6 +1,6 @@
 #include "techniques/gl/context.h"
 
-#include "harness/scene/error.h"
+#include "base/error.h"
 #include "techniques/gl/api.h"
 
 namespace shadowbench::gl {

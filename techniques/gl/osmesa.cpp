@@ -1,5 +1,5 @@
 // Everything that knows OSMesa. Mesa 25.1 dropped it: an EGL context would be a second file behind the same header.
-#include "harness/scene/error.h"
+#include "base/error.h"
 #include "techniques/gl/context.h"
 
 #include <GL/osmesa.h>

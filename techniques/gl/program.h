@@ -1,5 +1,5 @@
-// A linked GLSL program. Sources are the files under techniques/, embedded by the build; `#include "maps/light_space.glsl"`
-// is resolved when loaded, and a compile error names the file and line it comes from.
+// A linked GLSL program. Sources are the files under techniques/, embedded by the build; `#include
+// "shared/maps/light_space.glsl"` is resolved when loaded, and a compile error names the file and line it comes from.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // The scene on the GPU: one vertex and index buffer per mesh, one instance buffer per frame.
 #pragma once
 
-#include "harness/scene/scene.h"
+#include "scene/snapshot.h"
 
 #include <cstddef>
 #include <memory>

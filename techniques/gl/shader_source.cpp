@@ -1,5 +1,5 @@
+#include "base/error.h"
 #include "embedded_shaders.h"
-#include "harness/scene/error.h"
 #include "techniques/gl/program.h"
 
 #include <algorithm>

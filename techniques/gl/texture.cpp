@@ -1,6 +1,6 @@
 #include "techniques/gl/texture.h"
 
-#include "harness/scene/error.h"
+#include "base/error.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
 

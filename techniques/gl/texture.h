@@ -1,7 +1,7 @@
 // Two-dimensional textures and the framebuffers that draw into them. Bytes are accounted in Context::tally().
 #pragma once
 
-#include "harness/scene/image.h"
+#include "base/image.h"
 
 #include <cstddef>
 #include <cstdint>

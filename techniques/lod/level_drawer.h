@@ -1,8 +1,8 @@
 // Draws instances, each at a level of its chain: one instanced draw call a mesh.
 #pragma once
 
+#include "techniques/contract/lod_technique.h"
 #include "techniques/gl/scene_buffers.h"
-#include "techniques/lod/lod_technique.h"
 
 #include <span>
 #include <unordered_map>

@@ -1,7 +1,7 @@
 // The plane that planar shadows fall on, and Blinn's projection onto it (Zápotocký 2.2). No GL.
 #pragma once
 
-#include "harness/scene/scene.h"
+#include "scene/scene.h"
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>

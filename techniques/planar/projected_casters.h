@@ -1,9 +1,9 @@
 // Casters flattened onto a plane by a light (Zápotocký 2.2), and the pixels that see the plane.
 #pragma once
 
+#include "techniques/contract/technique.h"
 #include "techniques/gl/program.h"
 #include "techniques/planar/planar_receiver.h"
-#include "techniques/technique.h"
 
 namespace shadowbench::techniques {
 

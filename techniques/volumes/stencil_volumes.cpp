@@ -48,7 +48,7 @@ StencilVolumes::VolumeMesh::VolumeMesh(std::shared_ptr<const Mesh> mesh) : sourc
 }
 
 StencilVolumes::StencilVolumes(VolumeTest test)
-    : test_(test), volume_("volumes/volume.vert", "maps/depth_map.frag"),
+    : test_(test), volume_("volumes/volume.vert", "shared/maps/depth_map.frag"),
       shadowed_(gl::Program::screen("volumes/shadowed.frag")) {}
 
 void StencilVolumes::render(const Frame& frame, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,

@@ -1,9 +1,9 @@
 // Shadow volumes counted in the stencil buffer: what the techniques of this folder share.
 #pragma once
 
+#include "techniques/contract/entry.h"
 #include "techniques/gl/program.h"
-#include "techniques/technique.h"
-#include "techniques/volumes/shadow_volume.h"
+#include "techniques/shared/casters/shadow_volume.h"
 
 #include <cstdint>
 #include <map>

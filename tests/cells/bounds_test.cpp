@@ -1,6 +1,7 @@
 // What each technique must show against ground truth on the standard scenes, in the gate profile.
-#include "cell_stage.h"
-#include "test_names.h"
+#include "scene/load/load.h"
+#include "tests/support/cell_stage.h"
+#include "tests/support/test_names.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 // Shadow-caster levels against exact shadows: a closed form, then the three scenes with levels of detail.
-#include "groundtruth/cgal/exact.h"
-#include "harness/adequacy/caster_levels.h"
-#include "harness/scene/error.h"
+#include "base/error.h"
+#include "groundtruth/cgal/hard/exact.h"
+#include "harness/studies/recommend/caster_levels.h"
+#include "scene/load/load.h"
 
 #include <cmath>
 #include <functional>

@@ -1,5 +1,5 @@
 // What a cell's record says beside its scores.
-#include "cell_stage.h"
+#include "tests/support/cell_stage.h"
 
 #include <gtest/gtest.h>
 

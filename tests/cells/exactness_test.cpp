@@ -1,7 +1,8 @@
 // Techniques without texels are exact: where their label differs from the truth, the truth itself changes within a fiftieth
 // of a pixel, or, where the near plane is so close that the depth buffer is coarser, within a step of it.
-#include "cell_stage.h"
-#include "test_names.h"
+#include "scene/load/load.h"
+#include "tests/support/cell_stage.h"
+#include "tests/support/test_names.h"
 
 #include <algorithm>
 #include <cmath>

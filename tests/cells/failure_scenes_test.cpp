@@ -1,7 +1,8 @@
 // Every scene's expectations in the gate profile: techniques that it breaks must break, and the others hold.
-#include "cell_stage.h"
-#include "expected_techniques.h"
-#include "test_names.h"
+#include "scene/load/load.h"
+#include "tests/support/cell_stage.h"
+#include "tests/support/expected_techniques.h"
+#include "tests/support/test_names.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
 // What holds for every shadow technique on every scene.
-#include "cell_stage.h"
-#include "harness/scene/primitives.h"
-#include "test_names.h"
+#include "scene/load/load.h"
+#include "scene/meshes/primitives.h"
+#include "tests/support/cell_stage.h"
+#include "tests/support/test_names.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

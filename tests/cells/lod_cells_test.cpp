@@ -1,6 +1,7 @@
 // What level-of-detail techniques must show on the dissertation's three scenes, in the gate profile.
-#include "cell_stage.h"
-#include "harness/lod/lod_cell.h"
+#include "harness/cells/lod_cell.h"
+#include "scene/load/load.h"
+#include "tests/support/cell_stage.h"
 
 #include <gtest/gtest.h>
 #include <map>

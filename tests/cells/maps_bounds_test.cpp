@@ -1,6 +1,7 @@
 // What the shadow maps must show against ground truth, in the gate profile.
-#include "cell_stage.h"
-#include "test_names.h"
+#include "scene/load/load.h"
+#include "tests/support/cell_stage.h"
+#include "tests/support/test_names.h"
 
 #include <gtest/gtest.h>
 

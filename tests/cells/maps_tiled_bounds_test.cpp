@@ -1,5 +1,5 @@
 // What tiled and adaptive shadow maps must show against ground truth, in the gate profile, and where they fail.
-#include "cell_stage.h"
+#include "tests/support/cell_stage.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,11 @@
 // Where techniques break as one quantity of a scene moves: the `breaks` and `never_breaks` of every scene, in the gate
 // profile.
-#include "cell_stage.h"
-#include "expected_techniques.h"
-#include "harness/sweep/axis.h"
-#include "harness/sweep/sweep.h"
-#include "test_names.h"
+#include "harness/studies/sweep/axis.h"
+#include "harness/studies/sweep/sweep.h"
+#include "scene/load/load.h"
+#include "tests/support/cell_stage.h"
+#include "tests/support/expected_techniques.h"
+#include "tests/support/test_names.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Bad input: one clear line, the documented exit code, no partial file, no crash.
-#include "program.h"
+#include "tests/support/program.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The cache verb as a user runs it.
-#include "program.h"
+#include "tests/support/program.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

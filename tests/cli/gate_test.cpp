@@ -1,7 +1,7 @@
 // Instruction counts and comparisons as a user makes them.
+#include "base/files.h"
 #include "harness/records/record.h"
-#include "harness/scene/files.h"
-#include "program.h"
+#include "tests/support/program.h"
 
 #include <gtest/gtest.h>
 

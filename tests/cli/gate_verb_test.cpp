@@ -1,7 +1,7 @@
 // The gate as a user runs it: what is a base, what its verdicts are, and what becomes of it when it is killed.
+#include "base/files.h"
 #include "harness/records/record.h"
-#include "harness/scene/files.h"
-#include "program.h"
+#include "tests/support/program.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,8 @@
 // Golden references: the committed ones, and the commands that verify and replace them.
-#include "harness/run/golden_lock.h"
-#include "harness/scene/files.h"
-#include "program.h"
+#include "base/files.h"
+#include "harness/cells/golden_lock.h"
+#include "scene/load/load.h"
+#include "tests/support/program.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // The history of a small repository, as a user keeps it.
+#include "base/files.h"
 #include "harness/records/record.h"
-#include "harness/scene/files.h"
-#include "program.h"
+#include "tests/support/program.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // Levels of detail as a user runs them.
 #include "harness/records/record.h"
-#include "program.h"
+#include "tests/support/program.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Two programs timed in turns: with stand-ins that answer any times wanted, and with the built program.
+#include "base/error.h"
 #include "harness/gate/paired_run.h"
-#include "harness/scene/error.h"
-#include "program.h"
+#include "tests/support/program.h"
 
 #include <cmath>
 #include <fmt/format.h>

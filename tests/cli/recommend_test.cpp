@@ -1,6 +1,6 @@
 // `shadowbench recommend` as a user runs it.
 #include "harness/records/record.h"
-#include "program.h"
+#include "tests/support/program.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

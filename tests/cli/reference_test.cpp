@@ -1,6 +1,6 @@
 // `shadowbench reference` as a user asks one oracle or another.
-#include "harness/scene/files.h"
-#include "program.h"
+#include "base/files.h"
+#include "tests/support/program.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

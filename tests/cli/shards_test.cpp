@@ -1,10 +1,10 @@
 // Runs in parts: manifests, shards, single cells, and what becomes of them when they are killed.
+#include "base/files.h"
 #include "harness/records/record.h"
-#include "harness/scene/files.h"
-#include "harness/shards/cell_file.h"
-#include "harness/shards/manifest.h"
-#include "harness/shards/merge.h"
-#include "program.h"
+#include "harness/runs/cell_file.h"
+#include "harness/runs/manifest.h"
+#include "harness/runs/merge.h"
+#include "tests/support/program.h"
 
 #include <chrono>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // `shadowbench sweep` as a user runs it.
 #include "harness/records/record.h"
-#include "program.h"
+#include "tests/support/program.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The verbs as documented: what they print, what they write, what they return.
 #include "harness/records/record.h"
-#include "program.h"
-#include "techniques/technique.h"
+#include "techniques/catalog.h"
+#include "tests/support/program.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 TEST(CommandLine, HelpOfTheProgramAndOfEveryVerbHasAnExample) {
     EXPECT_EQ(shell("shadowbench --help").code, 0);
-    for (const std::string verb : {"list", "run", "merge", "reference", "sweep", "recommend", "claims", "compare", "report", "cache",
-                                   "cache list", "cache verify", "cache prune"}) {
+    for (const std::string verb : {"list", "run", "merge", "reference", "sweep", "recommend", "claims", "compare", "report",
+                                   "cache", "cache list", "cache verify", "cache prune"}) {
         const Outcome help = shell("shadowbench " + verb + " --help");
         EXPECT_EQ(help.code, 0) << verb;
         EXPECT_NE(help.output.find("Example"), std::string::npos) << verb;

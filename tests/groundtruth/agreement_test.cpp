@@ -1,5 +1,7 @@
-#include "groundtruth/agreement.h"
-#include "povray_scene.h"
+#include "groundtruth/certify/agreement.h"
+#include "scene/load/load.h"
+#include "scene/scene.h"
+#include "tests/support/povray_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The fast form of the visible fraction against its exact certifier and against shadow rays.
-#include "area_scenes.h"
+#include "tests/support/area_scenes.h"
 
 #include <array>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 // Visible fractions against closed forms and in degenerate positions.
-#include "area_scenes.h"
-#include "harness/scene/error.h"
+#include "base/error.h"
+#include "tests/support/area_scenes.h"
 
 #include <numbers>
 

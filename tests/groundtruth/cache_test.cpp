@@ -1,11 +1,12 @@
-#include "groundtruth/cache.h"
-#include "groundtruth/reference_files.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
-#include "harness/scene/image_io.h"
-#include "harness/scene/temporary_folder.h"
-#include "povray_scene.h"
-#include "reference_samples.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/image_io.h"
+#include "base/temporary_folder.h"
+#include "groundtruth/contract/reference_files.h"
+#include "groundtruth/oracle.h"
+#include "groundtruth/store/cache.h"
+#include "tests/support/povray_scene.h"
+#include "tests/support/reference_samples.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -137,25 +138,25 @@ Request quick() {
 }
 
 TEST_F(CacheFolder, GetComputesOnceAndThenReads) {
-    const Reference first = cache().get(quick());
+    const Reference first = groundtruth::cached(cache(), quick());
     EXPECT_TRUE(fs::exists(cache().entry(first.provenance.key)));
-    const Reference second = cache().get(quick());
+    const Reference second = groundtruth::cached(cache(), quick());
     expectEqual(first, second); // the recorded seconds too: it was not computed again
 }
 
 TEST_F(CacheFolder, WhoAsksWhileAReferenceIsBeingComputedWaitsForIt) {
     std::vector<Reference> got(4);
     std::vector<std::thread> asking;
-    for (Reference& reference : got) asking.emplace_back([&] { reference = cache().get(quick()); });
+    for (Reference& reference : got) asking.emplace_back([&] { reference = groundtruth::cached(cache(), quick()); });
     for (std::thread& thread : asking) thread.join();
     for (const Reference& reference : got) expectEqual(reference, got.front()); // the recorded seconds too
 }
 
 TEST_F(CacheFolder, GetComputesADamagedEntryAgain) {
-    const Reference first = cache().get(quick());
+    const Reference first = groundtruth::cached(cache(), quick());
     writeFile(cache().entry(first.provenance.key), "rubbish");
     testing::internal::CaptureStderr();
-    const Reference again = cache().get(quick());
+    const Reference again = groundtruth::cached(cache(), quick());
     testing::internal::GetCapturedStderr();
     EXPECT_EQ(first.visibility, again.visibility);
     EXPECT_TRUE(cache().find(first.provenance.key));
@@ -166,7 +167,7 @@ TEST_F(CacheFolder, ACacheThatCannotBeWrittenCostsOneWarning) {
     const Cache blocked(folder_ / "file" / "references");
     EXPECT_THROW(blocked.store(sample(someKey)), InternalError);
     testing::internal::CaptureStderr();
-    const Reference reference = blocked.get(quick());
+    const Reference reference = groundtruth::cached(blocked, quick());
     const std::string said = testing::internal::GetCapturedStderr();
     EXPECT_EQ(reference.visibility.width(), 16);
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;

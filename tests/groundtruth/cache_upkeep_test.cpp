@@ -1,11 +1,11 @@
 // The cache's size, age and health.
-#include "groundtruth/cache.h"
-#include "groundtruth/cache_limits.h"
-#include "groundtruth/reference_files.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
-#include "harness/scene/temporary_folder.h"
-#include "reference_samples.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "groundtruth/contract/reference_files.h"
+#include "groundtruth/store/cache.h"
+#include "groundtruth/store/cache_limits.h"
+#include "tests/support/reference_samples.h"
 
 #include <cstdlib>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // The certificate on renders whose errors are known: made here, not by POV-Ray.
-#include "groundtruth/certificate.h"
+#include "base/error.h"
+#include "base/random.h"
+#include "groundtruth/certify/certificate.h"
 #include "groundtruth/povray/uncertainty.h"
-#include "harness/scene/error.h"
-#include "harness/scene/random.h"
 
 #include <algorithm>
 #include <cmath>

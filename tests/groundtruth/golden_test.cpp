@@ -1,9 +1,9 @@
-#include "groundtruth/golden.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
-#include "harness/scene/image_io.h"
-#include "harness/scene/temporary_folder.h"
-#include "reference_samples.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/image_io.h"
+#include "base/temporary_folder.h"
+#include "groundtruth/store/golden.h"
+#include "tests/support/reference_samples.h"
 
 #include <functional>
 #include <gtest/gtest.h>

@@ -1,11 +1,13 @@
-#include "groundtruth/cgal/plan.h"
+#include "groundtruth/cgal/plan/plan.h"
+#include "scene/load/load.h"
+#include "scene/scene.h"
 
-#include "groundtruth/polygon_files.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
-#include "harness/scene/primitives.h"
-#include "harness/scene/temporary_folder.h"
-#include "tests/groundtruth/exact_scenes.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "groundtruth/cgal/plan/polygon_files.h"
+#include "scene/meshes/primitives.h"
+#include "tests/support/exact_scenes.h"
 
 #include <gtest/gtest.h>
 

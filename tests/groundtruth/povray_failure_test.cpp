@@ -1,9 +1,11 @@
 // What happens when POV-Ray is missing, fails, dies, hangs or writes rubbish: one sentence, and nothing is left behind.
+#include "base/error.h"
+#include "base/files.h"
+#include "base/image_io.h"
 #include "groundtruth/povray/povray.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
-#include "harness/scene/image_io.h"
-#include "povray_stand_in.h"
+#include "scene/load/load.h"
+#include "scene/scene.h"
+#include "tests/support/povray_stand_in.h"
 
 #include <algorithm>
 #include <chrono>

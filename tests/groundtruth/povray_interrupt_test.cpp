@@ -1,6 +1,6 @@
 // A run that is interrupted or killed: POV-Ray ends with it, and its folder goes at once or at the next start.
-#include "harness/scene/temporary_folder.h"
-#include "povray_stand_in.h"
+#include "base/temporary_folder.h"
+#include "tests/support/povray_stand_in.h"
 
 #include <csignal>
 #include <sys/wait.h>

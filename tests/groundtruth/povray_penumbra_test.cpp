@@ -1,6 +1,6 @@
 // POV-Ray against closed forms.
 #include "groundtruth/povray/povray.h"
-#include "povray_scene.h"
+#include "tests/support/povray_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
 // Every fault that a recipe is known to have is refused, on a scene where it matters; the recipe itself passes there.
-#include "groundtruth/certificate.h"
-#include "groundtruth/cgal/exact.h"
-#include "harness/scene/error.h"
-#include "povray_scene.h"
+#include "base/error.h"
+#include "groundtruth/certify/certificate.h"
+#include "groundtruth/cgal/hard/exact.h"
+#include "groundtruth/oracle.h"
+#include "tests/support/povray_scene.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

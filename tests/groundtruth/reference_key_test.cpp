@@ -1,6 +1,6 @@
-#include "groundtruth/reference_tools.h"
-#include "harness/scene/error.h"
-#include "povray_scene.h"
+#include "base/error.h"
+#include "groundtruth/oracle.h"
+#include "tests/support/povray_scene.h"
 
 #include <cstdlib>
 #include <functional>

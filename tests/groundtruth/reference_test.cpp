@@ -1,10 +1,10 @@
 // References as the harness asks for them.
-#include "groundtruth/certificate.h"
-#include "groundtruth/cgal/exact.h"
+#include "base/error.h"
+#include "groundtruth/certify/certificate.h"
+#include "groundtruth/cgal/hard/exact.h"
+#include "groundtruth/oracle.h"
 #include "groundtruth/povray/povray.h"
-#include "groundtruth/reference.h"
-#include "harness/scene/error.h"
-#include "povray_scene.h"
+#include "tests/support/povray_scene.h"
 
 #include <algorithm>
 #include <cmath>

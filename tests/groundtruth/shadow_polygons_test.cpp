@@ -1,11 +1,11 @@
-#include "groundtruth/cgal/shadow_polygons.h"
+#include "groundtruth/cgal/plan/shadow_polygons.h"
 
-#include "groundtruth/polygon_files.h"
-#include "harness/scene/error.h"
-#include "harness/scene/files.h"
-#include "harness/scene/primitives.h"
-#include "harness/scene/temporary_folder.h"
-#include "tests/groundtruth/exact_scenes.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "groundtruth/cgal/plan/polygon_files.h"
+#include "scene/meshes/primitives.h"
+#include "tests/support/exact_scenes.h"
 
 #include <gtest/gtest.h>
 

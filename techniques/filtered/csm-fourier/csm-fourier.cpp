@@ -9,10 +9,10 @@
 // wave's half period; for the rest (footprint, box, linear depth) see vsm.cpp.
 #include "techniques/filtered/csm-fourier/csm-fourier.h"
 
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/filtered/prefiltered_map.h"
 #include "techniques/gl/counters.h"
-#include "techniques/resolve.h"
+#include "techniques/gl/resolve.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,11 +8,11 @@
 // by the slope of a whole texel and texels are read at the depth of the receiver's plane, else a texel's samples shade the
 // surface they lie on; in the compression the last segment ends as close to the true function as its error window allows,
 // where the paper takes the middle of the window for all: what is fully shadowed stays dark.
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/filtered/deep-sm/deep_texture.h"
 #include "techniques/gl/api.h"
-#include "techniques/maps/single_map.h"
-#include "techniques/resolve.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -1,5 +1,5 @@
 #include "gl/receiver.glsl"
-#include "maps/light_space.glsl"
+#include "shared/maps/light_space.glsl"
 
 layout(std430, binding = 0) readonly buffer Firsts { uint first[]; };  // node with which a texel begins
 layout(std430, binding = 1) readonly buffer Nodes { vec2 nodes[]; };   // depth, transmittance

@@ -1,6 +1,6 @@
 #include "techniques/filtered/deep-sm/deep_texture.h"
 
-#include "harness/scene/error.h"
+#include "base/error.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // A square map of transmittance functions, in one list for the GPU.
 #pragma once
 
-#include "harness/scene/image.h"
+#include "base/image.h"
 #include "techniques/filtered/deep-sm/transmittance.h"
 
 #include <cstdint>

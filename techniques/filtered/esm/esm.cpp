@@ -10,9 +10,9 @@
 // texels are compared at every second, fourth … texel. For the rest (footprint, box, linear depth) see vsm.cpp.
 #include "techniques/filtered/esm/esm.h"
 
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/filtered/prefiltered_map.h"
-#include "techniques/resolve.h"
+#include "techniques/gl/resolve.h"
 
 #include <algorithm>
 #include <cmath>

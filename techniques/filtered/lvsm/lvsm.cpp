@@ -7,10 +7,10 @@
 // for the rest see vsm.cpp.
 #include "techniques/filtered/lvsm/lvsm.h"
 
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/filtered/prefiltered_map.h"
 #include "techniques/filtered/vsm/vsm.h"
-#include "techniques/resolve.h"
+#include "techniques/gl/resolve.h"
 
 #include <algorithm>
 

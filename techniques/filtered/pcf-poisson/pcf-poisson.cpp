@@ -3,10 +3,10 @@
 // angle is a hash of pixel and seed: the noise stands still with the camera. Departures: the disk is a round of texels
 // around the receiver, where the paper projects the pixel into the map; as for `pcf`, with bias=slope each tap is compared
 // with the depth of the receiver's plane at the tap.
-#include "techniques/entries.h"
-#include "techniques/maps/single_map.h"
-#include "techniques/resolve.h"
-#include "techniques/sampling.h"
+#include "techniques/contract/entry.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/maps/single_map.h"
+#include "techniques/shared/sampling/sampling.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -1,5 +1,5 @@
 #include "gl/receiver.glsl"
-#include "maps/light_space.glsl"
+#include "shared/maps/light_space.glsl"
 
 uniform sampler2DShadow depthMap;
 uniform sampler2D normals;

@@ -4,10 +4,10 @@
 // bias. Departure: with bias=slope each tap is compared with the depth of the receiver's plane at the tap (course, "Bias":
 // the offset follows the surface slope, here over the whole kernel), else a k×k kernel darkens every slanted surface. As the
 // sources admit, the penumbra is k texels wide wherever the occluder is.
-#include "techniques/entries.h"
-#include "techniques/maps/midpoint_map.h"
-#include "techniques/maps/single_map.h"
-#include "techniques/resolve.h"
+#include "techniques/contract/entry.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/maps/midpoint_map.h"
+#include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -1,5 +1,5 @@
 #include "gl/receiver.glsl"
-#include "filtered/pcf.glsl"
+#include "shared/filters/pcf.glsl"
 
 uniform sampler2DShadow depthMap;
 #if KERNEL > 1

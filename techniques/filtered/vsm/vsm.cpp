@@ -8,9 +8,9 @@
 // a plane is the plane's depth. `bleeding` (Lauritzen 2007) is off: it hides leaks by darkening every penumbra.
 #include "techniques/filtered/vsm/vsm.h"
 
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/filtered/prefiltered_map.h"
-#include "techniques/resolve.h"
+#include "techniques/gl/resolve.h"
 
 #include <algorithm>
 

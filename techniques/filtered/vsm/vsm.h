@@ -1,7 +1,7 @@
 // The mathematics of variance shadow maps, as filtered/moments.glsl computes it.
 #pragma once
 
-#include "techniques/parameters.h"
+#include "techniques/contract/parameters.h"
 
 namespace shadowbench::techniques {
 

@@ -1,7 +1,7 @@
 // Blending of levels (Giegl and Wimmer 2007, dissertation 2.4.3): both levels of an instance in transition are drawn in
 // every frame, the wholly visible one opaque, the other blended over it, depth-tested but not written, its polygons in no
 // order. In the middle of the transition the two swap roles.
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/lod/shaded_pass.h"
 #include "techniques/lod/transition.h"
 

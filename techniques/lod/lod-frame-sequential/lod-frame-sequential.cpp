@@ -5,12 +5,12 @@
 // hand's breadth already at 10 m, and compared as the older camera saw it; ids are 16-bit integers, which are exact where a
 // 16-bit float ends at 2,048; the texel of the older buffer is read without filter; an instance that enters its transition
 // shows its wholly visible level first (alternation.h); the first frame fills both buffers.
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
+#include "techniques/contract/lod_technique.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/program.h"
 #include "techniques/lod/lod-frame-sequential/alternation.h"
 #include "techniques/lod/lod-frame-sequential/visibility_texture.h"
-#include "techniques/lod/lod_technique.h"
 
 #include <glm/matrix.hpp>
 #include <optional>

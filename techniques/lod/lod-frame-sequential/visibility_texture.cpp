@@ -1,7 +1,7 @@
 #include "techniques/lod/lod-frame-sequential/visibility_texture.h"
 
-#include "harness/scene/error.h"
-#include "harness/scene/random.h"
+#include "base/error.h"
+#include "base/random.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
 // Visibility textures (dissertation 5.1.3): in which order the fragments of an instance appear. No GL.
 #pragma once
 
-#include "harness/scene/image.h"
+#include "base/image.h"
 
 #include <cstdint>
 #include <string_view>

@@ -1,5 +1,5 @@
 // Every instance at its finest level: the reference image of level-of-detail techniques (dissertation, chapter 5).
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/lod/shaded_pass.h"
 
 namespace shadowbench::techniques {

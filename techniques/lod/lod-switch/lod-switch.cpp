@@ -1,6 +1,6 @@
 // Discrete levels of detail (dissertation 2.4.2): an instance changes its level from one frame to the next, here in the
 // middle of what is a transition for others.
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/lod/shaded_pass.h"
 
 namespace shadowbench::techniques {

@@ -1,7 +1,7 @@
 // Refinement of a quadtree over a light's image planes by what pixels need (fitted virtual shadow maps; no GL).
 #pragma once
 
-#include "techniques/maps/plane_tiles.h"
+#include "techniques/shared/maps/tile_choice.h"
 
 #include <vector>
 

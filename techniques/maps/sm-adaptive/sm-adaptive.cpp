@@ -6,10 +6,10 @@
 // frame to frame; only placements whose box meets a page are drawn into it.
 // Its price is passes, one a page: `pages` bounds them. Where they do not suffice, those pages stay coarse whose texels are
 // too long by the least, summed over their pixels.
-#include "harness/scene/error.h"
-#include "techniques/entries.h"
+#include "base/error.h"
+#include "techniques/contract/entry.h"
 #include "techniques/maps/sm-adaptive/refinement.h"
-#include "techniques/maps/tiled_planes.h"
+#include "techniques/shared/maps/tiled_map.h"
 
 #include <fmt/format.h>
 

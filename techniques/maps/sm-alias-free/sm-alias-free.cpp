@@ -4,10 +4,10 @@
 // Assarsson 2008 (2.3.5), in compute shaders. Departures: the lists are linked; a triangle visits the cells of its
 // projection's bounding box, not of a conservative rasterisation, and the test is made in world space relative to the
 // pixel's point.
-#include "techniques/entries.h"
-#include "techniques/maps/depth_map.h"
-#include "techniques/maps/single_map.h"
-#include "techniques/resolve.h"
+#include "techniques/contract/entry.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/maps/depth_map.h"
+#include "techniques/shared/maps/single_map.h"
 
 #include <cstdint>
 #include <glm/geometric.hpp>

@@ -3,12 +3,12 @@
 // Scherzer 2.2.2, Fig. 2.11. The slices share the texels of one map of `map`². `warp=lispsm` warps each slice's map (LSPSM)
 // as on the right of Fig. 2.11. Departure: depths between the nearest and farthest visible point of the scene's box are
 // partitioned, not those between the camera's near and far plane.
-#include "techniques/entries.h"
-#include "techniques/maps/cascades.h"
-#include "techniques/maps/depth_atlas.h"
-#include "techniques/maps/focused_view.h"
-#include "techniques/maps/lispsm_view.h"
-#include "techniques/resolve.h"
+#include "techniques/contract/entry.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/light_views/cascades.h"
+#include "techniques/shared/light_views/focused_view.h"
+#include "techniques/shared/light_views/lispsm_view.h"
+#include "techniques/shared/maps/depth_atlas.h"
 
 #include <glm/geometric.hpp>
 

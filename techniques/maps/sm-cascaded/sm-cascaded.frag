@@ -1,5 +1,5 @@
 #include "gl/receiver.glsl"
-#include "maps/depth_atlas.glsl"
+#include "shared/maps/depth_atlas.glsl"
 
 uniform vec4 eyeDepthFromWorld;     // dot with (p, 1): distance along the view axis
 uniform vec4 sliceEnds[TILES];      // x: eye depth at which slice i ends

@@ -1,10 +1,10 @@
 // Omnidirectional shadow map: six depth maps on the sides of a cube around the light. Course, "Extensions" (omni-directional
 // light sources). The six share the texels of one map of `map`² and lie in one texture, which tests as a cube map does.
-#include "techniques/applicability.h"
-#include "techniques/entries.h"
-#include "techniques/maps/cube_view.h"
-#include "techniques/maps/depth_atlas.h"
-#include "techniques/resolve.h"
+#include "techniques/contract/applicability.h"
+#include "techniques/contract/entry.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/light_views/cube_view.h"
+#include "techniques/shared/maps/depth_atlas.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -1,6 +1,6 @@
 #include "gl/receiver.glsl"
-#include "maps/cube_side.glsl"
-#include "maps/depth_atlas.glsl"
+#include "shared/maps/cube_side.glsl"
+#include "shared/maps/depth_atlas.glsl"
 
 uniform vec3 light;
 

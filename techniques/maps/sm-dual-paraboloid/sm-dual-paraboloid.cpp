@@ -3,11 +3,11 @@
 // tessellated: edges of large triangles stay straight in the map and bend in space. The two share the texels of one map of
 // `map`². Departure: depth is the distance from the light over the farthest one, linear; each map shows a little more than
 // its half space, for texels on the rim.
-#include "techniques/applicability.h"
-#include "techniques/entries.h"
+#include "techniques/contract/applicability.h"
+#include "techniques/contract/entry.h"
 #include "techniques/gl/api.h"
-#include "techniques/maps/depth_atlas.h"
-#include "techniques/resolve.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/maps/depth_atlas.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ class DualParaboloid final : public Technique {
 public:
     explicit DualParaboloid(const Parameters& p)
         : bias_(biasFrom(p)), atlas_(squareTiles(p.integer("map"), 2), bias_),
-          draw_("maps/sm-dual-paraboloid/paraboloid.vert", "maps/depth_map.frag"),
+          draw_("maps/sm-dual-paraboloid/paraboloid.vert", "shared/maps/depth_map.frag"),
           resolve_(gl::Program::screen("maps/sm-dual-paraboloid/sm-dual-paraboloid.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {

@@ -5,10 +5,10 @@
 // as eq. 3.4's product of matrices; the depth tolerance is the listing's 0.001 in window depth.
 #include "techniques/maps/sm-history/sm-history.h"
 
-#include "techniques/entries.h"
-#include "techniques/maps/single_map.h"
-#include "techniques/resolve.h"
-#include "techniques/sampling.h"
+#include "techniques/contract/entry.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/maps/single_map.h"
+#include "techniques/shared/sampling/sampling.h"
 
 #include <algorithm>
 #include <cmath>

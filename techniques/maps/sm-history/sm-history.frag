@@ -1,7 +1,7 @@
 // One frame of pixel-correct shadow maps.
 #include "gl/half.glsl"
 #include "gl/receiver.glsl"
-#include "filtered/pcf.glsl"
+#include "shared/filters/pcf.glsl"
 
 uniform sampler2DShadow depthMap;
 #if KERNEL > 1

@@ -2,8 +2,8 @@
 // maps/light_view.cpp. Departure: the body that the map is focused on is the scene's bounding box clipped by the view
 // frustum; casters between it and the light are kept by depth clamping instead of growing the body towards the light, which
 // leaves all of the depth range to receivers.
-#include "techniques/entries.h"
-#include "techniques/maps/single_map.h"
+#include "techniques/contract/entry.h"
+#include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
 

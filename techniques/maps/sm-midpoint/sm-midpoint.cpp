@@ -1,9 +1,9 @@
 // Midpoint shadow map (Woo 1992) over the uniform light frustum: no bias at all. Course, "Bias" (Second Depth Shadow Maps);
 // Zápotocký 4.4.2. The paper's second depth is the next surface; `second=backface` is Zápotocký's pair of front and back
 // faces, which is the same on closed meshes that do not meet, and loses the shadow of open ones.
-#include "techniques/entries.h"
-#include "techniques/maps/midpoint_map.h"
-#include "techniques/maps/single_map.h"
+#include "techniques/contract/entry.h"
+#include "techniques/shared/maps/midpoint_map.h"
+#include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
 

@@ -4,9 +4,9 @@
 // frustum, which a close near plane ruins, `fit=box` its restriction to the scene's bounding box. Departures: casters before
 // the light's near plane are kept by depth clamping, which is also how the negative near plane is done; a light behind the
 // viewer, a sink of rays after the perspective, needs no inverted depth test, because depth is made to grow along its rays.
-#include "techniques/entries.h"
-#include "techniques/maps/psm_view.h"
-#include "techniques/maps/single_map.h"
+#include "techniques/contract/entry.h"
+#include "techniques/maps/sm-psm/psm_view.h"
+#include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
 namespace {

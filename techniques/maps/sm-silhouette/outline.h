@@ -1,8 +1,8 @@
 // Silhouette edges as a silhouette map sees them (course, "Shadow Silhouette Maps"; no GL).
 #pragma once
 
-#include "techniques/maps/light_view.h"
-#include "techniques/volumes/shadow_volume.h"
+#include "techniques/shared/casters/shadow_volume.h"
+#include "techniques/shared/light_views/light_view.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>

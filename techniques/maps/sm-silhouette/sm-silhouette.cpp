@@ -2,14 +2,14 @@
 // cell that an outline crosses, one point of it; four depth samples and five such points give a piecewise linear shadow
 // edge. Course, "Shadow Silhouette Maps". Departures: outlines are projected by the CPU; the slope factor of the bias is 2,
 // for four samples up to a texel away in x and y; borders of open meshes are outlines too.
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
 #include "techniques/gl/counters.h"
-#include "techniques/maps/depth_map.h"
-#include "techniques/maps/single_map.h"
+#include "techniques/gl/resolve.h"
 #include "techniques/maps/sm-silhouette/outline.h"
-#include "techniques/resolve.h"
+#include "techniques/shared/maps/depth_map.h"
+#include "techniques/shared/maps/single_map.h"
 
 #include <glm/matrix.hpp>
 #include <map>

@@ -3,7 +3,7 @@
 // To be counted, with TESTED or BRANCH defined only the pixels are drawn that are tested at all, or that take the branch; with
 // FACING only those of them that face the light.
 #include "gl/receiver.glsl"
-#include "maps/light_space.glsl"
+#include "shared/maps/light_space.glsl"
 
 uniform sampler2D depthMap;
 uniform sampler2D silhouetteMap;

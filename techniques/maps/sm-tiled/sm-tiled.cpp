@@ -6,9 +6,9 @@
 // Departures: the weights are pixels of expected error, and cuts are placed where they leave the least of it; tiles are
 // narrowed to what the camera sees.
 // It fails where the heuristic misjudges: pixels that cannot err, or occluders that the first map misses.
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/maps/sm-tiled/tiling.h"
-#include "techniques/maps/tiled_planes.h"
+#include "techniques/shared/maps/tiled_map.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -1,7 +1,7 @@
 // A texture cut in two again and again, each half for a part of a light's image planes (no GL).
 #pragma once
 
-#include "techniques/maps/plane_tiles.h"
+#include "techniques/shared/maps/tile_choice.h"
 
 #include <span>
 #include <vector>

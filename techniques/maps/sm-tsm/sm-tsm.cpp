@@ -3,9 +3,9 @@
 // of the scene's box, not the whole view frustum, and its sides are those of that body's bounding rectangle after the warp;
 // depth is divided by the same w as x and y, where the paper keeps it apart so that a constant bias means the same
 // everywhere.
-#include "techniques/entries.h"
-#include "techniques/maps/single_map.h"
-#include "techniques/maps/tsm_view.h"
+#include "techniques/contract/entry.h"
+#include "techniques/maps/sm-tsm/tsm_view.h"
+#include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
 

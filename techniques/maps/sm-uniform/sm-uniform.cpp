@@ -1,7 +1,7 @@
 // Shadow map (Williams 1978) with the light frustum fitted to the whole scene: the baseline of everything.
 // Course, "Shadow Mapping"; Scherzer 2.2; Zápotocký 2.3.
-#include "techniques/entries.h"
-#include "techniques/maps/single_map.h"
+#include "techniques/contract/entry.h"
+#include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
 

@@ -1,5 +1,5 @@
 // No shadow at all: the floor of cost and of accuracy (Zápotocký 5.2).
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 
 namespace shadowbench::techniques {
 namespace {

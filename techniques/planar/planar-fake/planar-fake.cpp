@@ -2,10 +2,10 @@
 // and each pixel of the receiver takes the mean of 7×7 lookups in it. The penumbra is as wide everywhere, whatever the
 // light's size and the caster's height; no other surface gets a shadow. Departures: those of planar-hard; the texture lies
 // over the receiver's rectangle in its plane, since the thesis does not say what its texture is spread over.
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/gl/api.h"
+#include "techniques/gl/resolve.h"
 #include "techniques/planar/projected_casters.h"
-#include "techniques/resolve.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -3,7 +3,7 @@
 // themselves neither. Departures: the stencil marks the receiver's visible pixels, which makes the thesis's polygon offset
 // (Code A.4) needless; what is not between plane and light is clipped, where the matrix would throw it back; the receiver is
 // chosen from the scene (planar_receiver.h).
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/gl/api.h"
 #include "techniques/planar/projected_casters.h"
 

@@ -1,11 +1,11 @@
 // N projected shadows blended, one from each point of an area light (Zápotocký 2.2 and B.3; 5.2, 64 and 100 samples).
 // Converges to the visible fraction of the light on the receiver's plane as N grows, at a cost that grows with N; no other
 // surface gets a shadow. Departures: those of planar-hard, and the light's points are a Hammersley set, as in sampled-maps.
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/gl/api.h"
+#include "techniques/gl/resolve.h"
 #include "techniques/planar/projected_casters.h"
-#include "techniques/resolve.h"
-#include "techniques/sampling.h"
+#include "techniques/shared/sampling/sampling.h"
 
 #include <optional>
 
@@ -18,7 +18,7 @@ constexpr unsigned seesReceiver = 0x01, counted = 0x02;
 class PlanarSoft final : public Technique {
 public:
     explicit PlanarSoft(const Parameters& p)
-        : count_(p.integer("n")), mean_(gl::Program::screen("sampled/sampled-maps/mean.frag")) {}
+        : count_(p.integer("n")), mean_(gl::Program::screen("shared/sampling/mean.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         if (!lit_ || lit_->size() != frame.size) lit_.emplace(gl::Format::R32F, frame.size);

@@ -1,10 +1,10 @@
 // N shadow maps over the light, averaged (Heckbert–Herf 1997): eq. 4.2 of the dissertation; Zápotocký's "sampled" methods.
 // Converges to the visible fraction of the light's area as N grows; N samples give N − 1 levels between lit and umbra.
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/gl/api.h"
-#include "techniques/maps/depth_map.h"
-#include "techniques/resolve.h"
-#include "techniques/sampling.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/maps/depth_map.h"
+#include "techniques/shared/sampling/sampling.h"
 
 #include <cmath>
 #include <optional>
@@ -16,7 +16,8 @@ class SampledMaps final : public Technique {
 public:
     explicit SampledMaps(const Parameters& p)
         : count_(p.integer("n")), pattern_(p.text("pattern")), map_(p.integer("map"), biasFrom(p), Lookup::Compare),
-          test_(gl::Program::screen("maps/single_map.frag")), mean_(gl::Program::screen("sampled/sampled-maps/mean.frag")) {}
+          test_(gl::Program::screen("shared/maps/single_map.frag")),
+          mean_(gl::Program::screen("shared/sampling/mean.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         if (!sum_ || sum_->size() != frame.size) sum_.emplace(gl::Format::R32F, frame.size);

@@ -7,10 +7,10 @@
 // which the seed leaves open, is a parameter.
 #include "techniques/sampled/temporal-soft/temporal-soft.h"
 
-#include "techniques/entries.h"
-#include "techniques/resolve.h"
-#include "techniques/sampling.h"
-#include "techniques/soft/pcss_program.h"
+#include "techniques/contract/entry.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/filters/pcss_program.h"
+#include "techniques/shared/sampling/sampling.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // One frame of temporally sampled soft shadows. ψ is the occluded fraction; the output is 1 − ψ.
 #include "gl/half.glsl"
 #include "gl/receiver.glsl"
-#include "soft/pcss.glsl"
+#include "shared/filters/pcss.glsl"
 
 uniform sampler2D normals;
 uniform sampler2D previousPositions;

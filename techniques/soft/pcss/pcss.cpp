@@ -3,10 +3,10 @@
 // Departures: the search window is the light's own projection on the map's near plane, where the seed scales an empirical
 // offset; a rectangular light has its own width along each side (the seed's 4.4.1 interpolates a ratio by angle); with
 // bias=slope every tap is compared with the receiver's plane, without which wide kernels shadow every slanted surface.
-#include "techniques/entries.h"
-#include "techniques/maps/single_map.h"
-#include "techniques/resolve.h"
-#include "techniques/soft/pcss_program.h"
+#include "techniques/contract/entry.h"
+#include "techniques/gl/resolve.h"
+#include "techniques/shared/filters/pcss_program.h"
+#include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -1,5 +1,5 @@
 #include "gl/receiver.glsl"
-#include "soft/pcss.glsl"
+#include "shared/filters/pcss.glsl"
 
 uniform sampler2D normals;
 

@@ -2,7 +2,7 @@
 // a pixel's stencil value, so that neither the order nor the direction of faces matters. Wrong, as the thesis says, where
 // volumes overlap: an even number of them leaves a pixel lit, those of one mesh that hides parts of itself too; and where
 // the eye is in a volume. Departure: depth is clamped (volume-zpass.cpp).
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/volumes/counted_volumes.h"
 
 namespace shadowbench::techniques {

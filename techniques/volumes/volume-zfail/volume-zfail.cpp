@@ -5,7 +5,7 @@
 // Departures: at most 255 placements are counted together, since 256 volumes around a point wrap to a count of none; the
 // paper asks for a stencil of as many bits as the scene needs (its section 3.1). Caps are pushed away a little
 // (stencil_volumes.cpp): a front cap at the same depth as the surface that it lies on may round to before it.
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/gl/api.h"
 #include "techniques/volumes/stencil_volumes.h"
 
@@ -19,7 +19,7 @@ class VolumeZfail final : public Technique {
 public:
     explicit VolumeZfail(const Parameters& p)
         : infinite_(p.text("far") == "infinity"), volumes_(VolumeTest::DepthFail),
-          depth_("volumes/volume-zfail/depth.vert", "maps/depth_map.frag") {}
+          depth_("volumes/volume-zfail/depth.vert", "shared/maps/depth_map.frag") {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         if (!infinite_) {

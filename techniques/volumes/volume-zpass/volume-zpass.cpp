@@ -3,7 +3,7 @@
 // as the papers say, wherever the eye is in a volume: the count then lacks that volume. Departures: depth is clamped, so
 // that the eye's own place decides and not the near plane's, which clips volumes of casters close to it open; and at most
 // 255 placements are counted together (volume-zfail.cpp).
-#include "techniques/entries.h"
+#include "techniques/contract/entry.h"
 #include "techniques/volumes/counted_volumes.h"
 
 namespace shadowbench::techniques {

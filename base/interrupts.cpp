@@ -1,0 +1,61 @@
+#include "base/interrupts.h"
+
+#include <array>
+#include <csignal>
+#include <mutex>
+
+namespace shadowbench {
+namespace {
+
+constexpr std::array interrupts{SIGINT, SIGTERM, SIGHUP};
+
+// A signal handler can reach nothing but statics.
+volatile std::sig_atomic_t noted = 0;
+
+struct Before {
+    int holders = 0;
+    std::array<struct sigaction, interrupts.size()> actions{};
+};
+std::mutex mutex;
+Before before;
+
+void note(int signal) { noted = signal; }
+
+bool isIgnored(const struct sigaction& action) {
+    return (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_IGN;
+}
+
+void hold() {
+    struct sigaction noting {};
+    noting.sa_handler = note;
+    // So that the second one is not held back.
+    noting.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+    sigemptyset(&noting.sa_mask);
+    for (std::size_t i = 0; i < interrupts.size(); ++i) {
+        sigaction(interrupts[i], nullptr, &before.actions[i]);
+        if (!isIgnored(before.actions[i])) sigaction(interrupts[i], &noting, nullptr);
+    }
+}
+
+void release() {
+    for (std::size_t i = 0; i < interrupts.size(); ++i) sigaction(interrupts[i], &before.actions[i], nullptr);
+    const int signal = noted;
+    noted = 0;
+    if (signal != 0) std::raise(signal);
+}
+
+} // namespace
+
+DeferredInterrupts::DeferredInterrupts() {
+    const std::scoped_lock lock(mutex);
+    if (before.holders++ == 0) hold();
+}
+
+DeferredInterrupts::~DeferredInterrupts() {
+    const std::scoped_lock lock(mutex);
+    if (--before.holders == 0) release();
+}
+
+bool DeferredInterrupts::pending() { return noted != 0; }
+
+} // namespace shadowbench

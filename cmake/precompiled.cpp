@@ -1,0 +1,1 @@
+// The object library that a precompiled header belongs to needs a source.

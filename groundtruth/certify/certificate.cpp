@@ -1,0 +1,217 @@
+#include "groundtruth/certify/certificate.h"
+
+#include "base/error.h"
+#include "base/parallel_loop.h"
+#include "base/random.h"
+#include "groundtruth/povray/uncertainty.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+constexpr int fewestPenumbraPoints = 32; // the rms of 32 is known to an eighth
+constexpr double widestBracket = 0.01;   // beyond: a point that sees the light edge-on
+
+/// Place of a pixel on the Z-order curve: neighbours on it are mostly neighbours in the image.
+std::uint64_t curvePlace(glm::ivec2 pixel) {
+    std::uint64_t place = 0;
+    for (unsigned bit = 0; bit < 16; ++bit) {
+        place |= static_cast<std::uint64_t>((static_cast<unsigned>(pixel.x) >> bit) & 1U) << (2 * bit);
+        place |= static_cast<std::uint64_t>((static_cast<unsigned>(pixel.y) >> bit) & 1U) << (2 * bit + 1);
+    }
+    return place;
+}
+
+enum Kind : std::size_t { Unresolved, Lit, Umbra, kindCount };
+using Kinds = std::array<std::vector<glm::ivec2>, kindCount>;
+
+Kinds pixelsOfEachKind(const PovRayImage& image, const PrimaryHits& primary) {
+    const Image<std::uint8_t> unresolved = unresolvedPixels(image.visible, primary.id);
+    Kinds kinds;
+    for (int y = 0; y < primary.surface.height(); ++y) {
+        for (int x = 0; x < primary.surface.width(); ++x) {
+            if (primary.surface(x, y) != Surface::Receiver || image.hit(x, y) == 0) continue;
+            const Kind kind = unresolved(x, y) != 0 ? Unresolved : image.visible(x, y) == 1 ? Lit : Umbra;
+            kinds[kind].emplace_back(x, y);
+        }
+    }
+    for (std::vector<glm::ivec2>& pixels : kinds) std::ranges::sort(pixels, {}, curvePlace);
+    return kinds;
+}
+
+/// How many pixels each kind gives.
+std::array<std::size_t, kindCount> shares(const Kinds& kinds, std::size_t points) {
+    const std::array<std::size_t, kindCount> wanted{points - 2 * (points / 8), points / 8, points / 8};
+    std::array<std::size_t, kindCount> result{};
+    for (std::size_t kind = 0; kind < kindCount; ++kind) result[kind] = std::min(wanted[kind], kinds[kind].size());
+    std::size_t left = points - std::reduce(result.begin(), result.end());
+    for (std::size_t kind = 0; kind < kindCount; ++kind) {
+        const std::size_t more = std::min(left, kinds[kind].size() - result[kind]);
+        result[kind] += more;
+        left -= more;
+    }
+    return result;
+}
+
+double square(double value) { return value * value; }
+
+bool isPartial(double visible) { return visible > 0 && visible < 1; }
+
+double distance(double value, const VisibleFraction& exact) {
+    return std::max({0.0, value - exact.high, exact.low - value});
+}
+
+/// Sums over the points, divided at the end.
+class Tally {
+public:
+    Tally(const PovRayImage& image, const Image<float>& sigma, int samples)
+        : image_(image), sigma_(sigma), samples_(samples) {}
+
+    void add(glm::ivec2 pixel, const VisibleFraction& exact) {
+        if (!(exact.high - exact.low <= widestBracket)) return;
+        ++sums_.points;
+        sums_.bracket = std::max(sums_.bracket, (exact.high - exact.low) / 2);
+        const double visible = image_.visible(pixel.x, pixel.y);
+        sums_.uneven = std::max(sums_.uneven, std::abs(samples_ * visible - std::rint(samples_ * visible)));
+        if (!isPartial(visible) && distance(visible, exact) > resolvedTolerance(samples_)) ++sums_.wrong;
+        if (isPartial(visible) || distance(visible, exact) > 0) addPenumbra(pixel, (exact.low + exact.high) / 2);
+    }
+
+    [[nodiscard]] Certificate result() const {
+        Certificate mean = sums_;
+        if (mean.penumbra == 0) return mean;
+        mean.bias /= mean.penumbra;
+        for (double* squares : {&mean.rms, &mean.rmsHalf, &mean.rmsQuarter, &mean.independent, &mean.sigma})
+            *squares = std::sqrt(*squares / mean.penumbra);
+        return mean;
+    }
+
+private:
+    void addPenumbra(glm::ivec2 pixel, double truth) {
+        const double error = image_.visible(pixel.x, pixel.y) - truth;
+        ++sums_.penumbra;
+        sums_.bias += error;
+        sums_.rms += square(error);
+        sums_.largest = std::max(sums_.largest, std::abs(error));
+        sums_.rmsHalf += square(image_.firstHalf(pixel.x, pixel.y) - truth);
+        sums_.rmsQuarter += square(image_.firstQuarter(pixel.x, pixel.y) - truth);
+        sums_.independent += truth * (1 - truth) / samples_;
+        sums_.sigma += square(sigma_(pixel.x, pixel.y));
+    }
+
+    const PovRayImage& image_;
+    const Image<float>& sigma_;
+    int samples_;
+    Certificate sums_;
+};
+
+Certificate tallied(const PovRayImage& image, const PrimaryHits& primary, int samples, const std::vector<glm::ivec2>& pixels,
+                    const std::vector<VisibleFraction>& exact) {
+    const Image<float> sigma = samplingUncertainty(image, primary.id, samples);
+    Tally tally(image, sigma, samples);
+    for (std::size_t i = 0; i < pixels.size(); ++i) tally.add(pixels[i], exact[i]);
+    return tally.result();
+}
+
+Certificate certifyOn(const PovRayImage& image, const PrimaryHits& primary, int samples, int points, int threads,
+                      const ExactFraction& exact, const Progress& progress) {
+    const std::vector<glm::ivec2> pixels = certificatePoints(image, primary, points);
+    std::vector<VisibleFraction> fractions(pixels.size());
+    forEachInParallel(static_cast<int>(pixels.size()), threads, progress, "certificate", [&](int i) {
+        const auto index = static_cast<std::size_t>(i);
+        fractions[index] = exact(pixels[index]);
+    });
+    return tallied(image, primary, samples, pixels, fractions);
+}
+
+[[noreturn]] void reject(std::string_view what) {
+    throw Inconclusive(
+        fmt::format("POV-Ray's shadows were compared with the exact visible fraction and rejected: {}; ask for "
+                    "more samples, and report this scene if that does not help",
+                    what));
+}
+
+} // namespace
+
+std::vector<glm::ivec2> certificatePoints(const PovRayImage& image, const PrimaryHits& primary, int points) {
+    const Kinds kinds = pixelsOfEachKind(image, primary);
+    const std::array<std::size_t, kindCount> counts = shares(kinds, static_cast<std::size_t>(std::max(points, 0)));
+    Random random(0);
+    std::vector<glm::ivec2> result;
+    for (std::size_t kind = 0; kind < kindCount; ++kind) {
+        const double part = static_cast<double>(kinds[kind].size()) / static_cast<double>(counts[kind]);
+        for (std::size_t i = 0; i < counts[kind]; ++i) {
+            const double place = (static_cast<double>(i) + random.uniform()) * part;
+            result.push_back(kinds[kind][std::min(static_cast<std::size_t>(place), kinds[kind].size() - 1)]);
+        }
+    }
+    return result;
+}
+
+Certificate certify(const PovRayImage& image, const PrimaryHits& primary, int samples, int points,
+                    const ExactFraction& exact, const Progress& progress) {
+    return certifyOn(image, primary, samples, points, 1, exact, progress);
+}
+
+Certificate certify(const Request& request, const PovRayImage& image, const PrimaryHits& primary, int points, int threads,
+                    const Progress& progress) {
+    const AreaScene scene(request.snapshot, threads);
+    const ExactFraction exact = [&](glm::ivec2 pixel) { return scene.fraction(pixel, request.size, primary); };
+    return certifyOn(image, primary, request.samples, points, threads, exact, progress);
+}
+
+double resolvedTolerance(int samples) { return std::min(0.9, 4 * std::pow(samples, -0.75)); }
+
+void requireCertified(const Certificate& c, int samples) {
+    if (c.wrong > 0)
+        reject(fmt::format("{} of {} points are fully lit or fully shadowed and should not be", c.wrong, c.points));
+    if (c.uneven > 0.25)
+        reject(fmt::format("a pixel sees no whole number of the {} samples, so their weights are not equal", samples));
+    if (c.penumbra < fewestPenumbraPoints) return;
+
+    const double floor = 1.0 / samples + c.bracket;
+    if (c.rms > 1.5 * c.independent + floor)
+        reject(fmt::format(
+            "its rms error of {:.4f} over {} penumbra points is more than {} random samples would leave ({:.4f})", c.rms,
+            c.penumbra, samples, c.independent));
+    if (std::abs(c.bias) > 0.5 * c.independent + floor)
+        reject(
+            fmt::format("its mean error of {:.4f} over {} penumbra points is no sampling error ({} random samples would err "
+                        "by {:.4f} at each)",
+                        c.bias, c.penumbra, samples, c.independent));
+    if (c.rms > std::max(0.75 * c.rmsQuarter, c.independent / 1.5) + floor)
+        reject(
+            fmt::format("its rms error does not fall with the number of samples: {:.4f} with a quarter of them, {:.4f} with "
+                        "all {}",
+                        c.rmsQuarter, c.rms, samples));
+}
+
+Image<float> calibrated(Image<float> sigma, const Certificate& certificate, int samples) {
+    const double rounding = 1 / (samples * std::sqrt(12.0));
+    const bool known = certificate.penumbra >= fewestPenumbraPoints && certificate.sigma > 0;
+    const double scale = known ? certificate.rms / certificate.sigma : 1;
+    for (float& value : sigma)
+        if (value > 0) value = static_cast<float>(std::max(scale * value, rounding));
+    return sigma;
+}
+
+std::map<std::string, double> measured(const Certificate& c) {
+    return {{"certificate_points", c.points},
+            {"certificate_penumbra", c.penumbra},
+            {"certificate_wrong", c.wrong},
+            {"certificate_bias", c.bias},
+            {"certificate_rms", c.rms},
+            {"certificate_largest", c.largest},
+            {"certificate_rms_half", c.rmsHalf},
+            {"certificate_rms_quarter", c.rmsQuarter},
+            {"certificate_independent", c.independent},
+            {"certificate_uneven", c.uneven},
+            {"certificate_bracket", c.bracket}};
+}
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,131 @@
+#include "groundtruth/cgal/area/area.h"
+
+#include "base/error.h"
+#include "base/parallel_loop.h"
+#include "groundtruth/cgal/area/area_exact.h"
+#include "groundtruth/cgal/area/area_shape.h"
+#include "groundtruth/cgal/area/area_sweep.h"
+#include "groundtruth/cgal/geometry/primary.h"
+
+#include <array>
+#include <limits>
+#include <optional>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+/// What the fast form may err. Edges are first computed with the loosest tolerance; where the bound of the whole comes out
+/// too large, again with a tighter one, the last of which makes all edges rational.
+constexpr double wantedError = 1e-12;
+constexpr std::array tolerances{0x1p-42, 0x1p-46, 0x1p-55};
+
+constexpr VisibleFraction umbra{0, 0}, fullyLit{1, 1};
+
+/// A fraction and the certain bound of its rounding.
+struct BoundedFraction {
+    VisibleFraction fraction;
+    double error;
+};
+
+/// What is smaller than the error is taken for nothing, so that abutting occluders leave no crack.
+BoundedFraction areaFraction(const std::vector<CoverEdge>& edges, const LightShape& shape) {
+    if (edges.empty()) return {fullyLit, 0};
+    const SweptAreas swept = sweepAreas(edges, shape);
+    const double error = swept.error / shape.area;
+    if (swept.areas.outerVisible <= swept.error) return {umbra, 2 * error};
+    if (swept.areas.outerHidden <= swept.error) return {fullyLit, 2 * error};
+    return {enclosedFraction(swept.areas, shape), error};
+}
+
+BoundedFraction lengthFraction(const std::vector<CoverInterval>& hidden) {
+    if (hidden.empty()) return {fullyLit, 0};
+    const VisibleLength length = visibleLength(hidden);
+    if (length.visible <= length.error) return {umbra, 2 * length.error};
+    if (1 - length.visible <= length.error) return {fullyLit, 2 * length.error};
+    return {{length.visible, length.visible}, length.error};
+}
+
+void requireSize(const PrimaryHits& primary, glm::ivec2 size) {
+    if (primary.id.width() != size.x || primary.id.height() != size.y)
+        throw InternalError("Visible fractions were asked for an image size that is not that of the primary hits.");
+}
+
+} // namespace
+
+struct AreaScene::Data {
+    Camera camera;
+    Light light;
+    LightShape shape;
+    SceneTriangles triangles;
+    int threads;
+
+    [[nodiscard]] SurfacePoint surfacePoint(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const {
+        requireSize(primary, size);
+        if (!primary.id.contains(pixel.x, pixel.y) || primary.surface(pixel.x, pixel.y) != Surface::Receiver)
+            throw InternalError("The visible fraction was asked for a pixel that sees no receiver.");
+        const TriangleName receiver{triangles.instanceOf(primary.id(pixel.x, pixel.y)), primary.triangle(pixel.x, pixel.y)};
+        return {pixelRay(camera, pixel.x, pixel.y, size), triangles.triangle(receiver)};
+    }
+
+    /// Nothing where the light is seen edge-on.
+    [[nodiscard]] std::optional<BoundedFraction> fraction(const SurfacePoint& point) const {
+        std::optional<BoundedFraction> found;
+        for (const double tolerance : tolerances) {
+            found = fraction(point, tolerance);
+            if (!found || found->error <= wantedError) break;
+        }
+        return found;
+    }
+
+    [[nodiscard]] std::optional<BoundedFraction> fraction(const SurfacePoint& point, double tolerance) const {
+        if (light.kind == LightKind::Line) {
+            const auto hidden = coverIntervals(triangles, light, point, tolerance);
+            return hidden ? std::optional(lengthFraction(*hidden)) : std::nullopt;
+        }
+        const auto edges = coverEdges(triangles, light, point, tolerance);
+        return edges ? std::optional(areaFraction(*edges, shape)) : std::nullopt;
+    }
+};
+
+AreaScene::AreaScene(const Snapshot& snapshot, int threads) {
+    if (!snapshot.light.isArea()) throw InternalError("Visible fractions were asked for a light without an area.");
+    data_.reset(
+        new Data{snapshot.camera, snapshot.light, lightShape(snapshot.light.kind), SceneTriangles(snapshot), threads});
+}
+
+AreaScene::~AreaScene() = default;
+
+VisibleFraction AreaScene::fraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const {
+    const std::optional<BoundedFraction> found = data_->fraction(data_->surfacePoint(pixel, size, primary));
+    return found ? found->fraction : VisibleFraction{0, 1};
+}
+
+VisibleFraction AreaScene::exactFraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const {
+    const SurfacePoint point = data_->surfacePoint(pixel, size, primary);
+    return exactVisibleFraction(areaCandidates(data_->triangles, data_->light, point), data_->light, point);
+}
+
+void AreaScene::label(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress) const {
+    requireSize(primary, size);
+    out.visibility = Image<float>(size.x, size.y);
+    out.sigma = Image<float>(size.x, size.y);
+    out.surface = primary.surface;
+    out.id = primary.id;
+    out.position = primary.position;
+    out.edgeDistance = Image<float>(size.x, size.y, std::numeric_limits<float>::infinity());
+    forEachInParallel(size.y, data_->threads, progress, "visible fractions", [&](int y) {
+        for (int x = 0; x < size.x; ++x) {
+            if (primary.surface(x, y) != Surface::Receiver) continue;
+            const auto found = data_->fraction(data_->surfacePoint({x, y}, size, primary));
+            if (!found) {
+                out.surface(x, y) = Surface::OnEdge;
+                continue;
+            }
+            const VisibleFraction& f = found->fraction;
+            out.visibility(x, y) = static_cast<float>(0.5 * (f.low + f.high));
+            out.sigma(x, y) = static_cast<float>(0.5 * (f.high - f.low) + found->error);
+        }
+    });
+}
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,55 @@
+// The visible fraction of an area light, exactly: what each pixel centre's surface point sees of the light
+// (GROUNDTRUTH.md: "exact area fraction"). The geometry is that of groundtruth/cgal/hard/exact.h.
+//
+// A surface point P is the exact point where a pixel's ray meets its triangle's plane. Whatever lies strictly between P and
+// the light's plane hides what is behind it; a triangle whose plane contains P hides nothing. Seen from P, each mesh leaves
+// a chain of directed edges at which the number of covering triangles changes; projected from P onto the light they bound
+// the hidden part, where that winding number is positive.
+#pragma once
+
+#include "base/progress.h"
+#include "groundtruth/contract/reference.h"
+
+#include <memory>
+
+namespace shadowbench::groundtruth {
+
+/// To be raised with every change that can alter a fraction: it is part of the keys that rest on one.
+constexpr int areaCodeVersion = 1;
+
+/// Visible share of the light's area at one surface point, in [0, 1]. low == high for rectangles and lines; for a disk the
+/// bracket of an inscribed and a circumscribed polygon, at most 1e-4 wide. A point in the light's plane (on a line light's
+/// line) sees the light edge-on and has no fraction: low = 0, high = 1.
+struct VisibleFraction {
+    double low, high;
+};
+
+/// A snapshot prepared for queries; const use is thread-safe.
+class AreaScene {
+public:
+    /// `threads`: how many work on an image; results do not depend on it. Throws InternalError unless light.isArea().
+    explicit AreaScene(const Snapshot& snapshot, int threads = 2);
+    ~AreaScene();
+    AreaScene(const AreaScene&) = delete;
+    AreaScene& operator=(const AreaScene&) = delete;
+
+    /// The fast form: filtered exact decisions, areas in double precision, within 1e-12 of `exactFraction`; exactly 1 where
+    /// nothing hides the light and 0 in the umbra. `pixel` must be a Surface::Receiver of `primary`, whose size is `size`;
+    /// else InternalError.
+    [[nodiscard]] VisibleFraction fraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const;
+
+    /// The same by another derivation in rational numbers (clipped triangles in one arrangement), rounded at the end:
+    /// certifies `fraction`. Milliseconds to seconds a point.
+    [[nodiscard]] VisibleFraction exactFraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const;
+
+    /// The fast form at all receivers of `primary`: visibility (middle of the bracket; 0 off the receivers), sigma (half the
+    /// bracket plus the certified bound of the fast form's rounding), surface (OnEdge where the light is seen edge-on), id,
+    /// position and edgeDistance (infinity) of `out`.
+    void label(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress = {}) const;
+
+private:
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,13 @@
+// The certifier of the visible fraction: rational numbers from the receiver point to the area.
+#pragma once
+
+#include "groundtruth/cgal/area/area.h"
+#include "groundtruth/cgal/area/area_view.h"
+
+namespace shadowbench::groundtruth {
+
+/// Shares with the fast form only the triangles that may hide something (`candidates`), the point, and the polygons that
+/// enclose a disk.
+VisibleFraction exactVisibleFraction(const std::vector<Triangle>& candidates, const Light& light, const SurfacePoint& point);
+
+} // namespace shadowbench::groundtruth

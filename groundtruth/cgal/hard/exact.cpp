@@ -1,0 +1,109 @@
+#include "groundtruth/cgal/hard/exact.h"
+
+#include "base/error.h"
+#include "groundtruth/cgal/geometry/primary.h"
+#include "groundtruth/cgal/hard/pixel_edges.h"
+#include "groundtruth/cgal/hard/planar.h"
+#include "groundtruth/cgal/hard/polygon.h"
+#include "groundtruth/cgal/hard/rays.h"
+
+#include <CGAL/version.h>
+
+#include <limits>
+#include <string>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+constexpr int codeVersion = 3; // raise it with every change that can change a label or a distance
+
+/// Gives the images of `out` their size and what is the same for every oracle.
+void prepare(const PrimaryHits& primary, Reference& out) {
+    if (out.visibility.sameSize(primary.id)) return;
+    const int width = primary.id.width(), height = primary.id.height();
+    out.visibility = Image<float>(width, height);
+    out.sigma = Image<float>(width, height);
+    out.surface = primary.surface;
+    out.id = primary.id;
+    out.position = primary.position;
+    out.edgeDistance = Image<float>(width, height, std::numeric_limits<float>::infinity());
+}
+
+void requireHardLight(const Light& light) {
+    if (light.isArea())
+        throw InternalError("Hard shadow labels were asked for an area light; use Light::centreOnly for its centre.");
+}
+
+void requireSize(const PrimaryHits& primary, glm::ivec2 size) {
+    if (primary.id.width() != size.x || primary.id.height() != size.y)
+        throw InternalError("Hard shadow labels were asked for an image size that is not that of the primary hits.");
+}
+
+} // namespace
+
+struct ExactScene::Data {
+    Data(const Snapshot& snapshot, int threadCount)
+        : camera(snapshot.camera), light(snapshot.light), triangles(snapshot),
+          occluders(triangles, snapshot.light.centreOnly().homogeneous(), threadCount), threads(threadCount) {}
+
+    Camera camera;
+    Light light;
+    SceneTriangles triangles;
+    Occluders occluders;
+    int threads;
+};
+
+ExactScene::ExactScene(const Snapshot& snapshot, int threads) : data_(std::make_unique<Data>(snapshot, threads)) {}
+
+ExactScene::~ExactScene() = default;
+
+PrimaryHits ExactScene::primaryHits(glm::ivec2 size, const Progress& progress) const {
+    return tracePrimary(data_->triangles, data_->camera, data_->light, size, data_->threads, progress);
+}
+
+void ExactScene::labelByRays(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress) const {
+    requireSize(primary, size);
+    requireHardLight(data_->light);
+    prepare(primary, out);
+    traceShadows(data_->triangles, data_->camera, data_->light.homogeneous(), size, primary, data_->threads, out, progress);
+    edgeDistanceFromLabels(out);
+}
+
+std::vector<PlanarReceiver> ExactScene::planarReceivers(const PrimaryHits& primary, std::size_t minimumPixels) const {
+    return findPlanarReceivers(data_->triangles, data_->camera.eye, primary, minimumPixels);
+}
+
+void ExactScene::labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
+                                const Progress& progress) const {
+    requireSize(primary, size);
+    requireHardLight(data_->light);
+    if (receiver.triangles.empty())
+        throw InternalError("Polygon labels were asked for a planar receiver without triangles.");
+    prepare(primary, out);
+    labelPlane(data_->occluders, data_->camera, size, primary, receiver, out, progress);
+}
+
+PrimaryHits primaryHits(const Snapshot& snapshot, glm::ivec2 size, const Progress& progress) {
+    return ExactScene(snapshot).primaryHits(size, progress);
+}
+
+void labelByRays(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, Reference& out,
+                 const Progress& progress) {
+    ExactScene(snapshot).labelByRays(size, primary, out, progress);
+}
+
+std::vector<PlanarReceiver> planarReceivers(const Snapshot& snapshot, const PrimaryHits& primary,
+                                            std::size_t minimumPixels) {
+    return ExactScene(snapshot).planarReceivers(primary, minimumPixels);
+}
+
+void labelByPolygon(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver,
+                    Reference& out, const Progress& progress) {
+    ExactScene(snapshot).labelByPolygon(size, primary, receiver, out, progress);
+}
+
+std::map<std::string, std::string> exactTools() {
+    return {{"cgal", CGAL_VERSION_STR}, {"exact", std::to_string(codeVersion)}};
+}
+
+} // namespace shadowbench::groundtruth

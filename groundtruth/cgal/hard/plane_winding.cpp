@@ -1,0 +1,197 @@
+#include "groundtruth/cgal/hard/plane_winding.h"
+
+#include "base/error.h"
+#include "base/parallel_loop.h"
+#include "groundtruth/cgal/geometry/primary.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <string>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+[[noreturn]] void inconsistent(int row) {
+    throw InternalError("Winding numbers disagree in image row " + std::to_string(row - scanMargin) +
+                        ": the silhouettes of this scene are inconsistent; please report it.");
+}
+
+} // namespace
+
+PlaneWinding::PlaneWinding(const PlaneView& view, const Occluders& occluders, const Casters& casters,
+                           const std::vector<PixelEdge>& edges)
+    : view_(view), occluders_(occluders), casters_(casters), edges_(edges), winding_(scan(edges, view.size)),
+      wanted_(winding_.change.width(), winding_.change.height()), shift_(height()), uncertainEdges_(height()) {
+    forEachInParallel(height(), occluders_.threads(), {}, {}, [&](int row) {
+        findWanted(row);
+        sumRow(row);
+    });
+    linkRows();
+    for (int row = 1; row < height(); ++row) checkRow(row);
+    listUncertainEdges();
+}
+
+void PlaneWinding::findWanted(int row) {
+    const auto member = [&](int x, int y) {
+        return view_.members.contains(x - scanMargin, y - scanMargin) && view_.members(x - scanMargin, y - scanMargin) != 0;
+    };
+    for (int x = 0; x < width(); ++x) {
+        bool near = member(x, row);
+        wanted_(x, row) = near;
+        for (int i = 0; i < 9 && !near; ++i) near = member(x + i % 3 - 1, row + i / 3 - 1);
+        if (near && !wanted_(x, row)) wanted_(x, row) = onPlane(x, row);
+    }
+}
+
+/// Does the pixel look at the plane within reach? Pixels of the receiver do. The pixels that do are convex in the image.
+bool PlaneWinding::onPlane(int x, int row) const {
+    const Ray ray = centreRay(x, row);
+    const glm::dvec3 normal = glm::cross(view_.plane[1] - view_.plane[0], view_.plane[2] - view_.plane[0]);
+    const double depth = glm::dot(normal, view_.plane[0] - ray.origin) / glm::dot(normal, ray.direction);
+    return depth > 0.5 * view_.camera.near && depth < view_.camera.far;
+}
+
+void PlaneWinding::sumRow(int row) {
+    int sum = 0;
+    for (int x = 0; x < width(); ++x) winding_.change(x, row) = sum += winding_.change(x, row);
+}
+
+std::optional<int> PlaneWinding::firstCertain(int row) const {
+    for (int x = 0; x < width(); ++x)
+        if (isCertain(x, row)) return x;
+    return std::nullopt;
+}
+
+/// A column in which the step from the row above is certain.
+std::optional<int> PlaneWinding::linkColumn(int row) const {
+    for (int x = 0; x < width(); ++x)
+        if (isCertain(x, row) && isCertain(x, row - 1)) return x;
+    return std::nullopt;
+}
+
+/// A row that no certain step leads to starts at an exact number; the last row that a way from there leads to is checked.
+void PlaneWinding::linkRows() {
+    for (int row = 0; row < height(); ++row) {
+        const bool follows = row > 0 && shift_[row - 1].has_value();
+        const std::optional<int> link = follows ? linkColumn(row) : std::nullopt;
+        if (link) {
+            shift_[row] = *shift_[row - 1] + winding_.change(*link, row - 1) + winding_.changeDown(*link, row) -
+                          winding_.change(*link, row);
+            continue;
+        }
+        if (follows) requireExact(row - 1);
+        if (const std::optional<int> x = firstCertain(row)) shift_[row] = exactNumber(*x, row) - winding_.change(*x, row);
+    }
+    if (shift_.back()) requireExact(height() - 1);
+}
+
+/// Checks the last certain number of a row.
+void PlaneWinding::requireExact(int row) const {
+    for (int x = width() - 1; x >= 0; --x) {
+        if (!isCertain(x, row)) continue;
+        if (exactNumber(x, row) != *shift_[row] + winding_.change(x, row)) inconsistent(row);
+        return;
+    }
+}
+
+/// All certain steps down to a row must lead to the same numbers as the steps along it.
+void PlaneWinding::checkRow(int row) const {
+    if (!shift_[row] || !shift_[row - 1]) return;
+    for (int x = 0; x < width(); ++x) {
+        if (!isCertain(x, row) || !isCertain(x, row - 1)) continue;
+        const int above = *shift_[row - 1] + winding_.change(x, row - 1), here = *shift_[row] + winding_.change(x, row);
+        if (above < 0 || here < 0 || above + winding_.changeDown(x, row) != here) inconsistent(row);
+    }
+}
+
+int PlaneWinding::number(int x, int row) const {
+    return shift_[row] && wanted_(x, row) ? std::max(*shift_[row] + winding_.change(x, row), unknown) : unknown;
+}
+
+void PlaneWinding::listUncertainEdges() {
+    std::vector<std::uint8_t> needed(height(), 0);
+    for (int y = 0; y < view_.size.y; ++y)
+        for (int x = 0; x < view_.size.x; ++x)
+            if (view_.members(x, y) && winding_.uncertain(x + scanMargin, y + scanMargin)) needed[y + scanMargin] = 1;
+    if (std::ranges::find(needed, 1) == needed.end()) return;
+    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+        const auto [top, bottom] = rowsNear(edges_[i], view_.size);
+        for (int row = top; row <= bottom; ++row)
+            if (needed[row]) uncertainEdges_[row].push_back(i);
+    }
+}
+
+Ray PlaneWinding::centreRay(int x, int row) const {
+    return pixelRay(view_.camera, x - scanMargin, row - scanMargin, view_.size);
+}
+
+SpatialEdge PlaneWinding::edge(std::uint32_t index) const {
+    const CastEdge& cast = casters_.edges[index];
+    return spatialEdge(occluders_.scene().instances()[cast.instance], cast.edge);
+}
+
+int PlaneWinding::exactNumber(int x, int row) const {
+    const ReceiverPoint point(centreRay(x, row), view_.plane);
+    WindingAround around(point, view_.plane, occluders_.light());
+    for (std::uint32_t i = 0; i < casters_.edges.size(); ++i) around.add(edge(i));
+    const WindingAround::Range range = around.range();
+    if (range.lowest != range.highest) inconsistent(row);
+    return range.lowest;
+}
+
+WindingAround::Range PlaneWinding::at(int x, int y) const {
+    const int column = x + scanMargin, row = y + scanMargin;
+    if (winding_.uncertain(column, row)) return exactAround(column, row);
+    return {number(column, row), number(column, row)};
+}
+
+WindingAround::Range PlaneWinding::exactAround(int x, int row) const {
+    const ReceiverPoint point(centreRay(x, row), view_.plane);
+    const std::vector<TriangleName> grounded = groundedAt(point);
+    const std::optional<int> start = grounded.empty() ? nearestCertain(x, row) : std::nullopt;
+    if (start) {
+        const ReceiverPoint from(centreRay(*start, row), view_.plane);
+        WindingAround around(point, from, view_.plane, occluders_.light());
+        const double low = std::min(x, *start) - scanMargin + 0.5, high = std::max(x, *start) - scanMargin + 0.5;
+        for (const std::uint32_t i : uncertainEdges_[row]) {
+            const PixelEdge& near = edges_[i];
+            if (std::max(near.from.x, near.to.x) + 2 * near.error < low) continue;
+            if (std::min(near.from.x, near.to.x) - 2 * near.error > high) continue;
+            around.add(edge(near.source));
+        }
+        return around.range(number(*start, row));
+    }
+    WindingAround around(point, view_.plane, occluders_.light());
+    for (std::uint32_t i = 0; i < casters_.edges.size(); ++i) around.add(edge(i));
+    for (const TriangleName& name : grounded)
+        for (SpatialEdge border :
+             borderOf(occluders_.scene().instances()[name.instance], name.triangle, occluders_.light(), view_.plane)) {
+            border.covers = -border.covers;
+            around.add(border);
+        }
+    return around.range();
+}
+
+/// Occluding triangles whose plane contains the point: it lies on them, they do not cover it.
+std::vector<TriangleName> PlaneWinding::groundedAt(const ReceiverPoint& point) const {
+    std::vector<TriangleName> result;
+    for (const TriangleName& name : casters_.grounded) {
+        const Triangle t = occluders_.scene().triangle(name);
+        const glm::dvec3 low = glm::min(t[0], glm::min(t[1], t[2])), high = glm::max(t[0], glm::max(t[1], t[2]));
+        const bool apart = glm::any(glm::greaterThan(low, point.high())) || glm::any(glm::lessThan(high, point.low()));
+        if (!apart && inPlane(t, point)) result.push_back(name);
+    }
+    return result;
+}
+
+/// In the same row.
+std::optional<int> PlaneWinding::nearestCertain(int x, int row) const {
+    if (!shift_[row]) return std::nullopt;
+    for (int distance = 1; distance < width(); ++distance)
+        for (const int other : {x - distance, x + distance})
+            if (wanted_.contains(other, row) && isCertain(other, row)) return other;
+    return std::nullopt;
+}
+
+} // namespace shadowbench::groundtruth

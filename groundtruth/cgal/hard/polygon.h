@@ -1,0 +1,13 @@
+// Exact hard-shadow labels and edge distances on one plane, from silhouettes.
+#pragma once
+
+#include "groundtruth/cgal/hard/exact.h"
+#include "groundtruth/cgal/hard/occluders.h"
+
+namespace shadowbench::groundtruth {
+
+/// Fills visibility, surface and edgeDistance of the pixels that see `receiver`.
+void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 size, const PrimaryHits& primary,
+                const PlanarReceiver& receiver, Reference& out, const Progress& progress);
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,72 @@
+// What is true: the contract of every oracle. Ground truth knows scenes, never techniques.
+#pragma once
+
+#include "base/image.h"
+#include "scene/snapshot.h"
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+
+namespace shadowbench::groundtruth {
+
+/// What a pixel's centre ray hits.
+enum class Surface : std::uint8_t {
+    Background, // nothing
+    FacesAway,  // a surface whose geometric side towards the eye does not face the light: unlit whatever the shadows
+    Receiver,   // scored: for an area light, all of it lies above the tangent plane
+    OnEdge,     // a receiver exactly on a shadow edge (exact oracles only): no label is right, never scored
+};
+
+/// Exact primary hits: what each pixel centre sees. Row 0 at the top.
+struct PrimaryHits {
+    Image<std::uint32_t> id;       // Placement::id, 0 for background
+    Image<glm::vec3> position;     // world position rounded to float
+    Image<Surface> surface;        // Background, FacesAway or Receiver
+    Image<std::uint32_t> triangle; // index in the placement's Mesh::triangles; 0 for background
+};
+
+/// Where the numbers come from. A score without provenance does not exist.
+struct Provenance {
+    std::string oracle; // "polygon", "rays", "polygon+rays" (planar receivers + the others), "plan", "area", "povray"
+    std::string key;    // content hash of everything the reference depends on
+    int samples = 0;    // light samples; 0 for exact oracles
+    std::map<std::string, std::string> tools; // tool → version
+    double seconds = 0;                       // wall time it took to compute
+    /// povray: "primary_mismatch" (share of pixels where its hit mask and the exact primary hits differ), "light_mismatch"
+    /// (share of pixels seen as fully lit or fully shadowed whose exact label for the light's centre says otherwise),
+    /// "scale" (POV-Ray units per world unit), and its errors against the exact visible fraction, members of Certificate
+    /// (groundtruth/certify/certificate.h): "certificate_points", "…_penumbra" and "…_wrong" (how many), "…_bias", "…_rms"
+    /// and "…_largest" (over the penumbra points), "…_rms_half" and "…_rms_quarter" (with the first half and quarter of the
+    /// samples), "…_independent" (what independent random samples would leave), "…_uneven", "…_bracket".
+    std::map<std::string, double> measured;
+};
+
+struct Reference {
+    Image<float> visibility; // visible fraction of the light in [0, 1] (0 or 1 for point and directional lights)
+    Image<float> sigma;      // its standard uncertainty; 0 where exact. povray: estimated from the samples
+                             // (groundtruth/povray/uncertainty.h), scaled to the certificate's rms error
+    Image<Surface> surface;
+    Image<std::uint32_t> id;
+    Image<glm::vec3> position;
+    Image<float>
+        edgeDistance; // pixels from the centre to the nearest hard shadow edge on the same surface; infinity if none.
+                      // Exact on planar receivers with `polygon`, else to half a pixel; all infinity for area lights.
+    Provenance provenance;
+};
+
+/// Plan: 2-D visibility, for plan-view scenes. Area: the exact visible fraction of an area light.
+enum class Oracle { Auto, Polygon, Rays, Plan, Area, PovRay };
+std::string_view name(Oracle oracle);
+Oracle oracleNamed(std::string_view name); // throws BadInput naming the valid ones and near matches
+
+struct Request {
+    Snapshot snapshot;
+    glm::ivec2 size{256, 256};
+    Oracle oracle = Oracle::Auto; // Auto: povray for area lights; else polygon where the receiver is planar, rays elsewhere
+    int samples = 1024;           // area lights only
+};
+
+} // namespace shadowbench::groundtruth

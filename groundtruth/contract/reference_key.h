@@ -1,0 +1,16 @@
+// What a reference is kept under: a hash of all that decides its numbers.
+#pragma once
+
+#include "groundtruth/contract/reference.h"
+
+namespace shadowbench::groundtruth {
+
+/// Tool or part of this code → version.
+using Tools = std::map<std::string, std::string>;
+
+/// Content hash (32 hex digits, XXH3-128) of all that the reference depends on: camera, light, mesh bytes, placements and
+/// their ids, size, oracle, samples (area lights only), oracle code and tool versions. Colours, previous matrices, the frame
+/// number and the order of batches do not count.
+std::string key(const Request& request, const Tools& tools);
+
+} // namespace shadowbench::groundtruth

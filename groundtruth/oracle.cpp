@@ -1,0 +1,256 @@
+#include "groundtruth/oracle.h"
+
+#include "base/error.h"
+#include "groundtruth/certify/certificate.h"
+#include "groundtruth/cgal/area/area.h"
+#include "groundtruth/cgal/hard/exact.h"
+#include "groundtruth/cgal/plan/plan.h"
+#include "groundtruth/povray/povray.h"
+#include "groundtruth/povray/uncertainty.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <limits>
+#include <thread>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+constexpr int referenceCodeVersion =
+    2; // of this file, the uncertainty and the certificate: raise it with every change that can alter a number
+
+/// Two oracles that see the same geometry differ on isolated silhouette pixels only (METRICS.md: primary_mismatch).
+constexpr double mostPrimaryMismatch = 0.001;
+/// A light moved by more than its own size is far above this; an occluder too thin for the samples stays below.
+constexpr double mostLightMismatch = 0.01;
+
+int threads() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+
+void requireAnswerable(const Request& request) {
+    if (request.size.x < 1 || request.size.y < 1)
+        throw BadInput(fmt::format("a reference of {} × {} pixels has none: give a size of at least 1 × 1", request.size.x,
+                                   request.size.y));
+    const LightKind kind = request.snapshot.light.kind;
+    const bool area = request.snapshot.light.isArea();
+    const bool ofAreas = request.oracle == Oracle::Area || request.oracle == Oracle::PovRay;
+    if (area && !ofAreas && request.oracle != Oracle::Auto)
+        throw BadInput(
+            fmt::format("the {} oracle answers for point and directional lights, and this light is a {}: use povray or area",
+                        name(request.oracle), name(kind)));
+    if (!area && ofAreas)
+        throw BadInput(fmt::format("the {} oracle answers for area lights, and this light is {}: use polygon or rays",
+                                   name(request.oracle), name(kind)));
+}
+
+/// The part [from, to] of the whole progress.
+Progress part(const Progress& progress, double from, double to) {
+    if (!progress) return {};
+    return [&progress, from, to](double done, std::string_view what) { progress(from + (to - from) * done, what); };
+}
+
+/// A reference that knows its surfaces and nothing of the light.
+Reference unlabelled(const PrimaryHits& primary) {
+    const int width = primary.id.width(), height = primary.id.height();
+    Reference reference;
+    reference.visibility = Image<float>(width, height, 0);
+    reference.sigma = Image<float>(width, height, 0);
+    reference.edgeDistance = Image<float>(width, height, std::numeric_limits<float>::infinity());
+    reference.surface = primary.surface;
+    reference.id = primary.id;
+    reference.position = primary.position;
+    return reference;
+}
+
+double primaryMismatch(const PovRayImage& image, const PrimaryHits& primary) {
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < primary.id.size(); ++i) differing += (image.hit[i] != 0) != (primary.id[i] != 0);
+    return static_cast<double>(differing) / static_cast<double>(primary.id.size());
+}
+
+/// Exact labels for the light's centre against pixels that POV-Ray sees as fully lit or fully shadowed.
+double lightMismatch(const Request& request, const PrimaryHits& primary, const Image<float>& visible,
+                     const Progress& progress) {
+    Snapshot centre = request.snapshot;
+    centre.light = centre.light.centreOnly();
+    Reference hard = unlabelled(primary);
+    ExactScene(centre, threads()).labelByRays(request.size, primary, hard, progress);
+
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < visible.size(); ++i) {
+        const bool resolved = visible[i] == 0 || visible[i] == 1;
+        if (resolved && hard.surface[i] == Surface::Receiver && hard.visibility[i] != visible[i]) ++differing;
+    }
+    return static_cast<double>(differing) / static_cast<double>(visible.size());
+}
+
+/// POV-Ray has no near and no far plane. Throws BadInput if that explains the mismatch.
+void requireUncutScene(const Request& request, const PovRayImage& image) {
+    Snapshot uncut = request.snapshot;
+    uncut.camera.near *= 1e-6;
+    uncut.camera.far *= 1e6;
+    if (primaryMismatch(image, primaryHits(uncut, request.size)) <= mostPrimaryMismatch)
+        throw BadInput("the camera's near or far plane cuts through the scene, which the povray oracle cannot follow: "
+                       "move the plane");
+}
+
+void requireAligned(const Request& request, const PovRayImage& image, const std::map<std::string, double>& measured) {
+    if (const double share = measured.at("primary_mismatch"); share > mostPrimaryMismatch) {
+        requireUncutScene(request, image);
+        throw InternalError(
+            fmt::format("POV-Ray and the exact primary hits disagree on {:.2f} % of the pixels (at most {:.1f} %): "
+                        "their cameras are misaligned; report this scene",
+                        100 * share, 100 * mostPrimaryMismatch));
+    }
+    if (const double share = measured.at("light_mismatch"); share > mostLightMismatch)
+        throw InternalError(fmt::format("POV-Ray and the exact hard shadow of the light's centre contradict each other on "
+                                        "{:.2f} % of the pixels (at most {:.0f} %): occluders too thin for {} samples, or "
+                                        "misaligned lights; ask for more samples",
+                                        100 * share, 100 * mostLightMismatch, request.samples));
+}
+
+Reference softReference(const Request& request, const Progress& progress) {
+    const PrimaryHits primary = primaryHits(request.snapshot, request.size, part(progress, 0, 0.05));
+    const PovRayImage image =
+        renderPovRay(request.snapshot, request.size, request.samples, {.threads = threads()}, part(progress, 0.05, 0.85));
+
+    Reference reference = unlabelled(primary);
+    reference.provenance.oracle = "povray";
+    reference.provenance.samples = request.samples;
+    reference.provenance.measured = {
+        {"primary_mismatch", primaryMismatch(image, primary)},
+        {"light_mismatch", lightMismatch(request, primary, image.visible, part(progress, 0.85, 0.9))},
+        {"scale", image.scale}};
+    requireAligned(request, image, reference.provenance.measured);
+
+    const Certificate certificate =
+        certify(request, image, primary, certificatePointCount, threads(), part(progress, 0.9, 1));
+    requireCertified(certificate, request.samples);
+    reference.provenance.measured.merge(measured(certificate));
+
+    const Image<float> sigma =
+        calibrated(samplingUncertainty(image, primary.id, request.samples), certificate, request.samples);
+    for (std::size_t i = 0; i < primary.surface.size(); ++i) {
+        if (primary.surface[i] != Surface::Receiver) continue;
+        reference.visibility[i] = image.visible[i];
+        reference.sigma[i] = sigma[i];
+    }
+    return reference;
+}
+
+/// The exact visible fraction at every pixel.
+Reference areaReference(const Request& request, const Progress& progress) {
+    const PrimaryHits primary = primaryHits(request.snapshot, request.size, part(progress, 0, 0.05));
+    Reference reference = unlabelled(primary);
+    AreaScene(request.snapshot, threads()).label(request.size, primary, reference, part(progress, 0.05, 1));
+    reference.provenance.oracle = "area";
+    return reference;
+}
+
+/// 1 at the receiver pixels that one of `planes` holds.
+Image<std::uint8_t> onPlanes(const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
+    Image<std::uint8_t> result(primary.id.width(), primary.id.height());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        if (primary.surface[i] != Surface::Receiver) continue;
+        const bool held = std::ranges::any_of(planes, [&](const PlanarReceiver& plane) {
+            return plane.id == primary.id[i] && std::ranges::binary_search(plane.triangles, primary.triangle[i]);
+        });
+        result[i] = held ? 1 : 0;
+    }
+    return result;
+}
+
+Reference byRays(const Request& request, const ExactScene& scene, const PrimaryHits& primary, const Progress& progress) {
+    Reference reference = unlabelled(primary);
+    scene.labelByRays(request.size, primary, reference, progress);
+    reference.provenance.oracle = "rays";
+    return reference;
+}
+
+/// Receivers off every plane have no label.
+Reference withoutLabels(const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
+    Reference reference = unlabelled(primary);
+    const Image<std::uint8_t> held = onPlanes(primary, planes);
+    for (std::size_t i = 0; i < held.size(); ++i)
+        if (primary.surface[i] == Surface::Receiver && held[i] == 0) reference.surface[i] = Surface::OnEdge;
+    return reference;
+}
+
+Reference byPlan(const Request& request, const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
+    const std::vector<PlanarReceiver> floors = planReceivers(request.snapshot, planes);
+    if (floors.empty())
+        throw BadInput(
+            "the plan oracle needs a horizontal receiver, and none of this scene's covers enough of the image: use "
+            "polygon or rays");
+    Reference reference = withoutLabels(primary, floors);
+    for (const PlanarReceiver& floor : floors) labelByPlan(request.snapshot, request.size, primary, floor, reference);
+    reference.provenance.oracle = "plan";
+    return reference;
+}
+
+Reference hardReference(const Request& request, const Progress& progress) {
+    const ExactScene scene(request.snapshot, threads());
+    const PrimaryHits primary = scene.primaryHits(request.size, part(progress, 0, 0.3));
+    if (request.oracle == Oracle::Rays) return byRays(request, scene, primary, part(progress, 0.3, 1));
+
+    const std::vector<PlanarReceiver> planes = scene.planarReceivers(primary);
+    if (request.oracle == Oracle::Plan) return byPlan(request, primary, planes);
+    const bool polygonOnly = request.oracle == Oracle::Polygon;
+    if (planes.empty() && polygonOnly)
+        throw BadInput(
+            "the polygon oracle needs a planar receiver, and none of this scene's covers enough of the image: use rays");
+
+    Reference reference =
+        polygonOnly ? withoutLabels(primary, planes) : byRays(request, scene, primary, part(progress, 0.3, 0.6));
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const double step = 0.4 / static_cast<double>(planes.size());
+        const double from = 0.6 + step * static_cast<double>(i);
+        scene.labelByPolygon(request.size, primary, planes[i], reference, part(progress, from, from + step));
+    }
+    const Image<std::uint8_t> held = onPlanes(primary, planes);
+    const auto receivers = std::ranges::count(primary.surface, Surface::Receiver);
+    const bool all = polygonOnly || (!planes.empty() && std::ranges::count(held, 1) == receivers);
+    reference.provenance.oracle = all ? "polygon" : planes.empty() ? "rays" : "polygon+rays";
+    return reference;
+}
+
+Reference computeWith(const Tools& tools, const Request& request, const Progress& progress) {
+    requireAnswerable(request);
+    const auto start = std::chrono::steady_clock::now();
+    Reference reference = request.oracle == Oracle::Area    ? areaReference(request, progress)
+                          : request.snapshot.light.isArea() ? softReference(request, progress)
+                                                            : hardReference(request, progress);
+    reference.provenance.key = key(request, tools);
+    reference.provenance.tools = tools;
+    reference.provenance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return reference;
+}
+
+} // namespace
+
+Tools toolVersions(const Request& request) {
+    Tools tools = exactTools();
+    tools["reference"] = std::to_string(referenceCodeVersion);
+    if (request.oracle == Oracle::Plan) tools["plan"] = std::to_string(planCodeVersion);
+    if (!request.snapshot.light.isArea()) return tools;
+    tools["area"] = std::to_string(areaCodeVersion);
+    if (request.oracle == Oracle::Area) return tools;
+    tools["povray"] = povrayVersion();
+    tools["povray recipe"] = std::to_string(povrayCodeVersion);
+    return tools;
+}
+
+Reference compute(const Request& request, const Progress& progress) {
+    requireAnswerable(request); // a wrong request is told before a missing tool
+    return computeWith(toolVersions(request), request, progress);
+}
+
+std::string key(const Request& request) { return key(request, toolVersions(request)); }
+
+Reference cached(const Cache& cache, const Request& request, const Progress& progress) {
+    const Tools tools = toolVersions(request);
+    return cache.get(
+        key(request, tools), [&] { return computeWith(tools, request, progress); }, progress);
+}
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,28 @@
+// Asks the oracle that can answer: the one place that knows all of them.
+#pragma once
+
+#include "base/progress.h"
+#include "groundtruth/contract/reference.h"
+#include "groundtruth/contract/reference_key.h"
+#include "groundtruth/store/cache.h"
+
+namespace shadowbench::groundtruth {
+
+/// Computes a reference, without looking at a cache. Visibility is 0 off the receivers. With an explicit `Polygon` or
+/// `Plan`, receivers that are not planar (horizontal) become OnEdge: there is no label for them. Throws BadInput for an
+/// oracle that cannot answer for this light or scene (`Polygon` with no planar receiver), Inconclusive if a tool is missing
+/// or fails or its render is not certified, InternalError if two oracles see different geometry.
+Reference compute(const Request& request, const Progress& progress = {});
+
+/// Versions of all that decides the reference's numbers. Throws Inconclusive if POV-Ray is needed and missing.
+Tools toolVersions(const Request& request);
+
+/// The key of `request` (groundtruth/contract/reference_key.h). Throws Inconclusive if a tool whose version it needs is
+/// missing.
+std::string key(const Request& request);
+
+/// The reference that `cache` keeps, else `compute` and `store`, in one process at a time; a cache that cannot be written
+/// costs a warning, not the run.
+Reference cached(const Cache& cache, const Request& request, const Progress& progress = {});
+
+} // namespace shadowbench::groundtruth

@@ -1,0 +1,139 @@
+#include "groundtruth/store/cache.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "groundtruth/contract/reference_files.h"
+#include "groundtruth/store/cache_limits.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <pwd.h>
+#include <sys/file.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace shadowbench::groundtruth {
+namespace {
+
+std::filesystem::path variable(const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+std::filesystem::path home() {
+    if (std::filesystem::path folder = variable("HOME"); !folder.empty()) return folder;
+    const passwd* user = getpwuid(getuid());
+    if (user == nullptr || user->pw_dir == nullptr)
+        throw BadInput("there is no home folder to keep references in: set SHADOWBENCH_CACHE to a folder");
+    return user->pw_dir;
+}
+
+/// Nothing, after a warning, if the file cannot be read (which says nothing of what it holds, so it stays).
+std::optional<std::string> contents(const std::filesystem::path& file) {
+    try {
+        return readFile(file);
+    } catch (const BadInput& error) {
+        fmt::print(stderr, "warning: a stored reference is not used: {}\n", error.what());
+        return std::nullopt;
+    }
+}
+
+/// The file's time of modification tells the last use. In a cache that others own it cannot be told: they prune theirs.
+void touch(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored);
+}
+
+/// Held by the process that computes a reference, so that others wait for it instead of computing it, too: an advisory lock
+/// on the entry's folder, which needs no file of its own and ends with its holder. Keys that share a folder share the lock.
+/// Where there is none to be had (a cache that cannot be written), each computes for itself.
+class ComputingLock {
+public:
+    ComputingLock(const std::filesystem::path& folder, const Progress& progress) {
+        std::error_code ignored;
+        std::filesystem::create_directories(folder, ignored);
+        folder_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (folder_ < 0 || flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+        if (progress) progress(0, "waiting for another process to compute this or a neighbouring reference");
+        while (flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
+        }
+    }
+    ~ComputingLock() {
+        if (folder_ >= 0) close(folder_);
+    }
+    ComputingLock(const ComputingLock&) = delete;
+    ComputingLock& operator=(const ComputingLock&) = delete;
+
+private:
+    int folder_;
+};
+
+} // namespace
+
+std::filesystem::path defaultCacheFolder() {
+    if (std::filesystem::path own = variable("SHADOWBENCH_CACHE"); !own.empty()) return own;
+    // The XDG specification has relative paths ignored.
+    if (const std::filesystem::path xdg = variable("XDG_CACHE_HOME"); xdg.is_absolute()) return xdg / "shadowbench";
+    return home() / ".cache" / "shadowbench";
+}
+
+bool isKey(std::string_view text) {
+    constexpr std::size_t digits = 32;
+    return text.size() == digits && text.find_first_not_of("0123456789abcdef") == text.npos;
+}
+
+std::uintmax_t defaultCacheSize() {
+    constexpr std::uintmax_t size = std::uintmax_t{4} << 30;
+    const char* value = std::getenv("SHADOWBENCH_CACHE_SIZE");
+    if (value == nullptr || *value == '\0') return size;
+    try {
+        return bytesOf(value);
+    } catch (const BadInput& error) {
+        throw BadInput(fmt::format("SHADOWBENCH_CACHE_SIZE: {}", error.what()));
+    }
+}
+
+std::filesystem::path Cache::entry(const std::string& key) const {
+    if (!isKey(key)) throw InternalError(fmt::format("\"{}\" is not the key of a reference", key));
+    return folder_ / key.substr(0, 2) / (key + ".ref");
+}
+
+std::optional<Reference> Cache::find(const std::string& key) const {
+    const std::filesystem::path file = entry(key);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+    const std::optional<std::string> bytes = contents(file);
+    if (!bytes) return std::nullopt;
+    try {
+        Reference reference = decode(*bytes, key);
+        touch(file);
+        return reference;
+    } catch (const BadInput& damage) {
+        std::filesystem::remove(file, error);
+        const std::string_view outcome = error ? "it cannot be removed" : "it was removed and will be computed again";
+        fmt::print(stderr, "warning: {}: {}; {}\n", file.string(), damage.what(), outcome);
+        return std::nullopt;
+    }
+}
+
+void Cache::store(const Reference& reference) const {
+    writeFile(entry(reference.provenance.key), encode(reference));
+    prune({.maxBytes = maxBytes_, .olderThan = {}});
+}
+
+Reference Cache::get(const std::string& key, const std::function<Reference()>& compute, const Progress& progress) const {
+    if (std::optional<Reference> known = find(key)) return std::move(*known);
+    const ComputingLock lock(entry(key).parent_path(), progress);
+    if (std::optional<Reference> known = find(key)) return std::move(*known); // by whom the lock waited for
+    Reference reference = compute();
+    try {
+        store(reference);
+    } catch (const InternalError& error) {
+        fmt::print(stderr, "warning: keeping a reference for the next run: {}\n", error.what());
+    }
+    return reference;
+}
+
+} // namespace shadowbench::groundtruth

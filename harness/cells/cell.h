@@ -1,0 +1,39 @@
+// One cell: a technique variant on a scene. Renders its frames, scores them against the truth, measures their cost.
+#pragma once
+
+#include "harness/cells/truths.h"
+#include "harness/measure/frame_cost.h"
+#include "harness/records/record.h"
+#include "harness/render/stage.h"
+#include "techniques/contract/entry.h"
+
+#include <optional>
+
+namespace shadowbench {
+
+struct CellOptions {
+    std::uint32_t seed = 1;
+    timing::CostOptions cost;
+};
+
+/// What a cell leaves beside its record: the scored frame's images.
+struct CellImages {
+    Image<float> visibility;
+    const groundtruth::Reference* reference = nullptr;
+};
+
+/// What is known of a cell before it runs: everything but scores and costs. Needs a GL context.
+Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::uint32_t seed);
+
+/// Hash of everything a cell's scores depend on: truths (hence the scene), variant, frames, seed, schema.
+std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed);
+
+/// Why the variant does not apply to the scene; nothing if it does.
+std::optional<std::string> notApplicable(const Scene& scene, const techniques::Variant& variant);
+
+/// Fills in status, references, accuracy, stability and cost. Throws what rendering or the truth throws, and InternalError
+/// when more than 0.1 % of the primary hits disagree with the truth's: that is an error of the set-up, not a score.
+void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
+             const CellOptions& options, Record& record, CellImages& images);
+
+} // namespace shadowbench

@@ -1,0 +1,79 @@
+#include "harness/cells/scene_cells.h"
+
+#include "harness/cells/cell.h"
+#include "harness/cells/cell_images.h"
+#include "harness/cells/lod_images.h"
+
+#include <fmt/format.h>
+
+namespace shadowbench {
+
+SceneCells::SceneCells(const Scene& scene, const groundtruth::Cache& cache, MeasureOptions options)
+    : scene_(scene), options_(std::move(options)), truths_(scene, cache), lodScene_(scene) {}
+
+std::optional<std::string> SceneCells::notApplicable(const techniques::Variant& variant) const {
+    return variant.isLod() ? lod::notApplicable(scene_) : shadowbench::notApplicable(scene_, variant);
+}
+
+std::string SceneCells::id(const techniques::Variant& variant) const {
+    return variant.isLod() ? lod::lodCellId(scene_, variant) : cellId(truths_, scene_, variant, options_.seed);
+}
+
+Record SceneCells::blank(const techniques::Variant& variant) const {
+    Record record = blankRecord(scene_, variant, options_.seed);
+    if (const auto reason = notApplicable(variant)) {
+        record.status = Status::NotApplicable;
+        record.reason = *reason;
+    }
+    return record;
+}
+
+Record SceneCells::failed(const techniques::Variant& variant, const std::string& cell, const Error& error) const {
+    Record record = blankRecord(scene_, variant, options_.seed);
+    record.cell = cell;
+    record.status = Status::Error;
+    record.reason = error.what();
+    return record;
+}
+
+void SceneCells::measure(const techniques::Variant& variant, Record& record, const Progress& progress) {
+    if (variant.isLod()) return measureLod(variant, record, progress);
+    computeTruths(variant, progress);
+    progress(0, variant.name);
+    CellOptions cellOptions;
+    cellOptions.seed = options_.seed;
+    cellOptions.cost.time = options_.time;
+    CellImages images;
+    if (!stage_) stage_.emplace(scene_);
+    runCell(scene_, *stage_, truths_, variant, cellOptions, record, images);
+    if (!options_.images.empty()) writeCellImages(imageFolder(variant), images);
+}
+
+void SceneCells::measureLod(const techniques::Variant& variant, Record& record, const Progress& progress) {
+    lod::LodCellOptions cellOptions;
+    cellOptions.time = options_.time;
+    lod::KeepPicture keep;
+    std::optional<lod::LodImages> images;
+    if (!options_.images.empty()) {
+        images.emplace(lodScene_.reference(progress));
+        keep = [&images](int frame, const metrics::ColourImage& picture) { images->keep(frame, picture); };
+    }
+    lod::runLodCell(lodScene_, variant, cellOptions, record, progress, keep);
+    if (images) images->write(imageFolder(variant));
+}
+
+void SceneCells::computeTruths(const techniques::Variant& variant, const Progress& progress) {
+    const bool soft = variant.entry->answer == techniques::Answer::Soft;
+    for (const int frame : truths_.scoredFrames()) {
+        const std::string what = fmt::format("truth of frame {}", frame);
+        const auto show = [&](double share, std::string_view) { progress(share, what); };
+        truths_.at(soft ? Truth::Soft : Truth::Hard, frame, show);
+        if (scene_.light.isArea() && frame == scene_.timeline.still - 1) truths_.at(Truth::Soft, frame, show);
+    }
+}
+
+std::filesystem::path SceneCells::imageFolder(const techniques::Variant& variant) const {
+    return options_.images / scene_.id / fileName(variant.name);
+}
+
+} // namespace shadowbench

@@ -1,0 +1,58 @@
+// The cells of one scene, shadows and levels of detail alike, with what they share.
+#pragma once
+
+#include "base/error.h"
+#include "harness/cells/lod_cell.h"
+#include "harness/cells/truths.h"
+#include "harness/records/record.h"
+#include "harness/render/stage.h"
+#include "techniques/contract/entry.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace shadowbench {
+
+struct MeasureOptions {
+    std::uint32_t seed = 1;
+    bool time = true;             // wall time
+    std::filesystem::path images; // folder of <scene>/<variant>/; empty: no images are written
+};
+
+class SceneCells {
+public:
+    /// Scene and cache must outlive the object.
+    SceneCells(const Scene& scene, const groundtruth::Cache& cache, MeasureOptions options);
+    explicit SceneCells(Scene&&, const groundtruth::Cache&, MeasureOptions) = delete;
+
+    /// Why the variant has no cell here; nothing if it has.
+    [[nodiscard]] std::optional<std::string> notApplicable(const techniques::Variant& variant) const;
+
+    /// The `cell` of its record. Computes no truth and needs no GL context; throws Inconclusive if a tool that a truth
+    /// depends on is missing.
+    [[nodiscard]] std::string id(const techniques::Variant& variant) const;
+
+    /// What is known before it runs: of a variant that does not apply, all. Needs a GL context, as all that follows.
+    [[nodiscard]] Record blank(const techniques::Variant& variant) const;
+
+    /// The record of a cell that `error` ended.
+    [[nodiscard]] Record failed(const techniques::Variant& variant, const std::string& cell, const Error& error) const;
+
+    /// Fills in the blank record of a variant that applies, and writes the images. Truths come first, with their own
+    /// progress: they are the long part of an empty cache. Throws what rendering and truths throw.
+    void measure(const techniques::Variant& variant, Record& record, const Progress& progress);
+
+private:
+    void measureLod(const techniques::Variant& variant, Record& record, const Progress& progress);
+    void computeTruths(const techniques::Variant& variant, const Progress& progress);
+    [[nodiscard]] std::filesystem::path imageFolder(const techniques::Variant& variant) const;
+
+    const Scene& scene_;
+    MeasureOptions options_;
+    Truths truths_;
+    lod::LodScene lodScene_;
+    std::optional<Stage> stage_;
+};
+
+} // namespace shadowbench

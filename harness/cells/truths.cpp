@@ -1,0 +1,45 @@
+#include "harness/cells/truths.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+namespace shadowbench {
+
+std::string_view name(Truth truth) { return truth == Truth::Hard ? "hard" : "soft"; }
+
+Truth truthNamed(std::string_view name) {
+    if (name == "hard") return Truth::Hard;
+    if (name == "soft") return Truth::Soft;
+    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard and soft", name));
+}
+
+groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame) {
+    groundtruth::Request request;
+    request.snapshot = snapshot(scene, frame);
+    request.size = scene.size;
+    request.samples = frame < scene.timeline.still ? scene.referenceSamples : scene.movingReferenceSamples;
+    if (truth == Truth::Hard) request.snapshot.light = request.snapshot.light.centreOnly();
+    return request;
+}
+
+std::vector<int> scoredFrames(const Scene& scene) {
+    std::vector<int> frames;
+    for (int frame = scene.timeline.still - 1; frame < scene.timeline.frames(); ++frame) frames.push_back(frame);
+    return frames;
+}
+
+const std::string& Truths::key(Truth truth, int frame) const {
+    std::string& key = keys_[{truth, frame}];
+    if (key.empty()) key = groundtruth::key(request(truth, frame));
+    return key;
+}
+
+const groundtruth::Reference& Truths::at(Truth truth, int frame, const Progress& progress) {
+    const auto found = known_.find({truth, frame});
+    if (found != known_.end()) return found->second;
+    return known_.emplace(std::pair{truth, frame}, groundtruth::cached(cache_, request(truth, frame), progress))
+        .first->second;
+}
+
+} // namespace shadowbench

@@ -1,0 +1,50 @@
+// The references of one scene, computed or fetched once each.
+#pragma once
+
+#include "groundtruth/oracle.h"
+#include "groundtruth/store/cache.h"
+#include "scene/scene.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace shadowbench {
+
+/// Exact truth of the light's centre, or soft truth of the whole area light.
+enum class Truth { Hard, Soft };
+std::string_view name(Truth truth);      // "hard", "soft"
+Truth truthNamed(std::string_view name); // throws BadInput naming both
+
+/// The request for one frame's truth; moving frames of an area light take fewer samples.
+groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame);
+
+/// Frames that are scored: the last still one and the moving ones.
+std::vector<int> scoredFrames(const Scene& scene);
+
+class Truths {
+public:
+    Truths(const Scene& scene, const groundtruth::Cache& cache) : scene_(scene), cache_(cache) {}
+
+    /// As the functions above, of this object's scene.
+    [[nodiscard]] groundtruth::Request request(Truth truth, int frame) const {
+        return referenceRequest(scene_, truth, frame);
+    }
+    [[nodiscard]] std::vector<int> scoredFrames() const { return shadowbench::scoredFrames(scene_); }
+
+    /// groundtruth::key of that request, computed once: it asks the tools for their versions.
+    [[nodiscard]] const std::string& key(Truth truth, int frame) const;
+
+    /// The reference, valid as long as this object.
+    const groundtruth::Reference& at(Truth truth, int frame, const Progress& progress = {});
+
+private:
+    const Scene& scene_;
+    const groundtruth::Cache& cache_;
+    std::map<std::pair<Truth, int>, groundtruth::Reference> known_;
+    mutable std::map<std::pair<Truth, int>, std::string> keys_;
+};
+
+} // namespace shadowbench

@@ -1,0 +1,33 @@
+// The verbs of the command line: each file adds one, with its options, its help and what it does.
+#pragma once
+
+#include "base/error.h"
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace shadowbench {
+
+/// What the command line asks for: set while it is parsed, run afterwards. Errors are exceptions (base/error.h).
+using Action = std::function<ExitCode()>;
+
+/// Each adds its verb to `app`; a command line that names the verb sets `action`, which must outlive the parsing.
+void addList(CLI::App& app, Action& action);
+void addRun(CLI::App& app, Action& action);
+void addMerge(CLI::App& app, Action& action);
+void addReference(CLI::App& app, Action& action);
+void addSweep(CLI::App& app, Action& action);
+void addRecommend(CLI::App& app, Action& action);
+void addClaims(CLI::App& app, Action& action);
+void addCache(CLI::App& app, Action& action);
+void addCompare(CLI::App& app, Action& action);
+void addHistory(CLI::App& app, Action& action);
+void addGate(CLI::App& app, Action& action);
+void addReport(CLI::App& app, Action& action);
+void addCountFrames(CLI::App& app, Action& action);
+void addTimeFrames(CLI::App& app, Action& action);
+
+} // namespace shadowbench

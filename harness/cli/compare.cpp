@@ -1,0 +1,48 @@
+#include "base/files.h"
+#include "harness/cli/command.h"
+#include "harness/gate/verdict.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace shadowbench {
+namespace {
+
+struct CompareOptions {
+    std::filesystem::path base, head, junit, summary;
+    std::string format = "text";
+    bool annotations = false;
+};
+
+/// A record file, or the folder that a run wrote it to.
+std::vector<Record> recordsAt(const std::filesystem::path& place) {
+    return readRecords(std::filesystem::is_directory(place) ? place / "results.jsonl" : place);
+}
+
+ExitCode compareAndPrint(const CompareOptions& options) {
+    const std::vector<gate::Change> changes = gate::compare(recordsAt(options.base), recordsAt(options.head));
+    fmt::print("{}", gate::changesReport(changes, options.format));
+    if (options.annotations) fmt::print("{}", gate::annotations(changes));
+    if (!options.junit.empty()) writeFile(options.junit, gate::junit(changes));
+    if (!options.summary.empty()) writeFile(options.summary, gate::changesReport(changes, "md"));
+    return gate::verdictOf(changes);
+}
+
+} // namespace
+
+void addCompare(CLI::App& app, Action& action) {
+    const auto options = std::make_shared<CompareOptions>();
+    CLI::App* verb = app.add_subcommand("compare", "What changed from one set of records to another, with a verdict");
+    verb->footer("Example:\n  shadowbench compare results/published results/latest --summary changes.md\n"
+                 "Exits with 4 when accuracy or stability is worse, with 3 when only cost is.");
+    verb->add_option("base", options->base, "Records to compare with: a file, or the folder of a run")->required();
+    verb->add_option("head", options->head, "Records to judge")->required();
+    verb->add_option("--format", options->format, "text or md")->check(CLI::IsMember({"text", "md"}))->capture_default_str();
+    verb->add_option("--junit", options->junit, "Write the verdicts as JUnit XML");
+    verb->add_option("--summary", options->summary, "Write what changed as Markdown");
+    verb->add_flag("--annotations", options->annotations, "Print what is worse as CI annotations too");
+    verb->callback([&action, options] { action = [options] { return compareAndPrint(*options); }; });
+}
+
+} // namespace shadowbench

@@ -1,0 +1,117 @@
+#include "harness/cli/command.h"
+#include "harness/studies/recommend/recommendation_text.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <fmt/format.h>
+#include <memory>
+#include <sstream>
+
+namespace shadowbench {
+namespace {
+
+struct RecommendWords {
+    adequacy::RecommendOptions options;
+    std::vector<std::string> questions{"casters"};
+    std::vector<std::string> levels;
+    std::string profile = "gate";
+    int frame = -1;
+    bool json = false;
+};
+
+std::vector<int> wholeNumbers(const std::string& list) {
+    std::vector<int> numbers;
+    std::istringstream words(list);
+    for (std::string word; std::getline(words, word, ',');) {
+        int number = 0;
+        const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (failed != std::errc() || end != word.data() + word.size())
+            throw BadInput(
+                fmt::format("levels are numbers of triangles such as 600,300 or rotors=600,300, not \"{}\"", list));
+        numbers.push_back(number);
+    }
+    return numbers;
+}
+
+/// "600,300" or "rotors=600,300".
+void addChain(const std::string& word, adequacy::Chains& chains) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos)
+        chains[""] = wholeNumbers(word);
+    else
+        chains[word.substr(0, equals)] = wholeNumbers(word.substr(equals + 1));
+}
+
+adequacy::RecommendOptions resolved(const RecommendWords& words) {
+    adequacy::RecommendOptions options = words.options;
+    options.profile = profileNamed(words.profile);
+    options.questions.clear();
+    for (const std::string& word : words.questions) options.questions.insert(adequacy::questionNamed(word));
+    for (const std::string& word : words.levels) addChain(word, options.casters.chains);
+    if (words.frame >= 0) options.casters.frame = words.frame;
+    return options;
+}
+
+ExitCode recommendAndPrint(const RecommendWords& words) {
+    const adequacy::Recommendations all = adequacy::recommend(resolved(words));
+    if (words.json)
+        fmt::print("{}\n", adequacy::json(all.scenes));
+    else
+        for (const adequacy::Recommendation& one : all.scenes) fmt::print("{}\n", adequacy::text(one));
+    return all.code;
+}
+
+} // namespace
+
+void addRecommend(CLI::App& app, Action& action) {
+    const auto words = std::make_shared<RecommendWords>();
+    adequacy::RecommendOptions& options = words->options;
+    CLI::App* verb = app.add_subcommand(
+        "recommend", "The least that a scene needs within its tolerance: caster levels, technique, map, samples");
+    verb->footer(
+        "casters: per object and distance band the coarsest level of detail whose shadow, all bands together, stays within\n"
+        "tolerance of the finest levels' exact shadow; the choice of fewest triangles, verified by a second exact oracle "
+        "at\n"
+        "these levels and one level coarser. technique, map and samples are read off records: of --records, or of cells "
+        "that\n"
+        "are run for it.\n"
+        "Ends with 5 if the second oracle does not confirm the casters' levels.\n"
+        "Examples:\n  shadowbench recommend --scene windmills\n"
+        "  shadowbench recommend --scene windmills --tolerance 0.01 --bands 14,20,28\n"
+        "  shadowbench recommend --scene simple --levels 500,320,180,80,20 --json\n"
+        "  shadowbench recommend --what technique --records results/published/results.jsonl\n"
+        "  shadowbench recommend --scene windmills --what map --technique 'sm-*'");
+    verb->add_option("--scene", options.scenes,
+                     "Scene id or file; repeatable (default: the standard scenes, for casters those with levels)");
+    verb->add_option("--what", words->questions, "casters, technique, map, samples; comma-separated")
+        ->delimiter(',')
+        ->capture_default_str();
+    verb->add_option("--tolerance", options.casters.tolerance,
+                     "Such as mismatch=0.01, or a number alone: of mismatch under a hard light, penumbra_rmse under an area "
+                     "light; repeatable, of which technique, map and samples take the first (default: the scene's)");
+    verb->add_option("--bands", options.casters.bands,
+                     "Distances from the eye between which casters share a level, in m, comma-separated (default: where the "
+                     "scene changes its levels)")
+        ->delimiter(',');
+    verb->add_option("--levels", words->levels,
+                     "Triangles of an object's levels, finest first, by simplification: 600,300,150 or, if several objects "
+                     "have levels, rotors=600,300,150; repeatable (default: the scene's)");
+    verb->add_option("--frame", words->frame, "Frame number (default: the scored one)")->check(CLI::NonNegativeNumber);
+    verb->add_option("--light-samples", options.casters.lightSamples,
+                     "Points of an area light that the casters' levels are verified from")
+        ->check(CLI::Range(4, 16384))
+        ->capture_default_str();
+    verb->add_option("--technique", options.techniques,
+                     "For technique, map and samples: variant or glob over ids; repeatable (default: all)");
+    CLI::Option* records = verb->add_option("--records", options.records, "Records that answer technique, map and samples");
+    verb->add_option("--out", options.out, "Folder of the records of cells that are run; those that it holds are kept")
+        ->excludes(records)
+        ->capture_default_str();
+    verb->add_option("--profile", words->profile, "gate, standard or paper")->capture_default_str();
+    verb->add_option("--cache", options.cache, "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
+    verb->add_flag("--json", words->json, "For machines");
+    verb->add_flag("--quiet", options.quiet, "No progress");
+    verb->callback([&action, words] { action = [words] { return recommendAndPrint(*words); }; });
+}
+
+} // namespace shadowbench

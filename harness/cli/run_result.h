@@ -1,0 +1,13 @@
+// What a person is told when all cells of a run are there.
+#pragma once
+
+#include "harness/runs/run.h"
+
+#include <filesystem>
+
+namespace shadowbench {
+
+/// Writes the report into `out`, prints tables, errors and where everything is; returns the run's exit code.
+ExitCode reportResult(const RunResult& result, const std::filesystem::path& out);
+
+} // namespace shadowbench

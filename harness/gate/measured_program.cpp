@@ -1,0 +1,169 @@
+#include "harness/gate/measured_program.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/parallel.h"
+#include "base/process.h"
+#include "base/temporary_folder.h"
+#include "harness/cells/environment.h"
+#include "harness/measure/callgrind.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <xxhash.h>
+
+namespace shadowbench::gate {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::chrono::hours longestStep{3};
+
+std::string hashOf(const std::string& text) {
+    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+/// What a program's records depend on beside the program.
+std::string surroundings() {
+    const auto context = gl::Context::create();
+    const Environment e = environmentOf(context->info());
+    return fmt::format("{}\n{}\n{}\n{}", e.renderer, e.gl, e.cpu, findProgram("valgrind") ? timing::valgrindVersion() : "");
+}
+
+/// The exit code and the last line; `onLine` sees all of them.
+std::pair<int, std::string> runToEnd(const fs::path& program, const std::vector<std::string>& arguments,
+                                     const OnLine& onLine) {
+    const TemporaryFolder folder;
+    Command command{program, arguments, folder.path()};
+    command.limit = longestStep;
+    command.cpuLimit = longestStep;
+    command.memoryLimit = std::uintmax_t{64} << 30U; // of addresses: Valgrind reserves far more than it uses
+    command.fileLimit = std::uintmax_t{1} << 30U;
+    std::string last;
+    const Finished finished = runProcess(command, [&](std::string_view line) {
+        if (!line.empty()) last = line;
+        onLine(line);
+    });
+    if (finished.timedOut) return {-1, "it took more than three hours"};
+    if (finished.signal != 0) return {-1, fmt::format("it was ended by signal {}", finished.signal)};
+    return {finished.exitCode, last};
+}
+
+/// Whether a line is of a program's progress ("trees 3/31  sm-uniform"), not of its results.
+bool isProgress(std::string_view line) {
+    const std::size_t slash = line.find('/');
+    const auto digit = [&](std::size_t at) {
+        return at < line.size() && std::isdigit(static_cast<unsigned char>(line[at]));
+    };
+    return slash != std::string_view::npos && slash > 0 && digit(slash - 1) && digit(slash + 1) && line.front() != ' ';
+}
+
+Json listed(const fs::path& program, const std::string& what) {
+    std::string text;
+    const auto [code, last] =
+        runToEnd(program, {"list", what, "--format", "json"}, [&](std::string_view line) { text += line; });
+    Json list = Json::parse(text, nullptr, false);
+    if (code != 0 || !list.is_array())
+        throw Inconclusive(fmt::format("{} does not say which {} it has: {}", program.string(), what, last));
+    return list;
+}
+
+/// "pcss:taps=32+32,map=2048" → "taps", "map".
+std::vector<std::string> parameterNames(const std::string& variant) {
+    std::vector<std::string> names;
+    for (std::size_t at = variant.find(':'); at != std::string::npos; at = variant.find(',', at + 1))
+        names.push_back(variant.substr(at + 1, variant.find('=', at) - at - 1));
+    return names;
+}
+
+std::string text(const Step& step) {
+    return fmt::format("{}\n{}\n{}", fmt::join(step.arguments, "\n"), fmt::join(step.techniques, "\n"), step.inputs);
+}
+
+} // namespace
+
+Program::Program(fs::path file, const fs::path& cache) : file_(fs::absolute(file)), cache_(fs::absolute(cache)) {
+    std::string key;
+    try {
+        key = hashOf(readFile(file_) + surroundings());
+    } catch (const BadInput& error) {
+        throw Inconclusive(error.what());
+    }
+    records_ = cache_ / "gate" / key;
+    for (const Json& scene : listed(file_, "scenes")) known_.scenes.push_back(scene.at("id"));
+    for (const Json& technique : listed(file_, "techniques")) {
+        std::vector<std::string> parameters;
+        for (const Json& parameter : technique.at("parameters")) parameters.push_back(parameter.at("name"));
+        known_.techniques.emplace_back(technique.at("id"), std::move(parameters));
+    }
+}
+
+bool Program::knowsVariant(const std::string& variant) const {
+    const std::string id = variant.substr(0, variant.find(':'));
+    const auto found = std::ranges::find(known_.techniques, id, [](const auto& t) { return t.first; });
+    if (found == known_.techniques.end()) return false;
+    return std::ranges::all_of(parameterNames(variant), [&](const std::string& name) {
+        return std::ranges::find(found->second, name) != found->second.end();
+    });
+}
+
+bool Program::knowsScene(const std::string& id) const { return std::ranges::find(known_.scenes, id) != known_.scenes.end(); }
+
+std::vector<std::string> Program::techniques() const {
+    std::vector<std::string> ids;
+    for (const auto& [id, parameters] : known_.techniques) ids.push_back(id);
+    return ids;
+}
+
+int Program::run(const Step& step, const fs::path& out, const Progress& progress) const {
+    std::vector<std::string> arguments = step.arguments;
+    for (const std::string& technique : step.techniques) arguments.insert(arguments.end(), {"--technique", technique});
+    arguments.insert(arguments.end(), {"--out", fs::absolute(out).string(), "--cache", cache_.string()});
+    const auto [code, last] = runToEnd(file_, arguments, [&](std::string_view line) {
+        if (isProgress(line)) progress(0, line);
+    });
+    if (code < 0 || !fs::exists(out / step.records))
+        throw Inconclusive(fmt::format("{} failed at {}: {}", file_.string(), step.name, last));
+    return code;
+}
+
+Measured Program::measure(const std::vector<Step>& steps, const Progress& progress) const {
+    using Clock = std::chrono::steady_clock;
+    std::vector<std::vector<Record>> records(steps.size());
+    std::vector<std::optional<StepTime>> times(steps.size());
+    std::mutex mutex;
+    std::size_t ended = 0;
+    inParallel(steps.size(), [&](std::size_t i) {
+        Step step = steps[i];
+        const fs::path out = records_ / hashOf(text(step)), done = out / "done";
+        if (!fs::exists(done)) {
+            const auto start = Clock::now();
+            if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");
+            const int code = run(step, out, [&](double, std::string_view line) {
+                const std::scoped_lock lock(mutex);
+                progress(static_cast<double>(ended) / static_cast<double>(steps.size()), line);
+            });
+            if (code == 0) writeFile(done, text(steps[i])); // one with errors is tried again
+            times[i] = {step.name, std::chrono::duration<double>(Clock::now() - start).count()};
+        }
+        records[i] = readRecords(out / step.records);
+        const std::scoped_lock lock(mutex);
+        ++ended;
+    });
+    Measured measured;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        std::ranges::move(records[i], std::back_inserter(measured.records));
+        if (times[i]) measured.times.push_back(*times[i]);
+    }
+    return measured;
+}
+
+} // namespace shadowbench::gate

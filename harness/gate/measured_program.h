@@ -1,0 +1,67 @@
+// The programs that a gate compares: builds of shadowbench, this one's or another commit's, run as a user would.
+#pragma once
+
+#include "base/progress.h"
+#include "harness/gate/watchlist.h"
+#include "harness/records/record.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shadowbench::gate {
+
+/// One `run` or `sweep` of a program.
+struct Step {
+    std::string name;                    // for people: "overlapping-occluders, instructions"
+    std::vector<std::string> arguments;  // without --technique, --out, --cache and --quiet
+    std::vector<std::string> techniques; // canonical names
+    std::string records;                 // the file that it leaves in --out
+    std::string inputs = {};             // content of the files that `arguments` name
+};
+
+struct StepTime {
+    std::string name;
+    double seconds = 0;
+};
+
+/// What a program's steps gave.
+struct Measured {
+    std::vector<Record> records;
+    std::vector<StepTime> times; // of the steps that were not already there
+};
+
+class Program {
+public:
+    /// `file`: the executable. Its records are kept in `cache`, under a hash of the program, Mesa, Valgrind and processor:
+    /// the same program is not measured twice. Throws Inconclusive when it cannot be read.
+    Program(std::filesystem::path file, const std::filesystem::path& cache);
+
+    [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+    /// Whether the program has the variant (its technique and all its parameters), or the built-in scene.
+    [[nodiscard]] bool knowsVariant(const std::string& variant) const;
+    [[nodiscard]] bool knowsScene(const std::string& id) const;
+
+    /// Ids, in the order of its catalogue.
+    [[nodiscard]] std::vector<std::string> techniques() const;
+
+    /// Runs the steps that have not been run to their end before, on all cores, and reads the records of all of them. A
+    /// killed one is gone on with. Throws Inconclusive when a step fails otherwise than in some of its cells.
+    Measured measure(const std::vector<Step>& steps, const Progress& progress) const;
+
+    /// Runs one step in `out`, whatever was run before, and returns its exit code: not 0 when some of its cells failed,
+    /// which have records that say so. Throws Inconclusive when it left no records.
+    int run(const Step& step, const std::filesystem::path& out, const Progress& progress) const;
+
+private:
+    struct Known {
+        std::vector<std::string> scenes;
+        std::vector<std::pair<std::string, std::vector<std::string>>> techniques; // ids, with the names of their parameters
+    };
+
+    std::filesystem::path file_, cache_, records_;
+    Known known_;
+};
+
+} // namespace shadowbench::gate

@@ -1,0 +1,29 @@
+// The cost of a level-of-detail technique's frames along the walk.
+#pragma once
+
+#include "harness/records/record.h"
+#include "harness/render/lod_stage.h"
+
+#include <vector>
+
+namespace shadowbench::lod {
+
+struct LodCostOptions {
+    int maximumRounds = 5;
+    double budgetSeconds = 1.5; // of timing one technique, once the least has been done
+    int leastFrames = 3;        // timed at least, of a walk that takes longer than the budget
+};
+
+struct LodCost {
+    LodTime time;
+    std::vector<double> milliseconds; // by frame from the walk's first: the least of all rounds
+};
+
+/// Times `technique` frame after frame beside lod-switch, the two in an order that alternates; both are warmed up first.
+/// Walks are repeated, or cut short, to fit the budget. The technique's history is reset.
+LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int frames, const LodCostOptions& options);
+
+/// `own` and `base`: milliseconds by frame, equally many, at least two.
+LodTime timeOf(const std::vector<double>& own, const std::vector<double>& base);
+
+} // namespace shadowbench::lod

@@ -1,0 +1,52 @@
+#include "harness/render/lod_stage.h"
+
+#include "techniques/gl/context.h"
+
+#include <cmath>
+
+namespace shadowbench::lod {
+namespace {
+
+double aspect(glm::ivec2 size) { return static_cast<double>(size.x) / size.y; }
+
+std::uint8_t byte(float value) { return static_cast<std::uint8_t>(std::lround(255 * value)); }
+
+} // namespace
+
+LodStage::LodStage(const Scene& scene, glm::ivec2 size)
+    : scene_(scene), size_(size), chains_(chains(scene)), drawer_(chains_), colour_(gl::Format::RGBA8, size),
+      depth_(gl::Format::Depth32F, size), target_{&colour_, &depth_}, mask_(size),
+      shown_(walkFrame(scene, 0, aspect(size))) {}
+
+void LodStage::show(int index) { shown_ = walkFrame(scene_, index, aspect(size_)); }
+
+void LodStage::showStanding(int index) { shown_ = standingFrame(scene_, index, aspect(size_)); }
+
+techniques::LodFrame LodStage::frame() {
+    const double shape = aspect(size_);
+    return {chains_,
+            shown_.instances,
+            drawer_,
+            scene_.light.centreOnly().homogeneous(),
+            size_,
+            shown_.camera.view(),
+            shown_.previousCamera.view(),
+            shown_.camera.projection(shape),
+            shown_.previousCamera.projection(shape)};
+}
+
+void LodStage::render(techniques::LodTechnique& technique) {
+    technique.render(frame(), {colour_, depth_, target_});
+    gl::Context::current().check("rendering the walk of scene " + scene_.id);
+}
+
+metrics::ColourImage LodStage::picture() const {
+    const Image<glm::vec4> pixels = target_.readVec4(0);
+    metrics::ColourImage picture(pixels.width(), pixels.height());
+    for (std::size_t i = 0; i < pixels.size(); ++i) picture[i] = {byte(pixels[i].x), byte(pixels[i].y), byte(pixels[i].z)};
+    return picture;
+}
+
+Image<unsigned> LodStage::transitionMask() { return mask_.draw(frame()); }
+
+} // namespace shadowbench::lod

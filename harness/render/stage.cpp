@@ -1,0 +1,48 @@
+#include "harness/render/stage.h"
+
+#include "techniques/gl/context.h"
+
+namespace shadowbench {
+namespace {
+
+glm::dmat4 clipFromWorld(const Camera& camera, glm::ivec2 size) {
+    return camera.projection(static_cast<double>(size.x) / size.y) * camera.view();
+}
+
+Image<glm::vec3> firstThree(const Image<glm::vec4>& image) {
+    Image<glm::vec3> result(image.width(), image.height());
+    for (std::size_t i = 0; i < image.size(); ++i) result[i] = glm::vec3(image[i]);
+    return result;
+}
+
+} // namespace
+
+Stage::Stage(const Scene& scene)
+    : scene_(scene), gbuffer_(scene.size), visibility_(gl::Format::R32F, scene.size), target_{&visibility_} {}
+
+void Stage::show(int index) {
+    snapshot_ = snapshot(scene_, index);
+    buffers_.update(snapshot_);
+    redraw();
+}
+
+void Stage::redraw() { gbuffer_.draw(buffers_, clipFromWorld(snapshot_.camera, scene_.size)); }
+
+metrics::Drawn Stage::drawn() const { return {gbuffer_.readIds(), firstThree(gbuffer_.readPositions())}; }
+
+Image<glm::vec3> Stage::normals() const { return firstThree(gbuffer_.readNormals()); }
+
+void Stage::render(techniques::Technique& technique, int index, std::uint32_t seed) {
+    const techniques::Frame frame{snapshot_,
+                                  buffers_,
+                                  gbuffer_,
+                                  scene_.size,
+                                  clipFromWorld(snapshot_.camera, scene_.size),
+                                  clipFromWorld(snapshot_.previousCamera, scene_.size),
+                                  index,
+                                  seed};
+    technique.render(frame, visibility_);
+    gl::Context::current().check("rendering frame " + std::to_string(index) + " of scene " + scene_.id);
+}
+
+} // namespace shadowbench

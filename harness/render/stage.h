@@ -1,0 +1,44 @@
+// One scene on the GPU at its image size: shows a frame and lets techniques render it.
+#pragma once
+
+#include "harness/metrics/metrics.h"
+#include "scene/scene.h"
+#include "techniques/contract/technique.h"
+
+namespace shadowbench {
+
+class Stage {
+public:
+    /// The scene must outlive the stage.
+    explicit Stage(const Scene& scene);
+    explicit Stage(Scene&&) = delete;
+
+    /// Uploads frame `index` of the scene and draws its G-buffer.
+    void show(int index);
+    [[nodiscard]] const Snapshot& shown() const { return snapshot_; }
+
+    /// Draws the G-buffer of the shown frame again (the floor of every technique's cost).
+    void redraw();
+
+    /// What the G-buffer of the shown frame holds.
+    [[nodiscard]] metrics::Drawn drawn() const;
+
+    /// Its geometric normals, on the side that is seen; anything for background.
+    [[nodiscard]] Image<glm::vec3> normals() const;
+
+    /// Renders the shown frame as number `index` of the technique's sequence (which seeds its jitter).
+    void render(techniques::Technique& technique, int index, std::uint32_t seed);
+
+    /// The visibility image of the last `render`.
+    [[nodiscard]] Image<float> visibility() const { return target_.readFloat(0); }
+
+private:
+    const Scene& scene_;
+    Snapshot snapshot_;
+    gl::SceneBuffers buffers_;
+    gl::GBuffer gbuffer_;
+    gl::Texture visibility_;
+    gl::RenderTarget target_;
+};
+
+} // namespace shadowbench

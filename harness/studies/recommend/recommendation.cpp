@@ -1,0 +1,150 @@
+#include "harness/studies/recommend/recommendation.h"
+
+#include "base/files.h"
+#include "base/progress_line.h"
+#include "harness/report/run_report.h"
+#include "harness/runs/run.h"
+#include "scene/load/load.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace shadowbench::adequacy {
+namespace {
+
+constexpr std::array allQuestions{Question::Casters, Question::Technique, Question::Map, Question::Samples};
+
+bool hasLevels(const Scene& scene) {
+    return std::ranges::any_of(scene.objects, [](const Object& object) { return object.levels.size() > 1; });
+}
+
+/// Of the standard scenes those with levels, unless the question is another one.
+std::vector<std::string> chosenScenes(const RecommendOptions& options) {
+    if (!options.scenes.empty()) return options.scenes;
+    std::vector<std::string> ids = standardScenes();
+    if (options.questions.contains(Question::Casters))
+        std::erase_if(ids, [&](const std::string& id) { return !hasLevels(loadScene(id, options.profile)); });
+    return ids;
+}
+
+CasterRecommendation casterLevels(const Scene& scene, const RecommendOptions& options) {
+    ProgressLine line(scene.id + " casters", 1, options.quiet);
+    CasterRecommendation casters =
+        recommendCasters(scene, options.casters, [&](double share, std::string_view what) { line.show(0, share, what); });
+    line.show(1, 0, "");
+    return casters;
+}
+
+/// The variants whose records answer the question.
+std::vector<std::string> variantsFor(Question question, const std::vector<std::string>& patterns) {
+    if (question == Question::Map) return variantsOver(Resource::MapTexels, patterns);
+    if (question == Question::Samples) return variantsOver(Resource::Samples, patterns);
+    return patterns;
+}
+
+/// Records that answer the question on the scene, with the tolerance that was asked for.
+class Records {
+public:
+    explicit Records(const RecommendOptions& options) : options_(options) {
+        if (!options.records.empty()) given_ = readRecords(options.records);
+    }
+
+    std::vector<Record> of(Question question, const std::string& sceneIdOrFile, const Scene& scene) {
+        std::vector<Record> records = given_ ? *given_ : computed(question, sceneIdOrFile);
+        if (report::ofScene(records, scene.id).empty())
+            throw BadInput(fmt::format("{} holds no record of scene {}", options_.records.string(), scene.id));
+        if (options_.casters.tolerance.empty()) return records;
+        const Bound bound = parseBound(options_.casters.tolerance.front(), scene.light);
+        for (Record& record : records) {
+            record.toleranceMetric = bound.metric;
+            record.tolerance = bound.most;
+        }
+        return records;
+    }
+
+    [[nodiscard]] ExitCode code() const { return code_; }
+
+private:
+    std::vector<Record> computed(Question question, const std::string& sceneIdOrFile) {
+        RunOptions cells;
+        cells.scenes = {sceneIdOrFile};
+        cells.techniques = variantsFor(question, options_.techniques);
+        cells.profile = options_.profile;
+        cells.out = options_.out / std::string(name(question));
+        cells.cache = options_.cache;
+        cells.time = question == Question::Technique;
+        cells.resume = true;
+        cells.quiet = options_.quiet;
+        RunResult result = run(cells);
+        if (code_ == ExitCode::Pass) code_ = result.code;
+        return std::move(result.records);
+    }
+
+    const RecommendOptions& options_;
+    std::optional<std::vector<Record>> given_;
+    ExitCode code_ = ExitCode::Pass;
+};
+
+std::optional<Cheapest> cheapest(const std::vector<Record>& records, const std::string& scene) {
+    const std::optional<std::size_t> best = report::cheapestAdequate(records, scene);
+    if (!best) return {};
+    const Record& record = records[*best];
+    return Cheapest{record.variant, *accuracyMetric(record.accuracy, record.toleranceMetric), record.cost.time->ratio};
+}
+
+void answerFromRecords(Question question, const std::vector<Record>& records, Recommendation& result) {
+    result.tolerance = report::tolerance(records, result.scene);
+    if (!result.tolerance)
+        throw BadInput(fmt::format("scene {} states no tolerance: give one with --tolerance", result.scene));
+    if (question == Question::Technique) result.technique = cheapest(records, result.scene);
+    if (question == Question::Map) result.maps = leastAdequate(records, result.scene, Resource::MapTexels);
+    if (question == Question::Samples) result.samples = leastAdequate(records, result.scene, Resource::Samples);
+}
+
+} // namespace
+
+std::string_view name(Question question) {
+    switch (question) {
+    case Question::Casters:
+        return "casters";
+    case Question::Technique:
+        return "technique";
+    case Question::Map:
+        return "map";
+    case Question::Samples:
+        break;
+    }
+    return "samples";
+}
+
+Question questionNamed(const std::string& word) {
+    std::vector<std::string> names;
+    for (const Question question : allQuestions) {
+        if (name(question) == word) return question;
+        names.emplace_back(name(question));
+    }
+    throw BadInput(fmt::format("there is no question \"{}\"{}; the questions are {}", word, didYouMean(word, names),
+                               fmt::join(names, ", ")));
+}
+
+Recommendations recommend(const RecommendOptions& options) {
+    Recommendations all;
+    Records records(options);
+    for (const std::string& idOrFile : chosenScenes(options)) {
+        const Scene scene = loadScene(idOrFile, options.profile);
+        Recommendation result{scene.id, options.questions, {}, {}, {}, {}, {}};
+        for (const Question question : options.questions)
+            if (question == Question::Casters)
+                result.casters = casterLevels(scene, options);
+            else
+                answerFromRecords(question, records.of(question, idOrFile, scene), result);
+        if (result.casters && !result.casters->verified) all.code = ExitCode::Inconclusive;
+        all.scenes.push_back(std::move(result));
+    }
+    if (all.code == ExitCode::Pass) all.code = records.code();
+    return all;
+}
+
+} // namespace shadowbench::adequacy

@@ -1,0 +1,58 @@
+// The least that a scene needs within its tolerance: `shadowbench recommend`.
+#pragma once
+
+#include "base/error.h"
+#include "harness/report/summary.h"
+#include "harness/studies/recommend/caster_levels.h"
+#include "harness/studies/recommend/least_resource.h"
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace shadowbench::adequacy {
+
+enum class Question { Casters, Technique, Map, Samples };
+std::string_view name(Question question);
+Question questionNamed(const std::string& word); // throws BadInput naming all
+
+struct RecommendOptions {
+    std::vector<std::string> scenes; // ids or files; empty: those standard scenes that have what is asked for
+    std::set<Question> questions{Question::Casters};
+    Profile profile = Profile::Gate;
+    CasterOptions casters;                           // its tolerance holds for all questions
+    std::vector<std::string> techniques;             // variants or globs; empty: all
+    std::filesystem::path records;                   // of a run; empty: the cells that the questions need are run
+    std::filesystem::path out = "results/recommend"; // of those cells' records
+    std::filesystem::path cache;
+    bool quiet = false;
+};
+
+/// The cheapest technique within tolerance.
+struct Cheapest {
+    std::string variant;
+    double error; // by the tolerance's metric
+    double cost;  // frames of sm-uniform
+};
+
+/// Answers for one scene; what was not asked for is empty.
+struct Recommendation {
+    std::string scene;
+    std::set<Question> questions;
+    std::optional<CasterRecommendation> casters;
+    std::optional<report::Tolerance> tolerance; // of the three below
+    std::optional<Cheapest> technique;          // nothing if none is within tolerance
+    std::vector<Least> maps, samples;           // a line a technique, the least first; empty if none is within tolerance
+};
+
+/// Inconclusive when a casters' recommendation was not verified, else that of a cell that ended in an error, else Pass.
+struct Recommendations {
+    std::vector<Recommendation> scenes;
+    ExitCode code = ExitCode::Pass;
+};
+
+Recommendations recommend(const RecommendOptions& options);
+
+} // namespace shadowbench::adequacy

@@ -1,0 +1,175 @@
+#include "harness/studies/recommend/recommendation_text.h"
+
+#include "harness/report/text_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace shadowbench::adequacy {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Three digits: a tolerance may be missed by little.
+std::string shown(const std::string& metric, double value) {
+    return report::isShare(metric) ? fmt::format("{:.3g} %", 100 * value) : fmt::format("{:.3g}", value);
+}
+
+/// The errors that have a bound.
+std::string shown(const Errors& errors, const std::vector<Bound>& bounds) {
+    std::vector<std::string> parts;
+    for (const Bound& bound : bounds)
+        if (const auto found = errors.find(bound.metric); found != errors.end())
+            parts.push_back(bound.metric + " " + shown(bound.metric, found->second));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string shown(const std::vector<Bound>& bounds) {
+    Errors errors;
+    for (const Bound& bound : bounds) errors[bound.metric] = bound.most;
+    return shown(errors, bounds);
+}
+
+std::string distances(const GroupLevel& group) {
+    if (std::isinf(group.until)) return group.from == 0 ? "all" : fmt::format("from {:g} m", group.from);
+    return fmt::format("{:g} to {:g} m", group.from, group.until);
+}
+
+std::string groupTable(const CasterRecommendation& c) {
+    report::TextTable table{{"casters", "distance", "instances", "levels", "cast at", "triangles", "one level coarser"}, {}};
+    for (const GroupLevel& group : c.groups) {
+        const std::string coarser = group.coarser ? shown(group.coarser->verified, c.tolerance) : "none in the chain";
+        table.rows.push_back({group.object, distances(group), fmt::format("{}", group.instances),
+                              fmt::format("{}", fmt::join(group.chain, " ")), fmt::format("{}", group.chain[group.level]),
+                              fmt::format("{}", group.triangles()), coarser});
+    }
+    return report::aligned(table);
+}
+
+/// How many groups could cast at a coarser level.
+std::size_t coarserLevels(const CasterRecommendation& c) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(c.groups, [](const GroupLevel& g) { return g.coarser.has_value(); }));
+}
+
+std::string verification(const CasterRecommendation& c) {
+    std::string line = fmt::format("{} by {}: at these levels {}", c.verified ? "verified" : "NOT VERIFIED", c.verifier,
+                                   shown(c.verifiedErrors, c.tolerance));
+    const std::size_t coarser = coarserLevels(c);
+    if (c.verified && coarser > 0) line += ", with any one group a level coarser above tolerance";
+    if (coarser < c.groups.size())
+        line +=
+            fmt::format("; {} of {} groups cast at the end of their chain, and nothing says that a coarser level would not "
+                        "do: give more with --levels",
+                        c.groups.size() - coarser, c.groups.size());
+    return line;
+}
+
+std::string text(const CasterRecommendation& c) {
+    const auto saved = [&](std::size_t triangles) {
+        return 100 - 100 * static_cast<double>(triangles) / static_cast<double>(c.finestTriangles);
+    };
+    std::string lines = fmt::format(" coarsest shadow casters within {} of their finest levels · {} · frame {}\n",
+                                    shown(c.tolerance), c.profile, c.frame);
+    lines += groupTable(c);
+    lines += fmt::format(" triangles: {} of {}, {:.0f} % saved, at {} ({}; {} of {} choices judged)\n", c.triangles,
+                         c.finestTriangles, saved(c.triangles), shown(c.errors, c.tolerance), c.oracle, c.tried, c.possible);
+    lines += fmt::format(" cast at the levels that are drawn: {} triangles, {:.0f} % saved, at {}: {} tolerance\n",
+                         c.drawnTriangles, saved(c.drawnTriangles), shown(c.drawnErrors, c.tolerance),
+                         within(c.drawnErrors, c.tolerance) ? "within" : "above");
+    lines += fmt::format(" {}\n", verification(c));
+    lines +=
+        fmt::format(" counted on objects without levels: {} of {} receiver pixels\n", c.receiverPixels, c.allReceiverPixels);
+    return lines;
+}
+
+/// `unit` is that of the amounts.
+std::string leastTable(const std::string& what, const std::string& unit, const std::vector<Least>& all,
+                       const report::Tolerance& tolerance) {
+    const std::string heading = fmt::format(" {} within {} {}", what, tolerance.metric, report::shownBound(tolerance));
+    if (all.empty()) return heading + ": no technique that was tried has one\n";
+    report::TextTable table{{"technique", unit, "error"}, {}};
+    for (const Least& least : all)
+        table.rows.push_back({least.variant, fmt::format("{:g}", least.amount), shown(tolerance.metric, least.error)});
+    return heading + "\n" + report::aligned(table);
+}
+
+std::string cheapestLine(const std::optional<Cheapest>& technique, const report::Tolerance& tolerance) {
+    const std::string heading =
+        fmt::format(" cheapest technique within {} {}", tolerance.metric, report::shownBound(tolerance));
+    if (!technique) return heading + ": none\n";
+    return fmt::format("{}: {}, at {} and {:.2f} frames of sm-uniform\n", heading, technique->variant,
+                       shown(tolerance.metric, technique->error), technique->cost);
+}
+
+ordered_json toJson(const GroupLevel& group) {
+    ordered_json result{{"object", group.object}, {"from", group.from}};
+    if (!std::isinf(group.until)) result["until"] = group.until;
+    result["instances"] = group.instances;
+    result["levels"] = group.chain;
+    result["level"] = group.level;
+    result["triangles"] = group.chain[group.level];
+    if (group.coarser)
+        result["coarser"] = {{"level", group.coarser->level},
+                             {"errors", group.coarser->errors},
+                             {"verified_errors", group.coarser->verified}};
+    return result;
+}
+
+ordered_json toJson(const CasterRecommendation& c) {
+    ordered_json result{{"profile", c.profile}, {"frame", c.frame}, {"size", {c.size.x, c.size.y}}};
+    for (const Bound& bound : c.tolerance) result["tolerance"][bound.metric] = bound.most;
+    for (const GroupLevel& group : c.groups) result["groups"].push_back(toJson(group));
+    result["oracle"] = c.oracle;
+    result["errors"] = c.errors;
+    result["all_triangles"] = c.triangles;
+    result["finest"] = {{"all_triangles", c.finestTriangles}};
+    result["drawn"] = {{"all_triangles", c.drawnTriangles}, {"errors", c.drawnErrors}};
+    result["verifier"] = c.verifier;
+    result["verified_errors"] = c.verifiedErrors;
+    result["verified"] = c.verified;
+    result["receiver_pixels"] = c.receiverPixels;
+    result["all_receiver_pixels"] = c.allReceiverPixels;
+    return result;
+}
+
+ordered_json toJson(const std::vector<Least>& all, const std::string& amount) {
+    ordered_json result = ordered_json::array();
+    for (const Least& least : all)
+        result.push_back({{"variant", least.variant}, {amount, least.amount}, {"error", least.error}});
+    return result;
+}
+
+ordered_json toJson(const Recommendation& r) {
+    ordered_json result{{"scene", r.scene}};
+    if (r.casters) result["casters"] = toJson(*r.casters);
+    if (r.tolerance) result["tolerance"] = {{"metric", r.tolerance->metric}, {"value", r.tolerance->value}};
+    if (r.technique)
+        result["technique"] = {
+            {"variant", r.technique->variant}, {"error", r.technique->error}, {"cost", r.technique->cost}};
+    if (r.questions.contains(Question::Map)) result["map"] = toJson(r.maps, "texels");
+    if (r.questions.contains(Question::Samples)) result["samples"] = toJson(r.samples, "samples");
+    return result;
+}
+
+} // namespace
+
+std::string text(const Recommendation& r) {
+    std::string lines = fmt::format(" scene: {}\n", r.scene);
+    if (r.casters) lines += text(*r.casters);
+    if (r.questions.contains(Question::Technique)) lines += cheapestLine(r.technique, *r.tolerance);
+    if (r.questions.contains(Question::Map)) lines += leastTable("smallest map", "texels a side", r.maps, *r.tolerance);
+    if (r.questions.contains(Question::Samples)) lines += leastTable("fewest samples", "samples", r.samples, *r.tolerance);
+    return lines;
+}
+
+std::string json(const std::vector<Recommendation>& recommendations) {
+    ordered_json all = ordered_json::array();
+    for (const Recommendation& recommendation : recommendations) all.push_back(toJson(recommendation));
+    return all.dump(2);
+}
+
+} // namespace shadowbench::adequacy

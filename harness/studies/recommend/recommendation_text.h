@@ -1,0 +1,19 @@
+// Recommendations as people and machines read them.
+#pragma once
+
+#include "harness/studies/recommend/recommendation.h"
+
+#include <string>
+#include <vector>
+
+namespace shadowbench::adequacy {
+
+/// Plain text for a terminal.
+std::string text(const Recommendation& recommendation);
+
+/// A JSON list of one object a scene: "scene", "casters" with the recommended level of every group, errors by both oracles
+/// and "verified", "technique", "map", "samples". Errors are named by metric; triangles are those of one instance unless
+/// said otherwise; distances in metres, "until" absent without end.
+std::string json(const std::vector<Recommendation>& recommendations);
+
+} // namespace shadowbench::adequacy

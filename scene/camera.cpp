@@ -1,0 +1,86 @@
+#include "scene/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace shadowbench {
+
+Camera::Basis Camera::basis() const {
+    const glm::dvec3 forward = glm::normalize(target - eye);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
+    return {right, glm::cross(right, forward), forward};
+}
+
+glm::dmat4 Camera::view() const { return glm::lookAt(eye, target, up); }
+
+glm::dmat4 Camera::projection(double aspect) const { return glm::perspective(glm::radians(fovy), aspect, near, far); }
+
+glm::dvec3 Camera::ray(glm::dvec2 pixel, glm::ivec2 size) const {
+    const Basis b = basis();
+    const double tangent = std::tan(0.5 * glm::radians(fovy));
+    const double aspect = static_cast<double>(size.x) / size.y;
+    const double x = (2.0 * pixel.x / size.x - 1.0) * tangent * aspect;
+    const double y = (1.0 - 2.0 * pixel.y / size.y) * tangent;
+    return b.forward + x * b.right + y * b.up;
+}
+
+glm::dvec3 Camera::project(const glm::dvec3& world, glm::ivec2 size) const {
+    const Basis b = basis();
+    const glm::dvec3 offset = world - eye;
+    const double depth = glm::dot(offset, b.forward);
+    const double tangent = std::tan(0.5 * glm::radians(fovy));
+    const double aspect = static_cast<double>(size.x) / size.y;
+    const double x = glm::dot(offset, b.right) / (depth * tangent * aspect);
+    const double y = glm::dot(offset, b.up) / (depth * tangent);
+    return {0.5 * (x + 1.0) * size.x, 0.5 * (1.0 - y) * size.y, depth};
+}
+
+std::string_view name(LightKind kind) {
+    switch (kind) {
+    case LightKind::Point:
+        return "point";
+    case LightKind::Directional:
+        return "directional";
+    case LightKind::Rectangle:
+        return "rectangle";
+    case LightKind::Disk:
+        return "disk";
+    case LightKind::Line:
+        return "line";
+    }
+    return "";
+}
+
+bool Light::isArea() const { return kind == LightKind::Rectangle || kind == LightKind::Disk || kind == LightKind::Line; }
+
+glm::dvec4 Light::homogeneous() const {
+    return kind == LightKind::Directional ? glm::dvec4(-direction, 0.0) : glm::dvec4(centre, 1.0);
+}
+
+glm::dvec3 Light::sample(glm::dvec2 st) const {
+    switch (kind) {
+    case LightKind::Rectangle:
+        return centre + (st.x - 0.5) * u + (st.y - 0.5) * v;
+    case LightKind::Line:
+        return centre + (st.x - 0.5) * u;
+    case LightKind::Disk: {
+        const double radius = 0.5 * std::sqrt(st.x); // u and v are diameters
+        const double angle = glm::two_pi<double>() * st.y;
+        return centre + radius * std::cos(angle) * u + radius * std::sin(angle) * v;
+    }
+    case LightKind::Point:
+    case LightKind::Directional:
+        break;
+    }
+    return centre;
+}
+
+Light Light::centreOnly() const {
+    if (!isArea()) return *this;
+    return {LightKind::Point, centre, direction, glm::dvec3(0), glm::dvec3(0)};
+}
+
+} // namespace shadowbench

@@ -1,0 +1,31 @@
+// Scenes by name: built-in ones and files.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shadowbench {
+
+/// Loads a built-in scene by id or a file by path. Errors (BadInput) name file, line and key, and near matches for an
+/// unknown id.
+Scene loadScene(const std::string& idOrFile, Profile profile);
+
+/// Parses TOML text; `file` is used for the id, for error messages and to resolve mesh files.
+Scene parseScene(std::string_view toml, const std::filesystem::path& file, Profile profile);
+
+/// Ids of the five standard scenes, in the order tables print them: what a run without `--scene` renders.
+std::vector<std::string> standardScenes();
+
+/// Ids of all built-in scenes, the standard ones first, and the text of one.
+std::vector<std::string> builtinScenes();
+std::string_view builtinSceneText(const std::string& id);
+
+/// Throws BadInput when the set-up has no defined answer: light on a surface, zero-size area light, eye inside a closed
+/// mesh.
+void requireWellPosed(const Scene& scene);
+
+} // namespace shadowbench

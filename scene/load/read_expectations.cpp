@@ -1,0 +1,86 @@
+// What a scene file says of scores: a viewer's tolerances, and what is expected of techniques.
+#include "scene/load/scene_file.h"
+#include "scene/scene.h"
+
+#include <fmt/format.h>
+
+namespace shadowbench {
+const std::vector<std::string>& boundedMetrics() {
+    static const std::vector<std::string> names{"mismatch",
+                                                "mismatch_off_edge",
+                                                "false_shadow",
+                                                "leak",
+                                                "edge_error",
+                                                "bad30",
+                                                "bad8",
+                                                "mae",
+                                                "rmse",
+                                                "penumbra_rmse",
+                                                "penumbra_width_error",
+                                                "umbra_leak",
+                                                "flicker",
+                                                "flip_rate",
+                                                "moving_rmse",
+                                                "disocclusion_error",
+                                                "convergence",
+                                                "pop"};
+    return names;
+}
+
+namespace {
+
+std::string readSentence(const TomlValue& value) {
+    std::string text = value.text();
+    if (text.empty()) value.fail("is empty; say it in a few words");
+    return text;
+}
+
+/// `bound` is the key of the bound: "above" or "below".
+std::vector<Expectation> readExpectationList(const TomlValue& list, const std::string& bound) {
+    std::vector<Expectation> expectations;
+    for (const TomlValue& entry : list.list()) {
+        entry.only({"technique", "metric", bound, "reason"});
+        expectations.push_back({readSentence(entry.get("technique")), entry.get("metric").oneOf(boundedMetrics()),
+                                entry.get(bound).positive(), readSentence(entry.get("reason"))});
+    }
+    return expectations;
+}
+
+glm::dvec2 readRange(const TomlValue& value) {
+    const std::vector<TomlValue> ends = value.list();
+    if (ends.size() != 2) value.fail(fmt::format("expected 2 numbers, got {}", ends.size()));
+    const glm::dvec2 range(ends[0].number(), ends[1].number());
+    if (range.x > range.y) value.fail("expected the smaller number first");
+    return range;
+}
+
+/// `ranged`: every entry says between which values its technique breaks.
+void readBreaks(const TomlValue& list, bool ranged, Scene& scene) {
+    for (const TomlValue& entry : list.list()) {
+        std::vector<std::string> keys{"technique", "axis", "reason"};
+        if (ranged) keys.emplace_back("between");
+        entry.only(keys);
+        scene.breaks.push_back({readSentence(entry.get("technique")), readSentence(entry.get("axis")),
+                                ranged ? std::optional(readRange(entry.get("between"))) : std::nullopt,
+                                readSentence(entry.get("reason"))});
+    }
+}
+
+} // namespace
+
+std::map<std::string, double> readTolerances(const TomlValue& value) {
+    std::map<std::string, double> tolerance;
+    for (const TomlValue& entry : value.only(boundedMetrics()).members())
+        tolerance[std::string(entry.lastKey())] = entry.positive();
+    return tolerance;
+}
+
+void readExpectations(const TomlValue& value, Scene& scene) {
+    value.only({"fails", "holds", "breaks", "never_breaks"});
+    if (const auto fails = value.find("fails")) scene.fails = readExpectationList(*fails, "above");
+    if (const auto holds = value.find("holds")) scene.holds = readExpectationList(*holds, "below");
+    if (const auto breaks = value.find("breaks")) readBreaks(*breaks, true, scene);
+    if (const auto never = value.find("never_breaks")) readBreaks(*never, false, scene);
+}
+
+} // namespace shadowbench

@@ -1,0 +1,149 @@
+#include "base/error.h"
+#include "scene/load/scene_file.h"
+#include "scene/meshes/import.h"
+#include "scene/meshes/primitives.h"
+#include "scene/meshes/procedural.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <functional>
+
+namespace shadowbench {
+namespace {
+
+constexpr int kMostSides = 4096;
+
+/// A mesh to be made, and the words by which an equal one is found again.
+struct Recipe {
+    std::string words;
+    std::function<Mesh()> make;
+};
+
+int trianglesOf(const TomlValue& value, int level) {
+    if (level == 0) return value.get("triangles").integer(4, kMostTriangles);
+    if (const auto own = value.find("triangles")) own->fail("the levels of lod state the triangles; leave this one out");
+    return level;
+}
+
+std::uint32_t seedOf(const TomlValue& value) {
+    const auto seed = value.find("seed");
+    return seed ? static_cast<std::uint32_t>(seed->integer(0, 1'000'000'000)) : 1;
+}
+
+double positiveOr(const TomlValue& value, std::string_view name, double otherwise) {
+    const auto given = value.find(name);
+    return given ? given->positive() : otherwise;
+}
+
+glm::dvec3 sizeOf(const TomlValue& value) {
+    const glm::dvec3 size = value.vector();
+    if (!(size.x > 0 && size.y > 0 && size.z > 0)) value.fail("expected 3 numbers above 0");
+    return size;
+}
+
+Recipe bumpyRecipe(const TomlValue& value, int level) {
+    value.only({"radius", "bump", "triangles", "seed"});
+    const double radius = positiveOr(value, "radius", 0.5), bump = positiveOr(value, "bump", 0.3 * radius);
+    if (!(bump < radius)) value.get("bump").fail("expected less than the radius");
+    const int triangles = trianglesOf(value, level);
+    const std::uint32_t seed = seedOf(value);
+    return {fmt::format("bumpy {} {} {} {}", radius, bump, triangles, seed),
+            [=] { return bumpy(radius, bump, triangles, seed); }};
+}
+
+Recipe sphereRecipe(const TomlValue& value, int level) {
+    value.only({"radius", "triangles"});
+    const double radius = value.get("radius").positive();
+    const int triangles = trianglesOf(value, level);
+    return {fmt::format("sphere {} {}", radius, triangles), [=] { return sphere(radius, triangles); }};
+}
+
+Recipe windmillRecipe(const TomlValue& value, int level) {
+    value.only({"triangles"});
+    const int triangles = trianglesOf(value, level);
+    const bool tower = value.lastKey() == "windmill_tower";
+    return {fmt::format("{} {}", value.lastKey(), triangles),
+            [=] { return tower ? windmillTower(triangles) : windmillRotor(triangles); }};
+}
+
+Recipe treeRecipe(const TomlValue& value, int level) {
+    value.only({"triangles", "seed"});
+    const int triangles = trianglesOf(value, level);
+    const std::uint32_t seed = seedOf(value);
+    return {fmt::format("tree {} {}", triangles, seed), [=] { return tree(triangles, seed); }};
+}
+
+Recipe plainRecipe(const TomlValue& value) {
+    if (value.lastKey() == "plane") {
+        const double half = value.only({"half"}).get("half").positive();
+        return {fmt::format("plane {}", half), [=] { return plane(half); }};
+    }
+    if (value.lastKey() == "box") {
+        const glm::dvec3 size = sizeOf(value.only({"size"}).get("size"));
+        return {fmt::format("box {} {} {}", size.x, size.y, size.z), [=] { return box(size); }};
+    }
+    value.only({"radius", "height", "sides"});
+    const double radius = value.get("radius").positive(), height = value.get("height").positive();
+    const int sides = value.get("sides").integer(3, kMostSides);
+    return {fmt::format("column {} {} {}", radius, height, sides), [=] { return column(radius, height, sides); }};
+}
+
+Recipe recipe(const TomlValue& value, int level) {
+    const std::string_view kind = value.lastKey();
+    if (kind == "sphere") return sphereRecipe(value, level);
+    if (kind == "bumpy") return bumpyRecipe(value, level);
+    if (kind == "tree") return treeRecipe(value, level);
+    if (kind == "windmill_tower" || kind == "windmill_rotor") return windmillRecipe(value, level);
+    if (level > 0) value.fail("has no levels of detail; use levels = [{ mesh, until }, …] instead of lod");
+    return plainRecipe(value);
+}
+
+} // namespace
+
+std::shared_ptr<const Mesh> MeshStore::get(const TomlValue& value, int triangles) {
+    value.only({"plane", "box", "sphere", "column", "bumpy", "windmill_tower", "windmill_rotor", "tree", "file", "closed",
+                "simplify"});
+    if (value.find("file")) return imported(value.only({"file", "closed", "simplify"}), triangles);
+    const std::vector<TomlValue> members = value.members();
+    if (members.size() != 1) value.fail(fmt::format("expected one kind of mesh, got {}", members.size()));
+    if (members[0].lastKey() == "closed" || members[0].lastKey() == "simplify")
+        members[0].fail("belongs to a mesh from a file");
+    return generated(members[0], triangles);
+}
+
+std::shared_ptr<const Mesh> MeshStore::generated(const TomlValue& generator, int triangles) {
+    const Recipe wanted = recipe(generator, triangles);
+    std::shared_ptr<const Mesh>& mesh = meshes_[wanted.words];
+    if (mesh == nullptr) {
+        mesh = std::make_shared<const Mesh>(wanted.make());
+        requireWellFormed(*mesh, generator.where());
+    }
+    return mesh;
+}
+
+std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, int triangles) {
+    const TomlValue name = value.get("file");
+    const auto closed = value.find("closed");
+    const auto simplify = value.find("simplify");
+    if (simplify && triangles > 0) simplify->fail("the levels of lod state the triangles; leave this one out");
+    const int wanted = simplify ? simplify->integer(4, kMostTriangles) : triangles;
+    const std::filesystem::path file = folder_ / name.text();
+    std::shared_ptr<const Mesh>& mesh =
+        meshes_[fmt::format("file {} {} {}", file.string(), closed && closed->boolean(), wanted)];
+    if (mesh != nullptr) return mesh;
+
+    Mesh made;
+    try {
+        made = importMesh(file);
+    } catch (const BadInput& error) {
+        name.fail(error.what());
+    }
+    made.closed = closed && closed->boolean();
+    requireWellFormed(made, name.where());
+    if (wanted > 0) made = simplified(made, wanted);
+    requireWellFormed(made, name.where());
+    mesh = std::make_shared<const Mesh>(std::move(made));
+    return mesh;
+}
+
+} // namespace shadowbench

@@ -1,0 +1,195 @@
+#include "base/random.h"
+#include "scene/load/scene_file.h"
+#include "scene/meshes/scatter.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace shadowbench {
+namespace {
+
+constexpr int kMostInstances = 100'000; // of one object; more is a slip of the finger
+constexpr double kFullTurn = 360;
+
+/// `until` distances must grow: a level that ends before the previous one is never drawn.
+void requireGrowing(const std::vector<Level>& levels, const TomlValue& value) {
+    for (std::size_t i = 1; i < levels.size(); ++i)
+        if (!(levels[i].until > levels[i - 1].until)) value.fail("the distances of until must grow from level to level");
+}
+
+glm::vec3 readColour(const TomlValue& value) {
+    const glm::dvec3 colour = value.vector();
+    for (int i = 0; i < 3; ++i)
+        if (colour[i] < 0 || colour[i] > 1) value.fail("expected 3 numbers from 0 to 1");
+    return glm::vec3(colour);
+}
+
+std::vector<Level> levelsFromList(const TomlValue& list, MeshStore& meshes) {
+    std::vector<Level> levels;
+    const std::vector<TomlValue> entries = list.list();
+    if (entries.empty()) list.fail("expected at least one level");
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        entries[i].only({"mesh", "until", "colour"});
+        Level level{meshes.get(entries[i].get("mesh"))};
+        if (const auto colour = entries[i].find("colour")) level.colour = readColour(*colour);
+        if (const auto until = entries[i].find("until"))
+            level.until = until->positive();
+        else if (i + 1 < entries.size())
+            entries[i].get("until");
+        levels.push_back(std::move(level));
+    }
+    requireGrowing(levels, list);
+    return levels;
+}
+
+std::vector<Level> levelsFromLod(const TomlValue& mesh, const TomlValue& lod, MeshStore& meshes) {
+    lod.only({"triangles", "until"});
+    const std::vector<TomlValue> triangles = lod.get("triangles").list(), until = lod.get("until").list();
+    if (triangles.size() != until.size() + 1)
+        lod.get("until").fail(
+            fmt::format("expected {} distances, one fewer than levels, got {}", triangles.size() - 1, until.size()));
+    std::vector<Level> levels;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        levels.push_back({meshes.get(mesh, triangles[i].integer(4, kMostTriangles))});
+        if (i < until.size()) levels.back().until = until[i].positive();
+    }
+    requireGrowing(levels, lod.get("until"));
+    return levels;
+}
+
+std::vector<Level> readLevels(const TomlValue& value, MeshStore& meshes) {
+    const auto list = value.find("levels"), lod = value.find("lod");
+    if (list && value.find("mesh")) list->fail("the levels state the meshes; leave mesh out");
+    if (list && lod) lod->fail("give either levels or lod");
+    if (list) return levelsFromList(*list, meshes);
+    if (lod) return levelsFromLod(value.get("mesh"), *lod, meshes);
+    return {{meshes.get(value.get("mesh"))}};
+}
+
+glm::dmat4 readPlace(const TomlValue& value) {
+    value.only({"at", "turn", "scale"});
+    const auto at = value.find("at"), turn = value.find("turn"), scale = value.find("scale");
+    return placed(at ? at->vector() : glm::dvec3(0), turn ? turn->number() : 0.0, scale ? scale->positive() : 1.0);
+}
+
+/// A number, or a list of two that bound a range.
+glm::dvec2 readRange(const TomlValue& value) {
+    if (!value.isList()) return glm::dvec2(value.number());
+    const std::vector<TomlValue> ends = value.list();
+    if (ends.size() != 2) value.fail(fmt::format("expected a number or 2 that bound a range, got {}", ends.size()));
+    const glm::dvec2 range(ends[0].number(), ends[1].number());
+    if (range.x > range.y) value.fail("expected the lower end of the range first");
+    return range;
+}
+
+glm::dvec2 readHalf(const TomlValue& value) {
+    if (!value.isList()) return glm::dvec2(value.positive());
+    const std::vector<TomlValue> sides = value.list();
+    if (sides.size() != 2) value.fail(fmt::format("expected a number or 2 (along x and z), got {}", sides.size()));
+    return {sides[0].positive(), sides[1].positive()};
+}
+
+Scatter readScatter(const TomlValue& value, const glm::dvec3& eye) {
+    value.only({"count", "half", "spacing", "centre", "jitter", "turn", "scale", "clear", "seed"});
+    Scatter scatter;
+    scatter.count = value.get("count").integer(1, kMostInstances);
+    const auto half = value.find("half"), spacing = value.find("spacing");
+    if (half.has_value() == spacing.has_value())
+        value.fail("give either half (sides of the field) or spacing (between instances)");
+    scatter.half = half ? readHalf(*half) : glm::dvec2(0.5 * spacing->positive() * std::sqrt(scatter.count));
+    if (const auto centre = value.find("centre")) scatter.centre = centre->vector();
+    if (const auto jitter = value.find("jitter")) scatter.jitter = jitter->number();
+    if (scatter.jitter < 0 || scatter.jitter > 1) value.get("jitter").fail("expected a number from 0 to 1");
+    if (const auto turn = value.find("turn")) scatter.turn = readRange(*turn);
+    if (const auto scale = value.find("scale")) scatter.scale = readRange(*scale);
+    if (!(scatter.scale.x > 0)) value.get("scale").fail("expected numbers above 0");
+    if (const auto clear = value.find("clear")) scatter.clear = clear->positive();
+    if (const auto seed = value.find("seed")) scatter.seed = static_cast<std::uint32_t>(seed->integer(0, 1'000'000'000));
+    scatter.keepOff = {eye.x, eye.z};
+    return scatter;
+}
+
+std::vector<glm::dmat4> readPlaces(const TomlValue& value, const glm::dvec3& eye) {
+    const auto place = value.find("place"), scatter = value.find("scatter");
+    if (place && scatter) scatter->fail("give either place or scatter");
+    if (scatter) {
+        std::vector<glm::dmat4> places = scattered(readScatter(*scatter, eye));
+        if (places.empty())
+            scatter->fail("the whole field lies within clear metres of the camera; make it larger or clear smaller");
+        return places;
+    }
+    if (!place) return {glm::dmat4(1)};
+    std::vector<glm::dmat4> places;
+    for (const TomlValue& entry : place->list()) places.push_back(readPlace(entry));
+    if (places.empty()) place->fail("expected at least one place");
+    return places;
+}
+
+/// Each instance's turn at rest: one for all, or its own at random.
+std::vector<double> readPhases(const TomlValue& spin, std::size_t count) {
+    const auto phase = spin.find("phase");
+    if (!phase) return std::vector<double>(count, 0.0);
+    if (!phase->isText()) return std::vector<double>(count, phase->number());
+    phase->oneOf({"random"});
+    std::vector<double> phases(count);
+    for (std::size_t i = 0; i < count; ++i) phases[i] = kFullTurn * hashed(i);
+    return phases;
+}
+
+void readSpin(const TomlValue& spin, Object& object) {
+    spin.only({"axis", "degrees_per_frame", "phase"});
+    const glm::dvec3 axis = spin.get("axis").vector();
+    if (!(glm::length(axis) > 0)) spin.get("axis").fail("expected a vector other than zero");
+    object.motion.axis = glm::normalize(axis);
+    object.motion.degreesPerFrame = spin.get("degrees_per_frame").number();
+    const std::vector<double> phases = readPhases(spin, object.instances.size());
+    for (std::size_t i = 0; i < phases.size(); ++i) object.instances[i].phase = phases[i];
+}
+
+} // namespace
+
+Object readObject(const TomlValue& value, int number, const glm::dvec3& eye, MeshStore& meshes) {
+    value.only({"name", "colour", "mesh", "lod", "levels", "place", "scatter", "offset", "spin", "path", "profile"});
+    Object object;
+    const auto name = value.find("name");
+    object.name = name ? name->text() : fmt::format("object {}", number);
+    if (const auto colour = value.find("colour")) object.colour = readColour(*colour);
+    object.levels = readLevels(value, meshes);
+    const auto offset = value.find("offset");
+    const glm::dmat4 shift = glm::translate(glm::dmat4(1), offset ? offset->vector() : glm::dvec3(0));
+    for (const glm::dmat4& place : readPlaces(value, eye)) object.instances.push_back({place * shift, 0});
+    if (const auto spin = value.find("spin")) readSpin(*spin, object);
+    if (const auto path = value.find("path")) {
+        for (const TomlValue& key : path->list()) key.only({"frame", "shift"}).get("shift");
+        object.motion.shift = readTrack(*path, "shift");
+    }
+    return object;
+}
+
+Track readTrack(const TomlValue& path, const std::string& name) {
+    Track track;
+    double last = -1;
+    for (const TomlValue& key : path.list()) {
+        const double frame = key.get("frame").number();
+        if (frame < 0 || frame <= last) key.get("frame").fail("frames must grow, from 0 (the last still frame)");
+        last = frame;
+        if (const auto value = key.find(name)) track.keys.push_back({frame, value->vector()});
+    }
+    return track;
+}
+
+bool belongsTo(const TomlValue& value, Profile profile) {
+    const auto given = value.find("profile");
+    if (!given) return true;
+    const std::vector<std::string> names{"gate", "standard", "paper"};
+    if (!given->isList()) return given->oneOf(names) == name(profile);
+    bool found = false;
+    for (const TomlValue& entry : given->list()) found = entry.oneOf(names) == name(profile) || found;
+    return found;
+}
+
+} // namespace shadowbench

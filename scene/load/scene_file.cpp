@@ -1,0 +1,222 @@
+// Scene files: the sections that every scene has. Meshes, objects and bounds are read in loader_meshes.cpp,
+// loader_objects.cpp and loader_bounds.cpp.
+#include "scene/load/scene_file.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "scene/load/load.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/geometric.hpp>
+
+namespace shadowbench {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kMostPixels = 8192; // along one side of the image
+constexpr int kMostFrames = 100'000;
+constexpr int kMostSamples = 1 << 20;
+
+/// `rest` moved by each key of `shift`.
+Track shifted(const Track& shift, const glm::dvec3& rest) {
+    Track track = shift;
+    for (Track::Key& key : track.keys) key.value += rest;
+    return track;
+}
+
+void readCameraPath(const TomlValue& path, const Camera& camera, Track& eye, Track& target) {
+    for (const TomlValue& key : path.list()) {
+        key.only({"frame", "eye", "target", "shift"});
+        if (key.find("shift").has_value() != path.list().front().find("shift").has_value())
+            key.fail("give shift (of eye and target) in every key or in none");
+        if (key.find("shift") && (key.find("eye") || key.find("target"))) key.fail("give either shift or eye and target");
+    }
+    const Track shift = readTrack(path, "shift");
+    eye = shift.keys.empty() ? readTrack(path, "eye") : shifted(shift, camera.eye);
+    target = shift.keys.empty() ? readTrack(path, "target") : shifted(shift, camera.target);
+}
+
+void readCamera(const TomlValue& value, Scene& scene) {
+    value.only({"eye", "target", "up", "fovy", "near", "far", "path"});
+    Camera& camera = scene.camera;
+    camera.eye = value.get("eye").vector();
+    camera.target = value.get("target").vector();
+    if (const auto up = value.find("up")) camera.up = up->vector();
+    camera.fovy = value.get("fovy").number();
+    if (camera.fovy < 1 || camera.fovy > 170) value.get("fovy").fail("expected degrees from 1 to 170");
+    camera.near = value.get("near").positive();
+    camera.far = value.get("far").positive();
+    if (!(camera.near < camera.far)) value.get("far").fail("expected more than near");
+    if (const auto path = value.find("path")) readCameraPath(*path, camera, scene.eye, scene.target);
+}
+
+LightKind readKind(const TomlValue& value) {
+    const std::vector<LightKind> kinds{LightKind::Point, LightKind::Directional, LightKind::Rectangle, LightKind::Disk,
+                                       LightKind::Line};
+    std::vector<std::string> names;
+    for (const LightKind kind : kinds) names.emplace_back(name(kind));
+    const std::string word = value.oneOf(names);
+    return kinds[static_cast<std::size_t>(std::find(names.begin(), names.end(), word) - names.begin())];
+}
+
+glm::dvec3 readDirection(const TomlValue& value) {
+    const glm::dvec3 direction = value.vector();
+    if (!(glm::length(direction) > 0)) value.fail("expected a vector other than zero");
+    return glm::normalize(direction);
+}
+
+void readLight(const TomlValue& value, Scene& scene) {
+    Light& light = scene.light;
+    light.kind = readKind(value.only({"kind", "centre", "direction", "u", "v", "path"}).get("kind"));
+    const bool directional = light.kind == LightKind::Directional;
+    const std::string moved = directional ? "direction" : "centre";
+    std::vector<std::string> known{"kind", moved, "path"};
+    if (light.isArea()) known.emplace_back("u");
+    if (light.isArea() && light.kind != LightKind::Line) known.emplace_back("v");
+    value.only(known);
+
+    if (directional)
+        light.direction = readDirection(value.get("direction"));
+    else
+        light.centre = value.get("centre").vector();
+    if (light.isArea()) light.u = value.get("u").vector();
+    if (light.isArea() && light.kind != LightKind::Line) light.v = value.get("v").vector();
+    if (const auto path = value.find("path")) {
+        for (const TomlValue& key : path->list()) key.only({"frame", moved});
+        (directional ? scene.lightDirection : scene.lightCentre) = readTrack(*path, moved);
+    }
+}
+
+glm::ivec2 readSize(const TomlValue& value) {
+    if (!value.isList()) return glm::ivec2(value.integer(1, kMostPixels));
+    const std::vector<TomlValue> sides = value.list();
+    if (sides.size() != 2) value.fail(fmt::format("expected a whole number or 2, got {}", sides.size()));
+    return {sides[0].integer(1, kMostPixels), sides[1].integer(1, kMostPixels)};
+}
+
+glm::ivec2 usualSize(Profile profile) {
+    switch (profile) {
+    case Profile::Gate:
+        return {256, 256};
+    case Profile::Standard:
+        return {512, 512};
+    case Profile::Paper:
+        break;
+    }
+    return {1024, 1024};
+}
+
+void readTimeline(const TomlValue& value, Timeline& timeline) {
+    value.only({"still", "moving"});
+    if (const auto still = value.find("still")) timeline.still = still->integer(1, kMostFrames);
+    if (const auto moving = value.find("moving")) timeline.moving = moving->integer(0, kMostFrames);
+}
+
+void readObjects(const TomlValue& root, Scene& scene, const fs::path& file) {
+    const auto objects = root.find("object");
+    if (!objects) root.fail("the scene has no objects; add an [[object]]");
+    MeshStore meshes(file.parent_path());
+    int number = 0;
+    for (const TomlValue& value : objects->list()) {
+        ++number;
+        if (belongsTo(value, scene.profile)) scene.objects.push_back(readObject(value, number, scene.camera.eye, meshes));
+    }
+    if (scene.objects.empty()) objects->fail(fmt::format("no object belongs to profile {}", name(scene.profile)));
+}
+
+/// Two transitions of one object must not overlap: an instance is between two levels at most.
+void requireSeparateTransitions(const Scene& scene, const TomlValue& band) {
+    for (const Object& object : scene.objects)
+        for (std::size_t i = 1; i + 1 < object.levels.size(); ++i) {
+            const double half = 0.5 * scene.lod->band;
+            if (object.levels[i - 1].until * (1 + half) > object.levels[i].until * (1 - half))
+                band.fail(fmt::format("{} would be in two transitions at once; make the band narrower", object.name));
+        }
+}
+
+LodWalk readLodWalk(const TomlValue& value, const Camera& camera) {
+    value.only({"frames", "band", "path"});
+    LodWalk walk;
+    walk.frames = value.get("frames").integer(2, kMostFrames);
+    walk.band = value.get("band").positive();
+    if (walk.band > 1) value.get("band").fail("expected a share of the distance, at most 1");
+    if (const auto path = value.find("path")) readCameraPath(*path, camera, walk.eye, walk.target);
+    return walk;
+}
+
+/// The text of the first line that is a comment.
+std::string firstComment(std::string_view toml) {
+    while (!toml.empty()) {
+        std::string_view line = toml.substr(0, toml.find('\n'));
+        toml.remove_prefix(std::min(toml.size(), line.size() + 1));
+        if (line.empty() || line.front() != '#') continue;
+        line.remove_prefix(std::min(line.find_first_not_of("# "), line.size()));
+        while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+        return std::string(line);
+    }
+    return "";
+}
+
+/// Points a problem of the whole scene at the deepest key of the file that it is about.
+void requireNoProblem(const TomlValue& root, const Scene& scene) {
+    const std::optional<Problem> problem = findProblem(scene);
+    if (!problem) return;
+    const std::size_t dot = problem->key.find('.');
+    const TomlValue section = root.get(problem->key.substr(0, dot));
+    const auto inner = section.find(problem->key.substr(dot + 1));
+    (inner ? *inner : section).fail(problem->sentence);
+}
+
+} // namespace
+
+Scene parseScene(std::string_view toml, const fs::path& file, Profile profile) {
+    const TomlSource source{file.string(), profileNames(), std::string(name(profile))};
+    const toml::table table = parseToml(toml, source.file);
+    const TomlValue root(source, "", table);
+    if (table.empty()) root.fail("the file is empty; a scene has a title, a camera, a light and objects");
+    root.only({"title", "profile", "size", "reference_samples", "moving_reference_samples", "camera", "light", "timeline",
+               "object", "lod", "tolerance", "expect"});
+
+    Scene scene;
+    scene.id = file.stem().string();
+    scene.shows = firstComment(toml);
+    scene.profile = profile;
+    scene.title = root.get("title").text();
+    if (!belongsTo(root, profile))
+        root.get("profile").fail(fmt::format("the scene does not belong to profile {}", name(profile)));
+    const auto size = root.find("size");
+    scene.size = size ? readSize(*size) : usualSize(profile);
+    if (const auto samples = root.find("reference_samples")) scene.referenceSamples = samples->integer(1, kMostSamples);
+    if (const auto samples = root.find("moving_reference_samples"))
+        scene.movingReferenceSamples = samples->integer(1, kMostSamples);
+    readCamera(root.get("camera"), scene);
+    readLight(root.get("light"), scene);
+    if (const auto timeline = root.find("timeline")) readTimeline(*timeline, scene.timeline);
+    if (const auto tolerance = root.find("tolerance")) scene.tolerance = readTolerances(*tolerance);
+    if (const auto expect = root.find("expect")) readExpectations(*expect, scene);
+    readObjects(root, scene, file);
+    if (const auto lod = root.find("lod")) {
+        scene.lod = readLodWalk(*lod, scene.camera);
+        requireSeparateTransitions(scene, lod->get("band"));
+    }
+    requireNoProblem(root, scene);
+    return scene;
+}
+
+Scene loadScene(const std::string& idOrFile, Profile profile) {
+    const std::vector<std::string> ids = builtinScenes();
+    if (std::find(ids.begin(), ids.end(), idOrFile) != ids.end())
+        return parseScene(builtinSceneText(idOrFile), "scene/library/" + idOrFile + ".toml", profile);
+    const fs::path file(idOrFile);
+    std::error_code ignored;
+    if (file.extension() == ".toml" || file.has_parent_path() || fs::exists(file, ignored))
+        return parseScene(readFile(file), file, profile);
+    throw BadInput(fmt::format("unknown scene \"{}\"{}; known are {}, or the path of a .toml file", idOrFile,
+                               didYouMean(idOrFile, ids), fmt::join(ids, ", ")));
+}
+
+} // namespace shadowbench

@@ -1,0 +1,58 @@
+// The loader's parts, each reading one section of a scene file.
+#pragma once
+
+#include "base/toml_value.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace shadowbench {
+
+constexpr int kMostTriangles = 4'000'000; // of one mesh; more is a slip of the finger
+
+/// The meshes of one scene: a generator called twice with the same arguments gives one shared mesh.
+class MeshStore {
+public:
+    explicit MeshStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    /// The mesh that a `mesh = { … }` value describes; `triangles` > 0 asks for that level of detail instead of the value's
+    /// own count.
+    std::shared_ptr<const Mesh> get(const TomlValue& value, int triangles = 0);
+
+private:
+    std::shared_ptr<const Mesh> generated(const TomlValue& generator, int triangles);
+    std::shared_ptr<const Mesh> imported(const TomlValue& value, int triangles);
+
+    std::filesystem::path folder_; // that mesh files are relative to
+    std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
+};
+
+/// One `[[object]]`; `eye` is where scattered instances keep clear of. `number` counts from 1.
+Object readObject(const TomlValue& value, int number, const glm::dvec3& eye, MeshStore& meshes);
+
+/// A list of key frames, `[{ frame = 0, <name> = [x, y, z] }, …]`; keys without `name` are left out.
+Track readTrack(const TomlValue& path, const std::string& name);
+
+/// `[tolerance]`: metric name → worst value that a viewer accepts.
+std::map<std::string, double> readTolerances(const TomlValue& value);
+
+/// Metrics that a bound can be put on, by their names in files.
+const std::vector<std::string>& boundedMetrics();
+
+/// `[expect]`: the techniques that the scene breaks, those that hold, and where they break as a quantity moves.
+void readExpectations(const TomlValue& value, Scene& scene);
+
+/// Whether an object or scene belongs to `profile`: its `profile` key names it, or it has none.
+bool belongsTo(const TomlValue& value, Profile profile);
+
+/// The first thing that leaves the scene without a defined answer: the key it is about, and what is wrong.
+struct Problem {
+    std::string key; // "camera.eye", "light.centre", "light.u", …
+    std::string sentence;
+};
+std::optional<Problem> findProblem(const Scene& scene);
+
+} // namespace shadowbench

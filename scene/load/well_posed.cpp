@@ -1,0 +1,178 @@
+// Set-ups that have no defined answer: a light of no size or on a surface, an eye within a closed mesh.
+#include "base/error.h"
+#include "scene/load/load.h"
+#include "scene/load/scene_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace shadowbench {
+namespace {
+
+using Polygon = std::vector<glm::dvec3>; // convex: one point, a segment's two, or more
+
+std::optional<Problem> sizeProblem(const Light& light) {
+    if (!light.isArea()) return std::nullopt;
+    if (!(glm::length(light.u) > 0)) return Problem{"light.u", "the light has no size; use a point light"};
+    if (light.kind == LightKind::Line) return std::nullopt;
+    if (!(glm::length(light.v) > 0)) return Problem{"light.v", "the light has no size; use a line or a point light"};
+    const double sides = glm::length(light.u) * glm::length(light.v);
+    if (!(glm::length(glm::cross(light.u, light.v)) > 1e-9 * sides))
+        return Problem{"light.v", "is parallel to u: the light has no area; use a line"};
+    if (light.kind == LightKind::Disk && std::abs(glm::dot(light.u, light.v)) > 1e-6 * sides)
+        return Problem{"light.v", "the diameters of a disk are at right angles, these are not"};
+    return std::nullopt;
+}
+
+std::optional<Problem> viewProblem(const Camera& camera) {
+    const glm::dvec3 forward = camera.target - camera.eye;
+    if (!(glm::length(forward) > 0)) return Problem{"camera.target", "the camera looks at its own eye"};
+    const double sine = glm::length(glm::cross(forward, camera.up)) / (glm::length(forward) * glm::length(camera.up));
+    if (!(sine > 1e-6)) return Problem{"camera.up", "up is zero or parallel to the line of sight"};
+    return std::nullopt;
+}
+
+/// The light's own shape; a disk as a polygon of 64 corners.
+Polygon shapeOf(const Light& light) {
+    switch (light.kind) {
+    case LightKind::Point:
+        return {light.centre};
+    case LightKind::Line:
+        return {light.centre - 0.5 * light.u, light.centre + 0.5 * light.u};
+    case LightKind::Rectangle:
+        return {light.centre - 0.5 * light.u - 0.5 * light.v, light.centre + 0.5 * light.u - 0.5 * light.v,
+                light.centre + 0.5 * light.u + 0.5 * light.v, light.centre - 0.5 * light.u + 0.5 * light.v};
+    case LightKind::Disk: {
+        constexpr int kCorners = 64;
+        Polygon rim;
+        for (int i = 0; i < kCorners; ++i) {
+            const double angle = glm::two_pi<double>() * i / kCorners;
+            rim.push_back(light.centre + 0.5 * std::cos(angle) * light.u + 0.5 * std::sin(angle) * light.v);
+        }
+        return rim;
+    }
+    case LightKind::Directional:
+        break;
+    }
+    return {};
+}
+
+/// Whether the shapes lie more than `margin` apart along `axis`.
+bool apartAlong(const glm::dvec3& axis, const Polygon& a, const Polygon& b, double margin) {
+    const double length = glm::length(axis);
+    if (length == 0) return false;
+    const auto span = [&](const Polygon& points) {
+        glm::dvec2 range(HUGE_VAL, -HUGE_VAL);
+        for (const glm::dvec3& p : points)
+            range = {std::min(range.x, glm::dot(p, axis)), std::max(range.y, glm::dot(p, axis))};
+        return range;
+    };
+    const glm::dvec2 spanA = span(a), spanB = span(b);
+    return spanA.x - spanB.y > margin * length || spanB.x - spanA.y > margin * length;
+}
+
+/// Convex flat shapes meet unless an axis separates them: a normal, a product of two edges, or an edge's normal within its
+/// plane.
+bool touch(const Polygon& shape, const Polygon& triangle, double margin) {
+    const auto edge = [](const Polygon& p, std::size_t i) { return p[(i + 1) % p.size()] - p[i]; };
+    const auto normal = [](const Polygon& p) { return p.size() < 3 ? glm::dvec3(0) : glm::cross(p[1] - p[0], p[2] - p[0]); };
+    const glm::dvec3 shapeNormal = normal(shape), triangleNormal = normal(triangle);
+    if (apartAlong(shapeNormal, shape, triangle, margin) || apartAlong(triangleNormal, shape, triangle, margin))
+        return false;
+    for (std::size_t j = 0; j < triangle.size(); ++j)
+        if (apartAlong(glm::cross(triangleNormal, edge(triangle, j)), shape, triangle, margin)) return false;
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        if (apartAlong(glm::cross(shapeNormal, edge(shape, i)), shape, triangle, margin)) return false;
+        if (apartAlong(glm::cross(triangleNormal, edge(shape, i)), shape, triangle, margin)) return false;
+        for (std::size_t j = 0; j < triangle.size(); ++j)
+            if (apartAlong(glm::cross(edge(shape, i), edge(triangle, j)), shape, triangle, margin)) return false;
+    }
+    return true;
+}
+
+bool overlap(const Bounds& a, const Bounds& b, double margin) {
+    return glm::all(glm::lessThanEqual(a.low - margin, b.high)) && glm::all(glm::lessThanEqual(b.low - margin, a.high));
+}
+
+Bounds boundsOf(const Polygon& points) {
+    Bounds box;
+    for (const glm::dvec3& point : points) box.add(point);
+    return box;
+}
+
+bool touches(const Polygon& shape, const Mesh& mesh, const glm::dmat4& world, double margin) {
+    const Bounds box = boundsOf(shape);
+    Polygon corners(3);
+    for (const glm::uvec3& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i)
+            corners[static_cast<std::size_t>(i)] = glm::dvec3(world * glm::dvec4(glm::dvec3(mesh.positions[t[i]]), 1.0));
+        if (overlap(box, boundsOf(corners), margin) && touch(shape, corners, margin)) return true;
+    }
+    return false;
+}
+
+/// How many times the surface winds round `point`: the solid angles of its triangles over 4π (van Oosterom and Strackee
+/// 1983).
+double windingNumber(const Mesh& mesh, const glm::dvec3& point) {
+    double sum = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 a = glm::dvec3(mesh.positions[t.x]) - point, b = glm::dvec3(mesh.positions[t.y]) - point,
+                         c = glm::dvec3(mesh.positions[t.z]) - point;
+        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+        sum += std::atan2(glm::dot(a, glm::cross(b, c)),
+                          la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+    }
+    return sum / glm::two_pi<double>();
+}
+
+/// Checks every placement of one frame; boxes first, since a scene may have thousands.
+std::optional<Problem> surfaceProblem(const Snapshot& frame) {
+    constexpr double kRelative = 1e-9; // of the scene's extent: what double arithmetic cannot tell from touching
+    const Polygon shape = shapeOf(frame.light);
+    const Bounds all = frame.bounds(), lit = boundsOf(shape);
+    const double margin = kRelative * glm::distance(all.low, all.high);
+    const glm::dvec3& eye = frame.camera.eye;
+    for (const Batch& batch : frame.batches) {
+        const Bounds own = batch.mesh->bounds();
+        for (const Placement& placement : batch.placements) {
+            const Bounds box = transformed(own, placement.world);
+            if (!shape.empty() && overlap(lit, box, margin) && touches(shape, *batch.mesh, placement.world, margin))
+                return Problem{"light.centre",
+                               fmt::format("the light lies on a surface (instance {}) at frame {}; move it off",
+                                           placement.id, frame.frame)};
+            if (!batch.mesh->closed || !overlap({eye, eye}, box, 0)) continue;
+            const glm::dvec3 local(glm::inverse(placement.world) * glm::dvec4(eye, 1.0));
+            if (windingNumber(*batch.mesh, local) > 0.25) // 1 within, ½ on the surface, 0 outside
+                return Problem{"camera.eye",
+                               fmt::format("the camera is inside a closed mesh (instance {}) at frame {}; move it out",
+                                           placement.id, frame.frame)};
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<Problem> findProblem(const Scene& scene) {
+    if (auto problem = sizeProblem(scene.light)) return problem;
+    if (scene.light.kind == LightKind::Directional && !(glm::length(scene.light.direction) > 0))
+        return Problem{"light.direction", "expected a vector other than zero"};
+    for (int frame = std::max(0, scene.timeline.still - 1); frame < scene.timeline.frames(); ++frame) {
+        const Snapshot now = snapshot(scene, frame);
+        if (auto problem = viewProblem(now.camera)) return problem;
+        if (auto problem = surfaceProblem(now)) return problem;
+    }
+    return std::nullopt;
+}
+
+void requireWellPosed(const Scene& scene) {
+    if (const auto problem = findProblem(scene))
+        throw BadInput(fmt::format("{}: {}: {}", scene.id, problem->key, problem->sentence));
+}
+
+} // namespace shadowbench

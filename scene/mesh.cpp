@@ -1,0 +1,138 @@
+#include "scene/mesh.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace shadowbench {
+namespace {
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+void requireFinite(const Mesh& mesh, const std::string& what) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::vec3& p = mesh.positions[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            throw BadInput(fmt::format("{}: position {} is not finite", what, i));
+    }
+}
+
+void requireIndices(const Mesh& mesh, const std::string& what) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (int corner = 0; corner < 3; ++corner)
+            if (mesh.triangles[i][corner] >= mesh.positions.size())
+                throw BadInput(fmt::format("{}: triangle {} uses position {}, but there are only {}", what, i,
+                                           mesh.triangles[i][corner], mesh.positions.size()));
+}
+
+/// Collinear corners of 32-bit positions give at most rounding of the double products: 10⁻¹² of the longest side squared.
+void requireAreas(const Mesh& mesh, const std::string& what) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const glm::uvec3 t = mesh.triangles[i];
+        const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+        const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+        if (!(glm::length(glm::cross(b - a, c - a)) > 1e-12 * longest))
+            throw BadInput(fmt::format("{}: triangle {} has zero area", what, i));
+    }
+}
+
+void requireMatchedEdges(const Mesh& mesh, const std::string& what) {
+    std::vector<Edge> edges;
+    edges.reserve(3 * mesh.triangles.size());
+    for (const glm::uvec3& t : mesh.triangles)
+        for (const Edge& edge : {Edge{t.x, t.y}, Edge{t.y, t.z}, Edge{t.z, t.x}}) edges.push_back(edge);
+    std::sort(edges.begin(), edges.end());
+    if (const auto twice = std::adjacent_find(edges.begin(), edges.end()); twice != edges.end())
+        throw BadInput(fmt::format("{}: not closed: edge {}-{} belongs to two triangles in the same direction", what,
+                                   twice->first, twice->second));
+    for (const Edge& edge : edges)
+        if (!std::binary_search(edges.begin(), edges.end(), Edge{edge.second, edge.first}))
+            throw BadInput(fmt::format("{}: not closed: edge {}-{} has no neighbour", what, edge.first, edge.second));
+}
+
+/// Six times the enclosed volume, by the divergence theorem.
+double sixfoldVolume(const Mesh& mesh) {
+    double volume = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+        volume += glm::dot(a, glm::cross(b, c));
+    }
+    return volume;
+}
+
+bool before(const glm::vec3& a, const glm::vec3& b) {
+    if (a.x != b.x) return a.x < b.x;
+    return a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+} // namespace
+
+void Bounds::add(const glm::dvec3& point) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+}
+
+void Bounds::add(const Bounds& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+}
+
+std::array<glm::dvec3, 8> Bounds::corners() const {
+    std::array<glm::dvec3, 8> result;
+    for (unsigned i = 0; i < 8; ++i) result[i] = {i & 1U ? high.x : low.x, i & 2U ? high.y : low.y, i & 4U ? high.z : low.z};
+    return result;
+}
+
+Bounds Mesh::bounds() const {
+    Bounds box;
+    for (const glm::vec3& position : positions) box.add(glm::dvec3(position));
+    return box;
+}
+
+void requireWellFormed(const Mesh& mesh, const std::string& what) {
+    if (mesh.triangles.empty()) throw BadInput(fmt::format("{}: the mesh has no triangle", what));
+    requireFinite(mesh, what);
+    requireIndices(mesh, what);
+    requireAreas(mesh, what);
+    if (!mesh.closed) return;
+    requireMatchedEdges(mesh, what);
+    if (!(sixfoldVolume(mesh) > 0)) throw BadInput(fmt::format("{}: the mesh is wound inside out", what));
+}
+
+Mesh weld(const Mesh& mesh) {
+    std::vector<std::uint32_t> order(mesh.positions.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return before(mesh.positions[a], mesh.positions[b]); });
+    std::vector<std::uint32_t> first(order.size()); // of each position, the first equal one
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool same = i > 0 && mesh.positions[order[i]] == mesh.positions[order[i - 1]];
+        first[order[i]] = same ? first[order[i - 1]] : order[i];
+    }
+
+    Mesh result{{}, {}, mesh.closed};
+    std::vector<std::uint32_t> kept(order.size());
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
+        if (first[i] != i) continue;
+        kept[i] = static_cast<std::uint32_t>(result.positions.size());
+        result.positions.push_back(mesh.positions[i]);
+    }
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::uvec3 joined(kept[first[t.x]], kept[first[t.y]], kept[first[t.z]]);
+        if (joined.x != joined.y && joined.y != joined.z && joined.z != joined.x) result.triangles.push_back(joined);
+    }
+    return result;
+}
+
+Bounds transformed(const Bounds& box, const glm::dmat4& world) {
+    Bounds result;
+    if (box.empty()) return result;
+    for (const glm::dvec3& corner : box.corners()) result.add(glm::dvec3(world * glm::dvec4(corner, 1.0)));
+    return result;
+}
+
+} // namespace shadowbench

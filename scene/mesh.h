@@ -1,0 +1,46 @@
+// Triangle meshes: metres, right-handed, counter-clockwise seen from outside.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace shadowbench {
+
+/// An axis-aligned box; empty until the first point is added.
+struct Bounds {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(const glm::dvec3& point);
+    void add(const Bounds& other);
+    [[nodiscard]] bool empty() const { return low.x > high.x; }
+    [[nodiscard]] glm::dvec3 centre() const { return 0.5 * (low + high); }
+    [[nodiscard]] std::array<glm::dvec3, 8> corners() const;
+};
+
+/// Positions are 32-bit floats so that the rasteriser and the exact ground truth start from the very same numbers.
+struct Mesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles; // indices into positions
+    bool closed = false;               // 2-manifold without border, consistently wound, outward
+
+    [[nodiscard]] Bounds bounds() const;
+};
+
+/// Throws BadInput naming `what` unless every position is finite, every index in range, no triangle has zero area, and,
+/// where the mesh says it is closed, every directed edge is matched by exactly one opposite one and the enclosed volume is
+/// positive.
+void requireWellFormed(const Mesh& mesh, const std::string& what);
+
+/// Joins equal positions (the first one stays; −0 equals 0) and drops the triangles that collapse.
+Mesh weld(const Mesh& mesh);
+
+/// The bounds of `box` after the affine map `world`.
+Bounds transformed(const Bounds& box, const glm::dmat4& world);
+
+} // namespace shadowbench

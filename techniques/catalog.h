@@ -1,0 +1,28 @@
+// The catalogue: every technique by its id, and variants by their names.
+#pragma once
+
+#include "techniques/contract/entry.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shadowbench::techniques {
+
+/// Every technique, in the order tables print them.
+std::span<const Entry> catalog();
+
+/// The entry of `id`; throws BadInput with near matches.
+const Entry& entryNamed(std::string_view id);
+
+/// "pcss:taps=32+32" → variant; throws BadInput naming what is valid.
+Variant parseVariant(std::string_view text);
+
+/// Variants matching a pattern: one variant string, or a glob over ids ("sm-*", "*") that gives each match's shown variants.
+std::vector<Variant> matchVariants(const std::string& pattern);
+
+/// The variant whose cost `variant` is compared with beside sm-uniform: history over its base map; nothing for the others.
+std::string baseVariant(const Variant& variant);
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,39 @@
+#include "techniques/contract/entry.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace shadowbench::techniques {
+
+std::string_view title(Seed seed) {
+    switch (seed) {
+    case Seed::Dissertation:
+        return "Scherzer, dissertation";
+    case Seed::PixelCorrectPaper:
+        return "Scherzer et al., EGSR 2007";
+    case Seed::Course:
+        return "SIGGRAPH 2004 course, Real-Time Shadowing Techniques";
+    case Seed::Zapotocky:
+        return "Zápotocký, thesis";
+    }
+    return "";
+}
+
+std::map<std::string, double> declaredFigures(const Entry& entry, const Technique& technique) {
+    std::map<std::string, double> figures = technique.figures();
+    for (const auto& [name, value] : figures) {
+        const bool declared = std::ranges::any_of(entry.figures, [&](const Figure& f) { return f.name == name; });
+        if (!declared)
+            throw InternalError(
+                fmt::format("technique {} tells a figure \"{}\" that its catalogue entry does not declare", entry.id, name));
+        if (!std::isfinite(value))
+            throw InternalError(
+                fmt::format("technique {}: its figure \"{}\" is {}; leave out what has no value", entry.id, name, value));
+    }
+    return figures;
+}
+
+} // namespace shadowbench::techniques

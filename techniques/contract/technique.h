@@ -1,0 +1,57 @@
+// The contract of a shadow technique: what it is given and what it must return (how it is described: entry.h).
+// Level-of-detail techniques are in the same catalogue but have a contract of their own.
+#pragma once
+
+#include "scene/snapshot.h"
+#include "techniques/gl/gbuffer.h"
+#include "techniques/gl/scene_buffers.h"
+#include "techniques/gl/texture.h"
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace shadowbench::techniques {
+
+/// Everything a technique may know of one frame. The G-buffer has already been drawn.
+struct Frame {
+    const Snapshot& snapshot;
+    const gl::SceneBuffers& scene;
+    const gl::GBuffer& gbuffer;
+    glm::ivec2 size;                  // of the image, in pixels
+    glm::dmat4 clipFromWorld;         // camera: projection · view
+    glm::dmat4 previousClipFromWorld; // the same one frame earlier
+    int index;                        // frame number from 0
+    std::uint32_t seed;               // of pseudo-random choices; 1 is the default
+
+    [[nodiscard]] double aspect() const { return static_cast<double>(size.x) / size.y; }
+    [[nodiscard]] bool cameraMoved() const { return clipFromWorld != previousClipFromWorld; }
+};
+
+class Technique {
+public:
+    virtual ~Technique() = default;
+
+    /// Writes the visible fraction of the light at every pixel (R32F in [0, 1], 1 = lit) into `visibility`. Background and
+    /// surfaces that face away from the light are masked by the harness: any value will do there.
+    virtual void render(const Frame& frame, const gl::Texture& visibility) = 0;
+
+    /// Forgets all history: the next frame is the first.
+    virtual void reset() {}
+
+    /// Numbers of the frame last rendered that only the technique knows, by names that its entry declares. Asked for right
+    /// after `render`, while that frame's G-buffer and scene are there; what it takes to count them belongs here, not into
+    /// the timed frame.
+    [[nodiscard]] virtual std::map<std::string, double> figures() const { return {}; }
+
+    /// Where `world` lies in the map that it was tested against in the frame last rendered: in texels of that map,
+    /// continuous over the map; several maps may lie anywhere. Nothing where no map holds the point (beside it, behind the
+    /// light) and from techniques without a map.
+    [[nodiscard]] virtual std::optional<glm::dvec2> mapPoint([[maybe_unused]] const glm::dvec3& world) const { return {}; }
+};
+
+} // namespace shadowbench::techniques

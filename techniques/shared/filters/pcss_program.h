@@ -1,0 +1,26 @@
+// The uniforms of shared/filters/pcss.glsl, set in one place.
+#pragma once
+
+#include "techniques/gl/program.h"
+#include "techniques/shared/maps/linear_depth_map.h"
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+namespace shadowbench::techniques {
+
+/// Numbers of taps of blocker search and filter: "16+16", "32+32" (Scherzer 4.2), "25+49" (Zápotocký: 5×5 and 7×7 grids).
+struct PcssTaps {
+    int search, filter;
+    bool grid;
+
+    static PcssTaps parse(const std::string& text);
+    [[nodiscard]] gl::Defines defines() const;
+};
+
+/// Light size, map geometry and tap positions: Poisson taps over the light's own shape, or grids.
+void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view,
+             const LinearDepthMap& map, bool followPlane);
+
+} // namespace shadowbench::techniques

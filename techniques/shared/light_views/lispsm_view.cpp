@@ -1,0 +1,66 @@
+#include "techniques/shared/light_views/lispsm_view.h"
+
+#include "techniques/shared/light_views/fitting.h"
+#include "techniques/shared/light_views/visible_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+
+namespace shadowbench::techniques {
+
+double lispsmNear(double d, double z0, double z1) {
+    if (z0 <= 0 || z1 <= z0) return std::numeric_limits<double>::infinity();
+    return d / (std::sqrt(z1 / z0) - 1);
+}
+
+LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect) {
+    LightView view = fitToScene(light.centreOnly(), snapshot);
+    // Nothing of the scene is nearer to the light than the near plane, though corners of its bounding box may be.
+    const glm::dvec4 nearPlane = view.depthFromWorld - glm::dvec4(0, 0, 0, view.near);
+    std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, {&nearPlane, 1});
+    if (body.size() < 3) return view; // nothing visible lies in front of the light
+
+    // The view axis in light space, seen from the nearest point of the body (post-perspective for a point light).
+    const glm::dvec3 forward = camera.basis().forward;
+    const auto eyeDepth = [&](const glm::dvec3& p) { return glm::dot(p - camera.eye, forward); };
+    const glm::dvec3 nearest =
+        *std::min_element(body.begin(), body.end(), [&](const auto& a, const auto& b) { return eyeDepth(a) < eyeDepth(b); });
+    double deepest = 0;
+    for (const glm::dvec3& p : body) deepest = std::max(deepest, eyeDepth(p));
+    const auto toLight = [&](const glm::dvec3& p) { return divided(view.clipFromWorld * glm::dvec4(p, 1)); };
+    const glm::dvec3 start = toLight(nearest);
+    const glm::dvec3 axis = toLight(nearest + 1e-4 * (deepest - eyeDepth(nearest)) * forward) - start;
+
+    const double turn = std::atan2(axis.x, axis.y); // about z: brings the axis onto +y
+    glm::dmat4 light2 = glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 0, 1)) * view.clipFromWorld;
+    const Extent box = extentOf(light2, body);
+    const glm::dvec3 e = divided(light2 * glm::dvec4(nearest, 1));
+
+    // Two points of one line along y, at the near and far end of the body; the first on the plane through `nearest` parallel
+    // to the image, the second a body's length further: their eye depths give the depth ratio that the warp has to even out.
+    const glm::dvec4 plane = glm::transpose(glm::inverse(light2)) *
+                             glm::dvec4(forward, -glm::dot(forward, nearest)); // the parallel plane, in light space
+    const double z = std::abs(plane.z) > 1e-12 ? -(plane.x * e.x + plane.y * box.low.y + plane.w) / plane.z : e.z;
+    const glm::dmat4 back = glm::inverse(light2);
+    const double z0 = eyeDepth(divided(back * glm::dvec4(e.x, box.low.y, z, 1)));
+    const double z1 = eyeDepth(divided(back * glm::dvec4(e.x, box.high.y, z, 1)));
+    const double d = box.high.y - box.low.y;
+    const double n = lispsmNear(d, z0, z1);
+
+    if (std::isfinite(n) && n < 1e4 * d) {
+        const glm::dvec3 centre(e.x, box.low.y - n, 0.5 * (box.low.z + box.high.z));
+        const double f = n + d;
+        // Perspective along +y: w = y; x and z are divided by it, so that light rays (along z) stay parallel.
+        const glm::dmat4 warp(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, (f + n) / (f - n), 0, 1), glm::dvec4(0, 0, 1, 0),
+                              glm::dvec4(0, -2 * f * n / (f - n), 0, 0));
+        light2 = warp * glm::translate(glm::dmat4(1), -centre) * light2;
+    }
+    view.clipFromWorld = fitMatrix(extentOf(light2, body), 0) * light2;
+    view.covered = std::move(body);
+    return view;
+}
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,116 @@
+#include "techniques/shared/maps/depth_map.h"
+
+#include "techniques/gl/api.h"
+#include "techniques/gl/counters.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace shadowbench::techniques {
+
+Parameter mapParameter(int defaultSide) {
+    return {"map", std::to_string(defaultSide), IntegerRange{16, 8192}, "texels per side of the shadow map",
+            "EGSR paper, 4"};
+}
+
+std::vector<Parameter> depthMapParameters(int defaultSide) {
+    return {
+        mapParameter(defaultSide),
+        {"bias", "slope", OneOf{{"none", "constant", "slope"}}, "depth bias while the map is drawn", "course, Bias"},
+        // Half a texel in x and in y changes depth by at most ½(|∂z/∂x| + |∂z/∂y|) ≤ 1 · max slope: the factor that
+        // suffices.
+        {"factor", "1", RealRange{0, 64}, "of the polygon's depth slope per texel (bias=slope)", ""},
+        {"units", "64", RealRange{0, 1e7},
+         "constant bias in 2⁻²⁴ of the depth range (bias=constant or slope): covers rounding", ""},
+    };
+}
+
+Bias biasFrom(const Parameters& parameters) {
+    const std::string& kind = parameters.text("bias");
+    if (kind == "none") return {0, 0};
+    const auto units = static_cast<float>(parameters.real("units"));
+    if (kind == "constant") return {0, units};
+    return {static_cast<float>(parameters.real("factor")), units};
+}
+
+CasterState::CasterState(Bias bias) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_DEPTH_CLAMP);
+    if (bias.factor != 0) {
+        glEnable(GL_POLYGON_OFFSET_FILL);
+        glPolygonOffset(bias.factor, 0);
+    }
+}
+
+CasterState::~CasterState() {
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_DEPTH_CLAMP);
+}
+
+CasterPass::CasterPass(gl::Program& program, const LightView& light, Bias bias) : state_(bias) {
+    if (light.perspective) glEnable(GL_CLIP_DISTANCE0);
+    // The constant part goes into the matrix: polygon offset's unit of a floating-point depth buffer vanishes near depth 0.
+    const glm::dmat4 away = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 2 * bias.units * depthStep));
+    program.set("clipFromWorld", glm::mat4(away * light.clipFromWorld));
+    // Nothing casts from behind the light or from closer to its plane than a ten-thousandth of the scene's depth. A
+    // directional light has no behind; llvmpipe clips by a written gl_ClipDistance even where it is disabled, so that the
+    // distance must be positive there.
+    const glm::dvec4 inFront = light.depthFromWorld - glm::dvec4(0, 0, 0, 1e-4 * light.far);
+    program.set("lightPlane", glm::vec4(light.perspective ? inFront : glm::dvec4(0, 0, 0, 1)));
+    if (program.uses("casterPlane")) {
+        glEnable(GL_CLIP_DISTANCE1);
+        program.set("casterPlane", glm::vec4(light.casterPlane));
+    }
+    program.use();
+}
+
+CasterPass::~CasterPass() {
+    glDisable(GL_CLIP_DISTANCE0);
+    glDisable(GL_CLIP_DISTANCE1);
+}
+
+DepthMap::DepthMap(int side, Bias bias, Lookup lookup, bool cutsCasters)
+    : depth_(gl::Format::Depth32F, {side, side},
+             lookup == Lookup::CompareBilinear ? gl::Filter::Linear : gl::Filter::Nearest, gl::Wrap::BorderFar),
+      target_{&depth_}, cutsCasters_(cutsCasters), program_(program(cutsCasters)), bias_(bias) {
+    if (lookup != Lookup::Raw) depth_.compareDepth();
+}
+
+gl::Program DepthMap::program(bool cutsCasters) {
+    return {"shared/maps/depth_map.vert", "shared/maps/depth_map.frag",
+            cutsCasters ? gl::Defines{{"CASTER_PLANE", "1"}} : gl::Defines{}};
+}
+
+CasterFragments DepthMap::fragments(const LightView& light, const gl::SceneBuffers& scene) const {
+    gl::Program again = program(cutsCasters_);
+    const auto drawn = [&](GLenum depthFunction, GLboolean write) {
+        target_.bind();
+        const CasterPass pass(again, light, bias_);
+        glDepthFunc(depthFunction);
+        glDepthMask(write);
+        gl::FragmentMeter meter;
+        scene.draw();
+        glDepthMask(GL_TRUE);
+        glDepthFunc(GL_LESS);
+        return meter.finish();
+    };
+    CasterFragments count;
+    count.rasterised = drawn(GL_ALWAYS, GL_FALSE);
+    target_.clearDepth(1);
+    count.written = drawn(GL_LESS, GL_TRUE);
+    return count;
+}
+
+void DepthMap::draw(const LightView& light, const gl::SceneBuffers& scene) {
+    target_.clearDepth(1);
+    target_.bind();
+    const CasterPass pass(program_, light, bias_);
+    scene.draw();
+}
+
+glm::dmat4 mapFromClip() { return glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(0.5)), glm::dvec3(1)); }
+
+glm::mat4 mapFromWorld(const LightView& light) { return glm::mat4(mapFromClip() * light.clipFromWorld); }
+
+} // namespace shadowbench::techniques

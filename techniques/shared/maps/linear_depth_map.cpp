@@ -1,0 +1,22 @@
+#include "techniques/shared/maps/linear_depth_map.h"
+
+#include "techniques/gl/api.h"
+
+namespace shadowbench::techniques {
+
+LinearDepthMap::LinearDepthMap(int side, Bias bias)
+    : linear_(gl::Format::R32F, {side, side}, gl::Filter::Nearest, gl::Wrap::BorderFar),
+      depth_(gl::Format::Depth32F, {side, side}), target_{&linear_, &depth_},
+      program_("shared/maps/linear_depth_map.vert", "shared/maps/linear_depth_map.frag"), bias_(bias) {}
+
+void LinearDepthMap::draw(const LightView& light, const gl::SceneBuffers& scene) {
+    target_.clearColour(0, glm::vec4(gl::nothingInTheWay));
+    target_.clearDepth(1);
+    target_.bind();
+    const double constant = bias_.units * depthStep * light.far;
+    program_.set("depthFromWorld", glm::vec4(light.depthFromWorld)).set("bias", glm::vec2(bias_.factor, constant));
+    const CasterPass pass(program_, light, Bias{});
+    scene.draw();
+}
+
+} // namespace shadowbench::techniques

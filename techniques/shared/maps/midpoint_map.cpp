@@ -1,0 +1,47 @@
+#include "techniques/shared/maps/midpoint_map.h"
+
+#include "techniques/gl/api.h"
+
+namespace shadowbench::techniques {
+
+MidpointMap::MidpointMap(int side, Lookup lookup, SecondDepth second)
+    : kind_(second), first_(gl::Format::Depth32F, {side, side}, gl::Filter::Nearest, gl::Wrap::BorderFar),
+      second_(gl::Format::Depth32F, {side, side}, gl::Filter::Nearest, gl::Wrap::BorderFar),
+      middle_(gl::Format::Depth32F, {side, side},
+              lookup == Lookup::CompareBilinear ? gl::Filter::Linear : gl::Filter::Nearest, gl::Wrap::BorderFar),
+      firstTarget_{&first_}, secondTarget_{&second_}, middleTarget_{&middle_},
+      nearest_("shared/maps/depth_map.vert", "shared/maps/depth_map.frag"),
+      peel_("shared/maps/depth_map.vert", "shared/maps/midpoint_peel.frag"),
+      mean_(gl::Program::screen("shared/maps/midpoint_mean.frag")) {
+    if (lookup != Lookup::Raw) middle_.compareDepth();
+}
+
+void MidpointMap::draw(const LightView& light, const gl::SceneBuffers& scene) {
+    if (kind_ == SecondDepth::Surface) {
+        drawNearest(firstTarget_, nearest_, Faces::Both, light, scene);
+        peel_.set("firstDepth", first_);
+        drawNearest(secondTarget_, peel_, Faces::Both, light, scene);
+    } else {
+        drawNearest(firstTarget_, nearest_, Faces::Front, light, scene);
+        drawNearest(secondTarget_, nearest_, Faces::Back, light, scene);
+    }
+    mean_.set("firstDepth", first_).set("secondDepth", second_);
+    middleTarget_.bind();
+    mean_.drawScreenDepth();
+}
+
+void MidpointMap::drawNearest(const gl::RenderTarget& target, gl::Program& program, Faces faces, const LightView& light,
+                              const gl::SceneBuffers& scene) {
+    target.clearDepth(1);
+    target.bind();
+    const CasterPass pass(program, light, Bias{});
+    if (faces != Faces::Both) {
+        glEnable(GL_CULL_FACE);
+        glCullFace(faces == Faces::Front ? GL_BACK : GL_FRONT);
+    }
+    scene.draw();
+    glDisable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+}
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,90 @@
+#include "base/error.h"
+#include "base/files.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace shadowbench {
+namespace fs = std::filesystem;
+namespace {
+
+class Files : public testing::Test {
+protected:
+    void SetUp() override { fs::create_directories(folder_); }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    [[nodiscard]] std::size_t entries() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::recursive_directory_iterator(folder_), fs::recursive_directory_iterator()));
+    }
+
+    const fs::path folder_ = fs::temp_directory_path() / ("shadowbench-files-" + std::to_string(::getpid()));
+};
+
+TEST_F(Files, AreWrittenAndReadBackWhole) {
+    const fs::path file = folder_ / "made/on/the/way/a.txt";
+    const std::string bytes("one\0two\n", 8);
+    writeFile(file, bytes);
+    EXPECT_EQ(readFile(file), bytes);
+    writeFile(file, "");
+    EXPECT_EQ(readFile(file), "");
+}
+
+TEST_F(Files, WrittenThroughALibraryGetAPathOfTheSameFolderAndExtension) {
+    const fs::path file = folder_ / "a.exr";
+    writeFileWith(file, [&](const fs::path& path) {
+        EXPECT_EQ(path.parent_path(), folder_);
+        EXPECT_EQ(path.extension(), ".exr");
+        EXPECT_NE(path, file);
+        std::ofstream(path) << "x";
+    });
+    EXPECT_EQ(readFile(file), "x");
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(Files, KeepTheOldContentAndLeaveNothingWhenWritingFails) {
+    const fs::path file = folder_ / "a.txt";
+    writeFile(file, "old");
+    const auto failing = [](const fs::path& path) {
+        std::ofstream(path) << "half of the new";
+        throw InternalError("disk full");
+    };
+    EXPECT_THROW(writeFileWith(file, failing), InternalError);
+    EXPECT_EQ(readFile(file), "old");
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(Files, CannotBeWrittenBelowAFile) { // permission would not stop root
+    writeFile(folder_ / "file", "x");
+    try {
+        writeFile(folder_ / "file" / "a.txt", "y");
+        FAIL() << "written";
+    } catch (const InternalError& error) {
+        EXPECT_NE(std::string(error.what()).find("a.txt"), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(Files, DoNotReplaceFoldersOrDevices) {
+    EXPECT_THROW(writeFile(folder_, "x"), InternalError);
+    EXPECT_TRUE(fs::is_directory(folder_));
+    EXPECT_THROW(writeFile("/dev/full", "x"), InternalError);
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(Files, ThatCannotBeReadAreNamed) {
+    EXPECT_THROW(readFile(folder_ / "none"), BadInput);
+    EXPECT_THROW(readFile(folder_), BadInput);
+}
+
+TEST(DidYouMean, NamesTheNearestWordsFirst) {
+    const std::vector<std::string> known{"pcf", "pcss", "vsm", "esm"};
+    EXPECT_EQ(didYouMean("pcs", known), " (did you mean \"pcf\" or \"pcss\"?)");
+    EXPECT_EQ(didYouMean("temporal-soft", known), "");
+    EXPECT_EQ(didYouMean("windmil", {"trees", "windmills"}), " (did you mean \"windmills\"?)");
+}
+
+} // namespace
+} // namespace shadowbench

@@ -1,0 +1,147 @@
+// Bounds and the file that holds them.
+#include "base/error.h"
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "harness/gate/bounds.h"
+#include "harness/gate/gate.h"
+#include "harness/gate/judged_cells.h"
+#include "tests/support/records_examples.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench::gate {
+namespace {
+
+using test::hardRecord;
+
+Bound bound(const std::string& technique, const std::string& metric, double value, bool below) {
+    return {{"dueling-frusta", {technique}, {}, "a test"}, metric, value, below};
+}
+
+Record scoredRecord() {
+    Record record = hardRecord();
+    record.scene = "dueling-frusta";
+    record.technique = "sm-uniform";
+    record.variant = "sm-uniform";
+    record.accuracy.leak = 0.02;
+    return record;
+}
+
+TEST(Bounds, AreBrokenOnTheWrongSideOnly) {
+    const auto direction = [](const Bound& b) { return judgeBounds({scoredRecord()}, {b}).at(0).direction; };
+    EXPECT_EQ(direction(bound("sm-uniform", "leak", 0.03, true)), Direction::Same);
+    EXPECT_EQ(direction(bound("sm-uniform", "leak", 0.01, true)), Direction::Worse);
+    EXPECT_EQ(direction(bound("sm-*", "leak", 0.01, false)), Direction::Same) << "an expected failure that fails";
+    EXPECT_EQ(direction(bound("sm-*", "leak", 0.03, false)), Direction::Worse) << "one that has stopped failing";
+}
+
+TEST(Bounds, AMissingMetricBreaksThem) {
+    const std::vector<Change> changes = judgeBounds({scoredRecord()}, {bound("sm-uniform", "penumbra_rmse", 1, true)});
+    ASSERT_EQ(changes.size(), 1U);
+    EXPECT_EQ(changes[0].direction, Direction::Worse);
+    EXPECT_EQ(changes[0].changeClass, Class::Penumbra);
+}
+
+TEST(Bounds, ConcernTheirCellsOnly) {
+    Record elsewhere = scoredRecord();
+    elsewhere.scene = "trees";
+    Bound excepted = bound("sm-*", "leak", 0.01, true);
+    excepted.cells.except = {"sm-uniform"};
+    EXPECT_TRUE(judgeBounds({elsewhere}, {bound("sm-uniform", "leak", 0.01, true)}).empty());
+    EXPECT_TRUE(judgeBounds({scoredRecord()}, {excepted}).empty());
+    EXPECT_TRUE(judgeBounds({scoredRecord()}, {bound("still-to-come", "leak", 0.01, true)}).empty());
+}
+
+class WatchlistFile : public testing::Test {
+protected:
+    Watchlist read(const std::string& text) {
+        writeFile(file_, text);
+        return readWatchlist(file_, Profile::Gate);
+    }
+    std::string complaint(const std::string& text) {
+        try {
+            read(text);
+        } catch (const BadInput& error) {
+            return error.what();
+        }
+        return "none";
+    }
+
+    TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_.path() / "bounds.toml";
+};
+
+TEST_F(WatchlistFile, HoldsBoundsSweepsAndCellsOfCost) {
+    const Watchlist list = read("[[bound]]\nscene = \"trees\"\ntechniques = [\"volume-*\"]\nmetric = \"mismatch\"\nbelow = "
+                                "0.1\nreason = \"r\"\n[[sweep]]\nscene = \"trees\"\naxis = \"map\"\nvalues = [512, "
+                                "256]\ntechniques = [\"sm-uniform\"]\nreason = \"r\"\n[[time]]\nscene = "
+                                "\"trees\"\ntechniques = [\"*\"]\nexcept = [\"lod-*\"]\nreason = \"r\"\n");
+    ASSERT_EQ(list.bounds.size(), 1U);
+    EXPECT_TRUE(list.bounds[0].below);
+    ASSERT_EQ(list.sweeps.size(), 1U);
+    EXPECT_EQ(list.sweeps[0].values, (std::vector<double>{512, 256}));
+    ASSERT_EQ(list.timed.size(), 1U);
+    EXPECT_TRUE(list.timed[0].covers("pcf:kernel=7"));
+    EXPECT_FALSE(list.timed[0].covers("lod-blend"));
+    EXPECT_TRUE(list.strangers({}).empty());
+}
+
+TEST_F(WatchlistFile, NamesWhatIsWrongWithIt) {
+    const std::string begin = "[[bound]]\nscene = \"trees\"\ntechniques = [\"sm-unifrom\"]\nmetric = \"mismatch\"\n";
+    EXPECT_NE(complaint(begin + "below = 1\nreason = \"r\"\n").find("sm-uniform"), std::string::npos);
+    const std::string good = "[[bound]]\nscene = \"trees\"\ntechniques = [\"pcf\"]\nmetric = \"mismatch\"\n";
+    EXPECT_NE(complaint(good + "below = 1\n").find("reason"), std::string::npos);
+    EXPECT_NE(complaint(good + "below = 1\nabove = 1\nreason = \"r\"\n").find("either"), std::string::npos);
+    EXPECT_EQ(complaint(good + "below = 1\nreason = \"r\"\n"), "none");
+}
+
+TEST_F(WatchlistFile, TheCommittedOneIsSound) {
+    const Watchlist list = readWatchlist(std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml", Profile::Gate);
+    EXPECT_FALSE(list.bounds.empty());
+    EXPECT_TRUE(list.strangers({}).empty());
+}
+
+TEST(GatePlan, TheWatchlistsScenesComeWithTheirTechniquesUnlessTheUserNamesScenes) {
+    GateOptions options;
+    options.bounds = std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml";
+    options.techniques = {"sm-cube", "pcf"};
+    const Plan plan(options);
+    EXPECT_TRUE(plan.chooses("dueling-frusta", "pcf"));
+    EXPECT_TRUE(plan.chooses("colonnade", "sm-cube"));
+    EXPECT_FALSE(plan.chooses("colonnade", "pcf"));
+    options.scenes = {"trees"};
+    const Plan narrow(options);
+    EXPECT_TRUE(narrow.chooses("trees", "pcf"));
+    EXPECT_FALSE(narrow.chooses("colonnade", "sm-cube"));
+}
+
+TEST(GateCode, ARegressionCountsWhateverElseCouldNotBeJudged) {
+    GateResult result;
+    EXPECT_EQ(result.code(), ExitCode::Pass);
+    result.unjudged.emplace_back("something");
+    EXPECT_EQ(result.code(), ExitCode::Inconclusive);
+    Change slower{"trees", "pcf", "time.ratio", Class::Time, 1, 1.1, 0.01, Direction::Worse, "slower"};
+    result.changes.push_back(slower);
+    EXPECT_EQ(result.code(), ExitCode::CostRegression);
+    slower.changeClass = Class::Leak;
+    result.changes.push_back(slower);
+    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
+}
+
+TEST(GateReproduction, IsACommandForEachKindOfChange) {
+    GateOptions options;
+    options.base = "origin/main";
+    Change change{"trees", "pcf:kernel=7", "m", Class::Leak, 1, 2, 0, Direction::Worse, ""};
+    EXPECT_EQ(reproduction(change, options), "./bench run --images --cost none --out results/reproduced --scene trees "
+                                             "--technique pcf:kernel=7 --profile gate --seed 1");
+    change.changeClass = Class::BreakPoint;
+    change.axis = "map";
+    EXPECT_EQ(reproduction(change, options),
+              "./bench sweep --axis map --scene trees --technique pcf:kernel=7 --profile gate --seed 1");
+    change.changeClass = Class::Time;
+    EXPECT_EQ(reproduction(change, options), "./bench gate --base origin/main --cost time --scene trees --technique "
+                                             "pcf:kernel=7 --profile gate --seed 1");
+}
+
+} // namespace
+} // namespace shadowbench::gate

@@ -1,0 +1,211 @@
+#include "base/error.h"
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "tests/support/records_examples.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace shadowbench {
+namespace {
+
+using namespace test;
+using Json = nlohmann::ordered_json;
+
+/// What parseRecord() says about a record whose JSON was changed by `change`; "" if nothing.
+template <typename Change>
+std::string complaint(const Change& change) {
+    Json json = Json::parse(toJson(hardRecord()));
+    change(json);
+    try {
+        parseRecord(json.dump());
+    } catch (const BadInput& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+class RecordsFile : public testing::Test {
+protected:
+    [[nodiscard]] std::filesystem::path file() const { return folder_ / "results.jsonl"; }
+
+    [[nodiscard]] std::string complaintAbout(const std::string& content) const {
+        writeFile(file(), content);
+        try {
+            readRecords(file());
+        } catch (const BadInput& error) {
+            return error.what();
+        }
+        return "";
+    }
+
+private:
+    TemporaryFolder owner_;
+    std::filesystem::path folder_ = owner_.path();
+};
+
+TEST(RecordJson, ReadsBackAsTheSameLineForEveryStatus) {
+    for (const Record& record : recordOfEveryStatus()) {
+        const std::string line = toJson(record);
+        EXPECT_EQ(toJson(parseRecord(line)), line);
+        EXPECT_EQ(line.find('\n'), std::string::npos);
+    }
+}
+
+TEST(RecordJson, KeepsEveryMember) {
+    const Record r = parseRecord(toJson(hardRecord()));
+    EXPECT_EQ(r.variant, "sm-history:base=lispsm");
+    EXPECT_EQ(r.parameters, hardRecord().parameters);
+    EXPECT_EQ(r.width, 256);
+    EXPECT_EQ(r.accuracy.edgeError->signedMean, -0.1);
+    EXPECT_EQ(r.stability.mismatchByFrame, hardRecord().stability.mismatchByFrame);
+    EXPECT_TRUE(r.stability.rmseByFrame.empty());
+    EXPECT_EQ(r.aliasing->p95, 4.2);
+    EXPECT_EQ(r.aliasing->mapped, 0.97);
+    EXPECT_EQ(r.figures, hardRecord().figures);
+    EXPECT_EQ(r.cost.time->baseRatio, 1.08);
+    EXPECT_EQ(r.cost.work->bytes, 4194304);
+    EXPECT_EQ(r.reference->tools.at("CGAL"), "5.5.1");
+    EXPECT_EQ(r.toleranceMetric, "mismatch");
+    EXPECT_FALSE(r.accuracy.rmse);
+}
+
+TEST(RecordJson, WritesDoublesThatReadBackEqual) {
+    Record record = softRecord();
+    for (const double value : {0.1 + 0.2, 1.0 / 3, 5e-324, 1.7976931348623157e308, 0.0}) {
+        record.accuracy.rmse = value;
+        EXPECT_EQ(*parseRecord(toJson(record)).accuracy.rmse, value);
+    }
+}
+
+TEST(RecordJson, WritesTheFieldsInSchemaOrderAndNoAbsentMetric) {
+    const Json json = Json::parse(toJson(softRecord()));
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : json.items()) keys.push_back(key);
+    EXPECT_EQ(keys, (std::vector<std::string>{"schema_version", "scene",    "technique", "variant", "parameters",
+                                              "profile",        "size",     "frames",    "seed",    "status",
+                                              "cell",           "commit",   "dirty",     "time",    "environment",
+                                              "reference",      "accuracy", "stability", "cost",    "tolerance"}));
+    EXPECT_FALSE(json["accuracy"].contains("mismatch"));
+    EXPECT_EQ(json["stability"]["by_frame"],
+              Json::parse(R"({"rmse":[0.2,0.031],"bad30":[0.1,0.012],"changed":[0.04,0.008,0.0]})"));
+    EXPECT_EQ(json["tolerance"], Json::parse(R"({"metric":"penumbra_rmse","value":0.05})"));
+    EXPECT_EQ(json["size"], Json::parse("[256,256]"));
+}
+
+TEST(RecordJson, FiguresAndAliasingStandBetweenAccuracyAndStability) {
+    const std::string line = toJson(hardRecord());
+    EXPECT_TRUE(contains(line,
+                         R"("aliasing":{"median":1.8,"p95":4.2,"mapped":0.97},"figures":{"confident":0.31,"tiles":6.0},)"
+                         R"("stability")"))
+        << line;
+}
+
+TEST(RecordJson, TypesParametersAsNumbersWhereTheyAreNumbers) {
+    const Json parameters = Json::parse(toJson(hardRecord()))["parameters"];
+    EXPECT_EQ(parameters.dump(), R"({"base":"lispsm","map":1024,"bias":0.25,"taps":"32+32"})");
+}
+
+TEST(RecordJson, NeverWritesANumberThatIsNotFinite) {
+    for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+        Record record = hardRecord();
+        record.accuracy.edgeError->hausdorff = bad;
+        try {
+            toJson(record);
+            FAIL() << bad;
+        } catch (const InternalError& error) {
+            EXPECT_TRUE(contains(error.what(), "accuracy.edge_error.hausdorff")) << error.what();
+        }
+        record = hardRecord();
+        record.stability.changedByFrame[1] = bad;
+        EXPECT_THROW(toJson(record), InternalError);
+        record = hardRecord();
+        record.figures["tiles"] = bad;
+        EXPECT_THROW(toJson(record), InternalError);
+    }
+}
+
+TEST(RecordJson, NamesTheKeyOfWhatIsWrong) {
+    EXPECT_EQ(complaint([](Json&) {}), "");
+    EXPECT_TRUE(contains(complaint([](Json& j) { j.erase("variant"); }), "\"variant\" is missing"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["acuracy"] = 1; }), "\"acuracy\" is unknown"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["accuracy"]["mismach"] = 0.1; }), "\"accuracy.mismach\" is unknown"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["accuracy"]["leak"] = nullptr; }), "\"accuracy.leak\" is not a number"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["accuracy"]["edge_error"].erase("p95"); }),
+                         "\"accuracy.edge_error.p95\" is missing"));
+    EXPECT_TRUE(
+        contains(complaint([](Json& j) { j["stability"]["by_frame"]["chnged"] = Json::array(); }), "by_frame.chnged"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["figures"]["tiles"] = "6"; }), "\"figures.tiles\" is not a number"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["figures"] = 6; }), "\"figures\" is not an object"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["status"] = "fine"; }), "\"status\" is not"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["frames"] = 1.5; }), "\"frames\" is not a whole number"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["seed"] = -1; }), "\"seed\" is not within"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["size"] = {1, 2, 3}; }), "\"size\""));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["parameters"]["map"] = true; }), "\"parameters.map\""));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["environment"] = 3; }), "\"environment\" is not an object"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["schema_version"] = 2; }), "\"schema_version\" is 2"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j.erase("schema_version"); }), "\"schema_version\""));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j.erase("accuracy"); }), "\"accuracy\" belongs to scored records"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["status"] = "error"; }), "\"accuracy\" belongs to scored records"));
+    EXPECT_THROW(parseRecord("{"), BadInput);
+    EXPECT_THROW(parseRecord("[]"), BadInput);
+    EXPECT_THROW(parseRecord(""), BadInput);
+}
+
+TEST_F(RecordsFile, ReadsBackWhatWasWritten) {
+    const std::vector<Record> records = recordOfEveryStatus();
+    writeRecords(file(), records);
+    const std::vector<Record> read = readRecords(file());
+    ASSERT_EQ(read.size(), records.size());
+    for (std::size_t i = 0; i < read.size(); ++i) EXPECT_EQ(toJson(read[i]), toJson(records[i]));
+
+    writeRecords(file(), {});
+    EXPECT_TRUE(readRecords(file()).empty());
+}
+
+TEST_F(RecordsFile, NamesFileAndLineOfWhatIsWrong) {
+    const std::string line = toJson(hardRecord()) + "\n";
+    EXPECT_EQ(complaintAbout(line + line), "");
+    EXPECT_TRUE(contains(complaintAbout(line + "{}\n"), "results.jsonl:2: ")) << complaintAbout(line + "{}\n");
+    EXPECT_TRUE(contains(complaintAbout(line + "\n" + line), "results.jsonl:2: "));
+    EXPECT_TRUE(contains(complaintAbout(line + line.substr(0, 50)), "results.jsonl:2: the last line has no end"));
+    EXPECT_THROW(readRecords(file().parent_path() / "none.jsonl"), BadInput);
+}
+
+TEST(Headline, IsMismatchForHardTruthsAndRmseWhereASoftTruthWasUsed) {
+    EXPECT_EQ(headline(hardRecord())->metric, "mismatch");
+    EXPECT_EQ(headline(hardRecord())->value, 0.0009);
+    EXPECT_EQ(headline(softRecord())->metric, "rmse");
+
+    Record hardOnAreaLight = hardRecord();
+    hardOnAreaLight.softReference = softRecord().reference;
+    hardOnAreaLight.accuracy.rmse = 0.2;
+    EXPECT_EQ(headline(hardOnAreaLight)->metric, "rmse");
+    EXPECT_EQ(headline(hardOnAreaLight)->value, 0.2);
+
+    Record filtered = hardRecord(); // against the hard truth, rmse too
+    filtered.accuracy.rmse = 0.2;
+    EXPECT_EQ(headline(filtered)->metric, "mismatch");
+}
+
+TEST(Headline, IsThereForExpectedFailuresAndNotForWhatWasNotScored) {
+    EXPECT_TRUE(headline(expectedFailure()));
+    EXPECT_FALSE(headline(unscored(Status::Error, "x")));
+    EXPECT_FALSE(headline(unscored(Status::NotApplicable, "x")));
+}
+
+TEST(AccuracyMetric, IsFoundByItsNameInTheRecord) {
+    EXPECT_EQ(accuracyMetric(hardRecord().accuracy, "mismatch_off_edge"), 0.0001);
+    EXPECT_EQ(accuracyMetric(softRecord().accuracy, "penumbra_rmse"), 0.09);
+    EXPECT_EQ(accuracyMetric(hardRecord().accuracy, "primary_mismatch"), 0.00002);
+    EXPECT_FALSE(accuracyMetric(hardRecord().accuracy, "rmse"));
+    EXPECT_FALSE(accuracyMetric(hardRecord().accuracy, "no-such-metric"));
+}
+
+} // namespace
+} // namespace shadowbench

@@ -1,0 +1,162 @@
+#include "harness/report/run_report.h"
+#include "tests/support/report_examples.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+using namespace test;
+
+std::vector<std::string> variants(const std::vector<Record>& records, const std::vector<std::size_t>& indices) {
+    std::vector<std::string> result;
+    result.reserve(indices.size());
+    for (const std::size_t i : indices) result.push_back(records[i].variant);
+    return result;
+}
+
+TEST(TerminalTable, ReadsAsInTheReadme) {
+    EXPECT_EQ(report::terminalTable(hardScene(), "dueling-frusta"),
+              " scene: dueling-frusta · 256² · error = mismatching pixels · cost = frames of sm-uniform\n"
+              " technique                 error   false shadow     leak   edge error px   flicker   cost   front\n"
+              " none                     31.2 %              –    100 %               –     0.104   0.31       ●\n"
+              " sm-uniform               4.87 %         0.05 %   0.04 %            0.40     0.016   1.00       ●\n"
+              " sm-history:base=lispsm   0.09 %         0.05 %   0.04 %            0.40     0.000   1.19       ●\n"
+              " volume-zfail             0.00 %         0.05 %   0.04 %            0.40     0.000   4.70       ●\n"
+              " cheapest within tolerance (0.5 %): sm-history:base=lispsm\n"
+              " not applicable: pcss (needs an area light)\n");
+}
+
+TEST(TerminalTable, OfASoftSceneComparesOneMetricAndLeavesOutWhatNoRecordHas) {
+    EXPECT_EQ(report::terminalTable(softScene(), "overlapping-occluders"),
+              " scene: overlapping-occluders · 256² · error = rms error of visibility · cost = frames of sm-uniform\n"
+              " technique        error     leak   cost   front\n"
+              " sm-uniform      0.1900   1.00 %   1.00       ●\n"
+              " pcss            0.0312        –   2.94\n"
+              " temporal-soft   0.0210        –   2.20       ●\n"
+              " cheapest within tolerance (penumbra_rmse 0.05): temporal-soft\n");
+}
+
+TEST(TerminalTable, SaysThatNothingIsWithinToleranceAndNamesErrors) {
+    std::vector<Record> records = {hardCell("sm-uniform", 0.0487, 1), unscored(Status::Error, "primary hits differ")};
+    EXPECT_EQ(report::terminalTable(records, "dueling-frusta"),
+              " scene: dueling-frusta · 256² · error = mismatching pixels · cost = frames of sm-uniform\n"
+              " technique     error   false shadow     leak   edge error px   flicker   cost   front\n"
+              " sm-uniform   4.87 %         0.05 %   0.04 %            0.40     0.016   1.00       ●\n"
+              " no technique is within tolerance (0.5 %)\n"
+              " error: sm-history:base=lispsm (primary hits differ)\n");
+    EXPECT_EQ(report::terminalTable(records, "no-such-scene"), "");
+}
+
+TEST(TerminalTable, OfRecordsWithoutTimesNamesAllThatAreWithinTolerance) {
+    std::vector<Record> records = {hardCell("a", 0.001, 1), hardCell("b", 0.01, 1), hardCell("c", 0.004, 1)};
+    for (Record& record : records) record.cost.time.reset();
+    const std::string table = report::terminalTable(records, "dueling-frusta");
+    EXPECT_NE(table.find(" within tolerance (0.5 %), none of them timed: a, c\n"), std::string::npos) << table;
+}
+
+TEST(TerminalTable, TellsATinyErrorFromNone) {
+    const std::string table = report::terminalTable({hardCell("a", 0.00001, 1), hardCell("b", 0, 1)}, "dueling-frusta");
+    EXPECT_NE(table.find("a           < 0.01 %"), std::string::npos) << table;
+    EXPECT_NE(table.find("b             0.00 %"), std::string::npos) << table;
+}
+
+TEST(MarkdownTable, HasARowARecordAndEscapesWhatMarkdownWouldRead) {
+    std::vector<Record> records = {hardCell("a_b|c", 0.01, 1)};
+    records[0].cost.work.reset();
+    records[0].accuracy = {};
+    records[0].accuracy.mismatch = 0.01;
+    records[0].stability = {};
+    records[0].aliasing.reset();
+    records[0].figures.clear();
+    EXPECT_EQ(report::markdownTable(records, "dueling-frusta"), "| technique | error | cost | front |\n"
+                                                                "|:---|---:|---:|---:|\n"
+                                                                "| a\\_b\\|c | 1.00 % | 1.00 | ● |\n"
+                                                                "\n"
+                                                                "no technique is within tolerance (0.5 %)\n");
+}
+
+TEST(MarkdownTable, ShowsTexelsInPixelsAndWhatOnlyTheTechniqueKnows) {
+    const std::string table = report::markdownTable({hardCell("sm-uniform", 0.01, 1)}, "dueling-frusta");
+    EXPECT_NE(table.find("| texel px | texel px p95 |"), std::string::npos) << table;
+    EXPECT_NE(table.find("| 1.80 | 4.20 |"), std::string::npos) << table;
+    EXPECT_NE(table.find("\nfigures of sm-uniform: confident 0.31, tiles 6\n"), std::string::npos) << table;
+}
+
+TEST(ParetoFront, HoldsWhatNoOtherRecordBeatsByRisingCost) {
+    const std::vector<Record> records = {hardCell("dear", 0, 5), hardCell("beaten", 0.02, 2), hardCell("middle", 0.01, 1.5),
+                                         hardCell("cheap", 0.3, 0.3)};
+    EXPECT_EQ(variants(records, report::paretoFront(records, "dueling-frusta")),
+              (std::vector<std::string>{"cheap", "middle", "dear"}));
+}
+
+TEST(ParetoFront, KeepsEqualRecordsAndDropsOnesBeatenInOneOnly) {
+    const std::vector<Record> records = {hardCell("twin", 0.1, 1), hardCell("twin:map=2", 0.1, 1),
+                                         hardCell("dearer", 0.1, 1.1), hardCell("worse", 0.2, 1)};
+    EXPECT_EQ(variants(records, report::paretoFront(records, "dueling-frusta")),
+              (std::vector<std::string>{"twin", "twin:map=2"}));
+}
+
+TEST(ParetoFront, LeavesOutWhatHasNoCostOrNoScoreAndOtherScenes) {
+    std::vector<Record> records = hardScene();
+    records.push_back(hardCell("untimed", 0, 0.1));
+    records.back().cost.time.reset();
+    records.push_back(softScene()[1]);
+    EXPECT_EQ(variants(records, report::paretoFront(records, "dueling-frusta")),
+              (std::vector<std::string>{"none", "sm-uniform", "sm-history:base=lispsm", "volume-zfail"}));
+    EXPECT_TRUE(report::paretoFront({}, "dueling-frusta").empty());
+}
+
+TEST(CheapestAdequate, IsTheCheapestWithinTheScenesTolerance) {
+    const std::vector<Record> hard = hardScene();
+    EXPECT_EQ(hard[*report::cheapestAdequate(hard, "dueling-frusta")].variant, "sm-history:base=lispsm");
+    const std::vector<Record> soft = softScene(); // penumbra_rmse ≤ 0.05; pcss has 0.0624, temporal-soft 0.042
+    EXPECT_EQ(soft[*report::cheapestAdequate(soft, "overlapping-occluders")].variant, "temporal-soft");
+}
+
+TEST(CheapestAdequate, IsAbsentWithoutATolerance) {
+    std::vector<Record> records = {hardCell("a", 0, 1)};
+    records[0].toleranceMetric.clear();
+    EXPECT_FALSE(report::cheapestAdequate(records, "dueling-frusta"));
+}
+
+TEST(Csv, HasOneRowARecordAndTheSameColumnsInEveryRow) {
+    const std::string text = report::csv(recordOfEveryStatus());
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 7);
+    const auto commas = [](const std::string& line) { // outside quotes
+        bool inside = false;
+        return std::count_if(line.begin(), line.end(), [&](char c) {
+            inside = inside != (c == '"');
+            return c == ',' && !inside;
+        });
+    };
+    std::size_t start = 0;
+    const auto columns = commas(text.substr(0, text.find('\n')));
+    EXPECT_GT(columns, 60);
+    while (start < text.size()) {
+        const std::size_t end = text.find('\n', start);
+        EXPECT_EQ(commas(text.substr(start, end - start)), columns);
+        start = end + 1;
+    }
+}
+
+TEST(Csv, NamesColumnsByTheirPathAndQuotesWhatNeedsIt) {
+    Record record = unscored(Status::Error, "said \"no\", twice");
+    const std::string text = report::csv({record});
+    EXPECT_EQ(text.find("schema_version,scene,technique,variant,profile,width,height,frames,seed,status,reason,cell,"), 0);
+    EXPECT_NE(text.find(",accuracy.edge_error.signed,accuracy.rmse,"), std::string::npos);
+    EXPECT_NE(text.find(",error,\"said \"\"no\"\", twice\","), std::string::npos);
+    EXPECT_NE(text.find("\"llvmpipe (LLVM 15.0.6, 256 bits)\""), std::string::npos);
+}
+
+TEST(Csv, LeavesAbsentMetricsEmpty) {
+    Record record = hardRecord();
+    record.accuracy = {};
+    record.accuracy.primaryMismatch = 0.25;
+    record.accuracy.ssim = 0.5;
+    EXPECT_NE(report::csv({record}).find(",,,,0.5,,,,,0.25,"), std::string::npos) << report::csv({record});
+}
+
+} // namespace
+} // namespace shadowbench

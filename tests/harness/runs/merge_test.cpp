@@ -1,0 +1,193 @@
+#include "base/error.h"
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "harness/runs/cell_file.h"
+#include "harness/runs/manifest.h"
+#include "harness/runs/merge.h"
+#include "tests/support/records_examples.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace shadowbench::shards {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Three cells of one run, and folders that hold some of them.
+class Merge : public testing::Test {
+protected:
+    Merge() {
+        for (int i = 0; i < 3; ++i) {
+            Record record = test::hardRecord();
+            record.variant = fmt::format("cell{}", i + 1);
+            record.cell = fmt::format("{:032x}", i + 1);
+            records_.push_back(record);
+            ManifestCell cell;
+            cell.id = fmt::format("{:032x}", 17 + i);
+            cell.scene = record.scene;
+            cell.variant = record.variant;
+            cell.profile = record.profile;
+            cell.cost = {"time"};
+            cell.commit = record.commit;
+            manifest_.push_back(cell);
+        }
+    }
+
+    fs::path folder(const std::string& name, const std::vector<std::size_t>& cells) const {
+        const fs::path folder = folder_.path() / name;
+        writeManifest(folder, manifest_);
+        for (const std::size_t i : cells) put(folder, i, records_[i]);
+        return folder;
+    }
+    void put(const fs::path& folder, std::size_t i, const Record& record, ExitCode code = ExitCode::Pass) const {
+        writeCell(folder, {manifest_[i].id, record, code});
+    }
+    static std::vector<std::string> lines(const Merged& merged) {
+        std::vector<std::string> lines;
+        for (const Record& record : merged.result.records) lines.push_back(toJson(record));
+        return lines;
+    }
+    template <typename Kind>
+    static std::string refusal(const std::vector<fs::path>& folders) {
+        try {
+            merge(folders);
+        } catch (const Kind& error) {
+            return error.what();
+        }
+        return "";
+    }
+    static bool names(const std::string& text, const std::vector<std::string>& words) {
+        return std::all_of(words.begin(), words.end(), [&](const auto& word) { return text.find(word) != text.npos; });
+    }
+
+    TemporaryFolder folder_;
+    std::vector<Record> records_;
+    std::vector<ManifestCell> manifest_;
+};
+
+TEST_F(Merge, KeepsTheManifestsOrderWhateverTheFolders) {
+    const fs::path a = folder("a", {2, 0}), b = folder("b", {1});
+    const Merged merged = merge({a, b});
+    EXPECT_TRUE(merged.missing.empty());
+    EXPECT_EQ(merged.result.code, ExitCode::Pass);
+    EXPECT_EQ(lines(merged), (std::vector{toJson(records_[0]), toJson(records_[1]), toJson(records_[2])}));
+    EXPECT_EQ(lines(merge({b, a})), lines(merged));
+}
+
+TEST_F(Merge, NamesEveryMissingCell) {
+    const Merged merged = merge({folder("a", {1})});
+    ASSERT_EQ(merged.missing.size(), 2U);
+    EXPECT_TRUE(names(merged.missing[0], {"cell 1,", "cell1 on dueling-frusta", manifest_[0].id})) << merged.missing[0];
+    EXPECT_TRUE(names(merged.missing[1], {"cell 3,", "cell3"})) << merged.missing[1];
+    EXPECT_TRUE(merged.result.records.empty());
+}
+
+TEST_F(Merge, CountsADamagedFileAsMissingUnlessAnotherFolderHasTheCell) {
+    const fs::path a = folder("a", {0, 1, 2}), b = folder("b", {1});
+    const std::string whole = readFile(cellFile(a, manifest_[1].id));
+    writeFile(cellFile(a, manifest_[1].id), whole.substr(0, whole.size() / 2));
+    EXPECT_TRUE(merge({a, b}).missing.empty());
+    const Merged merged = merge({a});
+    ASSERT_EQ(merged.missing.size(), 1U);
+    EXPECT_TRUE(names(merged.missing[0], {cellFile(a, manifest_[1].id).string()})) << merged.missing[0];
+}
+
+TEST_F(Merge, TakesNoFileForAnotherCells) {
+    const fs::path a = folder("a", {0, 1});
+    fs::copy_file(cellFile(a, manifest_[0].id), cellFile(a, manifest_[2].id));
+    EXPECT_EQ(merge({a}).missing.size(), 1U);
+}
+
+TEST_F(Merge, ExitsAsARunForTheFirstCellInError) {
+    const fs::path a = folder("a", {0});
+    Record error = test::unscored(Status::Error, "it failed");
+    error.commit = manifest_[1].commit;
+    error.environment = records_[0].environment;
+    put(a, 1, error, ExitCode::Inconclusive);
+    put(a, 2, error, ExitCode::Internal);
+    const Merged merged = merge({a});
+    EXPECT_TRUE(merged.missing.empty());
+    EXPECT_EQ(merged.result.code, ExitCode::Inconclusive);
+    EXPECT_EQ(merged.result.records.size(), 3U);
+}
+
+TEST_F(Merge, OfRepeatedCellsKeepsTheEarlierInEveryOrder) {
+    const fs::path a = folder("a", {0, 1, 2}), b = folder("b", {});
+    Record again = records_[1];
+    again.time = "2026-01-02T03:04:04Z";
+    again.cost.time->median = 99;
+    put(b, 1, again);
+    EXPECT_EQ(merge({a, b}).result.records[1].time, again.time);
+    EXPECT_EQ(lines(merge({b, a})), lines(merge({a, b})));
+}
+
+TEST_F(Merge, RefusesRepeatedCellsWithOtherScores) {
+    const fs::path a = folder("a", {0, 1, 2}), b = folder("b", {});
+    Record again = records_[1];
+    again.accuracy.leak = 0.0005;
+    put(b, 1, again);
+    EXPECT_TRUE(names(refusal<Inconclusive>({a, b}),
+                      {cellFile(a, manifest_[1].id).string(), cellFile(b, manifest_[1].id).string()}));
+    EXPECT_EQ(refusal<Inconclusive>({a, b}), refusal<Inconclusive>({b, a}));
+}
+
+TEST_F(Merge, RefusesMixedEnvironments) {
+    const fs::path a = folder("a", {0, 1, 2});
+    Record other = records_[2];
+    other.environment.renderer = "llvmpipe (LLVM 19.1.0, 512 bits)";
+    put(a, 2, other);
+    EXPECT_TRUE(names(refusal<Inconclusive>({a}), {"renderer", "LLVM 15.0.6", "LLVM 19.1.0", manifest_[2].id}));
+}
+
+TEST_F(Merge, ComparesTheValgrindsOfCountedCellsOnly) {
+    const fs::path a = folder("a", {0});
+    std::vector<Record> counted{records_[1], records_[2]};
+    for (Record& record : counted) record.environment.valgrind = "valgrind-3.19.0";
+    put(a, 1, counted[0]);
+    put(a, 2, counted[1]);
+    EXPECT_TRUE(merge({a}).missing.empty());
+    counted[1].environment.valgrind = "valgrind-3.20.0";
+    put(a, 2, counted[1]);
+    EXPECT_TRUE(names(refusal<Inconclusive>({a}), {"valgrind-3.19.0", "valgrind-3.20.0"}));
+}
+
+TEST_F(Merge, RefusesCellsOfAnotherCommit) {
+    const fs::path a = folder("a", {0, 1, 2});
+    Record other = records_[2];
+    other.commit = "decaf";
+    put(a, 2, other);
+    EXPECT_TRUE(names(refusal<Inconclusive>({a}), {"decaf", "c0ffee", manifest_[2].id}));
+}
+
+TEST_F(Merge, RefusesFoldersOfDifferentRuns) {
+    const fs::path a = folder("a", {0, 1, 2});
+    manifest_[1].seed = 2;
+    const fs::path b = folder("b", {});
+    EXPECT_TRUE(names(refusal<BadInput>({a, b}), {a.string(), b.string(), "seed is 1, not 2"}));
+    EXPECT_TRUE(names(refusal<BadInput>({a, folder_.path()}), {folder_.path().string(), "holds no manifest"}));
+}
+
+TEST_F(Merge, BringsTheImagesAlong) {
+    const fs::path a = folder("a", {});
+    writeFile(a / "images/scene/none/error.png", "picture");
+    copyImages(a, folder_.path() / "out");
+    copyImages(a, a);
+    EXPECT_EQ(readFile(folder_.path() / "out/images/scene/none/error.png"), "picture");
+}
+
+TEST(CellFile, ReadsBackEqualForEveryStatus) {
+    const TemporaryFolder folder;
+    for (const Record& record : test::recordOfEveryStatus()) {
+        writeCell(folder.path(), {"abc", record, ExitCode::Inconclusive});
+        const auto read = readCell(folder.path(), "abc");
+        ASSERT_TRUE(read);
+        EXPECT_EQ(toJson(read->record), toJson(parseRecord(toJson(record))));
+        EXPECT_EQ(read->code, ExitCode::Inconclusive);
+    }
+    EXPECT_FALSE(readCell(folder.path(), "def"));
+}
+
+} // namespace
+} // namespace shadowbench::shards

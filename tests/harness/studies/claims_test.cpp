@@ -1,0 +1,141 @@
+// Verdicts follow from records.
+#include "base/error.h"
+#include "harness/studies/claims/claims.h"
+#include "tests/support/records_examples.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+Record with(const std::string& variant, double mismatch) {
+    Record record = test::hardRecord();
+    record.variant = variant;
+    record.accuracy.mismatch = mismatch;
+    return record;
+}
+
+std::string check(const std::string& left, const std::string& is, const std::string& rest) {
+    return R"({"says": "s", "left": {"scene": "dueling-frusta", "variant": ")" + left +
+           R"(", "metric": "accuracy.mismatch"}, "is": ")" + is + "\", " + rest + "}";
+}
+
+std::string claim(const std::string& checks) {
+    return R"([{"id": "K0", "says": "s", "where": "w", "checks": [)" + checks + "]}]";
+}
+
+const std::string against =
+    R"("times": 0.5, "right": {"scene": "dueling-frusta", "variant": "b", "metric": "accuracy.mismatch"})";
+
+Verdict verdict(const std::string& json, const std::vector<Record>& records) {
+    const std::vector<Claim> parsed = parseClaims(json);
+    return judge(parsed.front(), records).verdict;
+}
+
+TEST(Claims, VerdictsCountTheChecksThatHold) {
+    const std::vector<Record> records{with("a", 0.001), with("b", 0.01)};
+    const std::string holds = check("a", "at most", against), fails = check("a", "at least", against);
+    EXPECT_EQ(verdict(claim(holds), records), Verdict::Reproduced);
+    EXPECT_EQ(verdict(claim(fails), records), Verdict::NotReproduced);
+    EXPECT_EQ(verdict(claim(holds + "," + fails), records), Verdict::Partly);
+    EXPECT_EQ(verdict(claim(check("a", "at most", "\"bound\": 0.001")), records), Verdict::Reproduced); // equal is at most
+}
+
+TEST(Claims, AMissingFigureIsNoVerdict) {
+    const std::string holds = check("a", "at most", against);
+    EXPECT_EQ(verdict(claim(holds), {with("a", 0.001)}), Verdict::NotMeasured);
+    EXPECT_EQ(verdict(claim(check("a", "at most", "\"bound\": 1")), {}), Verdict::NotMeasured);
+    Record unscored = with("a", 0.001);
+    unscored.accuracy.mismatch.reset();
+    EXPECT_EQ(verdict(claim(holds), {unscored, with("b", 1)}), Verdict::NotMeasured);
+}
+
+TEST(Claims, FiguresOfASweepAreTakenFromItsCurveOnly) {
+    Record swept = with("a:map=512", 0.5);
+    swept.sweep = SweepStep{"map", "texels", "a", 512, {}};
+    const std::string ofSweep =
+        R"({"says": "s", "left": {"scene": "dueling-frusta", "variant": "a", "metric": "accuracy.mismatch", "axis": "map", "value": 512}, "is": "at least", "bound": 0.4})";
+    EXPECT_EQ(verdict(claim(ofSweep), {with("a", 0.001), swept}), Verdict::Reproduced);
+    EXPECT_EQ(verdict(claim(check("a", "at most", "\"bound\": 0.01")), {swept, with("a", 0.001)}), Verdict::Reproduced);
+}
+
+/// Records of variant `curve` swept over casters, with one figure.
+std::vector<Record> swept(const std::string& curve, const std::string& figure, const std::vector<double>& numbers) {
+    std::vector<Record> records;
+    double casters = 1;
+    for (const double number : numbers) {
+        Record record = with(curve, 0.1);
+        record.figures = {{figure, number}};
+        record.sweep = SweepStep{"casters", "", curve, casters, {}};
+        records.push_back(record);
+        casters *= 2;
+    }
+    return records;
+}
+
+const std::string bytesOverCasters =
+    R"("left": {"scene": "dueling-frusta", "variant": "a", "metric": "figures.bytes", "over": {"variant": "b", "metric": "figures.size"}, "axis": "casters")";
+
+TEST(Claims, QuotientsAreTakenAtTheSamePlace) {
+    std::vector<Record> records = swept("a", "bytes", {6, 20});
+    for (const Record& record : swept("b", "size", {3, 5})) records.push_back(record);
+    const auto bounded = [](const std::string& rest) { return claim(R"({"says": "s", )" + bytesOverCasters + rest + "}"); };
+    EXPECT_EQ(verdict(bounded(R"(, "value": 1}, "is": "at most", "bound": 2)"), records), Verdict::Reproduced);
+    EXPECT_EQ(verdict(bounded(R"(, "value": 2}, "is": "at least", "bound": 4)"), records), Verdict::Reproduced);
+    EXPECT_EQ(verdict(bounded(R"(, "value": 2}, "is": "at least", "bound": 4.1)"), records), Verdict::NotReproduced);
+    EXPECT_EQ(verdict(bounded(R"(, "value": 4}, "is": "at least", "bound": 0)"), records), Verdict::NotMeasured);
+    records[2].figures["size"] = 0; // no quotient by zero
+    EXPECT_EQ(verdict(bounded(R"(, "value": 1}, "is": "at least", "bound": 0)"), records), Verdict::NotMeasured);
+}
+
+TEST(Claims, GrowthIsStrictAndNeedsEveryPlace) {
+    const std::string grows =
+        claim(R"({"says": "s", "left": {"scene": "dueling-frusta", "variant": "a", "metric": "figures.bytes", "axis": )"
+              R"("casters"}, "grows over": [1, 2, 4]})");
+    EXPECT_EQ(verdict(grows, swept("a", "bytes", {1, 2, 3})), Verdict::Reproduced);
+    EXPECT_EQ(verdict(grows, swept("a", "bytes", {1, 2, 2})), Verdict::NotReproduced);
+    EXPECT_EQ(verdict(grows, swept("a", "bytes", {3, 2, 4})), Verdict::NotReproduced);
+    EXPECT_EQ(verdict(grows, swept("a", "bytes", {1, 2})), Verdict::NotMeasured);
+
+    const std::vector<Claim> parsed = parseClaims(grows);
+    EXPECT_NE(claimsReport({judge(parsed.front(), swept("a", "bytes", {1, 2}))}, "text")
+                  .find("figures.bytes of a on dueling-frusta at casters 1, 2, 4 = 1, 2, missing grows: not measured"),
+              std::string::npos);
+    EXPECT_NE(claimsReport({judge(parsed.front(), swept("a", "bytes", {1, 2, 3}))}, "json").find("\"holds\": true"),
+              std::string::npos);
+}
+
+TEST(Claims, MistakesNameClaimAndKey) {
+    const auto message = [](const std::string& json) -> std::string {
+        try {
+            parseClaims(json);
+        } catch (const BadInput& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(message(claim(check("a", "below", against))),
+              "reading claims: K0: \"is\" must be \"at most\" or \"at least\", not \"below\"");
+    EXPECT_EQ(message(claim("")), "reading claims: K0: \"checks\" is empty");
+    EXPECT_EQ(message(R"([{"id": "K0", "says": "s", "wehre": "w", "checks": []}])"),
+              "reading claims: K0: \"wehre\" is no key");
+    EXPECT_EQ(message("{}"), "reading claims: not a JSON list");
+    EXPECT_EQ(message(claim(R"({"says": "s", )" + bytesOverCasters + R"(}, "grows over": [1]})")),
+              "reading claims: K0: \"grows over\" must list two values of the axis or more");
+}
+
+TEST(Claims, TheReportNamesTheFigures) {
+    const std::vector<Claim> parsed = parseClaims(claim(check("a", "at most", against)));
+    const std::string text = claimsReport({judge(parsed.front(), {with("a", 0.001), with("b", 0.01)})}, "text");
+    EXPECT_EQ(text, "K0: reproduced\n    s (w)\n    - s\n      accuracy.mismatch of a on dueling-frusta = 0.001 ≤ 0.5 × "
+                    "accuracy.mismatch of b on dueling-frusta = 0.01: yes\n");
+}
+
+TEST(Claims, TheProgramsOwnAreSound) {
+    EXPECT_FALSE(claims().empty());
+    for (std::size_t i = 1; i < claims().size(); ++i)
+        EXPECT_LT(std::stoi(claims()[i - 1].id.substr(1)), std::stoi(claims()[i].id.substr(1)));
+}
+
+} // namespace
+} // namespace shadowbench

@@ -1,0 +1,156 @@
+// Axes of sweeps, and what is read off their curves.
+#include "base/error.h"
+#include "harness/report/run_report.h"
+#include "harness/studies/sweep/axis.h"
+#include "harness/studies/sweep/sweep.h"
+#include "harness/studies/sweep/tessellate.h"
+#include "scene/load/load.h"
+#include "scene/meshes/primitives.h"
+#include "tests/support/records_examples.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+double area(const Mesh& mesh) {
+    double sum = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+        sum += 0.5 * glm::length(glm::cross(b - a, c - a));
+    }
+    return sum;
+}
+
+TEST(Tessellation, QuartersEveryTriangleAndKeepsAClosedMeshClosed) {
+    const Mesh whole = box({2, 1, 3});
+    const Mesh fine = quartered(whole, 3);
+    EXPECT_EQ(fine.triangles.size(), whole.triangles.size() * 64);
+    EXPECT_TRUE(fine.closed);
+    EXPECT_NO_THROW(requireWellFormed(fine, "box"));
+    EXPECT_DOUBLE_EQ(area(fine), area(whole)); // halves of a box's coordinates are exact
+    EXPECT_EQ(quartered(whole, 0).triangles, whole.triangles);
+}
+
+double angleToEye(const Scene& scene) {
+    const glm::dvec3 eye = scene.camera.eye - scene.camera.target;
+    const glm::dvec3 light =
+        scene.light.kind == LightKind::Directional ? -scene.light.direction : scene.light.centre - scene.camera.target;
+    return glm::degrees(std::atan2(glm::length(glm::cross(eye, light)), glm::dot(eye, light)));
+}
+
+TEST(Axes, ALightViewAngleOfZeroIsAMinersHeadlampAndOneOf180FacesTheCamera) {
+    for (const std::string id : {"dueling-frusta", "overlapping-occluders", "windmills"}) {
+        Scene scene = loadScene(id, Profile::Gate);
+        const glm::dvec3 target = scene.camera.target;
+        const double distance = glm::distance(scene.light.centre, target);
+        axisNamed("light-view-angle").move(scene, 0);
+        EXPECT_NEAR(angleToEye(scene), 0, 1e-9) << id;
+        if (scene.light.kind != LightKind::Directional) {
+            EXPECT_NEAR(glm::distance(scene.light.centre, target), distance, 1e-9);
+        }
+
+        axisNamed("light-view-angle").move(scene, 180);
+        const glm::dvec3 eye = scene.camera.eye - target;
+        const double elevation = glm::degrees(std::atan2(eye.y, glm::length(glm::dvec2(eye.x, eye.z))));
+        EXPECT_NEAR(angleToEye(scene), 180 - 2 * elevation, 1e-9) << id; // both stay above the ground
+    }
+}
+
+TEST(Axes, AnElevationTurnsTheLightInItsOwnBearingAndAnAreaLightKeepsItsShape) {
+    Scene scene = loadScene("overlapping-occluders", Profile::Gate);
+    const Light before = scene.light;
+    axisNamed("light-elevation").move(scene, 30);
+    const glm::dvec3 was = before.centre - scene.camera.target, is = scene.light.centre - scene.camera.target;
+    EXPECT_NEAR(glm::degrees(std::asin(is.y / glm::length(is))), 30, 1e-9);
+    EXPECT_NEAR(was.x * is.z, was.z * is.x, 1e-9);
+    EXPECT_NEAR(glm::length(scene.light.u), glm::length(before.u), 1e-12);
+    EXPECT_NEAR(glm::dot(scene.light.u, scene.light.v), glm::dot(before.u, before.v), 1e-12);
+    const glm::dvec3 faceBefore = glm::cross(before.u, before.v), faceNow = glm::cross(scene.light.u, scene.light.v);
+    EXPECT_NEAR(glm::dot(faceNow, is) / glm::length(is), glm::dot(faceBefore, was) / glm::length(was), 1e-9);
+}
+
+TEST(Axes, CastersAreCountedWithoutTheGround) {
+    Scene scene = loadScene("dueling-frusta", Profile::Gate);
+    axisNamed("casters").move(scene, 5);
+    ASSERT_EQ(scene.objects.size(), 3U); // ground, four slabs, one column
+    EXPECT_EQ(scene.objects[1].instances.size(), 4U);
+    EXPECT_EQ(scene.objects[2].instances.size(), 1U);
+    EXPECT_THROW(axisNamed("casters").move(scene, 6), BadInput);
+}
+
+TEST(Axes, CasterCountsEndWithAllThatTheSceneHas) {
+    EXPECT_EQ(axisNamed("casters").valuesFor(loadScene("depth-complexity", Profile::Gate)),
+              (std::vector<double>{1, 2, 4, 7}));
+    EXPECT_EQ(axisNamed("near-plane").valuesFor(loadScene("depth-complexity", Profile::Gate)),
+              axisNamed("near-plane").values);
+}
+
+TEST(Axes, WhatASceneLacksIsAnError) {
+    Scene scene = loadScene("dueling-frusta", Profile::Gate);
+    EXPECT_THROW(axisNamed("light-size").move(scene, 2), BadInput);
+    EXPECT_THROW(axisNamed("near-plane").move(scene, 0), BadInput);
+    EXPECT_THROW(axisNamed("near-plane").move(scene, scene.camera.far), BadInput);
+    scene.light.centre = scene.camera.target + glm::dvec3(0, 7, 0);
+    EXPECT_THROW(axisNamed("light-elevation").move(scene, 30), BadInput);
+    try {
+        axisNamed("near-plan");
+        FAIL();
+    } catch (const BadInput& error) {
+        EXPECT_NE(std::string(error.what()).find("did you mean \"near-plane\"?"), std::string::npos) << error.what();
+    }
+}
+
+std::vector<Record> curve(const std::vector<std::pair<double, double>>& points) {
+    std::vector<Record> records;
+    for (const auto& [value, error] : points) {
+        Record record = test::hardRecord(); // tolerates a mismatch of 0.005
+        record.accuracy.mismatch = error;
+        record.sweep = SweepStep{"near-plane", "m", "sm-psm", value, {}};
+        records.push_back(record);
+    }
+    return records;
+}
+
+TEST(Sweep, TheBreakPointIsTheFirstValueInOrderBeyondTheTolerance) {
+    EXPECT_EQ(breakPoint(curve({{1, 0.001}, {0.5, 0.005}, {0.2, 0.006}, {0.1, 0.001}})), 0.2); // 0.005 is still tolerated
+    EXPECT_EQ(breakPoint(curve({{1, 0.001}, {0.5, 0.002}})), std::nullopt);
+    std::vector<Record> gap = curve({{1, 0.1}, {0.5, 0.1}});
+    gap[0].status = Status::NotApplicable;
+    EXPECT_EQ(breakPoint(gap), 0.5);
+}
+
+TEST(Sweep, RecordsKeepTheirStep) {
+    Record record = curve({{0.25, 0.001}}).front();
+    record.sweep->breakPoint = 0.125;
+    const Record read = parseRecord(toJson(record));
+    ASSERT_TRUE(read.sweep);
+    EXPECT_EQ(read.sweep->axis, "near-plane");
+    EXPECT_EQ(read.sweep->unit, "m");
+    EXPECT_EQ(read.sweep->curve, "sm-psm");
+    EXPECT_EQ(read.sweep->value, 0.25);
+    EXPECT_EQ(read.sweep->breakPoint, 0.125);
+}
+
+TEST(Sweep, ATableWritesLargeValuesInFull) {
+    EXPECT_NE(report::sweepTable(curve({{1048576, 0.001}})).find("| 1048576 |"), std::string::npos);
+}
+
+TEST(Sweep, ATableHasARowATechniqueAndAColumnAValue) {
+    std::vector<Record> records = curve({{1, 0.001}, {0.5, 0.02}});
+    for (Record& record : records) record.sweep->breakPoint = 0.5;
+    std::vector<Record> other = curve({{1, 0.0}, {0.5, 0.0}});
+    for (Record& record : other) record.sweep->curve = "sm-lispsm";
+    other[1].status = Status::Error;
+    records.insert(records.end(), other.begin(), other.end());
+    EXPECT_EQ(report::sweepTable(records), "dueling-frusta: mismatching pixels, tolerance 0.5 %\n\n"
+                                           "| near-plane [m] | 1 | 0.5 | breaks at |\n|---|--:|--:|--:|\n"
+                                           "| sm-psm | 0.10 % | 2.00 % | 0.5 |\n"
+                                           "| sm-lispsm | 0.00 % | error | – |\n");
+}
+
+} // namespace
+} // namespace shadowbench

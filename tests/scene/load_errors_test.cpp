@@ -1,0 +1,244 @@
+// Every mistake in a scene file gives one sentence that names file, line and key.
+#include "base/error.h"
+#include "scene/load/load.h"
+
+#include <gtest/gtest.h>
+#include <string>
+
+namespace shadowbench {
+namespace {
+
+/// Lines 1–8 of a sound scene; each mistake below is in these or is added from line 9 on.
+const std::string kCamera = "camera = { eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60 }\n";
+const std::string kLight = "light = { kind = \"point\", centre = [1, 5, 2] }\n";
+const std::string kObject = "[[object]]\nmesh = { box = { size = [2, 1, 2] } }\n";
+
+std::string messageOf(const std::string& toml, Profile profile = Profile::Gate) {
+    try {
+        parseScene(toml, "scenes/x.toml", profile);
+    } catch (const BadInput& error) {
+        EXPECT_EQ(error.code(), ExitCode::BadInput);
+        return error.what();
+    }
+    return "";
+}
+
+struct Mistake {
+    std::string name, toml, message; // the message's beginning
+};
+
+std::string with(const std::string& camera, const std::string& light, const std::string& object) {
+    return "title = \"x\"\n" + camera + light + object; // camera on line 2, light on line 3, object from line 4
+}
+
+std::string withObject(const std::string& body) {
+    return with(kCamera, kLight, "[[object]]\n" + body + "\n"); // the body begins on line 5
+}
+
+std::string withLight(const std::string& inside) { return with(kCamera, "light = { " + inside + " }\n", kObject); }
+
+std::string withCamera(const std::string& inside) { return with("camera = { " + inside + " }\n", kLight, kObject); }
+
+/// An `expect.fails` with one entry, on line 7.
+std::string withExpectedFailure(const std::string& entry) {
+    return with(kCamera, kLight, kObject + "[expect]\nfails = [{ " + entry + " }]\n");
+}
+
+std::string withTop(const std::string& line) {
+    return line + "\n" + with(kCamera, kLight, kObject); // on line 1
+}
+
+const std::vector<Mistake>& mistakes() {
+    static const std::vector<Mistake> all{
+        {"EmptyFile", "", "scenes/x.toml:1: the file is empty"},
+        {"OnlyAComment", "# nothing\n", "scenes/x.toml:1: the file is empty"},
+        {"SyntaxError", "title = \"x\"\ncamera = {\n", "scenes/x.toml:2: not valid TOML"},
+        {"KeyTwice", "title = \"x\"\ntitle = \"y\"\n", "scenes/x.toml:2: not valid TOML"},
+        {"UnknownKey", withTop("ligth = 3"), "scenes/x.toml:1: ligth: unknown key (did you mean \"light\"?)"},
+        {"UnknownKeyWithoutNeighbour", withTop("zebra = 3"), "scenes/x.toml:1: zebra: unknown key; known are title"},
+        {"UnknownCameraKey", withCamera("eye = [0, 2, 6], target = [0, 0, 0], fov = 40, near = 0.1, far = 60"),
+         "scenes/x.toml:2: camera.fov: unknown key (did you mean \"fovy\"?)"},
+        {"UnknownToleranceMetric", with(kCamera, kLight, kObject + "[tolerance]\nmissmatch = 0.1\n"),
+         "scenes/x.toml:7: tolerance.missmatch: unknown key (did you mean \"mismatch\"?)"},
+        {"MissingTitle", kCamera + kLight + kObject, "scenes/x.toml:1: title: missing"},
+        {"MissingCamera", "title = \"x\"\n" + kLight + kObject, "scenes/x.toml:1: camera: missing"},
+        {"MissingFovy", withCamera("eye = [0, 2, 6], target = [0, 0, 0], near = 0.1, far = 60"),
+         "scenes/x.toml:2: camera.fovy: missing"},
+        {"WrongType", withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = \"wide\", near = 0.1, far = 60"),
+         "scenes/x.toml:2: camera.fovy: expected a number, got \"wide\""},
+        {"TooFewNumbers", withCamera("eye = [0, 2], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60"),
+         "scenes/x.toml:2: camera.eye: expected 3 numbers, got a list of 2"},
+        {"NotAVector", withLight("kind = \"rectangle\", centre = [0, 5, 0], u = \"a\", v = [0, 0, 1]"),
+         "scenes/x.toml:3: light.u: expected 3 numbers, got \"a\""},
+        {"NotANumberInAVector", withLight("kind = \"point\", centre = [0, nan, 0]"),
+         "scenes/x.toml:3: light.centre[2]: expected a finite number, got nan"},
+        {"Infinity", withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = inf"),
+         "scenes/x.toml:2: camera.far: expected a finite number, got inf"},
+        {"FovyTooLarge", withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 180, near = 0.1, far = 60"),
+         "scenes/x.toml:2: camera.fovy: expected degrees from 1 to 170"},
+        {"NearNotAboveZero", withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0, far = 60"),
+         "scenes/x.toml:2: camera.near: expected a number above 0, got 0"},
+        {"FarNotBeyondNear", withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 9, far = 3"),
+         "scenes/x.toml:2: camera.far: expected more than near"},
+        {"EyeAtTarget", withCamera("eye = [0, 2, 6], target = [0, 2, 6], fovy = 40, near = 0.1, far = 60"),
+         "scenes/x.toml:2: camera.target: the camera looks at its own eye"},
+        {"UpAlongTheView", withCamera("eye = [0, 6, 0], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60"),
+         "scenes/x.toml:2: camera: up is zero or parallel to the line of sight"},
+        {"PathGoesBack",
+         withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60, path = [{ frame = 3, eye = "
+                    "[0, 2, 6] }, { frame = 3, eye = [0, 2, 7] }]"),
+         "scenes/x.toml:2: camera.path[2].frame: frames must grow"},
+        {"ShiftAndEyeInAPath",
+         withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60, path = [{ frame = 3, eye = "
+                    "[0, 2, 6], shift = [1, 0, 0] }]"),
+         "scenes/x.toml:2: camera.path[1]: give either shift or eye and target"},
+        {"ShiftInSomeKeysOfAPath",
+         withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60, path = [{ frame = 3, shift = "
+                    "[0, 2, 6] }, { frame = 4, eye = [1, 0, 9] }]"),
+         "scenes/x.toml:2: camera.path[2]: give shift (of eye and target) in every key or in none"},
+        {"UnknownLightKind", withLight("kind = \"dsik\", centre = [0, 5, 0]"),
+         "scenes/x.toml:3: light.kind: expected one of point, directional, rectangle, disk, line, got \"dsik\" (did "
+         "you mean \"disk\"?)"},
+        {"KeyOfAnotherLightKind", withLight("kind = \"point\", centre = [0, 5, 0], u = [1, 0, 0]"),
+         "scenes/x.toml:3: light.u: unknown key"},
+        {"ZeroDirection", withLight("kind = \"directional\", direction = [0, 0, 0]"),
+         "scenes/x.toml:3: light.direction: expected a vector other than zero"},
+        {"LightOfNoWidth", withLight("kind = \"rectangle\", centre = [0, 5, 0], u = [0, 0, 0], v = [0, 0, 1]"),
+         "scenes/x.toml:3: light.u: the light has no size"},
+        {"LightOfNoArea", withLight("kind = \"rectangle\", centre = [0, 5, 0], u = [0, 0, 2], v = [0, 0, 1]"),
+         "scenes/x.toml:3: light.v: is parallel to u"},
+        {"SlantedDisk", withLight("kind = \"disk\", centre = [0, 5, 0], u = [1, 0, 1], v = [0, 0, 1]"),
+         "scenes/x.toml:3: light.v: the diameters of a disk"},
+        {"PointLightOnASurface", withLight("kind = \"point\", centre = [0.2, 0.5, 0.3]"),
+         "scenes/x.toml:3: light.centre: the light lies on a surface"},
+        {"AreaLightCutsASurface", withLight("kind = \"rectangle\", centre = [1, 0, 0], u = [0.5, 0, 0], v = [0, 0, 0.5]"),
+         "scenes/x.toml:3: light.centre: the light lies on a surface"},
+        {"EyeInABox", withCamera("eye = [0.3, 0.1, 0.2], target = [0, 0, -3], fovy = 40, near = 0.1, far = 60"),
+         "scenes/x.toml:2: camera.eye: the camera is inside a closed mesh"},
+        {"EyeMovesIntoABox",
+         withCamera("eye = [0, 0.1, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60, path = [{ frame = 0, eye "
+                    "= [0, 0.1, 6] }, { frame = 8, eye = [0, 0.1, 0.4] }]"),
+         "scenes/x.toml:2: camera.eye: the camera is inside a closed mesh (instance 1) at frame 67"},
+        {"NoObjects", "title = \"x\"\n" + kCamera + kLight, "scenes/x.toml:1: the scene has no objects"},
+        {"NoObjectInProfile", withObject("mesh = { plane = { half = 2 } }\nprofile = \"paper\""),
+         "scenes/x.toml:4: object: no object belongs to profile gate"},
+        {"UnknownProfile", withObject("mesh = { plane = { half = 2 } }\nprofile = [\"papre\"]"),
+         "scenes/x.toml:6: object[1].profile[1]: expected one of gate, standard, paper, got \"papre\" (did you mean "
+         "\"paper\"?)"},
+        {"NoValueForProfile", withObject("mesh = { plane = { half = { paper = 2 } } }"),
+         "scenes/x.toml:5: object[1].mesh.plane.half: has no value for profile gate"},
+        {"UnknownMesh", withObject("mesh = { sphare = { radius = 2 } }"),
+         "scenes/x.toml:5: object[1].mesh.sphare: unknown key (did you mean \"sphere\"?)"},
+        {"TwoMeshes", withObject("mesh = { plane = { half = 2 }, box = { size = [1, 1, 1] } }"),
+         "scenes/x.toml:5: object[1].mesh: expected one kind of mesh, got 2"},
+        {"NoMesh", withObject("name = \"x\""), "scenes/x.toml:4: object[1].mesh: missing"},
+        {"NegativeSize", withObject("mesh = { box = { size = [1, -1, 1] } }"),
+         "scenes/x.toml:5: object[1].mesh.box.size: expected 3 numbers above 0"},
+        {"ZeroRadius", withObject("mesh = { sphere = { radius = 0, triangles = 80 } }"),
+         "scenes/x.toml:5: object[1].mesh.sphere.radius: expected a number above 0, got 0"},
+        {"TrianglesNotWhole", withObject("mesh = { sphere = { radius = 1, triangles = 80.5 } }"),
+         "scenes/x.toml:5: object[1].mesh.sphere.triangles: expected a whole number, got 80.5"},
+        {"TooManyTriangles", withObject("mesh = { sphere = { radius = 1, triangles = 80000000 } }"),
+         "scenes/x.toml:5: object[1].mesh.sphere.triangles: expected a whole number from 4 to 4000000, got 80000000"},
+        {"BumpAsLargeAsTheRadius", withObject("mesh = { bumpy = { radius = 1, bump = 1, triangles = 80 } }"),
+         "scenes/x.toml:5: object[1].mesh.bumpy.bump: expected less than the radius"},
+        {"MeshFileMissing", withObject("mesh = { file = \"none.obj\" }"),
+         "scenes/x.toml:5: object[1].mesh.file: cannot read scenes/none.obj: No such file"},
+        {"LodDistancesShort", withObject("mesh = { sphere = { radius = 1 } }\nlod = { triangles = [80, 20], until = [] }"),
+         "scenes/x.toml:6: object[1].lod.until: expected 1 distances"},
+        {"LodDistancesShrink",
+         withObject("mesh = { sphere = { radius = 1 } }\nlod = { triangles = [320, 80, 20], until = [9, 4] }"),
+         "scenes/x.toml:6: object[1].lod.until: the distances of until must grow"},
+        {"LodOfABox", withObject("mesh = { box = { size = [1, 1, 1] } }\nlod = { triangles = [80, 20], until = [4] }"),
+         "scenes/x.toml:5: object[1].mesh.box: has no levels of detail"},
+        {"ColourOutOfRange", withObject("mesh = { plane = { half = 2 } }\ncolour = [1, 2, 0]"),
+         "scenes/x.toml:6: object[1].colour: expected 3 numbers from 0 to 1"},
+        {"PlaceAndScatter", withObject("mesh = { plane = { half = 2 } }\nplace = [{}]\nscatter = { count = 2, half = 3 }"),
+         "scenes/x.toml:7: object[1].scatter: give either place or scatter"},
+        {"NegativeScale", withObject("mesh = { plane = { half = 2 } }\nplace = [{ scale = -1 }]"),
+         "scenes/x.toml:6: object[1].place[1].scale: expected a number above 0, got -1"},
+        {"NoPlace", withObject("mesh = { plane = { half = 2 } }\nplace = []"),
+         "scenes/x.toml:6: object[1].place: expected at least one place"},
+        {"AbsurdCount", withObject("mesh = { plane = { half = 2 } }\nscatter = { count = 100000000, half = 3 }"),
+         "scenes/x.toml:6: object[1].scatter.count: expected a whole number from 1 to 100000, got 100000000"},
+        {"NoInstances", withObject("mesh = { plane = { half = 2 } }\nscatter = { count = 0, half = 3 }"),
+         "scenes/x.toml:6: object[1].scatter.count: expected a whole number from 1"},
+        {"NoRoomBesideTheCamera",
+         withObject("mesh = { plane = { half = 2 } }\nscatter = { count = 4, half = 3, clear = 50 }"),
+         "scenes/x.toml:6: object[1].scatter: the whole field lies within clear metres"},
+        {"SpinAboutNothing",
+         withObject("mesh = { plane = { half = 2 } }\nspin = { axis = [0, 0, 0], degrees_per_frame = 3 }"),
+         "scenes/x.toml:6: object[1].spin.axis: expected a vector other than zero"},
+        {"ShiftMissing", withObject("mesh = { plane = { half = 2 } }\npath = [{ frame = 0 }]"),
+         "scenes/x.toml:6: object[1].path[1].shift: missing"},
+        {"NegativeTolerance", with(kCamera, kLight, kObject + "[tolerance]\nmismatch = -0.1\n"),
+         "scenes/x.toml:7: tolerance.mismatch: expected a number above 0, got -0.1"},
+        {"UnknownExpectation", with(kCamera, kLight, kObject + "[expect]\nfail = []\n"),
+         "scenes/x.toml:7: expect.fail: unknown key (did you mean \"fails\"?)"},
+        {"ExpectationOfNoTechnique", withExpectedFailure("metric = \"leak\", above = 0.1, reason = \"x\""),
+         "scenes/x.toml:7: expect.fails[1].technique: missing"},
+        {"ExpectationOfAnUnknownMetric",
+         withExpectedFailure("technique = \"vsm\", metric = \"laek\", above = 0.1, reason = \"x\""),
+         "scenes/x.toml:7: expect.fails[1].metric: expected one of mismatch, mismatch_off_edge, false_shadow, leak, "},
+        {"ExpectedFailureBelowABound",
+         withExpectedFailure("technique = \"vsm\", metric = \"leak\", below = 0.1, reason = \"x\""),
+         "scenes/x.toml:7: expect.fails[1].below: unknown key; known are technique, metric, above, reason"},
+        {"ExpectationWithoutABound", withExpectedFailure("technique = \"vsm\", metric = \"leak\", reason = \"x\""),
+         "scenes/x.toml:7: expect.fails[1].above: missing"},
+        {"ExpectationAboveZero", withExpectedFailure("technique = \"vsm\", metric = \"leak\", above = 0, reason = \"x\""),
+         "scenes/x.toml:7: expect.fails[1].above: expected a number above 0, got 0"},
+        {"ExpectationWithoutAReason",
+         withExpectedFailure("technique = \"vsm\", metric = \"leak\", above = 0.1, reason = \"\""),
+         "scenes/x.toml:7: expect.fails[1].reason: is empty"},
+        {"NoStillFrame", with(kCamera, kLight, kObject + "[timeline]\nstill = 0\n"),
+         "scenes/x.toml:7: timeline.still: expected a whole number from 1"},
+        {"NoPixels", withTop("size = 0"), "scenes/x.toml:1: size: expected a whole number from 1 to 8192, got 0"},
+    };
+    return all;
+}
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+class LoaderErrors : public testing::TestWithParam<Mistake> {};
+
+TEST_P(LoaderErrors, NameFileLineAndKey) {
+    const std::string message = messageOf(GetParam().toml);
+    EXPECT_EQ(message.substr(0, GetParam().message.size()), GetParam().message) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << "one line";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scene, LoaderErrors, testing::ValuesIn(mistakes()),
+                         [](const testing::TestParamInfo<Mistake>& mistake) { return mistake.param.name; });
+
+TEST(LoaderErrors, TheSoundSceneThatTheMistakesAreMadeInLoads) { EXPECT_EQ(messageOf(with(kCamera, kLight, kObject)), ""); }
+
+TEST(LoaderErrors, AnUnknownIdNamesTheNearestSceneAndAll) {
+    try {
+        loadScene("windmils", Profile::Gate);
+        FAIL() << "loaded";
+    } catch (const BadInput& error) {
+        EXPECT_NE(std::string(error.what()).find("did you mean \"windmills\"?"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("dueling-frusta, overlapping-occluders, simple"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(LoaderErrors, AMissingFileAndAFolderAreNamed) {
+    for (const auto& [file, reason] : {std::pair{"/nowhere/x.toml", "No such file"}, std::pair{"/tmp", "it is a folder"}}) {
+        try {
+            loadScene(file, Profile::Gate);
+            ADD_FAILURE() << file << " loaded";
+        } catch (const BadInput& error) {
+            EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(LoaderErrors, AnUnknownProfileNamesTheKnownOnes) {
+    EXPECT_EQ(profileNamed("paper"), Profile::Paper);
+    EXPECT_THROW(profileNamed("papers"), BadInput);
+}
+
+} // namespace
+} // namespace shadowbench

@@ -1,0 +1,37 @@
+// The techniques that scenes may expect something of: those of the catalogue, and rows that it does not have yet.
+#pragma once
+
+#include "techniques/catalog.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace shadowbench {
+
+/// Shadow techniques of the documents that are still to be built. A row that is built leaves this list.
+inline constexpr std::array<std::string_view, 22> techniquesToCome{
+    // soft shadows from one light sample
+    "pcf-blur", "pcf-jitter", "combined", "single-sample", "shadow-width-map", "penumbra-map", "smoothie", "skirt",
+    "backprojection", "bitmask", "backprojection-peeled", "convolution", "occlusion-texture",
+    // soft shadows from many light samples
+    "sampled-volumes", "linear-visibility", "layered-attenuation", "soft-alias-free", "depth-complexity",
+    "temporal-sampling",
+    // shadow volumes
+    "penumbra-wedge",
+    // environment light
+    "prt-sh", "prt-haar"};
+
+inline std::string idOf(const std::string& variant) { return variant.substr(0, variant.find(':')); }
+
+inline bool inCatalogue(std::string_view id) {
+    const auto catalog = techniques::catalog();
+    return std::any_of(catalog.begin(), catalog.end(), [&](const techniques::Entry& entry) { return entry.id == id; });
+}
+
+inline bool isToCome(std::string_view id) {
+    return std::find(techniquesToCome.begin(), techniquesToCome.end(), id) != techniquesToCome.end();
+}
+
+} // namespace shadowbench

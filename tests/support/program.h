@@ -1,0 +1,63 @@
+// Runs the built program as a user does.
+#pragma once
+
+#include "base/temporary_folder.h"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <sys/wait.h>
+
+namespace shadowbench {
+
+struct Outcome {
+    int code = -1;      // exit status, or 128 + signal
+    std::string output; // stdout and stderr together
+};
+
+/// Runs a shell command line in which `shadowbench` stands for the program under test.
+inline Outcome shell(std::string command) {
+    for (std::size_t at = command.find("shadowbench "); at != std::string::npos; at = command.find("shadowbench ", at + 1)) {
+        if (at > 0 && command[at - 1] != ' ') continue;
+        command.replace(at, 11, PROGRAM);
+        at += std::string(PROGRAM).size();
+    }
+    Outcome outcome;
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    std::array<char, 4096> buffer{};
+    while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) outcome.output += buffer.data();
+    const int status = pclose(pipe);
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return outcome;
+}
+
+/// A fresh folder that goes away with the object.
+class Folder {
+public:
+    [[nodiscard]] std::string operator/(const std::string& name) const { return (folder_.path() / name).string(); }
+
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_.path() / name) << text;
+        return *this / name;
+    }
+
+private:
+    TemporaryFolder folder_;
+};
+
+/// A scene that is rendered and scored in a second. `extra` is appended.
+inline std::string tinyScene(const std::string& light = "{ kind = \"point\", centre = [1.7, 6.1, -2.3] }",
+                             const std::string& extra = "") {
+    return "# A box over a slab.\ntitle = \"Tiny\"\nsize = [48, 48]\nreference_samples = 64\n"
+           "camera = { eye = [2.1, 6.2, 7.3], target = [0.1, 0, 0.2], fovy = 45, near = 0.5, far = 40 }\nlight = " +
+           light +
+           "\n[timeline]\nstill = 3\nmoving = 1\n[[object]]\nmesh = { box = { size = [12, 0.2, 12] } }\nplace = [{ at = [0, "
+           "-0.1, 0] }]\n"
+           "[[object]]\nmesh = { box = { size = [1.6, 0.4, 1.2] } }\nplace = [{ at = [0.13, 1.2, 0.21] }]\n" +
+           extra;
+}
+
+} // namespace shadowbench

@@ -1,0 +1,108 @@
+// The irregular z-buffer against the closed form and against stencil volumes.
+#include "tests/support/ground_score.h"
+
+#include <algorithm>
+#include <chrono>
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+TEST(SmAliasFree, ABoxsShadowIsTheExactPolygonToATwentiethOfAPixel) {
+    for (const glm::dvec3& light : {glm::dvec3(1.7, 6.1, -2.3), glm::dvec3(9.5, 1.9, -8.3)}) { // the second one grazes
+        Scene scene = boxScene(256);
+        scene.light.centre = light;
+        Stage stage(scene);
+        stage.show(0);
+        EXPECT_EQ(scoreOnGround(scene, stage, rendered(stage, "sm-alias-free"), 0.05).mismatch, 0);
+    }
+}
+
+TEST(SmAliasFree, HoldsUnderADirectionalLight) {
+    Scene scene = boxScene(256);
+    scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(-0.3, -1, 0.4)), {}, {}};
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> v = rendered(stage, "sm-alias-free");
+    scene.light.centre = -1e6 * scene.light.direction; // for the closed form
+    EXPECT_EQ(scoreOnGround(scene, stage, v, 0.05).mismatch, 0);
+}
+
+TEST(SmAliasFree, TheGridChangesNothing) {
+    const Scene scene = boxScene(128);
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> v = rendered(stage, "sm-alias-free");
+    for (const char* variant : {"sm-alias-free:grid=1", "sm-alias-free:grid=7", "sm-alias-free:grid=1000"})
+        EXPECT_EQ(rendered(stage, variant), v) << variant;
+}
+
+TEST(SmAliasFree, HoldsAllAroundALightInsideTheScene) {
+    const Scene scene = ringScene();
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> exact = rendered(stage, "volume-zfail"), free = rendered(stage, "sm-alias-free");
+    const metrics::Drawn drawn = stage.drawn();
+    std::size_t wrong = 0, dark = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        if (drawn.id[i] != 1 || drawn.position[i].y < -0.001F) continue;
+        dark += exact[i] < 0.5F ? 1 : 0;
+        wrong += exact[i] != free[i] ? 1 : 0;
+    }
+    EXPECT_GT(dark, 5000U);
+    EXPECT_LE(wrong, 3U); // on an edge, to rounding
+}
+
+TEST(SmAliasFree, NeedsNoClosedMeshes) {
+    Scene scene = groundScene(256);
+    const Mesh up = plane(0.7);
+    Mesh down = up;
+    for (glm::uvec3& triangle : down.triangles) std::swap(triangle.y, triangle.z);
+    const auto under = [&](const Mesh& mesh) {
+        Scene with = scene;
+        with.objects.push_back(object(mesh, {0.13, 1.0, 0.21}));
+        Stage stage(with);
+        stage.show(0);
+        return std::pair{rendered(stage, "sm-alias-free"), rendered(stage, "volume-zfail")};
+    };
+    const auto [lit, volume] = under(up);
+    EXPECT_LE(differing(lit, volume), 3U); // on an edge, to rounding
+    const auto [averted, volumeAverted] = under(down);
+    EXPECT_EQ(averted, lit);
+    EXPECT_GT(differing(volumeAverted, volume),
+              500U); // the volume of a sheet that faces away has no front: stencil volumes fail
+}
+
+TEST(SmAliasFree, LosesCastersCloserThanItsSlack) {
+    Scene scene = groundScene(256);
+    scene.objects.push_back(object(plane(0.7), {0.13, 0.1, 0.21}));
+    scene.light.centre = {5.5, 1.5, -4.3};
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> exact = rendered(stage, "sm-alias-free"), loose = rendered(stage, "sm-alias-free:slack=0.01");
+    const auto dark = [](const Image<float>& v) { return std::count(v.begin(), v.end(), 0.0F); };
+    EXPECT_GT(dark(exact), dark(loose) + 500); // a hundredth of 17 m is more than the sheet's 0.1 m
+}
+
+TEST(SmAliasFree, CostsMoreTheLongerItsLists) {
+    Scene scene = groundScene(128);
+    scene.objects.push_back(object(sphere(0.5, 2000), {0.13, 1.2, 0.21}));
+    Stage stage(scene);
+    stage.show(0);
+    const auto seconds = [&](const std::string& name) {
+        const techniques::Variant variant = techniques::parseVariant(name);
+        const auto technique = variant.entry->make(variant.parameters);
+        stage.render(*technique, 0, 1); // compiles
+        gl::Context::current().finish();
+        const auto start = std::chrono::steady_clock::now();
+        stage.render(*technique, 1, 1);
+        gl::Context::current().finish();
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    // One list of all 16,384 pixels against lists of about one: a factor of a thousand in tests, far above the clock's
+    // noise.
+    EXPECT_GT(seconds("sm-alias-free:grid=1"), 5 * seconds("sm-alias-free:grid=128"));
+}
+
+} // namespace
+} // namespace shadowbench

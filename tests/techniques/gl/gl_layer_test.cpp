@@ -1,0 +1,152 @@
+// Programs, textures, the G-buffer and the counters.
+#include "base/error.h"
+#include "techniques/gl/counters.h"
+#include "tests/support/stages.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+TEST(Program, ACompileErrorNamesFileAndLineOfTheSource) {
+    testContext();
+    try {
+        gl::Program::screen("filtered/pcf/pcf.frag", {{"KERNEL", "nonsense"}});
+        FAIL() << "compiled";
+    } catch (const InternalError& error) {
+        // The line that uses KERNEL as a number, in a file with two includes before it.
+        EXPECT_NE(std::string(error.what()).find("filtered/pcf/pcf.frag:20"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Program, AMissingShaderIsNamed) {
+    testContext();
+    EXPECT_THROW(gl::Program::screen("no/such.frag"), InternalError);
+}
+
+TEST(Program, AMisspeltUniformIsAnError) {
+    testContext();
+    gl::Program program = gl::Program::screen("shared/sampling/mean.frag");
+    EXPECT_THROW(program.set("cuont", 1.0F), InternalError);
+    EXPECT_NO_THROW(program.set("count", 1.0F));
+}
+
+TEST(Program, EachIncludeIsTakenOnceAndLinesKeepTheirOrigin) {
+    const gl::ShaderSource source = gl::loadShader("soft/pcss/pcss.frag", {{"SEARCH_TAPS", "4"}});
+    EXPECT_EQ(source.origin[0], "soft/pcss/pcss.frag:0");
+    const auto count = [&](const std::string& line) {
+        std::size_t found = 0;
+        for (std::size_t at = source.text.find(line); at != std::string::npos; at = source.text.find(line, at + 1)) ++found;
+        return found;
+    };
+    EXPECT_EQ(count("struct LightReceiver {"), 1U);
+    EXPECT_EQ(count("#include"), 0U);
+}
+
+TEST(Memory, BytesAreThoseOfTexturesAndBuffersAlive) {
+    testContext();
+    const std::uint64_t before = gl::Context::current().tally().bytes;
+    {
+        const gl::Texture depth(gl::Format::Depth32F, {1024, 1024});
+        const gl::Texture history(gl::Format::RG16F, {100, 50});
+        EXPECT_EQ(gl::Context::current().tally().bytes - before, 1024U * 1024 * 4 + 100 * 50 * 4);
+    }
+    EXPECT_EQ(gl::Context::current().tally().bytes, before);
+}
+
+TEST(WorkMeter, CountsTheFragmentsAndDrawsOfAFullScreenPass) {
+    testContext();
+    const gl::Texture target(gl::Format::R32F, {96, 64});
+    const gl::Texture sum(gl::Format::R32F, {96, 64});
+    gl::Program program = gl::Program::screen("shared/sampling/mean.frag");
+    program.set("sum", sum).set("count", 1.0F);
+    gl::WorkMeter meter;
+    const gl::RenderTarget pass({&target});
+    pass.bind();
+    program.drawScreen();
+    const gl::WorkCount count = meter.finish();
+    // llvmpipe counts whole 4×4 blocks along the triangle's diagonal.
+    EXPECT_GE(count.fragments, 96U * 64);
+    EXPECT_LE(count.fragments, 96U * 64 * 11 / 10);
+    EXPECT_EQ(count.vertices, 3U);
+    EXPECT_EQ(count.primitives, 1U);
+    EXPECT_EQ(count.draws, 1U);
+    EXPECT_EQ(count.passes, 1U);
+}
+
+TEST(WorkMeter, CountsEveryInstancesPrimitives) {
+    Scene scene = boxScene();
+    for (int i = 1; i < 5; ++i) scene.objects[1].instances.push_back(object(Mesh{}, {0.1 * i, 2, 0}).instances[0]);
+    Stage stage(scene);
+    stage.show(0);
+    gl::WorkMeter meter;
+    stage.redraw();
+    EXPECT_EQ(meter.finish().primitives, 12U + 5 * 12);
+}
+
+TEST(GBuffer, EveryPositionProjectsToItsPixelCentre) {
+    const Scene scene = boxScene();
+    Stage stage(scene);
+    stage.show(0);
+    const metrics::Drawn drawn = stage.drawn();
+    std::size_t hits = 0;
+    for (int y = 0; y < scene.size.y; ++y)
+        for (int x = 0; x < scene.size.x; ++x) {
+            if (drawn.id(x, y) == 0) continue;
+            ++hits;
+            const glm::dvec3 p = scene.camera.project(drawn.position(x, y), scene.size);
+            // Vertices are snapped to 1/256 px by the rasteriser, and positions are 32-bit floats.
+            EXPECT_NEAR(p.x, x + 0.5, 0.01);
+            EXPECT_NEAR(p.y, y + 0.5, 0.01);
+        }
+    EXPECT_GT(hits, 6000U); // the slab fills half of the picture
+}
+
+TEST(GBuffer, RowZeroIsTheTopOfThePicture) {
+    const Scene scene = boxScene();
+    Stage stage(scene);
+    stage.show(0);
+    const metrics::Drawn drawn = stage.drawn();
+    const int x = scene.size.x / 2;
+    EXPECT_LT(drawn.position(x, scene.size.y / 4).z, drawn.position(x, scene.size.y - 5).z); // far above, near below
+}
+
+TEST(GBuffer, IdsAreThePlacements) {
+    const Scene scene = boxScene();
+    Stage stage(scene);
+    stage.show(0);
+    const metrics::Drawn drawn = stage.drawn();
+    for (std::size_t i = 0; i < drawn.id.size(); ++i) {
+        ASSERT_LE(drawn.id[i], 2U);
+        if (drawn.id[i] == 0) continue;
+        const bool onBox = drawn.position[i].y > 0.5F;
+        EXPECT_EQ(drawn.id[i], onBox ? 2U : 1U);
+    }
+}
+
+TEST(GBuffer, OverscanLeavesTheInnerPixelsWhereTheyAre) {
+    const Scene scene = boxScene();
+    const Snapshot shown = snapshot(scene, 0);
+    gl::SceneBuffers buffers;
+    buffers.update(shown);
+    const glm::dmat4 clip = shown.camera.projection(1) * shown.camera.view();
+    gl::GBuffer plain(scene.size), wide(scene.size, 5);
+    plain.draw(buffers, clip);
+    wide.draw(buffers, clip);
+    EXPECT_EQ(wide.size(), scene.size + 10);
+    const auto a = plain.readPositions(), b = wide.readPositions();
+    const auto ids = plain.readIds();
+    const auto wideIds = wide.readIds();
+    int moved = 0;
+    for (int y = 0; y < scene.size.y; ++y)
+        for (int x = 0; x < scene.size.x; ++x) {
+            if (ids(x, y) != wideIds(x + 5, y + 5))
+                ++moved;
+            else if (glm::distance(a(x, y), b(x + 5, y + 5)) > 1e-3F)
+                ++moved;
+        }
+    EXPECT_LE(moved, 4); // edges within 1/256 px of a pixel centre may fall to the other side
+}
+
+} // namespace
+} // namespace shadowbench

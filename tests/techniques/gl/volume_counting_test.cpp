@@ -1,0 +1,182 @@
+// Shadow volumes counted in the stencil buffer: where each way of counting is exact, and where it is known to break.
+#include "tests/support/ground_labels.h"
+#include "tests/support/ground_score.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+/// The eye between slab and box, in the box's shadow.
+Scene eyeInShadow() {
+    Scene scene = boxScene();
+    scene.light.centre = {0.13, 9, 0.21};
+    scene.camera.eye = {0.2, 0.6, 0.3};
+    scene.camera.target = {2.5, 0, 0.4};
+    scene.camera.near = 0.01;
+    return scene;
+}
+
+/// The slab under `count` thin plates of 1 × 1 m, 1 mm apart from 1 m up, the light right above them.
+Scene pileScene(int count) {
+    Scene scene = groundScene(96);
+    scene.light.centre = {0.2, 6.1, 0.3};
+    Object pile = object(box({1, 0.0002, 1}), {0, 0, 0});
+    pile.instances.clear();
+    for (int i = 0; i < count; ++i)
+        pile.instances.push_back({glm::translate(glm::dmat4(1), glm::dvec3(0.2, 1 + 0.001 * i, 0.3)), 0});
+    scene.objects.push_back(pile);
+    return scene;
+}
+
+/// The pile's shadow is that of the highest plate, the nearest to the light, a square about the light's foot; the others'
+/// lie within it.
+bool inPileShadow(const glm::dvec3& p, int count) {
+    const double height = 1.0001 + 0.001 * (count - 1);
+    const double half = 0.5 * 6.1 / (6.1 - height);
+    return std::max(std::abs(p.x - 0.2), std::abs(p.z - 0.3)) < half;
+}
+
+class EveryWayOfCounting : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryWayOfCounting, ABoxsShadowIsTheExactPolygonToATwentiethOfAPixel) {
+    const Scene scene = boxScene(256);
+    Stage stage(scene);
+    stage.show(0);
+    const GroundLabels labels = compareOnGround(scene, stage, rendered(stage, GetParam()), behindBox(scene));
+    EXPECT_GT(labels.dark, 1000U);
+    EXPECT_EQ(labels.mismatch(), 0);
+}
+
+TEST_P(EveryWayOfCounting, HoldsUnderADirectionalLight) {
+    Scene scene = boxScene(128);
+    const glm::dvec3 direction = glm::normalize(glm::dvec3(-0.3, -1, 0.4));
+    scene.light = {LightKind::Directional, {}, direction, {}, {}};
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> v = rendered(stage, GetParam());
+    const auto shadowed = [&](const glm::dvec3& p) { return meetsBox(p, p - 1e4 * direction); };
+    EXPECT_EQ(compareOnGround(scene, stage, v, shadowed).mismatch(), 0);
+}
+
+std::string idOf(const testing::TestParamInfo<const char*>& tested) {
+    std::string name = tested.param;
+    std::erase(name, '-');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Volumes, EveryWayOfCounting, testing::Values("volume-zpass", "volume-zfail", "volume-xor"), idOf);
+
+TEST(VolumeZpass, InvertsWithTheEyeInShadow) { // Zápotocký 2.4.3, remark; course, Everitt–Kilgard 2.2
+    const Scene scene = eyeInShadow();
+    Stage stage(scene);
+    stage.show(0);
+    const GroundLabels labels = compareOnGround(scene, stage, rendered(stage, "volume-zpass"), behindBox(scene));
+    EXPECT_GT(labels.lit, 500U);
+    EXPECT_GT(labels.dark, 500U);
+    EXPECT_EQ(labels.mismatch(), 1);
+}
+
+TEST(VolumeXor, InvertsWithTheEyeInShadow) {
+    const Scene scene = eyeInShadow();
+    Stage stage(scene);
+    stage.show(0);
+    EXPECT_EQ(compareOnGround(scene, stage, rendered(stage, "volume-xor"), behindBox(scene)).mismatch(), 1);
+}
+
+TEST(VolumeXor, LosesAShadowThatTwoCastersShare) { // Zápotocký 2.4.5
+    const Scene scene = pileScene(2);
+    Stage stage(scene);
+    stage.show(0);
+    const auto shadowed = [](const glm::dvec3& p) { return inPileShadow(p, 2); };
+    const GroundLabels labels = compareOnGround(scene, stage, rendered(stage, "volume-xor"), shadowed);
+    EXPECT_GT(labels.dark, 100U);
+    EXPECT_GT(labels.leak, 0.9 * static_cast<double>(labels.dark)); // but for the rim that one plate alone shades
+    EXPECT_EQ(labels.falseShadow, 0U);
+    EXPECT_EQ(compareOnGround(scene, stage, rendered(stage, "volume-zpass"), shadowed).mismatch(), 0);
+}
+
+class PileOfPlates : public testing::TestWithParam<int> {};
+
+TEST_P(PileOfPlates, IsAsDarkAsOnePlate) { // an 8-bit count of 256 or 512 is none
+    const Scene scene = pileScene(GetParam());
+    Stage stage(scene);
+    stage.show(0);
+    const auto shadowed = [](const glm::dvec3& p) { return inPileShadow(p, GetParam()); };
+    for (const char* variant : {"volume-zfail", "volume-zpass", "volume-zfail:far=infinity"}) {
+        const GroundLabels labels = compareOnGround(scene, stage, rendered(stage, variant), shadowed);
+        EXPECT_GT(labels.dark, 100U) << variant;
+        EXPECT_EQ(labels.mismatch(), 0) << variant;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Volumes, PileOfPlates, testing::Values(255, 256, 257, 512));
+
+TEST(VolumeZfail, CapsHoldWhereTheFarPlaneCutsTheirSurface) {
+    // The ground reaches beyond the far plane: its depth is that of a clipped polygon, its cap's is not. Exact but for a
+    // pixel on an edge.
+    EXPECT_LE(mismatchOn(1, avenueScene(0.5), "volume-zfail"), 5e-5);
+    EXPECT_LE(mismatchOn(1, avenueScene(0.01), "volume-zfail"), 5e-5);
+}
+
+TEST(VolumeZfail, LeaksWhereAnOpenMeshLeavesItsVolumeOpenAtInfinity) { // course, Everitt–Kilgard 3.1: closed models
+    Scene scene = groundScene();
+    scene.light.centre = {0.2, 6.1, 0.3};
+    scene.camera.eye = {0.9, 5.2, 1.1}; // most rays end in the directions of the light's own
+    scene.camera.target = {0.5, 0, 0.6};
+    scene.objects.push_back(object(plane(0.5), {0.6, 1.5, 0.7}));
+    Stage stage(scene);
+    stage.show(0);
+    const auto shadowed = [](const glm::dvec3& p) {
+        const double scale = 6.1 / (6.1 - 1.5); // of the sheet's shadow about the light's foot
+        return std::max(std::abs(p.x - 0.2 - scale * 0.4), std::abs(p.z - 0.3 - scale * 0.4)) < scale * 0.5;
+    };
+    EXPECT_GT(compareOnGround(scene, stage, rendered(stage, "volume-zfail"), shadowed).mismatch(), 0.05);
+    EXPECT_EQ(compareOnGround(scene, stage, rendered(stage, "volume-zpass"), shadowed).mismatch(), 0);
+}
+
+/// The box right below the eye, under a light from straight above: volumes' sides run from the outlines of the slab, which
+/// is larger than the image, and of the box to the image's middle, and are hidden by slab and box.
+Scene sceneFromAbove() {
+    Scene scene = boxScene();
+    scene.light = {LightKind::Directional, {}, {0, -1, 0}, {}, {}};
+    scene.camera = {{0, 10, 0}, {0, 0, 0}, {0, 0, -1}, 45, 0.5, 40};
+    return scene;
+}
+
+TEST(VolumeFigures, CountEveryFragmentAndTheUpdatesAmongThem) {
+    const Scene scene = sceneFromAbove();
+    Stage stage(scene);
+    stage.show(0);
+    const metrics::Drawn drawn = stage.drawn();
+    const auto ofBox = std::count(drawn.id.begin(), drawn.id.end(), 2U);
+    const double sides = static_cast<double>(drawn.id.size()) + static_cast<double>(ofBox); // each covers its outline once
+    const auto pass = figuresOf(stage, "volume-zpass"), fail = figuresOf(stage, "volume-zfail");
+    EXPECT_EQ(pass.at("volume_triangles"), 8); // a triangle a top edge: the volumes end in a point
+    EXPECT_EQ(pass.at("volume_fragments"), sides);
+    EXPECT_EQ(pass.at("stencil_updates"), 0);
+    EXPECT_EQ(pass.at("stencil_bytes"), 4 * sides);
+    EXPECT_EQ(fail.at("volume_triangles"), 8 + 4); // the tops close them at the front
+    EXPECT_EQ(fail.at("volume_fragments"), 2 * sides);
+    EXPECT_EQ(fail.at("stencil_updates"), 2 * sides); // all lies behind what is seen
+    EXPECT_EQ(fail.at("stencil_bytes"), 4 * (2 * sides + 2 * sides));
+}
+
+TEST(VolumeFigures, LeaveTheImageAndTheNextOneAsTheyAre) {
+    const Scene scene = boxScene();
+    Stage stage(scene);
+    stage.show(0);
+    for (const char* name : {"volume-zpass", "volume-zfail", "volume-zfail:far=infinity", "volume-xor"}) {
+        const Image<float> untouched = rendered(stage, name);
+        const auto figures = figuresOf(stage, name);
+        EXPECT_EQ(stage.visibility(), untouched) << name;
+        EXPECT_GT(figures.at("stencil_updates"), 0) << name;
+        EXPECT_EQ(rendered(stage, name), untouched) << name;
+        EXPECT_EQ(figuresOf(stage, name), figures) << name;
+    }
+    EXPECT_EQ(figuresOf(stage, "volume-xor"), figuresOf(stage, "volume-zpass")); // the same sides and test
+}
+
+} // namespace
+} // namespace shadowbench

@@ -1,0 +1,119 @@
+// Parameters and variant strings: what is accepted, what is said of the rest.
+#include "base/error.h"
+#include "techniques/catalog.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace shadowbench::techniques {
+namespace {
+
+std::string refusal(const std::string& variant) {
+    try {
+        parseVariant(variant);
+    } catch (const BadInput& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(Variant, DefaultsAreLeftOutAndOrderIsTheDeclaredOne) {
+    EXPECT_EQ(parseVariant("pcss").name, "pcss");
+    EXPECT_EQ(parseVariant("pcss:map=2048,taps=32+32").name, "pcss:taps=32+32,map=2048");
+    EXPECT_EQ(parseVariant("pcss:map=1024,taps=16+16").name, "pcss");
+    EXPECT_EQ(parseVariant("pcss:map=01024").name, "pcss");
+}
+
+TEST(Variant, UnknownTechniqueNamesTheNearMatch) {
+    EXPECT_NE(refusal("psss").find("pcss"), std::string::npos);
+    EXPECT_NE(refusal("psss").find("no technique \"psss\""), std::string::npos);
+}
+
+TEST(Variant, UnknownParameterNamesTheValidOnes) {
+    const std::string sentence = refusal("sm-uniform:maps=512");
+    EXPECT_NE(sentence.find("no parameter \"maps\""), std::string::npos);
+    EXPECT_NE(sentence.find("map, bias, factor, units"), std::string::npos);
+}
+
+TEST(Variant, ValuesOutOfRangeNameTheRange) {
+    EXPECT_NE(refusal("sm-uniform:map=9999999").find("16…8192"), std::string::npos);
+    EXPECT_NE(refusal("sm-uniform:map=-1").find("16…8192"), std::string::npos);
+    EXPECT_NE(refusal("sm-uniform:map=5x").find("16…8192"), std::string::npos);
+    EXPECT_NE(refusal("sm-uniform:bias=big").find("none|constant|slope"), std::string::npos);
+    EXPECT_NE(refusal("sm-history:m=nan").find("not allowed"), std::string::npos);
+    EXPECT_NE(refusal("sm-history:m=inf").find("not allowed"), std::string::npos);
+}
+
+TEST(Variant, HalfAnAssignmentAndARepeatedOneAreRefused) {
+    EXPECT_NE(refusal("pcss:taps").find("needs a value"), std::string::npos);
+    EXPECT_NE(refusal("pcss:map=64,map=128").find("twice"), std::string::npos);
+}
+
+TEST(Variant, GlobsGiveEveryShownVariantOfEachMatch) {
+    std::set<std::string> names;
+    for (const Variant& variant : matchVariants("pc*")) names.insert(variant.name);
+    EXPECT_EQ(names, (std::set<std::string>{"pcf", "pcf:kernel=7", "pcf-poisson", "pcss", "pcss:taps=32+32"}));
+    EXPECT_THROW(matchVariants("zz*"), BadInput);
+}
+
+TEST(Variant, HistoryIsComparedWithItsOwnBaseAtTheSameMapSize) {
+    EXPECT_EQ(baseVariant(parseVariant("sm-history:map=512")), "sm-lispsm:map=512");
+    EXPECT_EQ(baseVariant(parseVariant("sm-history:base=uniform")), "sm-uniform");
+    EXPECT_EQ(baseVariant(parseVariant("pcss")), "");
+}
+
+TEST(Catalogue, IdsAreUniqueAndEveryShownVariantIsCanonical) {
+    std::set<std::string> ids;
+    for (const Entry& entry : catalog()) {
+        EXPECT_TRUE(ids.insert(entry.id).second) << entry.id;
+        EXPECT_FALSE(entry.variants.empty()) << entry.id;
+        for (const std::string& shown : entry.variants) {
+            const std::string text = shown.empty() ? entry.id : entry.id + ":" + shown;
+            EXPECT_EQ(parseVariant(text).name, text);
+        }
+    }
+}
+
+/// Tells whatever figures it is given.
+class Telling final : public Technique {
+public:
+    explicit Telling(std::map<std::string, double> figures) : figures_(std::move(figures)) {}
+    void render(const Frame&, const gl::Texture&) override {}
+    [[nodiscard]] std::map<std::string, double> figures() const override { return figures_; }
+
+private:
+    std::map<std::string, double> figures_;
+};
+
+TEST(Figures, OnlyDeclaredFiniteOnesAreTold) {
+    Entry entry;
+    entry.id = "told";
+    entry.figures = {{"tiles", "tiles drawn"}, {"passes", "passes over the scene"}};
+    EXPECT_EQ(declaredFigures(entry, Telling({})), (std::map<std::string, double>{}));
+    EXPECT_EQ(declaredFigures(entry, Telling({{"tiles", 6}})), (std::map<std::string, double>{{"tiles", 6}}));
+    const auto complaint = [&](const std::map<std::string, double>& figures) -> std::string {
+        try {
+            declaredFigures(entry, Telling(figures));
+        } catch (const InternalError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(complaint({{"tiles", 6}, {"tlies", 6}}),
+              "technique told tells a figure \"tlies\" that its catalogue entry does not declare");
+    EXPECT_NE(complaint({{"passes", std::nan("")}}).find("its figure \"passes\" is nan"), std::string::npos);
+}
+
+TEST(Figures, AreDeclaredOnceWithAMeaning) {
+    for (const Entry& entry : catalog()) {
+        std::set<std::string> names;
+        for (const Figure& figure : entry.figures) {
+            EXPECT_TRUE(names.insert(figure.name).second) << entry.id << " " << figure.name;
+            EXPECT_FALSE(figure.meaning.empty()) << entry.id << " " << figure.name;
+        }
+    }
+}
+
+} // namespace
+} // namespace shadowbench::techniques

@@ -1,0 +1,87 @@
+#include "tools/mutants/tree_copy.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "tools/mutants/tool.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <xxhash.h>
+
+namespace shadowbench::mutants {
+namespace {
+
+/// What `shadowbench` is built from.
+constexpr std::array parts{"CMakeLists.txt", "CMakePresets.json", "cmake", "techniques", "groundtruth", "harness"};
+
+bool onlyJudges(const std::string& file) { return file.starts_with("harness/gate/"); }
+
+void writeIfDifferent(const std::filesystem::path& file, const std::string& text) {
+    if (!std::filesystem::exists(file) || readFile(file) != text) writeFile(file, text);
+}
+
+} // namespace
+
+TreeCopy::TreeCopy(std::filesystem::path source, std::filesystem::path folder)
+    : source_(std::move(source)), folder_(std::move(folder)) {
+    const std::vector<std::string> files = trackedFiles();
+    XXH3_state_t* state = XXH3_createState();
+    XXH3_64bits_reset(state);
+    for (const std::string& file : files) {
+        const std::string text = readFile(source_ / file);
+        writeIfDifferent(folder_ / file, text);
+        if (onlyJudges(file)) continue;
+        XXH3_64bits_update(state, file.data(), file.size() + 1); // with the 0 that ends it
+        XXH3_64bits_update(state, text.data(), text.size());
+    }
+    hash_ = fmt::format("{:016x}", XXH3_64bits_digest(state));
+    XXH3_freeState(state);
+    removeAllBut(files);
+}
+
+std::vector<std::string> TreeCopy::trackedFiles() const {
+    std::vector<std::string> words{"-C", source_.string(), "ls-files", "--"};
+    words.insert(words.end(), parts.begin(), parts.end());
+    std::vector<std::string> files = runTool("git", words, source_);
+    std::erase_if(files, [&](const std::string& file) { return !std::filesystem::exists(source_ / file); });
+    std::ranges::sort(files);
+    return files;
+}
+
+/// Sources are globbed: one that is no longer tracked must not be built.
+void TreeCopy::removeAllBut(const std::vector<std::string>& files) const {
+    for (const char* part : parts) {
+        if (!std::filesystem::is_directory(folder_ / part)) continue;
+        std::vector<std::filesystem::path> stale;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / part))
+            if (entry.is_regular_file() &&
+                !std::ranges::binary_search(files, entry.path().lexically_relative(folder_).string()))
+                stale.push_back(entry.path());
+        for (const std::filesystem::path& file : stale) std::filesystem::remove(file);
+    }
+}
+
+std::string TreeCopy::read(const std::filesystem::path& file) const { return readFile(folder_ / file); }
+
+void TreeCopy::write(const std::filesystem::path& file, std::string_view text) const { writeFile(folder_ / file, text); }
+
+void TreeCopy::build() const {
+    if (!std::filesystem::exists(folder_ / "build/release/build.ninja"))
+        runTool("cmake", {"--preset", "release", "-DSHADOWBENCH_TESTS=OFF", "-DSHADOWBENCH_BENCHMARKS=OFF"}, folder_);
+    runTool("cmake", {"--build", "build/release", "--target", "shadowbench"}, folder_);
+}
+
+PlantedFault::PlantedFault(const TreeCopy& tree, std::filesystem::path file, std::string_view text)
+    : tree_(tree), file_(std::move(file)), original_(tree.read(file_)) {
+    tree_.write(file_, text);
+}
+
+PlantedFault::~PlantedFault() {
+    try {
+        tree_.write(file_, original_);
+    } catch (const Error&) { // the next run copies the file anew
+    }
+}
+
+} // namespace shadowbench::mutants
