@@ -11,7 +11,7 @@ namespace shadowbench {
 namespace {
 
 struct RecommendWords {
-    adequacy::RecommendOptions options;
+    recommend::RecommendOptions options;
     std::vector<std::string> questions{"casters"};
     std::vector<std::string> levels;
     std::string profile = "gate";
@@ -34,7 +34,7 @@ std::vector<int> wholeNumbers(const std::string& list) {
 }
 
 /// "600,300" or "rotors=600,300".
-void addChain(const std::string& word, adequacy::Chains& chains) {
+void addChain(const std::string& word, recommend::Chains& chains) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos)
         chains[""] = wholeNumbers(word);
@@ -42,22 +42,22 @@ void addChain(const std::string& word, adequacy::Chains& chains) {
         chains[word.substr(0, equals)] = wholeNumbers(word.substr(equals + 1));
 }
 
-adequacy::RecommendOptions resolved(const RecommendWords& words) {
-    adequacy::RecommendOptions options = words.options;
+recommend::RecommendOptions resolved(const RecommendWords& words) {
+    recommend::RecommendOptions options = words.options;
     options.profile = profileNamed(words.profile);
     options.questions.clear();
-    for (const std::string& word : words.questions) options.questions.insert(adequacy::questionNamed(word));
+    for (const std::string& word : words.questions) options.questions.insert(recommend::questionNamed(word));
     for (const std::string& word : words.levels) addChain(word, options.casters.chains);
     if (words.frame >= 0) options.casters.frame = words.frame;
     return options;
 }
 
 ExitCode recommendAndPrint(const RecommendWords& words) {
-    const adequacy::Recommendations all = adequacy::recommend(resolved(words));
+    const recommend::Recommendations all = recommend::recommend(resolved(words));
     if (words.json)
-        fmt::print("{}\n", adequacy::json(all.scenes));
+        fmt::print("{}\n", recommend::json(all.scenes));
     else
-        for (const adequacy::Recommendation& one : all.scenes) fmt::print("{}\n", adequacy::text(one));
+        for (const recommend::Recommendation& one : all.scenes) fmt::print("{}\n", recommend::text(one));
     return all.code;
 }
 
@@ -65,7 +65,7 @@ ExitCode recommendAndPrint(const RecommendWords& words) {
 
 void addRecommend(CLI::App& app, Action& action) {
     const auto words = std::make_shared<RecommendWords>();
-    adequacy::RecommendOptions& options = words->options;
+    recommend::RecommendOptions& options = words->options;
     CLI::App* verb = app.add_subcommand(
         "recommend", "The least that a scene needs within its tolerance: caster levels, technique, map, samples");
     verb->footer(

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 /// Columns above an eye that looks straight down on 10 m × 10 m of ground, under light that falls straight down: each shades
@@ -256,4 +256,4 @@ TEST(CasterLevelsOnSimple, OfSimplifiedSpheresSaveAThirdOrMore) {
 }
 
 } // namespace
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 std::vector<std::string> namesWithLevels(const Scene& scene) {
@@ -142,4 +142,4 @@ Scene withChains(const Scene& scene, const Chains& chains) {
     return result;
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

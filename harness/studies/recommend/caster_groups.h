@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 /// The instances of one object in one distance band: they cast at one level.
 struct CasterGroup {
@@ -68,4 +68,4 @@ using Chains = std::map<std::string, std::vector<int>>;
 /// BadInput for an unknown name and for numbers that do not fall.
 Scene withChains(const Scene& scene, const Chains& chains);
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 using ErrorsOfLevels = std::function<Errors(const Levels&)>;
@@ -140,7 +140,7 @@ private:
         result.triangles = totalCost(costs, levels_);
         result.finestTriangles = totalCost(costs, casters_.finest());
         for (std::size_t group = 0; group < levels_.size(); ++group) {
-            GroupLevel described = adequacy::described(casters_.groups()[group], levels_[group]);
+            GroupLevel described = recommend::described(casters_.groups()[group], levels_[group]);
             if (const auto coarser = coarserThan(casters_.groups()[group], levels_[group]))
                 described.coarser = CoarserLevel{*coarser, errorsOf(with(group, *coarser)), {}};
             result.groups.push_back(std::move(described));
@@ -191,4 +191,4 @@ CasterRecommendation recommendCasters(const Scene& scene, const CasterOptions& o
     return Recommender(scene, options, progress).recommend();
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

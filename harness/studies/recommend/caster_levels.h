@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 struct CasterOptions {
     std::vector<std::string> tolerance; // as parseBound takes them; empty: the scene's own
@@ -64,4 +64,4 @@ struct CasterRecommendation {
 /// tolerance or receivers.
 CasterRecommendation recommendCasters(const Scene& scene, const CasterOptions& options, const Progress& progress = {});
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 /// A group at one of its levels: one bit of a CasterSet, in this order.
@@ -65,4 +65,4 @@ CasterSet HardChoices::setOf(const Levels& levels) const {
     return set;
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 /// Every group is labelled alone at every level, once. A pixel is shadowed by a choice if one of its groups shadows it, so
 /// the errors of all choices are exact from there on. Pixels on an edge of any of these shadows are left out.
@@ -26,4 +26,4 @@ private:
     ShadowPatterns patterns_;
 };
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

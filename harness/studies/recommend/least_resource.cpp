@@ -12,7 +12,7 @@
 #include <string_view>
 #include <tuple>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 std::vector<std::string> parametersOf(Resource resource) {
@@ -128,4 +128,4 @@ std::vector<Least> leastAdequate(const std::vector<Record>& records, const std::
     return all;
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 enum class Resource {
     MapTexels, // `map`: texels along a side of a shadow map
@@ -36,4 +36,4 @@ struct Least {
 /// Throws BadInput when there is no such technique to compare.
 std::vector<Least> leastAdequate(const std::vector<Record>& records, const std::string& scene, Resource resource);
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

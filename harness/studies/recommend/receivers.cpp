@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "groundtruth/cgal/hard/exact.h"
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 using groundtruth::Surface;
 
@@ -25,4 +25,4 @@ Receivers receivers(const Snapshot& drawn, glm::ivec2 size, const Casters& caste
     return result;
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

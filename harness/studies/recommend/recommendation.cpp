@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 constexpr std::array allQuestions{Question::Casters, Question::Technique, Question::Map, Question::Samples};
@@ -147,4 +147,4 @@ Recommendations recommend(const RecommendOptions& options) {
     return all;
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 enum class Question { Casters, Technique, Map, Samples };
 std::string_view name(Question question);
@@ -55,4 +55,4 @@ struct Recommendations {
 
 Recommendations recommend(const RecommendOptions& options);
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 using nlohmann::ordered_json;
@@ -172,4 +172,4 @@ std::string json(const std::vector<Recommendation>& recommendations) {
     return all.dump(2);
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 /// Plain text for a terminal.
 std::string text(const Recommendation& recommendation);
@@ -16,4 +16,4 @@ std::string text(const Recommendation& recommendation);
 /// said otherwise; distances in metres, "until" absent without end.
 std::string json(const std::vector<Recommendation>& recommendations);
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 std::size_t choicesOf(const Costs& costs) {
@@ -51,4 +51,4 @@ std::optional<Choice> cheapestAdequate(const Costs& costs, const std::function<b
     return std::nullopt;
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

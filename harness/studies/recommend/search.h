@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 /// The level of every group; 0 is the finest.
 using Levels = std::vector<std::size_t>;
@@ -35,4 +35,4 @@ std::optional<Choice> cheapestAdequate(const Costs& costs, const std::function<b
 
 std::size_t totalCost(const Costs& costs, const Levels& levels);
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

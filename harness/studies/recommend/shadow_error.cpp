@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 #include <limits>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 const std::vector<std::string> hardMetrics{"mismatch", "false_shadow", "leak"};
@@ -95,4 +95,4 @@ Bound parseBound(const std::string& text, const Light& light) {
     return bound;
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 /// Metric (METRICS.md) → value; the less the better. Hard lights: mismatch, false_shadow, leak. Area lights: rmse, mae,
 /// bad30, bad8, and where there is a penumbra penumbra_rmse, an umbra umbra_leak.
@@ -35,4 +35,4 @@ std::vector<Bound> ownBounds(const Scene& scene);
 /// naming the metrics that the light has.
 Bound parseBound(const std::string& text, const Light& light);
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 void LabelErrors::add(bool shadow, bool exact, std::size_t pixels) {
     (exact ? shadowed : lit) += pixels;
@@ -23,4 +23,4 @@ LabelErrors ShadowPatterns::compare(CasterSet casters, CasterSet exact) const {
     return errors;
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 /// Labels against exact ones, in pixels.
 struct LabelErrors {
@@ -33,4 +33,4 @@ private:
     std::vector<std::pair<CasterSet, std::size_t>> counts_; // pixels by set
 };
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

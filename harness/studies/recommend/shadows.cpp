@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <thread>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 using groundtruth::ExactScene;
@@ -119,4 +119,4 @@ ShadowOracle sampledOracle(const Receivers& receivers, int samples) {
             }};
 }
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

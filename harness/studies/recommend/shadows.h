@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 
 struct Shadow {
     Image<float> visibility;      // visible fraction of the light in [0, 1]; 0 or 1 of a hard light
@@ -36,4 +36,4 @@ ShadowOracle areaOracle(const Receivers& receivers);
 /// choice of points; a penumbra is as coarse as the points are few.
 ShadowOracle sampledOracle(const Receivers& receivers, int samples);
 
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

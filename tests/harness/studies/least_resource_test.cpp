@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 Record mapRecord(const std::string& technique, int map, double mismatch) {
@@ -70,4 +70,4 @@ TEST(VariantsOver, AmountsCoverTheRange) {
 }
 
 } // namespace
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace shadowbench::adequacy {
+namespace shadowbench::recommend {
 namespace {
 
 const Costs threeLevels{{600, 200, 60}, {600, 200, 60}};
@@ -146,4 +146,4 @@ TEST(Chains, ReplaceTheLevelsOfAnObject) {
 }
 
 } // namespace
-} // namespace shadowbench::adequacy
+} // namespace shadowbench::recommend
