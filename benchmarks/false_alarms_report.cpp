@@ -136,14 +136,14 @@ std::string resampledTable(const std::vector<Experiment>& experiments, const gat
 } // namespace
 
 std::string errorReport(const std::vector<Experiment>& experiments, const gate::PairedOptions& options, int resamples) {
-    std::string text = fmt::format(
-        "# How often paired time errs\n\nMade by `false_alarms` (benchmarks/); the README's "
-        "section on the gate says what the experiments are.\nEach evaluation is a gate: {} restarts of three workers, "
-        "{} rounds a restart, as many again where that\nleaves a cell unclear, floor {:.0f} %, α "
-        "= {:.0f} % over the cells of an "
-        "evaluation. Bounds in brackets hold with probability 95 %.\nSeeds are 1, 2, 3 … for the "
-        "evaluations.\n\n## Measured\n\n",
-        options.restarts, options.rounds, 100 * options.rule.floor, 100 * options.rule.alpha);
+    std::string text =
+        fmt::format("# How often paired time errs\n\nMade by `false_alarms` (benchmarks/); docs/gate.md, "
+                    "\"Time\", says what the experiments are.\nEach evaluation is a gate: {} restarts of three workers, "
+                    "{} rounds a restart, as many again where that\nleaves a cell unclear, floor {:.0f} %, α "
+                    "= {:.0f} % over the cells of an "
+                    "evaluation. Bounds in brackets hold with probability 95 %.\nSeeds are 1, 2, 3 … for the "
+                    "evaluations.\n\n## Measured\n\n",
+                    options.restarts, options.rounds, 100 * options.rule.floor, 100 * options.rule.alpha);
     text += measuredTable(experiments, options);
     text += fmt::format(
         "\n## Resampled\n\nEach line judges cells made of the restarts measured above with equal programs, drawn with "

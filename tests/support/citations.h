@@ -156,14 +156,16 @@ inline bool isStalePath(const Tree& tree, const std::string& word) {
     }
     if (word.starts_with("embedded_")) return false; // made by the build
     const bool ofOurs = std::ranges::any_of(endings, [&](const char* ending) { return word.ends_with(ending); });
-    return ofOurs && !holds(word, '*') && !word.starts_with('.') && !tree.tails.contains(word);
+    return ofOurs && !holds(word, '*') && !word.starts_with('.') && !word.starts_with('_') && !tree.tails.contains(word);
 }
 
-/// What a text cites that is not there: paths, and sections of pages, as in `docs/gate.md, "Time"`.
-inline std::vector<std::string> staleIn(const Tree& tree, std::string_view text) {
+/// What a text cites that is not there: paths, from the root or from the text's own folder, and sections of pages, as in
+/// `docs/gate.md, "Time"`.
+inline std::vector<std::string> staleIn(const Tree& tree, std::string_view text, const std::string& folder = {}) {
     std::vector<std::string> stale;
     for (const std::string& word : pathWords(text))
-        if (isStalePath(tree, word)) stale.push_back("no file or folder: " + word);
+        if (isStalePath(tree, word) && !tree.paths.contains(folder + "/" + word))
+            stale.push_back("no file or folder: " + word);
     for (std::size_t at = text.find(".md"); at != std::string_view::npos; at = text.find(".md", at + 3)) {
         std::size_t begin = at;
         while (begin > 0 && !holds(" (\"'`[", text[begin - 1])) --begin;

@@ -1,5 +1,5 @@
 // The coarsest shadow casters that a scene needs: per object and distance band the level of detail, such that the whole
-// shadow stays within tolerance of the finest levels' exact shadow (METRICS.md, "Adequacy").
+// shadow stays within tolerance of the finest levels' exact shadow (docs/metrics.md, "Adequacy").
 #pragma once
 
 #include "base/progress.h"

@@ -1,4 +1,5 @@
-// The least of a resource with which techniques stay within a scene's tolerance, read off records (METRICS.md, "Adequacy").
+// The least of a resource with which techniques stay within a scene's tolerance, read off records
+// (docs/metrics.md, "Adequacy").
 #pragma once
 
 #include "harness/records/record.h"

@@ -10,7 +10,7 @@
 
 namespace shadowbench::recommend {
 
-/// Metric (METRICS.md) → value; the less the better. Hard lights: mismatch, false_shadow, leak. Area lights: rmse, mae,
+/// Metric (docs/metrics.md) → value; the less the better. Hard lights: mismatch, false_shadow, leak. Area lights: rmse, mae,
 /// bad30, bad8, and where there is a penumbra penumbra_rmse, an umbra umbra_leak.
 using Errors = std::map<std::string, double>;
 

@@ -1,5 +1,5 @@
-// One quantity moved over a range: error curves of techniques and the points at which they break (METRICS.md, "Stability
-// over parameters").
+// One quantity moved over a range: error curves of techniques and the points at which they break
+// (docs/metrics.md, "Break points").
 #pragma once
 
 #include "base/error.h"
