@@ -17,7 +17,7 @@ namespace shadowbench::citations {
 /// Files and folders by their paths from the root, and the pages' headings.
 struct Tree {
     std::set<std::string> paths;
-    std::set<std::string> tails;                              // of every file: "c.h", "b/c.h", "a/b/c.h"
+    std::set<std::string> tails;                              // of every file: its name, with its folder, and so on
     std::map<std::string, std::vector<std::string>> headings; // by page
 
     void add(const std::string& file) {

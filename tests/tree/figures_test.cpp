@@ -1,7 +1,7 @@
 // The figures on the front page and in the findings are those of the records that they name.
 //
 // A table is held to its records when a line above it names them, as in
-//   `dueling-frusta`, [records](../results/published/results.jsonl):
+//   Ten rows of `dueling-frusta` ([records](../results/published/results.jsonl)):
 // its first column has variants between backticks, and the other columns that have a path into the record between backticks
 // are compared: `accuracy.mismatch`, `stability.by_frame.rmse[20]` (counted from 1).
 #include "base/files.h"
