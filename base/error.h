@@ -6,7 +6,7 @@
 
 namespace shadowbench {
 
-/// The program's exit codes (README, "Exit codes").
+/// The program's exit codes (docs/gate.md, "Exit codes").
 enum class ExitCode {
     Pass = 0,
     Internal = 1,
@@ -14,7 +14,7 @@ enum class ExitCode {
     CostRegression = 3,
     AccuracyRegression = 4,
     Inconclusive = 5,
-    Transient = 75, // EX_TEMPFAIL of sysexits.h; of parts of a run only
+    Transient = 75, // EX_TEMPFAIL of <sysexits.h>; of parts of a run only
 };
 
 /// Whether the same command would fail again. A full disk, a killed tool and a lack of memory pass.

@@ -1,4 +1,4 @@
-// The gate: measures a base and this program on the same cells and decides whether this one is worse (GATE.md).
+// The gate: measures a base and this program on the same cells and decides whether this one is worse (docs/gate.md).
 #pragma once
 
 #include "base/error.h"

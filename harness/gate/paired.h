@@ -1,4 +1,4 @@
-// The decision rule of the paired-time tier: is the head slower than the base? Pure functions of samples (GATE.md).
+// The decision rule of the paired-time tier: is the head slower than the base? Pure functions of samples (docs/gate.md).
 #pragma once
 
 #include <vector>

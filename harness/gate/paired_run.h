@@ -1,4 +1,4 @@
-// Frames of two programs in turns, and what the paired-time rule makes of them (GATE.md, "Time").
+// Frames of two programs in turns, and what the paired-time rule makes of them (docs/gate.md, "Time").
 #pragma once
 
 #include "base/progress.h"

@@ -1,5 +1,5 @@
 // Instructions of steady frames, counted by Callgrind on the software rasteriser: the same to the last digit from run to
-// run, where wall time is not (GATE.md, "Instructions").
+// run, where wall time is not (docs/gate.md, "Instructions").
 #pragma once
 
 #include "scene/scene.h"

@@ -1,5 +1,5 @@
 // A worker that renders frames when it is asked to: three of them, of two programs, take turns so that what the machine
-// does meets all alike (GATE.md, "Time").
+// does meets all alike (docs/gate.md, "Time").
 #pragma once
 
 #include "scene/scene.h"
