@@ -20,7 +20,7 @@ enum class ExitCode {
 /// Whether the same command would fail again. A full disk, a killed tool and a lack of memory pass.
 enum class Failure { Lasting, Transient };
 
-/// What a system call's error number (errno) tells of that.
+/// The same of a system call's error number (errno).
 Failure failureOf(int errorNumber);
 
 class Error : public std::runtime_error {

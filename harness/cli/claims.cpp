@@ -28,7 +28,7 @@ ExitCode printClaims(const ClaimsOptions& options) {
 
 void addClaims(CLI::App& app, Action& action) {
     const auto options = std::make_shared<ClaimsOptions>();
-    CLI::App* verb = app.add_subcommand("claims", "The papers' claims with verdicts computed from records");
+    CLI::App* verb = app.add_subcommand("claims", "Judges the papers' claims by records");
     verb->footer("Example:\n  shadowbench claims results/published/results.jsonl results/sweep/sweep.jsonl --format md");
     verb->add_option("records", options->records, "Record files of run and sweep")->capture_default_str();
     verb->add_option("--format", options->format, "text, md or json")

@@ -33,7 +33,7 @@ ExitCode compareAndPrint(const CompareOptions& options) {
 
 void addCompare(CLI::App& app, Action& action) {
     const auto options = std::make_shared<CompareOptions>();
-    CLI::App* verb = app.add_subcommand("compare", "What changed from one set of records to another, with a verdict");
+    CLI::App* verb = app.add_subcommand("compare", "Compares two sets of records: what changed, with a verdict");
     verb->footer("Example:\n  shadowbench compare results/published results/latest --summary changes.md\n"
                  "Exits with 4 when accuracy or stability is worse, with 3 when only cost is.");
     verb->add_option("base", options->base, "Records to compare with: a file, or the folder of a run")->required();

@@ -38,7 +38,7 @@ ExitCode mergeAndReport(const MergeOptions& options) {
 
 void addMerge(CLI::App& app, Action& action) {
     const auto options = std::make_shared<MergeOptions>();
-    CLI::App* verb = app.add_subcommand("merge", "Joins what `run --shard` and `run --cell` measured, and judges it");
+    CLI::App* verb = app.add_subcommand("merge", "Joins the parts of a run (`run --shard`, `run --cell`) and judges it");
     verb->footer("Examples:\n  shadowbench merge results/large\n"
                  "  shadowbench merge first-machine second-machine --out results/large\n"
                  "Writes results.jsonl and report as `run` does, and exits as it does. Exits with 5 when cells are missing "

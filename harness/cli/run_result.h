@@ -1,4 +1,4 @@
-// What a person is told when all cells of a run are there.
+// The summary that is printed when all cells of a run are done.
 #pragma once
 
 #include "harness/runs/run.h"

@@ -1,4 +1,4 @@
-// Scores that techniques must keep, whatever they were before.
+// Scores that techniques must keep, whatever the base scores.
 #pragma once
 
 #include "harness/gate/watchlist.h"

@@ -26,8 +26,8 @@ struct Mutant {
     std::vector<std::string> techniques; // variants, at least one
     std::vector<std::string> scenes;     // empty: those that the gate judges; exactly one with a sweep
     std::optional<Sweep> sweep;
-    gate::Class expected = gate::Class::Labels; // that must tell it
-    std::string survives;                       // why it is not told, if it is known not to be
+    gate::Class expected = gate::Class::Labels; // in which it must be detected
+    std::string survives;                       // why it is not detected, if that is known
 
     [[nodiscard]] bool isSlowdown() const { return expected == gate::Class::Instructions; }
 };
@@ -44,7 +44,7 @@ std::vector<Mutant> matching(const std::vector<Mutant>& mutants, const std::vect
 /// `source` with the fault in it. Throws BadInput naming the mutant unless `find` stands there exactly once.
 std::string planted(const Mutant& mutant, std::string_view source);
 
-/// Verb and options of `shadowbench` for what the mutant is told by; the same for mutants that share a base.
+/// Verb and options of `shadowbench` that detect the mutant; the same for mutants that share a base.
 std::vector<std::string> arguments(const Mutant& mutant);
 
 } // namespace shadowbench::mutants

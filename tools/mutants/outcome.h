@@ -1,4 +1,4 @@
-// What comparing records tells of a planted fault, and the report on all of them.
+// What comparing records detects of a planted fault, and the report on all of them.
 #pragma once
 
 #include "tools/mutants/mutant.h"
