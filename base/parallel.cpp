@@ -9,27 +9,43 @@
 
 namespace shadowbench {
 
-void inParallel(std::size_t count, const std::function<void(std::size_t)>& work) {
-    std::atomic<std::size_t> next = 0;
-    std::mutex mutex;
-    std::exception_ptr first;
-    const auto worker = [&] {
-        for (std::size_t i = next++; i < count; i = next++) {
-            try {
+int hardwareThreads() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+
+void inParallel(int count, int threads, const std::function<void(int)>& work) { inParallel(count, threads, {}, {}, work); }
+
+void inParallel(int count, int threads, const Progress& progress, std::string_view what,
+                const std::function<void(int)>& work) {
+    std::atomic<int> next{0};
+    std::exception_ptr failure;
+    std::mutex failing;
+    const auto loop = [&](bool reports) {
+        try {
+            for (int i = next++; i < count; i = next++) {
                 work(i);
-            } catch (...) {
-                const std::scoped_lock lock(mutex);
-                if (!first) first = std::current_exception();
-                next = count;
+                if (reports && progress) progress(static_cast<double>(i + 1) / count, what);
             }
+        } catch (...) {
+            const std::lock_guard lock(failing);
+            if (!failure) failure = std::current_exception();
+            next = count;
         }
     };
     {
-        const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-        std::vector<std::jthread> workers;
-        for (std::size_t i = 0; i < std::min(count, cores); ++i) workers.emplace_back(worker);
+        std::vector<std::jthread> others;
+        for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(loop, false);
+        loop(true);
     }
-    if (first) std::rethrow_exception(first);
+    if (failure) std::rethrow_exception(failure);
+}
+
+void inParallelParts(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& work) {
+    constexpr std::size_t least = 1U << 13U; // items that are worth a thread
+    const std::size_t parts = std::clamp<std::size_t>(count / least, 1, 8 * static_cast<std::size_t>(threads));
+    if (threads == 1 || parts == 1) return work(std::size_t{0}, count);
+    inParallel(static_cast<int>(parts), threads, [&](int i) {
+        const auto part = static_cast<std::size_t>(i);
+        work(count * part / parts, count * (part + 1) / parts);
+    });
 }
 
 } // namespace shadowbench

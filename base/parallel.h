@@ -1,13 +1,28 @@
-// Independent pieces of work on all cores.
+// Independent pieces of work spread over threads. What each piece writes must not depend on the others: then the result does
+// not depend on the number of threads.
 #pragma once
+
+#include "base/progress.h"
 
 #include <cstddef>
 #include <functional>
+#include <string_view>
 
 namespace shadowbench {
 
-/// Calls `work` once with each of 0 … count − 1, several at once and in this order as cores become free. Where one throws,
-/// no more are begun, and what the first one threw is thrown when those under way have ended.
-void inParallel(std::size_t count, const std::function<void(std::size_t)>& work);
+/// How many threads the machine runs at once; at least 1.
+int hardwareThreads();
+
+/// Calls `work(i)` once for each 0 ≤ i < count, in this order as threads become free; the calling thread is one of the
+/// `threads` (≥ 1). Where a call throws, no more are begun, and the first exception is thrown here when those under way have
+/// ended.
+void inParallel(int count, int threads, const std::function<void(int)>& work);
+
+/// The same, reporting the share that is done, with `what`, from the calling thread only.
+void inParallel(int count, int threads, const Progress& progress, std::string_view what,
+                const std::function<void(int)>& work);
+
+/// Calls `work(begin, end)` for consecutive parts of 0 … count − 1 that are large enough to be worth a thread.
+void inParallelParts(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& work);
 
 } // namespace shadowbench

@@ -1,7 +1,7 @@
 #include "benchmarks/embree_shadows.h"
 
 #include "base/error.h"
-#include "base/parallel_loop.h"
+#include "base/parallel.h"
 #include "groundtruth/cgal/geometry/triangles.h"
 
 #include <algorithm>
@@ -22,8 +22,9 @@ void addGeometry(RTCDevice device, RTCScene scene, const Mesh& mesh, const glm::
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                       sizeof(glm::vec3), mesh.positions.size()));
-    std::ranges::transform(mesh.positions, positions,
-                           [&](const glm::vec3& position) { return glm::vec3(groundtruth::worldVertex(world, position)); });
+    std::ranges::transform(mesh.positions, positions, [&](const glm::vec3& position) {
+        return glm::vec3(groundtruth::geometry::worldVertex(world, position));
+    });
     auto* triangles = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                        sizeof(glm::uvec3), mesh.triangles.size()));
     std::ranges::copy(mesh.triangles, triangles);
@@ -74,7 +75,7 @@ EmbreeShadows::~EmbreeShadows() = default;
 
 Image<float> EmbreeShadows::visibility(const groundtruth::PrimaryHits& primary, const glm::dvec3& light, float tnear) const {
     Image<float> result(primary.id.width(), primary.id.height());
-    groundtruth::forEachInParallel(result.height(), threads_, {}, {}, [&](int y) {
+    inParallel(result.height(), threads_, [&](int y) {
         for (int x = 0; x < result.width(); ++x) {
             if (primary.surface(x, y) != groundtruth::Surface::Receiver) continue;
             result(x, y) = occluded(scene_->scene.get(), primary.position(x, y), glm::vec3(light), tnear) ? 0.0F : 1.0F;

@@ -21,9 +21,9 @@
 namespace shadowbench::benchmarks {
 namespace {
 
-using groundtruth::ExactScene;
 using groundtruth::PrimaryHits;
 using groundtruth::Reference;
+using groundtruth::hard::ExactScene;
 
 constexpr float tnear = 1e-4F; // of Embree's rays, as a share of the way
 
@@ -55,7 +55,7 @@ Reference polygonLabels(const Snapshot& snapshot, const PrimaryHits& ground, con
     const ExactScene scene(snapshot, settings.threads);
     Reference out;
     std::chrono::steady_clock::time_point labelled; // the last report before the distances
-    for (const groundtruth::PlanarReceiver& receiver : scene.planarReceivers(ground, 1))
+    for (const groundtruth::hard::PlanarReceiver& receiver : scene.planarReceivers(ground, 1))
         scene.labelByPolygon(size, ground, receiver, out,
                              [&](double, std::string_view) { labelled = std::chrono::steady_clock::now(); });
     if (distances) *distances = secondsSince(labelled);

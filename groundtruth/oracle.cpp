@@ -1,10 +1,12 @@
 #include "groundtruth/oracle.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "groundtruth/certify/certificate.h"
 #include "groundtruth/cgal/area/area.h"
+#include "groundtruth/cgal/geometry/triangles.h"
 #include "groundtruth/cgal/hard/exact.h"
-#include "groundtruth/cgal/plan/plan.h"
+#include "groundtruth/cgal/plan/plan_view.h"
 #include "groundtruth/povray/povray.h"
 #include "groundtruth/povray/uncertainty.h"
 
@@ -12,7 +14,8 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <limits>
-#include <thread>
+#include <memory>
+#include <utility>
 
 namespace shadowbench::groundtruth {
 namespace {
@@ -20,12 +23,10 @@ namespace {
 constexpr int referenceCodeVersion =
     2; // of this file, the uncertainty and the certificate: raise it with every change that can alter a number
 
-/// Two oracles that see the same geometry differ on isolated silhouette pixels only (METRICS.md: primary_mismatch).
+/// Two oracles that see the same geometry differ on isolated silhouette pixels only (docs/metrics.md, "Primary hits").
 constexpr double mostPrimaryMismatch = 0.001;
 /// A light moved by more than its own size is far above this; an occluder too thin for the samples stays below.
 constexpr double mostLightMismatch = 0.01;
-
-int threads() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
 void requireAnswerable(const Request& request) {
     if (request.size.x < 1 || request.size.y < 1)
@@ -42,6 +43,9 @@ void requireAnswerable(const Request& request) {
         throw BadInput(fmt::format("the {} oracle answers for area lights, and this light is {}: use polygon or rays",
                                    name(request.oracle), name(kind)));
 }
+
+/// What all oracles of one request are prepared from, made once.
+using Triangles = std::shared_ptr<const geometry::SceneTriangles>;
 
 /// The part [from, to] of the whole progress.
 Progress part(const Progress& progress, double from, double to) {
@@ -62,39 +66,39 @@ Reference unlabelled(const PrimaryHits& primary) {
     return reference;
 }
 
-double primaryMismatch(const PovRayImage& image, const PrimaryHits& primary) {
+double primaryMismatch(const povray::Render& image, const PrimaryHits& primary) {
     std::size_t differing = 0;
     for (std::size_t i = 0; i < primary.id.size(); ++i) differing += (image.hit[i] != 0) != (primary.id[i] != 0);
     return static_cast<double>(differing) / static_cast<double>(primary.id.size());
 }
 
 /// Exact labels for the light's centre against pixels that POV-Ray sees as fully lit or fully shadowed.
-double lightMismatch(const Request& request, const PrimaryHits& primary, const Image<float>& visible,
-                     const Progress& progress) {
+double lightMismatch(const Request& request, const Triangles& triangles, const PrimaryHits& primary,
+                     const Image<float>& visible, const Progress& progress) {
     Snapshot centre = request.snapshot;
     centre.light = centre.light.centreOnly();
-    Reference hard = unlabelled(primary);
-    ExactScene(centre, threads()).labelByRays(request.size, primary, hard, progress);
+    Reference exact = unlabelled(primary);
+    hard::ExactScene(centre, triangles, hardwareThreads()).labelByRays(request.size, primary, exact, progress);
 
     std::size_t differing = 0;
     for (std::size_t i = 0; i < visible.size(); ++i) {
         const bool resolved = visible[i] == 0 || visible[i] == 1;
-        if (resolved && hard.surface[i] == Surface::Receiver && hard.visibility[i] != visible[i]) ++differing;
+        if (resolved && exact.surface[i] == Surface::Receiver && exact.visibility[i] != visible[i]) ++differing;
     }
     return static_cast<double>(differing) / static_cast<double>(visible.size());
 }
 
 /// POV-Ray has no near and no far plane. Throws BadInput if that explains the mismatch.
-void requireUncutScene(const Request& request, const PovRayImage& image) {
+void requireUncutScene(const Request& request, const povray::Render& image) {
     Snapshot uncut = request.snapshot;
     uncut.camera.near *= 1e-6;
     uncut.camera.far *= 1e6;
-    if (primaryMismatch(image, primaryHits(uncut, request.size)) <= mostPrimaryMismatch)
+    if (primaryMismatch(image, hard::primaryHits(uncut, request.size)) <= mostPrimaryMismatch)
         throw BadInput("the camera's near or far plane cuts through the scene, which the povray oracle cannot follow: "
                        "move the plane");
 }
 
-void requireAligned(const Request& request, const PovRayImage& image, const std::map<std::string, double>& measured) {
+void requireAligned(const Request& request, const povray::Render& image, const std::map<std::string, double>& measured) {
     if (const double share = measured.at("primary_mismatch"); share > mostPrimaryMismatch) {
         requireUncutScene(request, image);
         throw InternalError(
@@ -110,26 +114,29 @@ void requireAligned(const Request& request, const PovRayImage& image, const std:
 }
 
 Reference softReference(const Request& request, const Progress& progress) {
-    const PrimaryHits primary = primaryHits(request.snapshot, request.size, part(progress, 0, 0.05));
-    const PovRayImage image =
-        renderPovRay(request.snapshot, request.size, request.samples, {.threads = threads()}, part(progress, 0.05, 0.85));
+    const auto triangles = std::make_shared<const geometry::SceneTriangles>(request.snapshot);
+    const PrimaryHits primary =
+        hard::ExactScene(request.snapshot, triangles, hardwareThreads()).primaryHits(request.size, part(progress, 0, 0.05));
+    const povray::Render image = povray::render(request.snapshot, request.size, request.samples,
+                                                {.threads = hardwareThreads()}, part(progress, 0.05, 0.85));
 
     Reference reference = unlabelled(primary);
     reference.provenance.oracle = "povray";
     reference.provenance.samples = request.samples;
     reference.provenance.measured = {
         {"primary_mismatch", primaryMismatch(image, primary)},
-        {"light_mismatch", lightMismatch(request, primary, image.visible, part(progress, 0.85, 0.9))},
+        {"light_mismatch", lightMismatch(request, triangles, primary, image.visible, part(progress, 0.85, 0.9))},
         {"scale", image.scale}};
     requireAligned(request, image, reference.provenance.measured);
 
+    const area::AreaScene scene(request.snapshot, triangles, hardwareThreads());
     const Certificate certificate =
-        certify(request, image, primary, certificatePointCount, threads(), part(progress, 0.9, 1));
+        certify(scene, request, image, primary, certificatePointCount, hardwareThreads(), part(progress, 0.9, 1));
     requireCertified(certificate, request.samples);
     reference.provenance.measured.merge(measured(certificate));
 
     const Image<float> sigma =
-        calibrated(samplingUncertainty(image, primary.id, request.samples), certificate, request.samples);
+        calibrated(povray::samplingUncertainty(image, primary.id, request.samples), certificate, request.samples);
     for (std::size_t i = 0; i < primary.surface.size(); ++i) {
         if (primary.surface[i] != Surface::Receiver) continue;
         reference.visibility[i] = image.visible[i];
@@ -140,19 +147,22 @@ Reference softReference(const Request& request, const Progress& progress) {
 
 /// The exact visible fraction at every pixel.
 Reference areaReference(const Request& request, const Progress& progress) {
-    const PrimaryHits primary = primaryHits(request.snapshot, request.size, part(progress, 0, 0.05));
+    const auto triangles = std::make_shared<const geometry::SceneTriangles>(request.snapshot);
+    const PrimaryHits primary =
+        hard::ExactScene(request.snapshot, triangles, hardwareThreads()).primaryHits(request.size, part(progress, 0, 0.05));
     Reference reference = unlabelled(primary);
-    AreaScene(request.snapshot, threads()).label(request.size, primary, reference, part(progress, 0.05, 1));
+    area::AreaScene(request.snapshot, triangles, hardwareThreads())
+        .label(request.size, primary, reference, part(progress, 0.05, 1));
     reference.provenance.oracle = "area";
     return reference;
 }
 
 /// 1 at the receiver pixels that one of `planes` holds.
-Image<std::uint8_t> onPlanes(const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
+Image<std::uint8_t> onPlanes(const PrimaryHits& primary, const std::vector<hard::PlanarReceiver>& planes) {
     Image<std::uint8_t> result(primary.id.width(), primary.id.height());
     for (std::size_t i = 0; i < result.size(); ++i) {
         if (primary.surface[i] != Surface::Receiver) continue;
-        const bool held = std::ranges::any_of(planes, [&](const PlanarReceiver& plane) {
+        const bool held = std::ranges::any_of(planes, [&](const hard::PlanarReceiver& plane) {
             return plane.id == primary.id[i] && std::ranges::binary_search(plane.triangles, primary.triangle[i]);
         });
         result[i] = held ? 1 : 0;
@@ -160,7 +170,8 @@ Image<std::uint8_t> onPlanes(const PrimaryHits& primary, const std::vector<Plana
     return result;
 }
 
-Reference byRays(const Request& request, const ExactScene& scene, const PrimaryHits& primary, const Progress& progress) {
+Reference byRays(const Request& request, const hard::ExactScene& scene, const PrimaryHits& primary,
+                 const Progress& progress) {
     Reference reference = unlabelled(primary);
     scene.labelByRays(request.size, primary, reference, progress);
     reference.provenance.oracle = "rays";
@@ -168,7 +179,7 @@ Reference byRays(const Request& request, const ExactScene& scene, const PrimaryH
 }
 
 /// Receivers off every plane have no label.
-Reference withoutLabels(const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
+Reference withoutLabels(const PrimaryHits& primary, const std::vector<hard::PlanarReceiver>& planes) {
     Reference reference = unlabelled(primary);
     const Image<std::uint8_t> held = onPlanes(primary, planes);
     for (std::size_t i = 0; i < held.size(); ++i)
@@ -176,24 +187,25 @@ Reference withoutLabels(const PrimaryHits& primary, const std::vector<PlanarRece
     return reference;
 }
 
-Reference byPlan(const Request& request, const PrimaryHits& primary, const std::vector<PlanarReceiver>& planes) {
-    const std::vector<PlanarReceiver> floors = planReceivers(request.snapshot, planes);
+Reference byPlan(const Request& request, const PrimaryHits& primary, const std::vector<hard::PlanarReceiver>& planes) {
+    const std::vector<hard::PlanarReceiver> floors = plan::planReceivers(request.snapshot, planes);
     if (floors.empty())
         throw BadInput(
             "the plan oracle needs a horizontal receiver, and none of this scene's covers enough of the image: use "
             "polygon or rays");
     Reference reference = withoutLabels(primary, floors);
-    for (const PlanarReceiver& floor : floors) labelByPlan(request.snapshot, request.size, primary, floor, reference);
+    for (const hard::PlanarReceiver& floor : floors)
+        plan::labelByPlan(request.snapshot, request.size, primary, floor, reference);
     reference.provenance.oracle = "plan";
     return reference;
 }
 
 Reference hardReference(const Request& request, const Progress& progress) {
-    const ExactScene scene(request.snapshot, threads());
+    const hard::ExactScene scene(request.snapshot, hardwareThreads());
     const PrimaryHits primary = scene.primaryHits(request.size, part(progress, 0, 0.3));
     if (request.oracle == Oracle::Rays) return byRays(request, scene, primary, part(progress, 0.3, 1));
 
-    const std::vector<PlanarReceiver> planes = scene.planarReceivers(primary);
+    const std::vector<hard::PlanarReceiver> planes = scene.planarReceivers(primary);
     if (request.oracle == Oracle::Plan) return byPlan(request, primary, planes);
     const bool polygonOnly = request.oracle == Oracle::Polygon;
     if (planes.empty() && polygonOnly)
@@ -214,14 +226,14 @@ Reference hardReference(const Request& request, const Progress& progress) {
     return reference;
 }
 
-Reference computeWith(const Tools& tools, const Request& request, const Progress& progress) {
+Reference computeWith(const ReferenceKey& key, const Request& request, const Progress& progress) {
     requireAnswerable(request);
     const auto start = std::chrono::steady_clock::now();
     Reference reference = request.oracle == Oracle::Area    ? areaReference(request, progress)
                           : request.snapshot.light.isArea() ? softReference(request, progress)
                                                             : hardReference(request, progress);
-    reference.provenance.key = key(request, tools);
-    reference.provenance.tools = tools;
+    reference.provenance.key = key.text;
+    reference.provenance.tools = key.tools;
     reference.provenance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return reference;
 }
@@ -229,28 +241,37 @@ Reference computeWith(const Tools& tools, const Request& request, const Progress
 } // namespace
 
 Tools toolVersions(const Request& request) {
-    Tools tools = exactTools();
+    Tools tools = hard::toolVersions();
     tools["reference"] = std::to_string(referenceCodeVersion);
-    if (request.oracle == Oracle::Plan) tools["plan"] = std::to_string(planCodeVersion);
+    if (request.oracle == Oracle::Plan) tools["plan"] = std::to_string(plan::codeVersion);
     if (!request.snapshot.light.isArea()) return tools;
-    tools["area"] = std::to_string(areaCodeVersion);
+    tools["area"] = std::to_string(area::codeVersion);
     if (request.oracle == Oracle::Area) return tools;
-    tools["povray"] = povrayVersion();
-    tools["povray recipe"] = std::to_string(povrayCodeVersion);
+    tools["povray"] = povray::version();
+    tools["povray recipe"] = std::to_string(povray::codeVersion);
     return tools;
 }
 
 Reference compute(const Request& request, const Progress& progress) {
-    requireAnswerable(request); // a wrong request is told before a missing tool
-    return computeWith(toolVersions(request), request, progress);
+    requireAnswerable(request); // a wrong request is reported rather than a missing tool
+    return computeWith(referenceKey(request), request, progress);
 }
 
-std::string key(const Request& request) { return key(request, toolVersions(request)); }
+ReferenceKey referenceKey(const Request& request) {
+    Tools tools = toolVersions(request);
+    std::string text = key(request, tools);
+    return {std::move(text), std::move(tools)};
+}
+
+std::string key(const Request& request) { return referenceKey(request).text; }
 
 Reference cached(const Cache& cache, const Request& request, const Progress& progress) {
-    const Tools tools = toolVersions(request);
+    return cached(cache, request, referenceKey(request), progress);
+}
+
+Reference cached(const Cache& cache, const Request& request, const ReferenceKey& key, const Progress& progress) {
     return cache.get(
-        key(request, tools), [&] { return computeWith(tools, request, progress); }, progress);
+        key.text, [&] { return computeWith(key, request, progress); }, progress);
 }
 
 } // namespace shadowbench::groundtruth

@@ -1,4 +1,4 @@
-// Asks the oracle that can answer: the one place that knows all of them.
+// Computes references: chooses the oracle that can answer a request, and asks it.
 #pragma once
 
 #include "base/progress.h"
@@ -17,12 +17,22 @@ Reference compute(const Request& request, const Progress& progress = {});
 /// Versions of all that decides the reference's numbers. Throws Inconclusive if POV-Ray is needed and missing.
 Tools toolVersions(const Request& request);
 
-/// The key of `request` (groundtruth/contract/reference_key.h). Throws Inconclusive if a tool whose version it needs is
+/// The key of a request's reference in the cache, and the versions that it was made of.
+struct ReferenceKey {
+    std::string text; // groundtruth/contract/reference_key.h
+    Tools tools;
+};
+
+/// Hashes every mesh of the request: to be made once and passed on. Throws Inconclusive if a tool whose version it needs is
 /// missing.
-std::string key(const Request& request);
+ReferenceKey referenceKey(const Request& request);
+std::string key(const Request& request); // its text
 
 /// The reference that `cache` keeps, else `compute` and `store`, in one process at a time; a cache that cannot be written
 /// costs a warning, not the run.
 Reference cached(const Cache& cache, const Request& request, const Progress& progress = {});
+
+/// The same for a request whose key is known.
+Reference cached(const Cache& cache, const Request& request, const ReferenceKey& key, const Progress& progress = {});
 
 } // namespace shadowbench::groundtruth

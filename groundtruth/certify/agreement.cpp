@@ -1,16 +1,16 @@
 #include "groundtruth/certify/agreement.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "groundtruth/cgal/hard/exact.h"
-#include "groundtruth/cgal/plan/plan.h"
+#include "groundtruth/cgal/plan/plan_view.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <limits>
 #include <optional>
-#include <thread>
 
 namespace shadowbench::groundtruth {
 namespace {
@@ -45,13 +45,11 @@ Image<std::uint8_t> labelled(const Reference& reference) {
     return result;
 }
 
-int threads() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
-
 std::optional<Agreement> polygonAndRays(const Request& request, const Progress& progress) {
     if (request.snapshot.light.isArea()) return std::nullopt;
-    const ExactScene scene(request.snapshot, threads());
+    const hard::ExactScene scene(request.snapshot, hardwareThreads());
     PrimaryHits primary = scene.primaryHits(request.size, progress);
-    const std::vector<PlanarReceiver> planes = scene.planarReceivers(primary);
+    const std::vector<hard::PlanarReceiver> planes = scene.planarReceivers(primary);
     if (planes.empty()) return std::nullopt;
 
     Agreement agreement;
@@ -60,7 +58,8 @@ std::optional<Agreement> polygonAndRays(const Request& request, const Progress& 
     agreement.pixelsCompared = "planar receivers";
     Reference byPolygon = unlabelled(primary), byRays;
     agreement.secondsA = secondsOf([&] {
-        for (const PlanarReceiver& plane : planes) scene.labelByPolygon(request.size, primary, plane, byPolygon, progress);
+        for (const hard::PlanarReceiver& plane : planes)
+            scene.labelByPolygon(request.size, primary, plane, byPolygon, progress);
     });
     const Image<std::uint8_t> compared = labelled(byPolygon);
     for (std::size_t i = 0; i < compared.size(); ++i) // so that both work on the same pixels
@@ -73,9 +72,9 @@ std::optional<Agreement> polygonAndRays(const Request& request, const Progress& 
 /// Plan-view scenes only.
 std::optional<Agreement> planAndPolygon(const Request& request, const Progress& progress) {
     if (request.snapshot.light.kind != LightKind::Point) return std::nullopt;
-    const ExactScene scene(request.snapshot, threads());
+    const hard::ExactScene scene(request.snapshot, hardwareThreads());
     const PrimaryHits primary = scene.primaryHits(request.size, progress);
-    const std::vector<PlanarReceiver> floors = planReceivers(request.snapshot, scene.planarReceivers(primary));
+    const std::vector<hard::PlanarReceiver> floors = plan::planReceivers(request.snapshot, scene.planarReceivers(primary));
     if (floors.empty()) return std::nullopt;
 
     Agreement agreement;
@@ -85,13 +84,15 @@ std::optional<Agreement> planAndPolygon(const Request& request, const Progress& 
     Reference byPlan = unlabelled(primary), byPolygon = unlabelled(primary);
     try {
         agreement.secondsA = secondsOf([&] {
-            for (const PlanarReceiver& floor : floors) labelByPlan(request.snapshot, request.size, primary, floor, byPlan);
+            for (const hard::PlanarReceiver& floor : floors)
+                plan::labelByPlan(request.snapshot, request.size, primary, floor, byPlan);
         });
     } catch (const BadInput&) { // no plan view
         return std::nullopt;
     }
     agreement.secondsB = secondsOf([&] {
-        for (const PlanarReceiver& floor : floors) scene.labelByPolygon(request.size, primary, floor, byPolygon, progress);
+        for (const hard::PlanarReceiver& floor : floors)
+            scene.labelByPolygon(request.size, primary, floor, byPolygon, progress);
     });
     countLabels(byPlan, byPolygon, labelled(byPlan), agreement);
     return agreement;

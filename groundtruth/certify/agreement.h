@@ -1,4 +1,4 @@
-// What several oracles say of one frame, pixel by pixel.
+// How far several oracles agree on one frame, pixel by pixel.
 #pragma once
 
 #include "base/progress.h"
@@ -25,7 +25,7 @@ struct Agreement {
 /// where none does. Throws what the oracles throw.
 ///
 /// polygon and rays (point and directional lights): the labels on all planar receivers that enough pixels see
-/// (ExactScene::planarReceivers). plan and polygon (plan-view scenes): the labels on those that are horizontal.
+/// (hard::ExactScene::planarReceivers). plan and polygon (plan-view scenes): the labels on those that are horizontal.
 std::vector<Agreement> oracleAgreement(const Request& request, const Progress& progress = {});
 
 /// Counts `pixels`, `differing`, `onEdge` and `onOneEdge` where `compared` is not 0. Labels are exact: Receiver or OnEdge

@@ -1,7 +1,7 @@
 #include "groundtruth/certify/certificate.h"
 
 #include "base/error.h"
-#include "base/parallel_loop.h"
+#include "base/parallel.h"
 #include "base/random.h"
 #include "groundtruth/povray/uncertainty.h"
 
@@ -30,8 +30,8 @@ std::uint64_t curvePlace(glm::ivec2 pixel) {
 enum Kind : std::size_t { Unresolved, Lit, Umbra, kindCount };
 using Kinds = std::array<std::vector<glm::ivec2>, kindCount>;
 
-Kinds pixelsOfEachKind(const PovRayImage& image, const PrimaryHits& primary) {
-    const Image<std::uint8_t> unresolved = unresolvedPixels(image.visible, primary.id);
+Kinds pixelsOfEachKind(const povray::Render& image, const PrimaryHits& primary) {
+    const Image<std::uint8_t> unresolved = povray::unresolvedPixels(image.visible, primary.id);
     Kinds kinds;
     for (int y = 0; y < primary.surface.height(); ++y) {
         for (int x = 0; x < primary.surface.width(); ++x) {
@@ -62,17 +62,17 @@ double square(double value) { return value * value; }
 
 bool isPartial(double visible) { return visible > 0 && visible < 1; }
 
-double distance(double value, const VisibleFraction& exact) {
+double distance(double value, const area::VisibleFraction& exact) {
     return std::max({0.0, value - exact.high, exact.low - value});
 }
 
 /// Sums over the points, divided at the end.
 class Tally {
 public:
-    Tally(const PovRayImage& image, const Image<float>& sigma, int samples)
+    Tally(const povray::Render& image, const Image<float>& sigma, int samples)
         : image_(image), sigma_(sigma), samples_(samples) {}
 
-    void add(glm::ivec2 pixel, const VisibleFraction& exact) {
+    void add(glm::ivec2 pixel, const area::VisibleFraction& exact) {
         if (!(exact.high - exact.low <= widestBracket)) return;
         ++sums_.points;
         sums_.bracket = std::max(sums_.bracket, (exact.high - exact.low) / 2);
@@ -104,29 +104,29 @@ private:
         sums_.sigma += square(sigma_(pixel.x, pixel.y));
     }
 
-    const PovRayImage& image_;
+    const povray::Render& image_;
     const Image<float>& sigma_;
     int samples_;
     Certificate sums_;
 };
 
-Certificate tallied(const PovRayImage& image, const PrimaryHits& primary, int samples, const std::vector<glm::ivec2>& pixels,
-                    const std::vector<VisibleFraction>& exact) {
-    const Image<float> sigma = samplingUncertainty(image, primary.id, samples);
+Certificate tallyOf(const povray::Render& image, const PrimaryHits& primary, int samples,
+                    const std::vector<glm::ivec2>& pixels, const std::vector<area::VisibleFraction>& exact) {
+    const Image<float> sigma = povray::samplingUncertainty(image, primary.id, samples);
     Tally tally(image, sigma, samples);
     for (std::size_t i = 0; i < pixels.size(); ++i) tally.add(pixels[i], exact[i]);
     return tally.result();
 }
 
-Certificate certifyOn(const PovRayImage& image, const PrimaryHits& primary, int samples, int points, int threads,
+Certificate certifyOn(const povray::Render& image, const PrimaryHits& primary, int samples, int points, int threads,
                       const ExactFraction& exact, const Progress& progress) {
     const std::vector<glm::ivec2> pixels = certificatePoints(image, primary, points);
-    std::vector<VisibleFraction> fractions(pixels.size());
-    forEachInParallel(static_cast<int>(pixels.size()), threads, progress, "certificate", [&](int i) {
+    std::vector<area::VisibleFraction> fractions(pixels.size());
+    inParallel(static_cast<int>(pixels.size()), threads, progress, "certificate", [&](int i) {
         const auto index = static_cast<std::size_t>(i);
         fractions[index] = exact(pixels[index]);
     });
-    return tallied(image, primary, samples, pixels, fractions);
+    return tallyOf(image, primary, samples, pixels, fractions);
 }
 
 [[noreturn]] void reject(std::string_view what) {
@@ -138,7 +138,7 @@ Certificate certifyOn(const PovRayImage& image, const PrimaryHits& primary, int 
 
 } // namespace
 
-std::vector<glm::ivec2> certificatePoints(const PovRayImage& image, const PrimaryHits& primary, int points) {
+std::vector<glm::ivec2> certificatePoints(const povray::Render& image, const PrimaryHits& primary, int points) {
     const Kinds kinds = pixelsOfEachKind(image, primary);
     const std::array<std::size_t, kindCount> counts = shares(kinds, static_cast<std::size_t>(std::max(points, 0)));
     Random random(0);
@@ -153,14 +153,18 @@ std::vector<glm::ivec2> certificatePoints(const PovRayImage& image, const Primar
     return result;
 }
 
-Certificate certify(const PovRayImage& image, const PrimaryHits& primary, int samples, int points,
+Certificate certify(const povray::Render& image, const PrimaryHits& primary, int samples, int points,
                     const ExactFraction& exact, const Progress& progress) {
     return certifyOn(image, primary, samples, points, 1, exact, progress);
 }
 
-Certificate certify(const Request& request, const PovRayImage& image, const PrimaryHits& primary, int points, int threads,
+Certificate certify(const Request& request, const povray::Render& image, const PrimaryHits& primary, int points, int threads,
                     const Progress& progress) {
-    const AreaScene scene(request.snapshot, threads);
+    return certify(area::AreaScene(request.snapshot, threads), request, image, primary, points, threads, progress);
+}
+
+Certificate certify(const area::AreaScene& scene, const Request& request, const povray::Render& image,
+                    const PrimaryHits& primary, int points, int threads, const Progress& progress) {
     const ExactFraction exact = [&](glm::ivec2 pixel) { return scene.fraction(pixel, request.size, primary); };
     return certifyOn(image, primary, request.samples, points, threads, exact, progress);
 }

@@ -1,4 +1,4 @@
-// What is true: the contract of every oracle. Ground truth knows scenes, never techniques.
+// What every oracle is asked and answers. Nothing here depends on techniques.
 #pragma once
 
 #include "base/image.h"
@@ -28,7 +28,7 @@ struct PrimaryHits {
     Image<std::uint32_t> triangle; // index in the placement's Mesh::triangles; 0 for background
 };
 
-/// Where the numbers come from. A score without provenance does not exist.
+/// Where the numbers of a reference come from.
 struct Provenance {
     std::string oracle; // "polygon", "rays", "polygon+rays" (planar receivers + the others), "plan", "area", "povray"
     std::string key;    // content hash of everything the reference depends on

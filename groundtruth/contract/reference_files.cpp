@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "base/image_io.h"
 
 #include <bit>
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <type_traits>
-#include <xxhash.h>
 
 namespace shadowbench::groundtruth {
 namespace {
@@ -23,8 +23,6 @@ constexpr int formatVersion = 1;
 constexpr int largestSide = 65536;
 
 using Checksum = std::uint64_t;
-
-Checksum checksum(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
 [[noreturn]] void damaged(std::string_view what) { throw BadInput(fmt::format("a stored reference is damaged: {}", what)); }
 
@@ -102,7 +100,7 @@ std::string encode(const Reference& reference) {
         if (!image.sameSize(reference.visibility)) throw InternalError("a reference's images differ in size");
         bytes.append(reinterpret_cast<const char*>(image.data()), byteCount(image));
     });
-    const Checksum sum = checksum(bytes);
+    const Checksum sum = hash64(bytes);
     bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
     return bytes;
 }
@@ -112,7 +110,7 @@ Reference decode(std::string_view bytes, std::string_view key) {
     if (bytes.size() < sizeof stored) damaged("it is too short");
     std::memcpy(&stored, bytes.data() + bytes.size() - sizeof stored, sizeof stored);
     bytes.remove_suffix(sizeof stored);
-    if (checksum(bytes) != stored) damaged("its checksum is wrong");
+    if (hash64(bytes) != stored) damaged("its checksum is wrong");
 
     const EntryHeader header = takeHeader(bytes);
     if (header.key != key) damaged("it belongs to another key");

@@ -1,4 +1,4 @@
-// References as bytes (the cache's entry) and as files for people (the `reference` verb).
+// References as bytes (an entry of the cache) and as files to look at (`shadowbench reference --out`).
 #pragma once
 
 #include "groundtruth/contract/reference.h"
@@ -15,7 +15,7 @@ std::string encode(const Reference& reference);
 /// The inverse. Throws BadInput saying what is wrong (too short, checksum, version, another key, sizes) with damaged bytes.
 Reference decode(std::string_view bytes, std::string_view key);
 
-/// What the first line of an entry says.
+/// The first line of an entry.
 struct EntryHeader {
     std::string key;
     int width = 0, height = 0; // pixels

@@ -1,55 +1,50 @@
 // The content hash of a request: XXH3-128 over a canonical binary form.
 #include "groundtruth/contract/reference_key.h"
 
+#include "base/hash.h"
+
 #include <algorithm>
 #include <bit>
-#include <fmt/format.h>
 #include <map>
-#include <memory>
 #include <vector>
-#include <xxhash.h>
 
 namespace shadowbench::groundtruth {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "keys are defined over little-endian numbers");
 
-/// Streams numbers and strings into one hash. −0 and 0 are one number.
-class Hash {
+/// One hash of numbers and strings, given one after the other. −0 and 0 are one number.
+class FieldHash {
 public:
-    Hash() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_128bits_reset(state_.get()); }
-
-    void add(std::uint64_t value) { bytes(&value, sizeof value); }
+    void add(std::uint64_t value) { hasher_.add(&value, sizeof value); }
     void add(double value) {
         const double canonical = value + 0.0;
-        bytes(&canonical, sizeof canonical);
+        hasher_.add(&canonical, sizeof canonical);
     }
     void add(const glm::dvec3& v) {
         for (int i = 0; i < 3; ++i) add(v[i]);
     }
     void add(std::string_view text) {
         add(std::uint64_t{text.size()});
-        bytes(text.data(), text.size());
+        hasher_.add(text.data(), text.size());
     }
-    void add(const XXH128_hash_t& hash) {
-        add(std::uint64_t{hash.low64});
-        add(std::uint64_t{hash.high64});
+    void add(const Hash128& hash) {
+        add(hash.low);
+        add(hash.high);
     }
-    [[nodiscard]] XXH128_hash_t digest() const { return XXH3_128bits_digest(state_.get()); }
+    [[nodiscard]] Hash128 digest() const { return hasher_.digest(); }
 
 private:
-    void bytes(const void* data, std::size_t count) { XXH3_128bits_update(state_.get(), data, count); }
-
-    std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+    Hasher128 hasher_;
 };
 
-void add(Hash& hash, const Camera& camera) {
+void add(FieldHash& hash, const Camera& camera) {
     for (const glm::dvec3& v : {camera.eye, camera.target, camera.up}) hash.add(v);
     for (const double value : {camera.fovy, camera.near, camera.far}) hash.add(value);
 }
 
 /// Only what its kind uses.
-void add(Hash& hash, const Light& light) {
+void add(FieldHash& hash, const Light& light) {
     hash.add(name(light.kind));
     hash.add(light.kind == LightKind::Directional ? light.direction : light.centre);
     if (!light.isArea()) return;
@@ -57,8 +52,8 @@ void add(Hash& hash, const Light& light) {
     if (light.kind != LightKind::Line) hash.add(light.v);
 }
 
-XXH128_hash_t hashOf(const Mesh& mesh) {
-    Hash hash;
+Hash128 hashOf(const Mesh& mesh) {
+    FieldHash hash;
     hash.add(std::uint64_t{mesh.closed});
     hash.add(std::uint64_t{mesh.positions.size()});
     for (const glm::vec3& p : mesh.positions) hash.add(glm::dvec3(p));
@@ -70,12 +65,12 @@ XXH128_hash_t hashOf(const Mesh& mesh) {
 
 struct PlacedMesh {
     const Placement* placement;
-    XXH128_hash_t mesh;
+    Hash128 mesh;
 };
 
 /// Every placement in the order of its id: which batch it came in does not matter.
 std::vector<PlacedMesh> placements(const Snapshot& snapshot) {
-    std::map<const Mesh*, XXH128_hash_t> known; // a mesh may be shared by batches
+    std::map<const Mesh*, Hash128> known; // a mesh may be shared by batches
     std::vector<PlacedMesh> result;
     for (const Batch& batch : snapshot.batches) {
         const Mesh* mesh = batch.mesh.get();
@@ -90,7 +85,7 @@ std::vector<PlacedMesh> placements(const Snapshot& snapshot) {
 
 std::string key(const Request& request, const Tools& tools) {
     const Snapshot& snapshot = request.snapshot;
-    Hash hash;
+    FieldHash hash;
     add(hash, snapshot.camera);
     add(hash, snapshot.light);
     for (const PlacedMesh& placed : placements(snapshot)) {
@@ -106,8 +101,7 @@ std::string key(const Request& request, const Tools& tools) {
         hash.add(tool);
         hash.add(version);
     }
-    const XXH128_hash_t digest = hash.digest();
-    return fmt::format("{:016x}{:016x}", digest.high64, digest.low64);
+    return hash.digest().text();
 }
 
 } // namespace shadowbench::groundtruth

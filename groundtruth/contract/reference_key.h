@@ -1,4 +1,4 @@
-// What a reference is kept under: a hash of all that decides its numbers.
+// The key of a reference in the cache: a hash of everything that its numbers depend on.
 #pragma once
 
 #include "groundtruth/contract/reference.h"

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::povray {
 namespace {
 
 /// First Sobol dimension (van der Corput): the bits of `i` mirrored.
@@ -56,4 +56,4 @@ SampleParts sampleParts(int samples) {
     return {firstQuarter, firstHalf - firstQuarter, samples - firstHalf};
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::povray

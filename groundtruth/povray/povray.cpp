@@ -13,9 +13,12 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
+#include <map>
+#include <mutex>
 #include <system_error>
+#include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::povray {
 namespace {
 
 constexpr const char* sceneName = "scene.pov";
@@ -63,15 +66,14 @@ private:
     bool continues_ = false;
 };
 
-std::filesystem::path program(const PovRayOptions& options) {
+std::filesystem::path program(const Options& options) {
     if (const auto found = findProgram(options.program)) return *found;
     throw Inconclusive(
         fmt::format("cannot compute soft shadows: the program {} is missing; install it with apt-get install povray",
                     options.program.string()));
 }
 
-/// Measured on POV-Ray 3.7: 0.5 GiB with two threads, 5 bytes for each of the scene text, 40 for each pixel. Several times
-/// that is room to work in and an end for a render that has lost itself.
+/// Several times what POV-Ray 3.7 takes for its threads, the scene's text and the pixels: a render that needs more is stuck.
 std::uintmax_t memoryLimit(std::size_t textBytes, glm::ivec2 size, int threads) {
     constexpr std::uintmax_t mebibyte = 1 << 20;
     const std::uintmax_t pixels = std::uintmax_t{1} * static_cast<unsigned>(size.x) * static_cast<unsigned>(size.y);
@@ -172,7 +174,7 @@ Image<float> takeHitMask(Image<float> blue, Image<std::uint8_t>& hit) {
 }
 
 /// Channels that count the samples of the three parts.
-PovRayImage decodePoints(const Image<float>& red, const Image<float>& green, const Image<float>& blue, int samples) {
+Render decodePoints(const Image<float>& red, const Image<float>& green, const Image<float>& blue, int samples) {
     const SampleParts parts = sampleParts(samples);
     const double quarter = std::bit_ceil(static_cast<unsigned>(parts.firstQuarter)); // units as in addPoints
     const double half = 2.0 * std::bit_ceil(static_cast<unsigned>(parts.secondHalf));
@@ -193,7 +195,7 @@ PovRayImage decodePoints(const Image<float>& red, const Image<float>& green, con
 }
 
 /// Channels that hold visible fractions. What 16 bits leave of nothing and of all is made exact again.
-PovRayImage decodeGrid(Image<float> red, Image<float> green, Image<float> blue) {
+Render decodeGrid(Image<float> red, Image<float> green, Image<float> blue) {
     constexpr float rounding = 1e-4F;
     for (float& value : blue) value *= 2;
     for (Image<float>* image : {&red, &green, &blue})
@@ -201,22 +203,36 @@ PovRayImage decodeGrid(Image<float> red, Image<float> green, Image<float> blue) 
     return {std::move(blue), std::move(green), std::move(red), {}, 0};
 }
 
-PovRayImage decode(const std::filesystem::path& file, glm::ivec2 size, int samples, const PovRayRecipe& recipe) {
+Render decode(const std::filesystem::path& file, glm::ivec2 size, int samples, const Recipe& recipe) {
     Image<std::uint8_t> hit;
     Image<float> red = readImage(file, 0, size), green = readImage(file, 1, size);
     Image<float> blue = takeHitMask(readImage(file, 2, size), hit);
-    PovRayImage image = recipe.lights == PovRayRecipe::Lights::Points
-                            ? decodePoints(red, green, blue, samples)
-                            : decodeGrid(std::move(red), std::move(green), std::move(blue));
+    Render image = recipe.lights == Recipe::Lights::Points ? decodePoints(red, green, blue, samples)
+                                                           : decodeGrid(std::move(red), std::move(green), std::move(blue));
     image.hit = std::move(hit);
     return image;
 }
 
+/// Runs the program.
+std::string askVersion(const std::filesystem::path& program) {
+    const TemporaryFolder folder;
+    std::string answer;
+    const Command command{program, {"--version"}, folder.path()};
+    runProcess(command, [&answer](std::string_view line) {
+        for (const std::string_view start : {"POV-Ray ", "Persistence of Vision(tm) Ray Tracer Version "})
+            if (answer.empty() && line.starts_with(start))
+                answer = line.substr(start.size(), line.find(' ', start.size()) - start.size());
+    });
+    if (answer.empty())
+        throw Inconclusive(
+            fmt::format("{} --version names no POV-Ray; install it with apt-get install povray", program.string()));
+    return answer;
+}
+
 } // namespace
 
-PovRayImage renderPovRay(const Snapshot& snapshot, glm::ivec2 size, int samples, const PovRayOptions& options,
-                         const Progress& progress) {
-    const std::string text = povrayScene(snapshot, size, samples, options.recipe);
+Render render(const Snapshot& snapshot, glm::ivec2 size, int samples, const Options& options, const Progress& progress) {
+    const std::string text = sceneText(snapshot, size, samples, options.recipe);
     const std::filesystem::path found = program(options);
     const TemporaryFolder folder;
     writeScene(folder.path() / sceneName, text);
@@ -234,24 +250,22 @@ PovRayImage renderPovRay(const Snapshot& snapshot, glm::ivec2 size, int samples,
     Messages messages(progress);
     const Finished finished = runProcess(command, std::ref(messages));
     requireSuccess(finished, messages, command);
-    PovRayImage image = decode(folder.path() / imageName, size, samples, options.recipe);
-    image.scale = povrayScale(snapshot, options.recipe);
+    Render image = decode(folder.path() / imageName, size, samples, options.recipe);
+    image.scale = scaleOf(snapshot, options.recipe);
     return image;
 }
 
-std::string povrayVersion(const PovRayOptions& options) {
-    const TemporaryFolder folder;
-    std::string version;
-    const Command command{program(options), {"--version"}, folder.path()};
-    runProcess(command, [&version](std::string_view line) {
-        for (const std::string_view start : {"POV-Ray ", "Persistence of Vision(tm) Ray Tracer Version "})
-            if (version.empty() && line.starts_with(start))
-                version = line.substr(start.size(), line.find(' ', start.size()) - start.size());
-    });
-    if (version.empty())
-        throw Inconclusive(
-            fmt::format("{} --version names no POV-Ray; install it with apt-get install povray", command.program.string()));
-    return version;
+std::string version(const Options& options) {
+    const std::filesystem::path found = program(options);
+    std::error_code unknown;
+    const auto modified = std::filesystem::last_write_time(found, unknown);
+
+    static std::mutex mutex; // held while the program is asked: who comes meanwhile waits for its answer
+    static std::map<std::pair<std::filesystem::path, std::filesystem::file_time_type>, std::string> known;
+    const std::scoped_lock lock(mutex);
+    std::string& answer = known[{found, modified}];
+    if (answer.empty()) answer = askVersion(found);
+    return answer;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::povray

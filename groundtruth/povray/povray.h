@@ -1,4 +1,5 @@
-// Area-light visibility by densely sampled POV-Ray renders (GROUNDTRUTH.md: "POV-Ray soft shadows").
+// Area-light visibility by densely sampled POV-Ray renders (docs/ground-truth.md, "POV-Ray soft
+// shadows").
 #pragma once
 
 #include "base/progress.h"
@@ -8,10 +9,10 @@
 #include <filesystem>
 #include <string>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::povray {
 
-/// To be raised with every change that can alter a pixel: it is part of every key.
-constexpr int povrayCodeVersion = 2;
+/// Raise it with every change that can alter a pixel: it is part of every key.
+constexpr int codeVersion = 2;
 
 /// Every part of the set holds a point; more than the most could not be told apart in a 16-bit channel.
 constexpr int fewestLightSamples = 4;
@@ -19,8 +20,8 @@ constexpr int mostLightSamples = 16384;
 
 /// Point `i` of `n` of the low-discrepancy set in [0, 1)² that the light is sampled at: the first two Sobol dimensions, a
 /// (0,2)-sequence in base 2, scrambled by Owen's nested permutations and moved to the centres of its cells. Every aligned
-/// block of 2^k points is a net of its own. Unscrambled, the points lie on diagonals: a straight edge along them left an rms
-/// error of 0.0067 at 1,024 points and 0.0041 at 4,096, against 0.0025 and 0.0007; other edges gain or lose little.
+/// block of 2^k points is a net of its own. Unscrambled, the points lie on diagonals, and straight edges along these would
+/// be sampled badly.
 glm::dvec2 lightSample(int i, int n);
 
 /// How many points of the set each part holds, one after the other.
@@ -29,9 +30,9 @@ struct SampleParts {
 };
 SampleParts sampleParts(int samples);
 
-/// How POV-Ray is asked. The defaults are the recipe of every reference; other values are known faults, there so that a test
-/// can show a certificate refuse them.
-struct PovRayRecipe {
+/// How the scene is written for POV-Ray. The defaults are the recipe of every reference; other values are known to give
+/// wrong images, for tests that show that a certificate rejects them.
+struct Recipe {
     enum class Lights {
         Points,       // a point light at every lightSample
         Grid,         // POV-Ray's area_light of n × n lights; rectangles and n² samples, n ≥ 4, only
@@ -44,36 +45,37 @@ struct PovRayRecipe {
 
 /// World units → POV-Ray units: the recipe's largest scale, halved until every coordinate is below 10⁷. POV-Ray ignores
 /// shadow hits nearer than 10⁻³ of its units, so the larger the better.
-double povrayScale(const Snapshot& snapshot, const PovRayRecipe& recipe = {});
+double scaleOf(const Snapshot& snapshot, const Recipe& recipe = {});
 
-/// The scene text for one snapshot: numbers only, world scaled by povrayScale. With point lights, red, green and blue count
+/// The scene text for one snapshot: numbers only, world scaled by scaleOf. With point lights, red, green and blue count
 /// the visible samples of the three parts of the set in units of 1/P (blue: ½ P), P the power of two ≥ the part, so that
 /// sums are exact; with a grid they hold the visible fractions for grids of n/2 × n/2, n/2 × n and n × n lights (blue: half
 /// of it). Blue also has the hit mask's ½. Throws BadInput for a light without area, samples outside [fewestLightSamples,
 /// mostLightSamples] and values that are not finite.
-std::string povrayScene(const Snapshot& snapshot, glm::ivec2 size, int samples, const PovRayRecipe& recipe = {});
+std::string sceneText(const Snapshot& snapshot, glm::ivec2 size, int samples, const Recipe& recipe = {});
 
-struct PovRayOptions {
+struct Options {
     std::filesystem::path program = "povray";   // looked up on PATH
     std::chrono::milliseconds limit{1'800'000}; // wall clock of one render
     int threads = 2;                            // pixels do not depend on it
-    PovRayRecipe recipe{};
+    Recipe recipe{};
 };
 
-struct PovRayImage {
+struct Render {
     Image<float> visible;      // fraction of light samples that are visible: k/N, rounded to float
     Image<float> firstHalf;    // the same of the first half of the set (SampleParts) …
     Image<float> firstQuarter; // … and of its first quarter: what fewer samples would have given
     Image<std::uint8_t> hit;   // 1 where the ray hits something
-    double scale = 0;          // povrayScale
+    double scale = 0;          // scaleOf
 };
 
 /// Renders; throws Inconclusive when POV-Ray is missing, fails, is killed, runs over the limit or the disk is full. Leaves
 /// no file and no process behind in any case.
-PovRayImage renderPovRay(const Snapshot& snapshot, glm::ivec2 size, int samples, const PovRayOptions& options = {},
-                         const Progress& progress = {});
+Render render(const Snapshot& snapshot, glm::ivec2 size, int samples, const Options& options = {},
+              const Progress& progress = {});
 
-/// "3.7.0.10.unofficial"; throws Inconclusive naming the package to install when POV-Ray is missing.
-std::string povrayVersion(const PovRayOptions& options = {});
+/// "3.7.0.10.unofficial". A process asks each program once, whatever its threads do; thread-safe. Throws Inconclusive, each
+/// time, naming the package to install when POV-Ray is missing.
+std::string version(const Options& options = {});
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::povray

@@ -12,7 +12,7 @@
 #include <iterator>
 #include <map>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::povray {
 namespace {
 
 using Text = fmt::memory_buffer;
@@ -49,7 +49,7 @@ void addMesh(Text& text, const Mesh& mesh, std::size_t number) {
 }
 
 /// POV-Ray multiplies row vectors, so its twelve numbers are the columns of our matrix one after the other.
-void addPlacement(Text& text, const glm::dmat4& world, std::size_t mesh, double scale, const PovRayRecipe& recipe) {
+void addPlacement(Text& text, const glm::dmat4& world, std::size_t mesh, double scale, const Recipe& recipe) {
     add(text, "object {{ M{} matrix <", mesh);
     for (int column = 0; column < 4; ++column) {
         const std::string numbers = vector(scale * glm::dvec3(world[column]));
@@ -82,9 +82,9 @@ void addGrid(Text& text, const Light& light, glm::ivec2 lights, const glm::dvec3
         adaptive ? " adaptive 1" : "");
 }
 
-void addLights(Text& text, const Light& light, int samples, double scale, const PovRayRecipe& recipe) {
-    if (recipe.lights == PovRayRecipe::Lights::Points) return addPoints(text, light, samples, scale);
-    const bool adaptive = recipe.lights == PovRayRecipe::Lights::AdaptiveGrid;
+void addLights(Text& text, const Light& light, int samples, double scale, const Recipe& recipe) {
+    if (recipe.lights == Recipe::Lights::Points) return addPoints(text, light, samples, scale);
+    const bool adaptive = recipe.lights == Recipe::Lights::AdaptiveGrid;
     const int n = gridSide(samples);
     addGrid(text, light, {n / 2, n / 2}, {1, 0, 0}, scale, adaptive);
     addGrid(text, light, {n / 2, n}, {0, 1, 0}, scale, adaptive);
@@ -100,7 +100,7 @@ void requireGrid(const Light& light, int samples) {
                                    samples, name(light.kind), fewestAlongASide * fewestAlongASide));
 }
 
-void requireRenderable(const Snapshot& snapshot, glm::ivec2 size, int samples, const PovRayRecipe& recipe) {
+void requireRenderable(const Snapshot& snapshot, glm::ivec2 size, int samples, const Recipe& recipe) {
     if (!snapshot.light.isArea())
         throw BadInput(fmt::format("the povray oracle samples area lights, and this light is {}: use polygon or rays",
                                    name(snapshot.light.kind)));
@@ -108,14 +108,14 @@ void requireRenderable(const Snapshot& snapshot, glm::ivec2 size, int samples, c
         throw BadInput(
             fmt::format("{} light samples asked for: give {} to {}", samples, fewestLightSamples, mostLightSamples));
     if (size.x < 1 || size.y < 1) throw BadInput(fmt::format("an image of {} × {} pixels has none", size.x, size.y));
-    if (recipe.lights != PovRayRecipe::Lights::Points) requireGrid(snapshot.light, samples);
+    if (recipe.lights != Recipe::Lights::Points) requireGrid(snapshot.light, samples);
 }
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 } // namespace
 
-double povrayScale(const Snapshot& snapshot, const PovRayRecipe& recipe) {
+double scaleOf(const Snapshot& snapshot, const Recipe& recipe) {
     const Light& light = snapshot.light;
     double world =
         std::max(largest(snapshot.camera.eye), largest(light.centre) + 0.5 * (largest(light.u) + largest(light.v)));
@@ -126,9 +126,9 @@ double povrayScale(const Snapshot& snapshot, const PovRayRecipe& recipe) {
     return scale;
 }
 
-std::string povrayScene(const Snapshot& snapshot, glm::ivec2 size, int samples, const PovRayRecipe& recipe) {
+std::string sceneText(const Snapshot& snapshot, glm::ivec2 size, int samples, const Recipe& recipe) {
     requireRenderable(snapshot, size, samples, recipe);
-    const double scale = povrayScale(snapshot, recipe);
+    const double scale = scaleOf(snapshot, recipe);
     Text text;
     // brilliance 0 makes the diffuse term constant.
     add(text, "#version 3.7;\nglobal_settings {{ assumed_gamma 1.0 }}\n");
@@ -149,4 +149,4 @@ std::string povrayScene(const Snapshot& snapshot, glm::ivec2 size, int samples, 
     return fmt::to_string(text);
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::povray

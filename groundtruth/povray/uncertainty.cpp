@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::povray {
 namespace {
 
 /// Calls `visit(x, y)` for the pixels of the surface at (cx, cy) in the (2·radius + 1)² window around it, itself included.
@@ -35,7 +35,7 @@ Image<std::uint8_t> unresolvedPixels(const Image<float>& visible, const Image<st
     return result;
 }
 
-Image<float> samplingUncertainty(const PovRayImage& image, const Image<std::uint32_t>& id, int samples) {
+Image<float> samplingUncertainty(const Render& image, const Image<std::uint32_t>& id, int samples) {
     const Image<std::uint8_t> unresolved = unresolvedPixels(image.visible, id);
     const SampleParts parts = sampleParts(samples);
     const double rounding = 1.0 / (12.0 * samples * samples);
@@ -59,4 +59,4 @@ Image<float> samplingUncertainty(const PovRayImage& image, const Image<std::uint
     return sigma;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::povray

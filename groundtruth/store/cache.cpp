@@ -30,7 +30,7 @@ std::filesystem::path home() {
     return user->pw_dir;
 }
 
-/// Nothing, after a warning, if the file cannot be read (which says nothing of what it holds, so it stays).
+/// Nothing, after a warning, if the file cannot be read (it may be intact, so it stays).
 std::optional<std::string> contents(const std::filesystem::path& file) {
     try {
         return readFile(file);
@@ -40,7 +40,8 @@ std::optional<std::string> contents(const std::filesystem::path& file) {
     }
 }
 
-/// The file's time of modification tells the last use. In a cache that others own it cannot be told: they prune theirs.
+/// The file's time of modification is that of the last use. In a cache of another user it cannot be set, and need not: the
+/// owner prunes it.
 void touch(const std::filesystem::path& file) {
     std::error_code ignored;
     std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored);

@@ -63,7 +63,7 @@ public:
     /// last one's whole file stays.
     void store(const Reference& reference) const;
 
-    /// `find`, else `compute` and `store`, in one process at a time, for which `progress` is told of a wait; a cache that
+    /// `find`, else `compute` and `store`, in one process at a time; `progress` reports a wait for another one. A cache that
     /// cannot be written costs a warning, not the run.
     Reference get(const std::string& key, const std::function<Reference()>& compute, const Progress& progress = {}) const;
 
@@ -84,8 +84,8 @@ private:
     std::uintmax_t maxBytes_;
 };
 
-/// What is wrong with the entry's bytes, by its checksum, header and images; nothing if they are sound. Does not count as a
-/// use.
+/// What is wrong with the entry's bytes (checksum, header, images), in a sentence; nothing if they are intact. Does not
+/// count as a use.
 std::optional<std::string> damage(const CacheEntry& entry);
 
 } // namespace shadowbench::groundtruth

@@ -1,4 +1,4 @@
-// How much and how long, as people write it on a command line or in a variable.
+// Sizes and time spans as text: on the command line, in environment variables and in messages.
 #pragma once
 
 #include <chrono>
@@ -15,10 +15,10 @@ std::uintmax_t bytesOf(std::string_view text);
 /// "90m", "12h", "30d", "2w": a number and s, m (minutes), h, d or w. Throws BadInput naming the text and what is valid.
 std::chrono::seconds durationOf(std::string_view text);
 
-/// "1.4 GiB", "640 B": for people.
+/// "1.4 GiB", "640 B".
 std::string bytesText(std::uintmax_t bytes);
 
-/// "3 d", "12 h", "5 min", "40 s": for people, rounded down to the largest unit.
+/// "3 d", "12 h", "5 min", "40 s": rounded down to the largest unit.
 std::string durationText(std::chrono::seconds duration);
 
 } // namespace shadowbench::groundtruth

@@ -39,7 +39,7 @@ bool isTemporary(const fs::path& file) {
            name[1 + keyDigits] == '.';
 }
 
-std::optional<fs::file_time_type> modified(const fs::path& file) {
+std::optional<fs::file_time_type> modificationTime(const fs::path& file) {
     std::error_code gone;
     const fs::file_time_type time = fs::last_write_time(file, gone);
     return gone ? std::nullopt : std::optional(time);
@@ -49,14 +49,14 @@ void add(const fs::directory_entry& found, Listing& listing) {
     std::error_code gone; // files come and go while other processes write and prune
     if (!found.is_regular_file(gone) || found.is_symlink(gone)) return;
     const std::uintmax_t bytes = found.file_size(gone);
-    const auto time = modified(found.path());
+    const auto time = modificationTime(found.path());
     if (gone || !time) return;
     if (isEntry(found.path())) listing.entries.push_back({found.path().stem().string(), found.path(), bytes, *time});
     if (isTemporary(found.path()) && fs::file_time_type::clock::now() - *time >= leftoverAge)
         listing.leftovers.push_back(found.path());
 }
 
-Listing listed(const fs::path& folder) {
+Listing list(const fs::path& folder) {
     Listing listing;
     std::error_code failure;
     if (!fs::exists(folder, failure) && !failure) return listing;
@@ -80,8 +80,8 @@ Listing listed(const fs::path& folder) {
     return listing;
 }
 
-/// Whether the file is gone afterwards by our doing: not if another process was faster.
-bool removed(const fs::path& file) {
+/// Removes the file; false if another process was faster.
+bool removeFile(const fs::path& file) {
     std::error_code failure;
     const bool done = fs::remove(file, failure);
     if (failure)
@@ -91,13 +91,13 @@ bool removed(const fs::path& file) {
 }
 
 /// `entries`, most recently used first, → those that break the rules, least recently used first.
-std::vector<CacheEntry> breaking(const std::vector<CacheEntry>& entries, const PruneRules& rules) {
+std::vector<CacheEntry> entriesToRemove(const std::vector<CacheEntry>& entries, const PruneRules& rules) {
     const fs::file_time_type now = fs::file_time_type::clock::now();
     std::uintmax_t kept = 0;
     std::vector<CacheEntry> result;
     bool full = false;
     for (const CacheEntry& entry : entries) {
-        const std::uintmax_t bytes = std::max<std::uintmax_t>(entry.bytes, 1); // an empty file is not worth keeping
+        const std::uintmax_t bytes = std::max<std::uintmax_t>(entry.bytes, 1); // an empty file counts, too
         full = full || (rules.maxBytes && kept + bytes > *rules.maxBytes);
         const bool old = rules.olderThan && now - entry.lastUse > *rules.olderThan;
         if (full || old)
@@ -111,17 +111,17 @@ std::vector<CacheEntry> breaking(const std::vector<CacheEntry>& entries, const P
 
 } // namespace
 
-std::vector<CacheEntry> Cache::entries() const { return listed(folder_).entries; }
+std::vector<CacheEntry> Cache::entries() const { return list(folder_).entries; }
 
 Pruned Cache::prune(const PruneRules& rules, bool dryRun) const {
-    const Listing listing = listed(folder_);
+    const Listing listing = list(folder_);
     Pruned pruned;
-    for (const CacheEntry& entry : breaking(listing.entries, rules)) {
-        const bool used = modified(entry.file) != entry.lastUse;
-        if (!used && (dryRun || removed(entry.file))) pruned.entries.push_back(entry);
+    for (const CacheEntry& entry : entriesToRemove(listing.entries, rules)) {
+        const bool used = modificationTime(entry.file) != entry.lastUse;
+        if (!used && (dryRun || removeFile(entry.file))) pruned.entries.push_back(entry);
     }
     for (const fs::path& file : listing.leftovers)
-        if (dryRun || removed(file)) pruned.leftovers.push_back(file);
+        if (dryRun || removeFile(file)) pruned.leftovers.push_back(file);
     return pruned;
 }
 

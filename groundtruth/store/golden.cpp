@@ -1,6 +1,7 @@
 #include "groundtruth/store/golden.h"
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/image_io.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <fmt/ranges.h>
 #include <set>
 #include <vector>
-#include <xxhash.h>
 
 namespace shadowbench::groundtruth {
 namespace {
@@ -19,12 +19,13 @@ static_assert(std::endian::native == std::endian::little, "hashes are defined ov
 
 constexpr std::uint32_t largestId = 1U << 24; // that a float holds, with all below
 
+std::string_view bytesOf(const void* data, std::size_t bytes) { return {static_cast<const char*>(data), bytes}; }
+
 template <typename T>
 std::string hashOf(const Image<T>& image) {
     const std::uint64_t size[2]{static_cast<std::uint64_t>(image.width()), static_cast<std::uint64_t>(image.height())};
-    const XXH128_hash_t ofSize = XXH3_128bits(size, sizeof size);
-    const XXH128_hash_t hash = XXH3_128bits_withSeed(image.data(), image.size() * sizeof(T), ofSize.low64);
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+    const Hash128 ofSize = hash128(bytesOf(size, sizeof size));
+    return hash128(bytesOf(image.data(), image.size() * sizeof(T)), ofSize.low).text();
 }
 
 /// Fully shadowed, in between, fully lit.
@@ -43,8 +44,8 @@ void append(std::vector<std::string>& parts, std::string_view what, const Differ
         parts.push_back(fmt::format("{} of {} pixels by up to {:.3g}{}", what, values.pixels, values.largest, unit));
 }
 
-std::string written(const std::string& version) { return version; }
-std::string written(double measured) { return fmt::format("{:.6g}", measured); }
+std::string textOf(const std::string& version) { return version; }
+std::string textOf(double measured) { return fmt::format("{:.6g}", measured); }
 
 /// The names whose values differ as written, a missing one as "none".
 template <typename Value>
@@ -55,7 +56,7 @@ void appendChanges(std::vector<std::string>& parts, const std::map<std::string, 
     for (const auto& [name, value] : after) names.insert(name);
     const auto text = [](const std::map<std::string, Value>& values, const std::string& name) {
         const auto found = values.find(name);
-        return found == values.end() ? std::string("none") : written(found->second);
+        return found == values.end() ? std::string("none") : textOf(found->second);
     };
     for (const std::string& name : names)
         if (const std::string from = text(before, name), to = text(after, name); from != to)

@@ -1,4 +1,4 @@
-// Golden references: what identifies a reference's images, whatever file or key they are kept under, and how two differ.
+// Golden references: hashes of a reference's images, which do not depend on file or key, and how two references differ.
 #pragma once
 
 #include "groundtruth/contract/reference.h"

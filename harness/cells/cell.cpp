@@ -1,13 +1,13 @@
 #include "harness/cells/cell.h"
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "harness/cells/environment.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <xxhash.h>
 
 namespace shadowbench {
 namespace {
@@ -200,8 +200,7 @@ std::string cellId(const Truths& truths, const Scene& scene, const techniques::V
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
                                      scene.timeline.still, scene.timeline.moving);
     for (const int frame : truths.scoredFrames()) inputs += truths.key(mainTruth(variant), frame) + "\n";
-    const XXH128_hash_t hash = XXH3_128bits(inputs.data(), inputs.size());
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+    return hash128(inputs).text();
 }
 
 std::optional<std::string> notApplicable(const Scene& scene, const techniques::Variant& variant) {

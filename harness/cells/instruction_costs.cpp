@@ -43,7 +43,8 @@ public:
           version_(timing::valgrindVersion()) {}
 
     void runAll() {
-        inParallel(jobs_.size(), [this](std::size_t i) { fillIn(jobs_[i]); });
+        inParallel(static_cast<int>(jobs_.size()), hardwareThreads(),
+                   [this](int i) { fillIn(jobs_[static_cast<std::size_t>(i)]); });
     }
 
 private:

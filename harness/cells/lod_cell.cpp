@@ -1,5 +1,6 @@
 #include "harness/cells/lod_cell.h"
 
+#include "base/hash.h"
 #include "groundtruth/oracle.h"
 #include "techniques/gl/context.h"
 #include "techniques/gl/counters.h"
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <xxhash.h>
 
 namespace shadowbench::lod {
 namespace {
@@ -150,8 +150,7 @@ std::string lodCellId(const Scene& scene, const techniques::Variant& variant) {
         request.size = scene.size;
         inputs += groundtruth::key(request) + "\n";
     }
-    const XXH128_hash_t hash = XXH3_128bits(inputs.data(), inputs.size());
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+    return hash128(inputs).text();
 }
 
 void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const LodCellOptions& options, Record& record,

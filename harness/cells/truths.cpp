@@ -29,17 +29,17 @@ std::vector<int> scoredFrames(const Scene& scene) {
     return frames;
 }
 
-const std::string& Truths::key(Truth truth, int frame) const {
-    std::string& key = keys_[{truth, frame}];
-    if (key.empty()) key = groundtruth::key(request(truth, frame));
+const groundtruth::ReferenceKey& Truths::keyOf(Truth truth, int frame) const {
+    groundtruth::ReferenceKey& key = keys_[{truth, frame}];
+    if (key.text.empty()) key = groundtruth::referenceKey(request(truth, frame));
     return key;
 }
 
 const groundtruth::Reference& Truths::at(Truth truth, int frame, const Progress& progress) {
     const auto found = known_.find({truth, frame});
     if (found != known_.end()) return found->second;
-    return known_.emplace(std::pair{truth, frame}, groundtruth::cached(cache_, request(truth, frame), progress))
-        .first->second;
+    groundtruth::Reference reference = groundtruth::cached(cache_, request(truth, frame), keyOf(truth, frame), progress);
+    return known_.emplace(std::pair{truth, frame}, std::move(reference)).first->second;
 }
 
 } // namespace shadowbench

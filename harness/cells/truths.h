@@ -34,17 +34,19 @@ public:
     }
     [[nodiscard]] std::vector<int> scoredFrames() const { return shadowbench::scoredFrames(scene_); }
 
-    /// groundtruth::key of that request, computed once: it asks the tools for their versions.
-    [[nodiscard]] const std::string& key(Truth truth, int frame) const;
+    /// groundtruth::key of that request, computed once: it hashes every mesh and asks the tools for their versions.
+    [[nodiscard]] const std::string& key(Truth truth, int frame) const { return keyOf(truth, frame).text; }
 
     /// The reference, valid as long as this object.
     const groundtruth::Reference& at(Truth truth, int frame, const Progress& progress = {});
 
 private:
+    [[nodiscard]] const groundtruth::ReferenceKey& keyOf(Truth truth, int frame) const;
+
     const Scene& scene_;
     const groundtruth::Cache& cache_;
     std::map<std::pair<Truth, int>, groundtruth::Reference> known_;
-    mutable std::map<std::pair<Truth, int>, std::string> keys_;
+    mutable std::map<std::pair<Truth, int>, groundtruth::ReferenceKey> keys_;
 };
 
 } // namespace shadowbench

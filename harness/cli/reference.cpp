@@ -45,10 +45,10 @@ ExitCode run(const ReferenceWords& words) {
 
 /// The exact shadow polygons of every planar receiver; of the plan oracle what the light sees of it, too.
 void printPolygons(const groundtruth::Request& request, const std::filesystem::path& folder) {
-    const groundtruth::PrimaryHits primary = groundtruth::primaryHits(request.snapshot, request.size);
-    std::vector<std::filesystem::path> files = groundtruth::writeShadowPolygons(request.snapshot, primary, folder);
+    const groundtruth::PrimaryHits primary = groundtruth::hard::primaryHits(request.snapshot, request.size);
+    std::vector<std::filesystem::path> files = groundtruth::plan::writeShadowPolygons(request.snapshot, primary, folder);
     if (request.oracle == groundtruth::Oracle::Plan)
-        for (std::filesystem::path& file : groundtruth::writeVisiblePolygons(request.snapshot, primary, folder))
+        for (std::filesystem::path& file : groundtruth::plan::writeVisiblePolygons(request.snapshot, primary, folder))
             files.push_back(std::move(file));
     for (const std::filesystem::path& file : files) fmt::print("polygons: {}\n", file.string());
 }

@@ -1,4 +1,5 @@
 // `shadowbench reference --certify`.
+#include "base/parallel.h"
 #include "base/progress_line.h"
 #include "groundtruth/certify/certificate.h"
 #include "groundtruth/cgal/hard/exact.h"
@@ -6,7 +7,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 namespace shadowbench {
 namespace {
@@ -38,12 +38,12 @@ void printJson(const NamedRequest& named, const Certificate& certificate) {
 ExitCode certifyReference(const ReferenceOptions& options) {
     const NamedRequest named = requestOf(options);
     const groundtruth::Request& request = named.request;
-    const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const int threads = hardwareThreads();
     ProgressLine line(named.scene, 2, options.quiet);
-    const groundtruth::PrimaryHits primary = groundtruth::primaryHits(request.snapshot, request.size);
-    const groundtruth::PovRayImage image =
-        groundtruth::renderPovRay(request.snapshot, request.size, request.samples, {.threads = threads},
-                                  [&](double share, std::string_view what) { line.show(0, share, what); });
+    const groundtruth::PrimaryHits primary = groundtruth::hard::primaryHits(request.snapshot, request.size);
+    const groundtruth::povray::Render image =
+        groundtruth::povray::render(request.snapshot, request.size, request.samples, {.threads = threads},
+                                    [&](double share, std::string_view what) { line.show(0, share, what); });
     const Certificate certificate =
         groundtruth::certify(request, image, primary, options.points, threads,
                              [&](double share, std::string_view what) { line.show(1, share, what); });

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "base/parallel.h"
 #include "base/process.h"
 #include "base/temporary_folder.h"
@@ -16,7 +17,6 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <xxhash.h>
 
 namespace shadowbench::gate {
 namespace {
@@ -25,11 +25,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr std::chrono::hours longestStep{3};
-
-std::string hashOf(const std::string& text) {
-    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-}
 
 /// What a program's records depend on beside the program.
 std::string surroundings() {
@@ -93,7 +88,7 @@ std::string text(const Step& step) {
 Program::Program(fs::path file, const fs::path& cache) : file_(fs::absolute(file)), cache_(fs::absolute(cache)) {
     std::string key;
     try {
-        key = hashOf(readFile(file_) + surroundings());
+        key = hash128(readFile(file_) + surroundings()).text();
     } catch (const BadInput& error) {
         throw Inconclusive(error.what());
     }
@@ -141,9 +136,10 @@ Measured Program::measure(const std::vector<Step>& steps, const Progress& progre
     std::vector<std::optional<StepTime>> times(steps.size());
     std::mutex mutex;
     std::size_t ended = 0;
-    inParallel(steps.size(), [&](std::size_t i) {
+    inParallel(static_cast<int>(steps.size()), hardwareThreads(), [&](int index) {
+        const auto i = static_cast<std::size_t>(index);
         Step step = steps[i];
-        const fs::path out = records_ / hashOf(text(step)), done = out / "done";
+        const fs::path out = records_ / hash128(text(step)).text(), done = out / "done";
         if (!fs::exists(done)) {
             const auto start = Clock::now();
             if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");

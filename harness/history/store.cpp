@@ -2,12 +2,12 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
 #include <set>
-#include <xxhash.h>
 
 namespace shadowbench::history {
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ std::string commitOf(const std::vector<Record>& records, const fs::path& file, b
 }
 
 std::string fileName(const std::string& date, const std::string& commit, const std::string& content) {
-    const auto digest = static_cast<std::uint32_t>(XXH3_64bits(content.data(), content.size()) >> 32U);
+    const auto digest = static_cast<std::uint32_t>(hash64(content) >> 32U);
     return fmt::format("{}-{}-{:08x}.jsonl", date, commit.substr(0, 12), digest);
 }
 

@@ -1,6 +1,7 @@
 #include "harness/runs/manifest.h"
 
 #include "base/files.h"
+#include "base/hash.h"
 #include "harness/cells/cell_selection.h"
 #include "harness/cells/environment.h"
 #include "harness/cells/scene_cells.h"
@@ -11,7 +12,6 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <xxhash.h>
 
 namespace shadowbench::shards {
 namespace {
@@ -55,8 +55,7 @@ std::vector<std::string> costsOf(const RunOptions& options) {
 std::string idOf(const ManifestCell& cell, const std::string& measured) {
     const std::string inputs = fmt::format("shard cell 1\n{}\n{}\n{}\nseed {}\ncost {}\n{}\n", cell.scene, cell.variant,
                                            cell.profile, cell.seed, fmt::join(cell.cost, ","), measured);
-    const XXH128_hash_t hash = XXH3_128bits(inputs.data(), inputs.size());
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+    return hash128(inputs).text();
 }
 
 /// The first member in which two lines differ, in words.

@@ -12,7 +12,7 @@
 namespace shadowbench {
 namespace {
 
-constexpr int kMostInstances = 100'000; // of one object; more is a slip of the finger
+constexpr int kMostInstances = 100'000; // of one object; more is taken for a typing error
 constexpr double kFullTurn = 360;
 
 /// `until` distances must grow: a level that ends before the previous one is never drawn.

@@ -1,5 +1,5 @@
-// Scene files: the sections that every scene has. Meshes, objects and bounds are read in loader_meshes.cpp,
-// loader_objects.cpp and loader_bounds.cpp.
+// Scene files: the sections that every scene has. Meshes, objects and expectations are read in
+// read_meshes.cpp, read_objects.cpp and read_expectations.cpp.
 #include "scene/load/scene_file.h"
 
 #include "base/error.h"

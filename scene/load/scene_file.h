@@ -11,7 +11,7 @@
 
 namespace shadowbench {
 
-constexpr int kMostTriangles = 4'000'000; // of one mesh; more is a slip of the finger
+constexpr int kMostTriangles = 4'000'000; // of one mesh; more is taken for a typing error
 
 /// The meshes of one scene: a generator called twice with the same arguments gives one shared mesh.
 class MeshStore {

@@ -130,9 +130,9 @@ double windingNumber(const Mesh& mesh, const glm::dvec3& point) {
     return sum / glm::two_pi<double>();
 }
 
-/// Checks every placement of one frame; boxes first, since a scene may have thousands.
+/// Checks every placement of one frame; bounding boxes first, since a scene may have thousands.
 std::optional<Problem> surfaceProblem(const Snapshot& frame) {
-    constexpr double kRelative = 1e-9; // of the scene's extent: what double arithmetic cannot tell from touching
+    constexpr double kRelative = 1e-9; // of the scene's extent: a distance that double arithmetic cannot distinguish from 0
     const Polygon shape = shapeOf(frame.light);
     const Bounds all = frame.bounds(), lit = boundsOf(shape);
     const double margin = kRelative * glm::distance(all.low, all.high);

@@ -116,12 +116,12 @@ TEST(PolygonShadows, OfCastersInPartsAreThoseOfAllAtOnce) {
 /// The recommended levels again, label by label, by shadow rays only.
 double mismatchByRays(const Scene& scene, const Chains& chains, const CasterRecommendation& r, const Levels& levels) {
     const Casters casters(withChains(scene, chains), r.frame, ownBands(scene));
-    groundtruth::PrimaryHits ground = groundtruth::primaryHits(snapshot(scene, r.frame), scene.size);
+    groundtruth::PrimaryHits ground = groundtruth::hard::primaryHits(snapshot(scene, r.frame), scene.size);
     for (std::size_t i = 0; i < ground.id.size(); ++i)
         if (ground.id[i] != 1) ground.surface[i] = groundtruth::Surface::Background; // 1 is the ground's
     groundtruth::Reference fine, coarse;
-    groundtruth::labelByRays(casters.cast(casters.finest()), scene.size, ground, fine);
-    groundtruth::labelByRays(casters.cast(levels), scene.size, ground, coarse);
+    groundtruth::hard::labelByRays(casters.cast(casters.finest()), scene.size, ground, fine);
+    groundtruth::hard::labelByRays(casters.cast(levels), scene.size, ground, coarse);
     std::size_t wrong = 0, all = 0;
     for (std::size_t i = 0; i < ground.id.size(); ++i) {
         if (ground.surface[i] != groundtruth::Surface::Receiver) continue;
@@ -208,15 +208,15 @@ std::vector<std::set<std::uint32_t>> modelsOf(const Scene& scene) {
 /// Pixels of models whose labels differ between two choices of the other models' levels.
 std::size_t wrongOnModels(const Scene& scene, const Snapshot& fine, const Snapshot& coarse, int frame) {
     const Snapshot drawn = snapshot(scene, frame);
-    const groundtruth::PrimaryHits all = groundtruth::primaryHits(drawn, scene.size);
+    const groundtruth::PrimaryHits all = groundtruth::hard::primaryHits(drawn, scene.size);
     std::size_t wrong = 0;
     for (const std::set<std::uint32_t>& model : modelsOf(scene)) {
         groundtruth::PrimaryHits own = all;
         for (std::size_t i = 0; i < own.id.size(); ++i)
             if (!model.contains(own.id[i])) own.surface[i] = groundtruth::Surface::Background;
         groundtruth::Reference exact, labels;
-        groundtruth::labelByRays(withOwnShadow(fine, drawn, model), scene.size, own, exact);
-        groundtruth::labelByRays(withOwnShadow(coarse, drawn, model), scene.size, own, labels);
+        groundtruth::hard::labelByRays(withOwnShadow(fine, drawn, model), scene.size, own, exact);
+        groundtruth::hard::labelByRays(withOwnShadow(coarse, drawn, model), scene.size, own, labels);
         for (std::size_t i = 0; i < own.id.size(); ++i) wrong += labels.visibility[i] != exact.visibility[i] ? 1 : 0;
     }
     return wrong;

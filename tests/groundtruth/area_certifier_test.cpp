@@ -1,10 +1,14 @@
 // The fast form of the visible fraction against its exact certifier and against shadow rays.
+#include "base/parallel.h"
 #include "tests/support/area_scenes.h"
 
 #include <array>
 #include <glm/geometric.hpp>
 
 namespace shadowbench::groundtruth::testing {
+
+using namespace area;
+using namespace hard;
 namespace {
 
 constexpr std::array kinds{LightKind::Rectangle, LightKind::Rectangle, LightKind::Line, LightKind::Rectangle,
@@ -50,16 +54,21 @@ TEST_P(RandomAreaScene, FastAndExactAgree) {
     const glm::ivec2 size(16, 16);
     const PrimaryHits primary = primaryHits(snapshot, size);
     const AreaScene area(snapshot);
-    int compared = 0;
-    for (int i = 0; i < size.x * size.y && compared < 100; ++i) {
-        const glm::ivec2 pixel(i % size.x, i / size.x);
-        if (primary.surface(pixel.x, pixel.y) != Surface::Receiver) continue;
-        const VisibleFraction fast = area.fraction(pixel, size, primary), exact = area.exactFraction(pixel, size, primary);
-        ASSERT_NEAR(fast.low, exact.low, fastError) << pixel.x << " " << pixel.y;
-        ASSERT_NEAR(fast.high, exact.high, fastError) << pixel.x << " " << pixel.y;
-        ++compared;
+    std::vector<glm::ivec2> pixels;
+    for (int i = 0; i < size.x * size.y && pixels.size() < 100; ++i)
+        if (primary.surface(i % size.x, i / size.x) == Surface::Receiver) pixels.emplace_back(i % size.x, i / size.x);
+    EXPECT_GE(pixels.size(), 85U);
+
+    std::vector<VisibleFraction> fast(pixels.size()), exact(pixels.size());
+    inParallel(static_cast<int>(pixels.size()), hardwareThreads(), [&](int i) {
+        const auto index = static_cast<std::size_t>(i);
+        fast[index] = area.fraction(pixels[index], size, primary);
+        exact[index] = area.exactFraction(pixels[index], size, primary);
+    });
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        ASSERT_NEAR(fast[i].low, exact[i].low, fastError) << pixels[i].x << " " << pixels[i].y;
+        ASSERT_NEAR(fast[i].high, exact[i].high, fastError) << pixels[i].x << " " << pixels[i].y;
     }
-    EXPECT_GE(compared, 85);
 }
 
 TEST_P(RandomAreaScene, TheFractionOfATinyLightIsTheHardLabel) {

@@ -1,4 +1,4 @@
-#include "groundtruth/cgal/plan/plan.h"
+#include "groundtruth/cgal/plan/plan_view.h"
 #include "scene/load/load.h"
 #include "scene/scene.h"
 
@@ -16,6 +16,9 @@
 #include <string>
 
 namespace shadowbench::groundtruth::testing {
+
+using namespace hard;
+using namespace plan;
 namespace {
 
 const PlanarReceiver wholeGround{1, {0, 1}, 0}; // both triangles of a `plane`

@@ -28,10 +28,34 @@ class PovRayFailure : public PovRayStandIn {};
 TEST_F(PovRayFailure, AMissingProgramNamesThePackage) {
     const std::string said = sentence({.program = "no-such-povray"});
     EXPECT_TRUE(contains(said, "no-such-povray") && contains(said, "apt-get install povray")) << said;
-    EXPECT_THROW(povrayVersion({.program = "no-such-povray"}), Inconclusive);
+    EXPECT_THROW(povray::version({.program = "no-such-povray"}), Inconclusive);
 }
 
-TEST_F(PovRayFailure, AProgramThatIsNotPovRayHasNoVersion) { EXPECT_THROW(povrayVersion(fake("echo hello")), Inconclusive); }
+TEST_F(PovRayFailure, AProgramThatIsNotPovRayHasNoVersion) {
+    EXPECT_THROW(povray::version(fake("echo hello")), Inconclusive);
+}
+
+TEST_F(PovRayFailure, AProgramIsAskedForItsVersionOnce) {
+    const std::string body = fmt::format("echo asked >> {}; echo 'POV-Ray 9.8.7 test'", file("asked").string());
+    const povray::Options options = fake(body);
+    const auto timesAsked = [&] { return std::ranges::count(readFile(file("asked")), '\n'); };
+    std::vector<std::string> versions(4);
+    std::vector<std::thread> threads;
+    for (std::string& version : versions) threads.emplace_back([&] { version = povray::version(options); });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(versions, std::vector<std::string>(4, "9.8.7"));
+    EXPECT_EQ(timesAsked(), 1);
+
+    fake(body); // another program in its place
+    fs::last_write_time(file("povray"), fs::last_write_time(file("povray")) + 1s);
+    EXPECT_EQ(povray::version(options), "9.8.7");
+    EXPECT_EQ(timesAsked(), 2);
+}
+
+TEST_F(PovRayFailure, AnErrorIsReportedEveryTime) {
+    const povray::Options options = fake("echo hello");
+    for (int i = 0; i < 3; ++i) EXPECT_THROW(povray::version(options), Inconclusive);
+}
 
 TEST_F(PovRayFailure, AFileThatCannotBeExecutedIsReported) {
     writeFile(file("povray"), "not a program");
@@ -101,7 +125,7 @@ TEST_F(PovRayFailure, AFullDiskIsNamed) {
     setenv("TMPDIR", disk.c_str(), 1);
     try {
         // The scene fits into 128 kB, POV-Ray's state file and image of 256² do not.
-        renderPovRay(overlappingPlates(), {256, 256}, 64);
+        povray::render(overlappingPlates(), {256, 256}, 64);
         ADD_FAILURE() << "rendered on a full disk";
     } catch (const Inconclusive& error) {
         EXPECT_TRUE(contains(error.what(), "disk")) << error.what();
@@ -117,8 +141,8 @@ TEST_F(PovRayFailure, ATemporaryFolderThatDoesNotExistIsNamed) {
 }
 
 TEST_F(PovRayFailure, TheChildSeesAPrivateHomeAndNoInput) {
-    const PovRayOptions options = fake(fmt::format("env > {}; pwd >> {}; cat >> {}; exit 1", file("env").string(),
-                                                   file("env").string(), file("env").string()));
+    const povray::Options options = fake(fmt::format("env > {}; pwd >> {}; cat >> {}; exit 1", file("env").string(),
+                                                     file("env").string(), file("env").string()));
     setenv("SHADOWBENCH_TEST_SECRET", "visible", 1);
     sentence(options);
     unsetenv("SHADOWBENCH_TEST_SECRET");
@@ -128,7 +152,7 @@ TEST_F(PovRayFailure, TheChildSeesAPrivateHomeAndNoInput) {
 }
 
 TEST_F(PovRayFailure, TheChildIsLimitedInMemoryFilesAndDumps) {
-    const PovRayOptions options =
+    const povray::Options options =
         fake(fmt::format("(ulimit -v; ulimit -n; ulimit -c; ulimit -t; ulimit -f) > {}; exit 1", file("limits").string()));
     sentence(options);
     std::istringstream limits(readFile(file("limits")));
@@ -150,14 +174,14 @@ TEST_F(PovRayFailure, AChildThatTakesAllMemoryIsEnded) {
 
 TEST_F(PovRayFailure, ProgressRisesToOne) {
     std::vector<double> seen;
-    renderPovRay(overlappingPlates(), size, 16, {}, [&](double done, std::string_view) { seen.push_back(done); });
+    povray::render(overlappingPlates(), size, 16, {}, [&](double done, std::string_view) { seen.push_back(done); });
     ASSERT_FALSE(seen.empty());
     EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
     EXPECT_EQ(seen.back(), 1.0);
 }
 
 TEST(PovRayScene, HoldsNumbersAndOurOwnWordsOnly) {
-    const std::string text = povrayScene(overlappingPlates(), size, 16);
+    const std::string text = povray::sceneText(overlappingPlates(), size, 16);
     const std::set<std::string> ours{"version",
                                      "global_settings",
                                      "assumed_gamma",
@@ -203,21 +227,21 @@ mesh = { box = { size = [2, 1, 1] } }
 )";
     const Scene scene = parseScene(text, "injected \"#include\".toml", Profile::Gate);
     ASSERT_TRUE(contains(scene.objects.at(0).name, "#include")); // it was read …
-    const std::string written = povrayScene(snapshot(scene, 0), size, 16);
+    const std::string written = povray::sceneText(snapshot(scene, 0), size, 16);
     for (const char* part : {"include", "injected", "passwd", "\"", "//"}) EXPECT_FALSE(contains(written, part)) << part;
 }
 
 TEST(PovRayScene, RefusesWhatItCannotRender) {
     const Snapshot scene = overlappingPlates();
-    for (const int samples : {-1, 0, fewestLightSamples - 1, mostLightSamples + 1})
-        EXPECT_THROW(povrayScene(scene, size, samples), BadInput) << samples;
-    EXPECT_THROW(povrayScene(scene, {0, 64}, 16), BadInput);
+    for (const int samples : {-1, 0, povray::fewestLightSamples - 1, povray::mostLightSamples + 1})
+        EXPECT_THROW(povray::sceneText(scene, size, samples), BadInput) << samples;
+    EXPECT_THROW(povray::sceneText(scene, {0, 64}, 16), BadInput);
     Snapshot point = scene;
     point.light.kind = LightKind::Point;
-    EXPECT_THROW(povrayScene(point, size, 16), BadInput);
+    EXPECT_THROW(povray::sceneText(point, size, 16), BadInput);
     Snapshot broken = scene;
     broken.batches[0].placements[0].world[3].x = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(povrayScene(broken, size, 16), BadInput);
+    EXPECT_THROW(povray::sceneText(broken, size, 16), BadInput);
 }
 
 } // namespace

@@ -15,11 +15,11 @@ protected:
         pid_t parent, child;
     };
     [[nodiscard]] Run start() const {
-        const PovRayOptions options = fake(fmt::format("echo $$ > {}; exec sleep 100", file("pid").string()));
+        const povray::Options options = fake(fmt::format("echo $$ > {}; exec sleep 100", file("pid").string()));
         const pid_t parent = fork();
         if (parent == 0) {
             try {
-                renderPovRay(overlappingPlates(), size, 16, options);
+                povray::render(overlappingPlates(), size, 16, options);
             } catch (...) {
             }
             _exit(0);
@@ -42,10 +42,10 @@ protected:
 
 TEST_F(PovRayInterrupted, ACallerThatGivesUpLeavesNothingBehind) {
     struct Interrupted {};
-    const PovRayOptions options =
+    const povray::Options options =
         fake(fmt::format("echo $$ > {}; echo 'Rendered 1024 of 4096 pixels (25%)' >&2; sleep 100", file("pid").string()));
     const Progress interrupt = [](double, std::string_view) { throw Interrupted{}; };
-    EXPECT_THROW(renderPovRay(overlappingPlates(), size, 16, options, interrupt), Interrupted);
+    EXPECT_THROW(povray::render(overlappingPlates(), size, 16, options, interrupt), Interrupted);
     EXPECT_TRUE(endsSoon(pidIn("pid")));
 }
 

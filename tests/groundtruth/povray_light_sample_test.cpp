@@ -29,7 +29,7 @@ TEST(LightSample, FirstPowersOfTwoFormANet) {
         const int n = 1 << k;
         for (int a = 0; a <= k; ++a) {
             std::set<int> cells;
-            for (int i = 0; i < n; ++i) cells.insert(cell(lightSample(i, n), a, k - a));
+            for (int i = 0; i < n; ++i) cells.insert(cell(povray::lightSample(i, n), a, k - a));
             EXPECT_EQ(cells.size(), static_cast<std::size_t>(n)) << "2^-" << a << " × 2^-" << k - a;
         }
     }
@@ -37,14 +37,14 @@ TEST(LightSample, FirstPowersOfTwoFormANet) {
 
 TEST(LightSample, EveryPartOfTheSetIsANetToo) {
     constexpr int n = 1024;
-    const SampleParts parts = sampleParts(n);
+    const povray::SampleParts parts = povray::sampleParts(n);
     ASSERT_EQ(parts.firstQuarter + parts.secondQuarter + parts.secondHalf, n);
     int start = 0;
     for (const int count : {parts.firstQuarter, parts.secondQuarter, parts.secondHalf}) {
         const int k = std::countr_zero(static_cast<unsigned>(count));
         for (int a = 0; a <= k; ++a) {
             std::set<int> cells;
-            for (int i = 0; i < count; ++i) cells.insert(cell(lightSample(start + i, n), a, k - a));
+            for (int i = 0; i < count; ++i) cells.insert(cell(povray::lightSample(start + i, n), a, k - a));
             EXPECT_EQ(cells.size(), static_cast<std::size_t>(count)) << "from point " << start;
         }
         start += count;
@@ -52,8 +52,8 @@ TEST(LightSample, EveryPartOfTheSetIsANetToo) {
 }
 
 TEST(LightSample, NoPartOfTheSetIsEverEmpty) {
-    for (int n = fewestLightSamples; n < 100; ++n) {
-        const SampleParts parts = sampleParts(n);
+    for (int n = povray::fewestLightSamples; n < 100; ++n) {
+        const povray::SampleParts parts = povray::sampleParts(n);
         EXPECT_EQ(parts.firstQuarter + parts.secondQuarter + parts.secondHalf, n);
         EXPECT_GT(std::min({parts.firstQuarter, parts.secondQuarter, parts.secondHalf}), 0) << n;
     }
@@ -62,7 +62,7 @@ TEST(LightSample, NoPartOfTheSetIsEverEmpty) {
 TEST(LightSample, PointsOfAPowerOfTwoAreCentredSoThatTheirMeanIsTheMiddle) {
     for (const int n : {1, 4, 256, 1024}) {
         glm::dvec2 sum(0);
-        for (int i = 0; i < n; ++i) sum += lightSample(i, n);
+        for (int i = 0; i < n; ++i) sum += povray::lightSample(i, n);
         EXPECT_DOUBLE_EQ(sum.x / n, 0.5) << n;
         EXPECT_DOUBLE_EQ(sum.y / n, 0.5) << n;
     }
@@ -78,7 +78,7 @@ TEST(LightSample, EdgesInAnyDirectionLeaveTheErrorOfANet) {
         for (int i = 0; i < edges; ++i) {
             const double offset = (i + 0.5) / edges - 0.5;
             int count = 0;
-            for (int j = 0; j < n; ++j) count += glm::dot(lightSample(j, n) - 0.5, normal) < offset;
+            for (int j = 0; j < n; ++j) count += glm::dot(povray::lightSample(j, n) - 0.5, normal) < offset;
             squares += std::pow(static_cast<double>(count) / n - belowEdge(normal, offset), 2);
         }
         EXPECT_LE(std::sqrt(squares / edges), 0.003)
@@ -87,9 +87,9 @@ TEST(LightSample, EdgesInAnyDirectionLeaveTheErrorOfANet) {
 }
 
 TEST(LightSample, StaysInsideTheUnitSquareForEveryCount) {
-    for (const int n : {4, 6, 7, 100, 1000, mostLightSamples}) {
+    for (const int n : {4, 6, 7, 100, 1000, povray::mostLightSamples}) {
         for (int i = 0; i < n; ++i) {
-            const glm::dvec2 p = lightSample(i, n);
+            const glm::dvec2 p = povray::lightSample(i, n);
             ASSERT_TRUE(p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1) << i << " of " << n;
         }
     }

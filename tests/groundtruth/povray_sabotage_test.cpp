@@ -10,9 +10,11 @@
 #include <gtest/gtest.h>
 
 namespace shadowbench::groundtruth {
+
+using namespace hard;
 namespace {
 
-using Lights = PovRayRecipe::Lights;
+using Lights = povray::Recipe::Lights;
 
 /// The scene of overlapping plates as a model of a few millimetres: all of it is nearer than POV-Ray's least shadow
 /// distance.
@@ -76,7 +78,7 @@ struct Sabotage {
     std::string fault;
     Snapshot scene;
     int samples;
-    PovRayRecipe recipe;
+    povray::Recipe recipe;
     std::string reason; // a part of the sentence
 };
 
@@ -88,12 +90,12 @@ std::vector<Sabotage> sabotages() {
             {"NoDoubleIlluminate", grazingLight(), 64, {.doubleIlluminate = false}, wrong}};
 }
 
-Certificate certificateOf(const Sabotage& sabotage, const PovRayRecipe& recipe) {
+Certificate certificateOf(const Sabotage& sabotage, const povray::Recipe& recipe) {
     const Request request{sabotage.scene, {64, 64}, Oracle::PovRay, sabotage.samples};
     const PrimaryHits primary = primaryHits(request.snapshot, request.size);
-    PovRayOptions options;
+    povray::Options options;
     options.recipe = recipe;
-    const PovRayImage image = renderPovRay(request.snapshot, request.size, request.samples, options);
+    const povray::Render image = povray::render(request.snapshot, request.size, request.samples, options);
     return certify(request, image, primary, certificatePointCount, 2);
 }
 
@@ -138,7 +140,7 @@ TEST(Recipe, AGridOfEqualWeightsIsWorseButSound) {
 
 TEST(Recipe, OccludersTooThinForTheSamplesAreNotedBeforeACertificateIsAsked) {
     try {
-        compute({thinBars(), {64, 64}, Oracle::PovRay, fewestLightSamples});
+        compute({thinBars(), {64, 64}, Oracle::PovRay, povray::fewestLightSamples});
         ADD_FAILURE() << "four samples saw what lies between them";
     } catch (const InternalError& error) {
         EXPECT_NE(std::string(error.what()).find("contradict each other"), std::string::npos) << error.what();

@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 
 namespace shadowbench::groundtruth {
+
+using namespace hard;
 namespace {
 
 constexpr glm::ivec2 size{96, 96};
@@ -35,7 +37,7 @@ Snapshot ball() {
 TEST(Reference, PovRayAndTheExactPrimaryHitsSeeTheSameGeometry) {
     const Snapshot scene = overlappingPlates();
     const PrimaryHits exact = primaryHits(scene, size);
-    const PovRayImage image = renderPovRay(scene, size, 16);
+    const povray::Render image = povray::render(scene, size, 16);
     int differing = 0, background = 0;
     for (std::size_t i = 0; i < exact.id.size(); ++i) {
         differing += (image.hit[i] != 0) != (exact.id[i] != 0);
@@ -45,8 +47,14 @@ TEST(Reference, PovRayAndTheExactPrimaryHitsSeeTheSameGeometry) {
     EXPECT_LE(differing, size.x * size.y / 1000); // 0.1 %
 }
 
+/// Of overlappingPlates with 256 samples, computed once for all tests.
+const Reference& softPlates() {
+    static const Reference reference = compute({overlappingPlates(), size, Oracle::Auto, 256});
+    return reference;
+}
+
 TEST(Reference, OfAnAreaLightIsSoftCertifiedAndConfinedToReceivers) {
-    const Reference reference = compute({overlappingPlates(), size, Oracle::Auto, 256});
+    const Reference& reference = softPlates();
     EXPECT_EQ(reference.provenance.oracle, "povray");
     EXPECT_EQ(reference.provenance.samples, 256);
     EXPECT_EQ(reference.provenance.key.size(), 32U);
@@ -76,7 +84,7 @@ TEST(Reference, ALightMovedBehindPovRaysBackWouldBeNoticed) {
     // The exact label of the light's centre contradicts fully lit and fully shadowed pixels only if the lights differ.
     Snapshot moved = overlappingPlates();
     moved.light.centre += glm::dvec3(3, 0, 0);
-    const PovRayImage image = renderPovRay(moved, size, 64);
+    const povray::Render image = povray::render(moved, size, 64);
     Reference hard;
     labelByRays(hardPlates(), size, primaryHits(hardPlates(), size), hard);
     int contradictions = 0;
@@ -128,8 +136,8 @@ TEST(Reference, StatedUncertaintyIsTheError) {
 }
 
 TEST(Reference, StatedUncertaintyHoldsWherePenumbraeOverlap) {
-    const Reference reference = compute({overlappingPlates(), size, Oracle::Auto, 256});
-    const PovRayImage truth = renderPovRay(overlappingPlates(), size, 4096); // errs about six times less
+    const Reference& reference = softPlates();
+    const povray::Render truth = povray::render(overlappingPlates(), size, 4096); // errs about six times less
     double error = 0, sigma = 0;
     int penumbra = 0, beyond = 0;
     for (std::size_t i = 0; i < reference.visibility.size(); ++i) {

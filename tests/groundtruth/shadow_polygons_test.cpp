@@ -16,6 +16,9 @@
 #include <sstream>
 
 namespace shadowbench::groundtruth::testing {
+
+using namespace hard;
+using namespace plan;
 namespace {
 
 constexpr glm::ivec2 size(48, 48);

@@ -12,6 +12,9 @@
 
 namespace shadowbench::groundtruth::testing {
 
+using namespace area;
+using namespace hard;
+
 /// What the fast form may differ from the exact one: some hundred edges, each rounded to a few 1e-16, stay well below.
 constexpr double fastError = 1e-12;
 

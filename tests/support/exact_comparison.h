@@ -9,6 +9,8 @@
 
 namespace shadowbench::groundtruth::testing {
 
+using namespace hard;
+
 /// Pixels.
 struct Comparison {
     std::size_t compared = 0, shadowed = 0;

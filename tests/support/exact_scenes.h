@@ -13,6 +13,8 @@
 
 namespace shadowbench::groundtruth::testing {
 
+using namespace hard;
+
 inline glm::dmat4 at(double x, double y, double z) { return glm::translate(glm::dmat4(1), glm::dvec3(x, y, z)); }
 
 /// Builds snapshots; surface ids count from 1 in the order of `add`.

@@ -59,16 +59,16 @@ protected:
     [[nodiscard]] fs::path file(const std::string& name) const { return base_ / name; }
 
     /// A stand-in for POV-Ray: a shell script with this body.
-    PovRayOptions fake(const std::string& body, std::chrono::milliseconds limit = 30s) const {
+    povray::Options fake(const std::string& body, std::chrono::milliseconds limit = 30s) const {
         writeFile(file("povray"), "#!/bin/sh\n" + body + "\n");
         fs::permissions(file("povray"), fs::perms::owner_all);
         return {file("povray"), limit, 1};
     }
 
     /// The sentence with which rendering is inconclusive.
-    static std::string sentence(const PovRayOptions& options, const Progress& progress = {}) {
+    static std::string sentence(const povray::Options& options, const Progress& progress = {}) {
         try {
-            renderPovRay(overlappingPlates(), size, 16, options, progress);
+            povray::render(overlappingPlates(), size, 16, options, progress);
         } catch (const Inconclusive& error) {
             return error.what();
         }

@@ -2,6 +2,7 @@
 // records tells.
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "groundtruth/store/cache.h"
 #include "harness/cells/environment.h"
 #include "tools/mutants/outcome.h"
@@ -14,7 +15,6 @@
 #include <fmt/ranges.h>
 #include <map>
 #include <set>
-#include <xxhash.h>
 
 namespace shadowbench::mutants {
 namespace {
@@ -29,7 +29,7 @@ struct Options {
 std::string hashOf(const std::vector<std::string>& words) {
     std::string all;
     for (const std::string& word : words) all += word + '\0';
-    return fmt::format("{:016x}", XXH3_64bits(all.data(), all.size()));
+    return fmt::format("{:016x}", hash64(all));
 }
 
 /// Records, made once and kept: one file for what one program is asked once.

@@ -2,12 +2,12 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "tools/mutants/tool.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <xxhash.h>
 
 namespace shadowbench::mutants {
 namespace {
@@ -26,17 +26,16 @@ void writeIfDifferent(const std::filesystem::path& file, const std::string& text
 TreeCopy::TreeCopy(std::filesystem::path source, std::filesystem::path folder)
     : source_(std::move(source)), folder_(std::move(folder)) {
     const std::vector<std::string> files = trackedFiles();
-    XXH3_state_t* state = XXH3_createState();
-    XXH3_64bits_reset(state);
+    std::string judged;
     for (const std::string& file : files) {
         const std::string text = readFile(source_ / file);
         writeIfDifferent(folder_ / file, text);
         if (onlyJudges(file)) continue;
-        XXH3_64bits_update(state, file.data(), file.size() + 1); // with the 0 that ends it
-        XXH3_64bits_update(state, text.data(), text.size());
+        judged += file;
+        judged += '\0';
+        judged += text;
     }
-    hash_ = fmt::format("{:016x}", XXH3_64bits_digest(state));
-    XXH3_freeState(state);
+    hash_ = fmt::format("{:016x}", hash64(judged));
     removeAllBut(files);
 }
 

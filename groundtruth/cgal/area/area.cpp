@@ -1,7 +1,7 @@
 #include "groundtruth/cgal/area/area.h"
 
 #include "base/error.h"
-#include "base/parallel_loop.h"
+#include "base/parallel.h"
 #include "groundtruth/cgal/area/area_exact.h"
 #include "groundtruth/cgal/area/area_shape.h"
 #include "groundtruth/cgal/area/area_sweep.h"
@@ -10,8 +10,9 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::area {
 namespace {
 
 /// What the fast form may err. Edges are first computed with the loosest tolerance; where the bound of the whole comes out
@@ -56,15 +57,15 @@ struct AreaScene::Data {
     Camera camera;
     Light light;
     LightShape shape;
-    SceneTriangles triangles;
+    std::shared_ptr<const SceneTriangles> triangles;
     int threads;
 
     [[nodiscard]] SurfacePoint surfacePoint(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const {
         requireSize(primary, size);
         if (!primary.id.contains(pixel.x, pixel.y) || primary.surface(pixel.x, pixel.y) != Surface::Receiver)
             throw InternalError("The visible fraction was asked for a pixel that sees no receiver.");
-        const TriangleName receiver{triangles.instanceOf(primary.id(pixel.x, pixel.y)), primary.triangle(pixel.x, pixel.y)};
-        return {pixelRay(camera, pixel.x, pixel.y, size), triangles.triangle(receiver)};
+        const TriangleName receiver{triangles->instanceOf(primary.id(pixel.x, pixel.y)), primary.triangle(pixel.x, pixel.y)};
+        return {pixelRay(camera, pixel.x, pixel.y, size), triangles->triangle(receiver)};
     }
 
     /// Nothing where the light is seen edge-on.
@@ -79,18 +80,20 @@ struct AreaScene::Data {
 
     [[nodiscard]] std::optional<BoundedFraction> fraction(const SurfacePoint& point, double tolerance) const {
         if (light.kind == LightKind::Line) {
-            const auto hidden = coverIntervals(triangles, light, point, tolerance);
+            const auto hidden = coverIntervals(*triangles, light, point, tolerance);
             return hidden ? std::optional(lengthFraction(*hidden)) : std::nullopt;
         }
-        const auto edges = coverEdges(triangles, light, point, tolerance);
+        const auto edges = coverEdges(*triangles, light, point, tolerance);
         return edges ? std::optional(areaFraction(*edges, shape)) : std::nullopt;
     }
 };
 
-AreaScene::AreaScene(const Snapshot& snapshot, int threads) {
+AreaScene::AreaScene(const Snapshot& snapshot, int threads)
+    : AreaScene(snapshot, std::make_shared<const SceneTriangles>(snapshot), threads) {}
+
+AreaScene::AreaScene(const Snapshot& snapshot, std::shared_ptr<const SceneTriangles> triangles, int threads) {
     if (!snapshot.light.isArea()) throw InternalError("Visible fractions were asked for a light without an area.");
-    data_.reset(
-        new Data{snapshot.camera, snapshot.light, lightShape(snapshot.light.kind), SceneTriangles(snapshot), threads});
+    data_.reset(new Data{snapshot.camera, snapshot.light, lightShape(snapshot.light.kind), std::move(triangles), threads});
 }
 
 AreaScene::~AreaScene() = default;
@@ -102,7 +105,7 @@ VisibleFraction AreaScene::fraction(glm::ivec2 pixel, glm::ivec2 size, const Pri
 
 VisibleFraction AreaScene::exactFraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const {
     const SurfacePoint point = data_->surfacePoint(pixel, size, primary);
-    return exactVisibleFraction(areaCandidates(data_->triangles, data_->light, point), data_->light, point);
+    return exactVisibleFraction(areaCandidates(*data_->triangles, data_->light, point), data_->light, point);
 }
 
 void AreaScene::label(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress) const {
@@ -113,7 +116,7 @@ void AreaScene::label(glm::ivec2 size, const PrimaryHits& primary, Reference& ou
     out.id = primary.id;
     out.position = primary.position;
     out.edgeDistance = Image<float>(size.x, size.y, std::numeric_limits<float>::infinity());
-    forEachInParallel(size.y, data_->threads, progress, "visible fractions", [&](int y) {
+    inParallel(size.y, data_->threads, progress, "visible fractions", [&](int y) {
         for (int x = 0; x < size.x; ++x) {
             if (primary.surface(x, y) != Surface::Receiver) continue;
             const auto found = data_->fraction(data_->surfacePoint({x, y}, size, primary));
@@ -128,4 +131,4 @@ void AreaScene::label(glm::ivec2 size, const PrimaryHits& primary, Reference& ou
     });
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

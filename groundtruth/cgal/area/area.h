@@ -1,5 +1,5 @@
 // The visible fraction of an area light, exactly: what each pixel centre's surface point sees of the light
-// (GROUNDTRUTH.md: "exact area fraction"). The geometry is that of groundtruth/cgal/hard/exact.h.
+// (docs/ground-truth.md, "Exact visible fraction"). The geometry is that of groundtruth/cgal/hard/exact.h.
 //
 // A surface point P is the exact point where a pixel's ray meets its triangle's plane. Whatever lies strictly between P and
 // the light's plane hides what is behind it; a triangle whose plane contains P hides nothing. Seen from P, each mesh leaves
@@ -12,10 +12,14 @@
 
 #include <memory>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
+class SceneTriangles; // groundtruth/cgal/geometry/triangles.h
+}
 
-/// To be raised with every change that can alter a fraction: it is part of the keys that rest on one.
-constexpr int areaCodeVersion = 1;
+namespace shadowbench::groundtruth::area {
+
+/// Raise it with every change that can alter a fraction: it is part of the key of each reference that needs one.
+constexpr int codeVersion = 1;
 
 /// Visible share of the light's area at one surface point, in [0, 1]. low == high for rectangles and lines; for a disk the
 /// bracket of an inscribed and a circumscribed polygon, at most 1e-4 wide. A point in the light's plane (on a line light's
@@ -29,6 +33,8 @@ class AreaScene {
 public:
     /// `threads`: how many work on an image; results do not depend on it. Throws InternalError unless light.isArea().
     explicit AreaScene(const Snapshot& snapshot, int threads = 2);
+    /// With triangles that were made of the same snapshot, or of one with another camera and light only.
+    AreaScene(const Snapshot& snapshot, std::shared_ptr<const geometry::SceneTriangles> triangles, int threads = 2);
     ~AreaScene();
     AreaScene(const AreaScene&) = delete;
     AreaScene& operator=(const AreaScene&) = delete;
@@ -39,7 +45,7 @@ public:
     [[nodiscard]] VisibleFraction fraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const;
 
     /// The same by another derivation in rational numbers (clipped triangles in one arrangement), rounded at the end:
-    /// certifies `fraction`. Milliseconds to seconds a point.
+    /// checks `fraction`. Too slow for whole images.
     [[nodiscard]] VisibleFraction exactFraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const;
 
     /// The fast form at all receivers of `primary`: visibility (middle of the bracket; 0 off the receivers), sigma (half the
@@ -52,4 +58,4 @@ private:
     std::unique_ptr<Data> data_;
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

@@ -20,7 +20,7 @@
 #include <set>
 #include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::area {
 namespace {
 
 using Number = CGAL::Exact_rational;
@@ -326,4 +326,4 @@ VisibleFraction exactVisibleFraction(const std::vector<Triangle>& candidates, co
     return enclosedFraction(exactAreas(triangles, view, shaft, shape), shape);
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

@@ -5,7 +5,9 @@
 #include "groundtruth/cgal/geometry/vector.h"
 #include "scene/camera.h"
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::area {
+
+using namespace geometry;
 
 /// Homogeneous light coordinates as seen from the point: the world point X is seen at (x / w, y / w), and w grows from 0 at
 /// the point to `distance` at the light's plane. With D = centre − P and d = X − P, P + λ d = centre + a u + b v gives by
@@ -44,4 +46,4 @@ struct LightMap {
     [[nodiscard]] Vector<Number> offset(const glm::dvec3& world) const { return vector<Number>(world) - head - rest; }
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::area {
 
 /// Approximate homogeneous light coordinates with a bound of their error: culls what certainly hides nothing.
 class RoughMap {
@@ -68,4 +68,4 @@ private:
     double error_;
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

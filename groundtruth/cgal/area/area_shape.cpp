@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::area {
 namespace {
 
 constexpr int sides = 320;         // bracket: (π / sides)² = 9.6e-5 of the disk; a multiple of 4
@@ -41,4 +41,4 @@ VisibleFraction enclosedFraction(const LightAreas& areas, const LightShape& shap
     return {std::clamp(low, 0.0, 1.0), std::clamp(high, 0.0, 1.0)};
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::area {
 
 /// Half the side of the square in light coordinates around a light's shape. A circumscribed polygon reaches beyond the disk.
 double lightWindow(LightKind kind);
@@ -33,4 +33,4 @@ struct LightAreas {
 /// one; and the same of what is hidden.
 VisibleFraction enclosedFraction(const LightAreas& areas, const LightShape& shape);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::area {
 namespace {
 
 constexpr double unit = 0x1p-53; // relative rounding error of one operation
@@ -166,4 +166,4 @@ VisibleLength visibleLength(std::vector<CoverInterval> hidden) {
     return result;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

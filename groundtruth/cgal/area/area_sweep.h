@@ -11,7 +11,7 @@
 #include "groundtruth/cgal/area/area_shape.h"
 #include "groundtruth/cgal/area/area_view.h"
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::area {
 
 /// With a certain bound of the error of every figure.
 struct SweptAreas {
@@ -28,4 +28,4 @@ struct VisibleLength {
 };
 VisibleLength visibleLength(std::vector<CoverInterval> hidden);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

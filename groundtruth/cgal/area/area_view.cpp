@@ -2,9 +2,9 @@
 
 #include "groundtruth/cgal/area/area_light_map.h"
 #include "groundtruth/cgal/area/area_rough.h"
+#include "groundtruth/cgal/geometry/arithmetic.h"
 
 #include <CGAL/Exact_rational.h>
-#include <CGAL/Interval_nt.h>
 
 #include <algorithm>
 #include <array>
@@ -13,10 +13,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::area {
 namespace {
 
-using Interval = CGAL::Interval_nt<false>; // rounding set by Interval::Protector
 using Rational = CGAL::Exact_rational;
 
 Interval toInterval(const Interval& value) { return value; }
@@ -24,12 +23,6 @@ Interval toInterval(const Interval& value) { return value; }
 Interval toInterval(const Rational& value) {
     const std::pair<double, double> bounds = CGAL_NTS to_interval(value);
     return {bounds.first, bounds.second};
-}
-
-/// Sign; over intervals CGAL::Uncertain_conversion_exception where it is not certain.
-template <typename Number>
-int signOf(const Number& value) {
-    return static_cast<int>(CGAL::make_certain(CGAL_NTS sign(value)));
 }
 
 LightMap<Interval> intervalMap(const ReceiverPoint& point, const ReceiverPoint::Remainder& rest, const Light& light,
@@ -106,7 +99,7 @@ private:
     std::optional<LightMap<Rational>> rationals_;
 };
 
-/// Clips at value ≥ 0; `mark` tells a new corner on which border it lies. `open`: two corners are a segment, not a polygon.
+/// Clips at value ≥ 0; `mark` notes on a new corner on which border it lies. `open`: two corners are a segment, not a polygon.
 template <typename Number, typename Value, typename Mark>
 std::vector<Corner<Number>> clip(const std::vector<Corner<Number>>& corners, bool open, const Value& value,
                                  const Mark& mark) {
@@ -410,4 +403,4 @@ std::vector<Triangle> areaCandidates(const SceneTriangles& scene, const Light& l
     return result;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

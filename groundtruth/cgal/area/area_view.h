@@ -7,7 +7,9 @@
 #include <optional>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::area {
+
+using namespace geometry;
 
 /// A surface point: where `ray` meets the plane of `receiver`.
 struct SurfacePoint {
@@ -44,4 +46,4 @@ std::optional<std::vector<CoverInterval>> coverIntervals(const SceneTriangles& s
 /// The triangles of which some may hide a part of the light from the point.
 std::vector<Triangle> areaCandidates(const SceneTriangles& scene, const Light& light, const SurfacePoint& point);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::area

@@ -1,4 +1,4 @@
-// Number types and vectors for exact decisions. For the .cpp files of this folder only: nothing else sees CGAL.
+// Number types and vectors for exact decisions. For .cpp files of groundtruth/cgal only: no other header shows CGAL.
 #pragma once
 
 #include "groundtruth/cgal/geometry/predicates.h"
@@ -9,24 +9,26 @@
 
 #include <type_traits>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
 using Interval = CGAL::Interval_nt<false>;                      // rounding set by Interval::Protector
 using Ring = CGAL::internal::Exact_ring_selector<double>::Type; // no division is needed anywhere
 
-inline CGAL::Uncertain<CGAL::Sign> signOf(const Interval& value) { return CGAL_NTS sign(value); }
-
-inline int signOf(const Ring& value) { return static_cast<int>(CGAL_NTS sign(value)); }
+/// −1, 0 or 1. Throws CGAL::Uncertain_conversion_exception where `value` is an interval that leaves the sign open.
+template <typename Number>
+int signOf(const Number& value) {
+    return static_cast<int>(CGAL::make_certain(CGAL_NTS sign(value)));
+}
 
 /// The sign of `polynomial`, a function of the number type (as std::type_identity) to compute in.
 template <typename Polynomial>
 int filteredSign(const Polynomial& polynomial) {
     {
         const Interval::Protector rounding;
-        const CGAL::Uncertain<CGAL::Sign> sign = signOf(polynomial(std::type_identity<Interval>()));
+        const CGAL::Uncertain<CGAL::Sign> sign = CGAL_NTS sign(polynomial(std::type_identity<Interval>()));
         if (CGAL::is_certain(sign)) return static_cast<int>(CGAL::get_certain(sign));
     }
-    return signOf(polynomial(std::type_identity<Ring>()));
+    return signOf<Ring>(polynomial(std::type_identity<Ring>()));
 }
 
 /// The point xyz / w, w > 0.
@@ -47,4 +49,4 @@ inline Homogeneous<Interval> homogeneous(const ReceiverPoint& p, std::type_ident
 
 inline const Homogeneous<Ring>& homogeneous(const ReceiverPoint& p, std::type_identity<Ring>) { return p.exact().point; }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

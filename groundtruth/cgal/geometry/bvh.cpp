@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 namespace {
 
 constexpr int binCount = 16;
@@ -148,4 +148,4 @@ Bvh::Bvh(const std::vector<FloatBox>& boxes) {
     if (!boxes.empty()) Builder(*this, boxes);
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

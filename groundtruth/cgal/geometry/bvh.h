@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
+/// Half the size of the scene's Bounds, of which a tree holds millions; what is made of doubles is rounded outwards.
 struct FloatBox {
     glm::vec3 low, high;
 };
@@ -103,4 +104,4 @@ private:
     std::vector<std::uint32_t> order_;
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 namespace {
 
 struct DirectedEdge {
@@ -47,4 +47,4 @@ MeshEdges::MeshEdges(const Mesh& mesh) {
     edges_.push_back({0, 0, static_cast<std::uint32_t>(uses_.size())});
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
 class MeshEdges {
 public:
@@ -37,4 +37,4 @@ private:
     std::vector<Use> uses_;
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 namespace {
 
 /// Numerator and denominator of the parameter at which a ray meets a triangle's plane.
@@ -128,6 +128,11 @@ int side(const Triangle& triangle, const glm::dvec4& point) {
     });
 }
 
+Triangle facing(Triangle triangle, const glm::dvec4& light) {
+    if (side(triangle, light) < 0) std::swap(triangle[1], triangle[2]);
+    return triangle;
+}
+
 ReceiverPoint::ReceiverPoint(const Ray& ray, const Triangle& triangle) : ray_(ray), triangle_(triangle) {
     const DepthBounds t = depthBounds(ray, triangle);
     const Interval::Protector rounding;
@@ -201,4 +206,4 @@ bool blockTogether(const ReceiverPoint& point, const glm::dvec4& light, std::spa
     return !sectors.empty() && std::ranges::all_of(sectors, [&](const Sector& s) { return covered(s.end); });
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
 using Triangle = std::array<glm::dvec3, 3>;
 
@@ -35,6 +35,9 @@ int compareDepth(const Ray& ray, const Triangle& triangle, double t);
 /// Side of the triangle's plane on which `point` lies: 1 where a, b, c appear counter-clockwise, 0 in the plane. Homogeneous
 /// points with w = 1 or w = 0 (a direction).
 int side(const Triangle& triangle, const glm::dvec4& point);
+
+/// The triangle with the corners in the order in which they appear counter-clockwise from the (homogeneous) light.
+Triangle facing(Triangle triangle, const glm::dvec4& light);
 
 /// The exact point where a ray meets a triangle's plane.
 class ReceiverPoint {
@@ -80,4 +83,4 @@ Blocking blocking(const ReceiverPoint& point, const glm::dvec4& light, const Tri
 /// `blocking` is Touches.
 bool blockTogether(const ReceiverPoint& point, const glm::dvec4& light, std::span<const Triangle> touching);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -1,11 +1,11 @@
 #include "groundtruth/cgal/geometry/primary.h"
 
-#include "base/parallel_loop.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <optional>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 namespace {
 
 struct Hit {
@@ -75,7 +75,7 @@ PrimaryHits tracePrimary(const SceneTriangles& scene, const Camera& camera, cons
     PrimaryHits hits{Image<std::uint32_t>(size.x, size.y), Image<glm::vec3>(size.x, size.y, glm::vec3(0)),
                      Image<Surface>(size.x, size.y, Surface::Background), Image<std::uint32_t>(size.x, size.y)};
     const std::vector<glm::dvec4> corners = lightCorners(light);
-    forEachInParallel(size.y, threads, progress, "primary hits", [&](int y) {
+    inParallel(size.y, threads, progress, "primary hits", [&](int y) {
         for (int x = 0; x < size.x; ++x) {
             const Ray ray = pixelRay(camera, x, y, size);
             const std::optional<Hit> hit = nearest(scene, camera, ray);
@@ -89,4 +89,4 @@ PrimaryHits tracePrimary(const SceneTriangles& scene, const Camera& camera, cons
     return hits;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

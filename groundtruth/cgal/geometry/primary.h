@@ -5,7 +5,7 @@
 #include "groundtruth/cgal/geometry/triangles.h"
 #include "groundtruth/contract/reference.h"
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
 /// The ray through a pixel's centre; its parameter is the distance along the camera's forward axis.
 Ray pixelRay(const Camera& camera, int x, int y, glm::ivec2 size);
@@ -13,4 +13,4 @@ Ray pixelRay(const Camera& camera, int x, int y, glm::ivec2 size);
 PrimaryHits tracePrimary(const SceneTriangles& scene, const Camera& camera, const Light& light, glm::ivec2 size, int threads,
                          const Progress& progress);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -1,8 +1,7 @@
 #include "groundtruth/cgal/geometry/projection.h"
 
+#include "groundtruth/cgal/geometry/arithmetic.h"
 #include "groundtruth/cgal/geometry/vector.h"
-
-#include <CGAL/Interval_nt.h>
 
 #include <algorithm>
 #include <array>
@@ -11,18 +10,10 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 namespace {
 
-using Interval = CGAL::Interval_nt<false>; // rounding set by Interval::Protector
-
 bool holdsZero(const Interval& value) { return value.inf() <= 0 && value.sup() >= 0; }
-
-/// The receiver's triangle, turned to face the light.
-Triangle facing(Triangle t, const glm::dvec4& light) {
-    if (side(t, light) < 0) std::swap(t[1], t[2]);
-    return t;
-}
 
 } // namespace
 
@@ -99,4 +90,4 @@ ShadowVertex ShadowProjection::contact(const glm::dvec3& a, const glm::dvec3& b)
     return map_->project(from + share * (to - from));
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

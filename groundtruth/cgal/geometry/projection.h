@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
 /// Homogeneous image position (x, y, w): pixels times w. Linear in the world point, w > 0 where the shadow lies before the
 /// camera. The true value lies within `error` per component. `lightSide` is linear too and positive below the light
@@ -48,4 +48,4 @@ private:
     double pixelError_;
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
 /// The points X with normal · X + offset ≥ −slack.
 struct HalfSpace {
@@ -59,4 +59,4 @@ private:
     std::size_t count_ = 0;
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -1,20 +1,20 @@
 #include "groundtruth/cgal/geometry/silhouette.h"
 
-#include "base/parallel_loop.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 namespace {
 
 class ChainBuilder {
 public:
     ChainBuilder(const TriangleInstance& instance, const MeshEdges& edges, const glm::dvec4& light, int threads)
         : mesh_(*instance.mesh), edges_(edges), light_(light), threads_(threads), vertices_(mesh_.positions.size()) {
-        forEachPart(vertices_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+        inParallelParts(vertices_.size(), threads_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) vertices_[i] = worldVertex(instance.world, mesh_.positions[i]);
         });
     }
@@ -24,7 +24,7 @@ public:
         const int front = side(plane, light_);
         heights_.resize(vertices_.size());
         levels_.resize(vertices_.size(), 1);
-        forEachPart(vertices_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+        inParallelParts(vertices_.size(), threads_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 heights_[i] = static_cast<std::int8_t>(front * side(plane, glm::dvec4(vertices_[i], 1)));
                 if (reachesLight) levels_[i] = static_cast<std::int8_t>(belowLight(plane, light_, vertices_[i]));
@@ -44,7 +44,7 @@ private:
     /// those seen edge-on, which cover nothing.
     void findFacing() {
         facing_.resize(mesh_.triangles.size());
-        forEachPart(facing_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+        inParallelParts(facing_.size(), threads_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const glm::uvec3& t = mesh_.triangles[i];
                 if (!reaches(heights_, t) || !reaches(levels_, t)) continue;
@@ -183,4 +183,4 @@ std::vector<ShadowEdge> silhouette(const TriangleInstance& instance, const glm::
     return edges;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

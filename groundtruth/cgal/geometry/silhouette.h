@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
 /// An edge's point by vertex indices of the mesh, as EdgePoint; a = b for a vertex.
 struct ChainPoint {
@@ -56,4 +56,4 @@ ShadowEdge shadowEdge(const TriangleInstance& instance, const ChainEdge& edge, c
 std::vector<ShadowEdge> silhouette(const TriangleInstance& instance, const glm::dvec4& light,
                                    const ShadowProjection& projection);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 namespace {
 
 constexpr double unit = 0x1p-53; // relative rounding error of one operation; the counts of operations below are rounded up
@@ -150,4 +150,4 @@ PaddedSegment SceneTriangles::padded(const ApproximateSegment& segment, const Tr
     return {from, to, instance.slack + 2.0 * (magnitude * segment.error) + 32 * unit * (mapping + reach)};
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -14,7 +14,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
 /// The double-precision image of a float position, operations in this order, each rounded to nearest.
 inline glm::dvec3 worldVertex(const glm::dmat4& world, const glm::vec3& position) {
@@ -115,4 +115,4 @@ private:
     Bvh top_;
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -4,7 +4,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
 template <typename Number>
 struct Vector {
@@ -40,4 +40,4 @@ Vector<Number> normal(const std::array<glm::dvec3, 3>& triangle) {
     return cross(vector<Number>(triangle[1]) - a, vector<Number>(triangle[2]) - a);
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 namespace {
 
 /// An edge's point in homogeneous coordinates; `plane` faces the light. The order of a and b makes w positive.
@@ -54,11 +54,6 @@ auto edgePoint(const EdgePoint& p, const Triangle& plane, const glm::dvec4& ligh
         using Number = typename decltype(tag)::type;
         return located<Number>(p, plane, light);
     };
-}
-
-Triangle facing(Triangle plane, const glm::dvec4& light) {
-    if (side(plane, light) < 0) std::swap(plane[1], plane[2]);
-    return plane;
 }
 
 } // namespace
@@ -177,4 +172,4 @@ int belowLight(const Triangle& plane, const glm::dvec4& light, const glm::dvec3&
     return sign * side(plane, light);
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

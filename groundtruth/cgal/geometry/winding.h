@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
 
 /// What a point of an edge is named by: the vertex `a`; or where the segment from `a` (above) to `b` (below) meets the
 /// receiver's plane; or where that from `a` (below) to `b` (above) meets the parallel plane through the light.
@@ -78,4 +78,4 @@ bool inPlane(const Triangle& triangle, const ReceiverPoint& point);
 /// 1 for a vertex below the light (on the receiver's side of the parallel plane through it), 0 at its level, −1 above it.
 int belowLight(const Triangle& plane, const glm::dvec4& light, const glm::dvec3& vertex);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::geometry

@@ -2,7 +2,7 @@
 // number on both sides of a piece is that of a corner plus the edges crossed on the way.
 #include "groundtruth/cgal/hard/edge_distance.h"
 
-#include "base/parallel_loop.h"
+#include "base/parallel.h"
 #include "groundtruth/cgal/hard/pixel_edges.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 namespace {
 
 constexpr double sideStep = 1e-7; // pixels from a piece at which its two sides are tested
@@ -297,16 +297,15 @@ void lowerToEdgeDistance(const std::vector<PixelEdge>& edges, const PlaneWinding
                          const Image<std::uint8_t>& members, int threads, Image<float>& distance) {
     const VisibleBoundary boundary(edges, winding, members);
     std::vector<std::vector<Piece>> rows(boundary.rows());
-    forEachInParallel(boundary.rows(), threads, {}, {}, [&](int row) { rows[row] = boundary.piecesIn(row); });
+    inParallel(boundary.rows(), threads, [&](int row) { rows[row] = boundary.piecesIn(row); });
     std::vector<Piece> pieces;
     for (const std::vector<Piece>& row : rows) pieces.insert(pieces.end(), row.begin(), row.end());
     const std::vector<Segment> segments = joined(pieces, edges);
 
     constexpr int band = 16;
     const int height = members.height();
-    forEachInParallel((height + band - 1) / band, threads, {}, {}, [&](int i) {
-        lowerBand(i * band, std::min((i + 1) * band, height) - 1, segments, members, distance);
-    });
+    inParallel((height + band - 1) / band, threads,
+               [&](int i) { lowerBand(i * band, std::min((i + 1) * band, height) - 1, segments, members, distance); });
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

@@ -11,8 +11,9 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 namespace {
 
 constexpr int codeVersion = 3; // raise it with every change that can change a label or a distance
@@ -42,35 +43,39 @@ void requireSize(const PrimaryHits& primary, glm::ivec2 size) {
 } // namespace
 
 struct ExactScene::Data {
-    Data(const Snapshot& snapshot, int threadCount)
-        : camera(snapshot.camera), light(snapshot.light), triangles(snapshot),
-          occluders(triangles, snapshot.light.centreOnly().homogeneous(), threadCount), threads(threadCount) {}
+    Data(const Snapshot& snapshot, std::shared_ptr<const SceneTriangles> prepared, int threadCount)
+        : camera(snapshot.camera), light(snapshot.light), triangles(std::move(prepared)),
+          occluders(*triangles, snapshot.light.centreOnly().homogeneous(), threadCount), threads(threadCount) {}
 
     Camera camera;
     Light light;
-    SceneTriangles triangles;
+    std::shared_ptr<const SceneTriangles> triangles;
     Occluders occluders;
     int threads;
 };
 
-ExactScene::ExactScene(const Snapshot& snapshot, int threads) : data_(std::make_unique<Data>(snapshot, threads)) {}
+ExactScene::ExactScene(const Snapshot& snapshot, int threads)
+    : ExactScene(snapshot, std::make_shared<const SceneTriangles>(snapshot), threads) {}
+
+ExactScene::ExactScene(const Snapshot& snapshot, std::shared_ptr<const SceneTriangles> triangles, int threads)
+    : data_(std::make_unique<Data>(snapshot, std::move(triangles), threads)) {}
 
 ExactScene::~ExactScene() = default;
 
 PrimaryHits ExactScene::primaryHits(glm::ivec2 size, const Progress& progress) const {
-    return tracePrimary(data_->triangles, data_->camera, data_->light, size, data_->threads, progress);
+    return tracePrimary(*data_->triangles, data_->camera, data_->light, size, data_->threads, progress);
 }
 
 void ExactScene::labelByRays(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress) const {
     requireSize(primary, size);
     requireHardLight(data_->light);
     prepare(primary, out);
-    traceShadows(data_->triangles, data_->camera, data_->light.homogeneous(), size, primary, data_->threads, out, progress);
+    traceShadows(*data_->triangles, data_->camera, data_->light.homogeneous(), size, primary, data_->threads, out, progress);
     edgeDistanceFromLabels(out);
 }
 
 std::vector<PlanarReceiver> ExactScene::planarReceivers(const PrimaryHits& primary, std::size_t minimumPixels) const {
-    return findPlanarReceivers(data_->triangles, data_->camera.eye, primary, minimumPixels);
+    return findPlanarReceivers(*data_->triangles, data_->camera.eye, primary, minimumPixels);
 }
 
 void ExactScene::labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
@@ -102,8 +107,8 @@ void labelByPolygon(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits
     ExactScene(snapshot).labelByPolygon(size, primary, receiver, out, progress);
 }
 
-std::map<std::string, std::string> exactTools() {
+std::map<std::string, std::string> toolVersions() {
     return {{"cgal", CGAL_VERSION_STR}, {"exact", std::to_string(codeVersion)}};
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

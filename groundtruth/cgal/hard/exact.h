@@ -1,4 +1,4 @@
-// Exact hard shadows with CGAL, behind plain types (GROUNDTRUTH.md: "CGAL hard shadows").
+// Exact hard shadows with CGAL, behind plain types (docs/ground-truth.md, "Exact hard shadows").
 //
 // One geometry serves every oracle and stage: a world vertex is the double-precision image of its float position under
 // Placement::world, rounded to nearest as worldVertex (groundtruth/cgal/geometry/triangles.h) spells it out. It lies within
@@ -13,7 +13,11 @@
 #include <memory>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::geometry {
+class SceneTriangles; // groundtruth/cgal/geometry/triangles.h
+}
+
+namespace shadowbench::groundtruth::hard {
 
 /// Where `polygon` applies: the part of one surface that lies in one exact plane, as far as it is seen and faces the light
 /// (a ground, one face of a box).
@@ -29,6 +33,8 @@ class ExactScene {
 public:
     /// `threads`: how many work on an image; results do not depend on it.
     explicit ExactScene(const Snapshot& snapshot, int threads = 2);
+    /// With triangles that were made of the same snapshot, or of one with another camera and light only.
+    ExactScene(const Snapshot& snapshot, std::shared_ptr<const geometry::SceneTriangles> triangles, int threads = 2);
     ~ExactScene();
     ExactScene(const ExactScene&) = delete;
     ExactScene& operator=(const ExactScene&) = delete;
@@ -48,12 +54,11 @@ public:
     [[nodiscard]] std::vector<PlanarReceiver> planarReceivers(const PrimaryHits& primary,
                                                               std::size_t minimumPixels = 256) const;
 
-    /// The labels of `labelByRays` by a derivation that shares no decision with it, exact winding numbers of silhouette
-    /// chains (no tree, no shadow ray), with the distance to the nearest
-    /// visible boundary of the union of the shadows on the receiver's plane: correct to 1e-6 px up to 8 px, infinity beyond.
-    /// A boundary is visible where one of the four pixel centres around it sees the receiver. Writes the pixels of
-    /// `receiver` only; images of `out` that have no size yet are made. InternalError if winding numbers found on different
-    /// ways disagree.
+    /// The labels of `labelByRays` by another method, exact winding numbers of silhouette chains: no decision, tree or
+    /// shadow ray is shared. With the distance to the nearest visible boundary of the union of the shadows on the receiver's
+    /// plane: correct to 1e-6 px up to 8 px, infinity beyond. A boundary is visible where one of the four pixel centres
+    /// around it sees the receiver. Writes the pixels of `receiver` only; images of `out` that have no size yet are made.
+    /// InternalError if winding numbers found on different paths disagree.
     void labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
                         const Progress& progress = {}) const;
 
@@ -72,6 +77,6 @@ void labelByPolygon(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits
                     Reference& out, const Progress& progress = {});
 
 /// Versions for the provenance and the key: CGAL's and of this code.
-std::map<std::string, std::string> exactTools();
+std::map<std::string, std::string> toolVersions();
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

@@ -1,13 +1,13 @@
 #include "groundtruth/cgal/hard/occluders.h"
 
-#include "base/parallel_loop.h"
+#include "base/parallel.h"
 #include "groundtruth/cgal/hard/scanline.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 namespace {
 
 constexpr std::size_t large = 1U << 16U; // triangles from which the threads share one instance
@@ -79,7 +79,7 @@ Casters Occluders::castersOnto(const ShadowProjection& projection, glm::ivec2 si
         else
             others += trianglesOf(i);
     }
-    forEachInParallel(static_cast<int>(count), others < large ? 1 : threads_, progress, "silhouettes", [&](int i) {
+    inParallel(static_cast<int>(count), others < large ? 1 : threads_, progress, "silhouettes", [&](int i) {
         if (!isLarge(i)) chains[i] = chainsOf(i, projection, size, 1);
     });
 
@@ -92,4 +92,4 @@ Casters Occluders::castersOnto(const ShadowProjection& projection, glm::ivec2 si
     return casters;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

@@ -9,7 +9,9 @@
 #include <mutex>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
+
+using namespace geometry;
 
 struct CastEdge {
     std::uint32_t instance;
@@ -57,4 +59,4 @@ private:
     mutable std::deque<Whole> whole_; // one per instance
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 namespace {
 
 struct Pixel {
@@ -65,4 +65,4 @@ void edgeDistanceFromLabels(Reference& out) {
         if (out.surface[i] == Surface::OnEdge) out.edgeDistance[i] = 0;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

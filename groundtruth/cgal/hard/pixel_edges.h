@@ -1,11 +1,11 @@
-// Shadow edges as far as labels of pixels tell.
+// Distances to shadow edges, estimated from the labels of pixels.
 #pragma once
 
 #include "groundtruth/contract/reference.h"
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 
-/// How far (pixels) edge distances are told; infinity beyond.
+/// The largest edge distance that is measured, in pixels; infinity beyond.
 inline constexpr double edgeReach = 8;
 
 /// Fills `out.edgeDistance` of the receivers from the labels: the distance to the nearest midpoint between neighbouring
@@ -13,4 +13,4 @@ inline constexpr double edgeReach = 8;
 /// an edge. A surface that faces away counts as shadowed beside its own receivers.
 void edgeDistanceFromLabels(Reference& out);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 namespace {
 
 /// A visible receiver triangle and how many pixels see it.
@@ -99,4 +99,4 @@ std::vector<PlanarReceiver> findPlanarReceivers(const SceneTriangles& scene, con
     return result;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

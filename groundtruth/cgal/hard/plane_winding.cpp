@@ -1,7 +1,7 @@
 #include "groundtruth/cgal/hard/plane_winding.h"
 
 #include "base/error.h"
-#include "base/parallel_loop.h"
+#include "base/parallel.h"
 #include "groundtruth/cgal/geometry/primary.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <glm/vector_relational.hpp>
 #include <string>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 namespace {
 
 [[noreturn]] void inconsistent(int row) {
@@ -23,7 +23,7 @@ PlaneWinding::PlaneWinding(const PlaneView& view, const Occluders& occluders, co
                            const std::vector<PixelEdge>& edges)
     : view_(view), occluders_(occluders), casters_(casters), edges_(edges), winding_(scan(edges, view.size)),
       wanted_(winding_.change.width(), winding_.change.height()), shift_(height()), uncertainEdges_(height()) {
-    forEachInParallel(height(), occluders_.threads(), {}, {}, [&](int row) {
+    inParallel(height(), occluders_.threads(), [&](int row) {
         findWanted(row);
         sumRow(row);
     });
@@ -194,4 +194,4 @@ std::optional<int> PlaneWinding::nearestCertain(int x, int row) const {
     return std::nullopt;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

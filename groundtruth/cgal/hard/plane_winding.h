@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 
 /// A plane as the image sees it. `members` are the pixels that see the receiver.
 struct PlaneView {
@@ -21,8 +21,8 @@ struct PlaneView {
 
 class PlaneWinding {
 public:
-    /// `edges` are those of `casters` in pixels. All arguments must live longer. InternalError if the winding numbers that
-    /// different ways lead to differ.
+    /// `edges` are those of `casters` in pixels. All arguments must live longer. InternalError if winding numbers found
+    /// along different paths differ.
     PlaneWinding(const PlaneView& view, const Occluders& occluders, const Casters& casters,
                  const std::vector<PixelEdge>& edges);
 
@@ -66,4 +66,4 @@ private:
     std::vector<std::vector<std::uint32_t>> uncertainEdges_; // of rows with members whose number is uncertain
 };
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

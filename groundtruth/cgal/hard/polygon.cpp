@@ -2,7 +2,7 @@
 // zero. No tree and no shadow ray has a part in it.
 #include "groundtruth/cgal/hard/polygon.h"
 
-#include "base/parallel_loop.h"
+#include "base/parallel.h"
 #include "groundtruth/cgal/hard/edge_distance.h"
 #include "groundtruth/cgal/hard/plane_winding.h"
 
@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 namespace {
 
 /// The pixels that see the receiver.
@@ -32,7 +32,7 @@ Image<std::uint8_t> membersOf(const PlanarReceiver& receiver, const PrimaryHits&
 std::vector<PixelEdge> inPixels(const Occluders& occluders, const Casters& casters, const ShadowProjection& projection,
                                 glm::ivec2 size) {
     std::vector<std::optional<PixelEdge>> all(casters.edges.size());
-    forEachPart(all.size(), occluders.threads(), [&](std::size_t begin, std::size_t end) {
+    inParallelParts(all.size(), occluders.threads(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto& [instance, edge] = casters.edges[i];
             if (edge.atLightLevel) continue;
@@ -58,7 +58,7 @@ void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 siz
     const std::vector<PixelEdge> edges = inPixels(occluders, casters, projection, size);
     const PlaneWinding winding(view, occluders, casters, edges);
 
-    forEachInParallel(size.y, occluders.threads(), progress, "labels", [&](int y) {
+    inParallel(size.y, occluders.threads(), progress, "labels", [&](int y) {
         for (int x = 0; x < size.x; ++x) {
             if (!members(x, y)) continue;
             const auto [lowest, highest] = winding.at(x, y);
@@ -71,4 +71,4 @@ void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 siz
     lowerToEdgeDistance(edges, winding, members, occluders.threads(), out.edgeDistance);
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

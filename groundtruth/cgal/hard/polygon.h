@@ -4,10 +4,10 @@
 #include "groundtruth/cgal/hard/exact.h"
 #include "groundtruth/cgal/hard/occluders.h"
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 
 /// Fills visibility, surface and edgeDistance of the pixels that see `receiver`.
 void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 size, const PrimaryHits& primary,
                 const PlanarReceiver& receiver, Reference& out, const Progress& progress);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

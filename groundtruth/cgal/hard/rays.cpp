@@ -1,11 +1,11 @@
 #include "groundtruth/cgal/hard/rays.h"
 
-#include "base/parallel_loop.h"
+#include "base/parallel.h"
 #include "groundtruth/cgal/geometry/primary.h"
 
 #include <glm/geometric.hpp>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 namespace {
 
 /// The part of the way to the light on which the scene can lie.
@@ -47,7 +47,7 @@ std::optional<int> coverCount(const SceneTriangles& scene, const ReceiverPoint& 
 
 void traceShadows(const SceneTriangles& scene, const Camera& camera, const glm::dvec4& light, glm::ivec2 size,
                   const PrimaryHits& primary, int threads, Reference& out, const Progress& progress) {
-    forEachInParallel(size.y, threads, progress, "shadow rays", [&](int y) {
+    inParallel(size.y, threads, progress, "shadow rays", [&](int y) {
         for (int x = 0; x < size.x; ++x) {
             if (primary.surface(x, y) != Surface::Receiver) continue;
             const TriangleName receiver{scene.instanceOf(primary.id(x, y)), primary.triangle(x, y)};
@@ -59,4 +59,4 @@ void traceShadows(const SceneTriangles& scene, const Camera& camera, const glm::
     });
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

@@ -7,7 +7,9 @@
 
 #include <optional>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
+
+using namespace geometry;
 
 /// Label of one receiver point: Blocks = shadowed, None = lit, Touches = exactly on a shadow edge. `receiver` is a triangle
 /// whose plane contains the point.
@@ -22,4 +24,4 @@ std::optional<int> coverCount(const SceneTriangles& scene, const ReceiverPoint& 
 void traceShadows(const SceneTriangles& scene, const Camera& camera, const glm::dvec4& light, glm::ivec2 size,
                   const PrimaryHits& primary, int threads, Reference& out, const Progress& progress);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
 namespace {
 
 struct Span {
@@ -139,4 +139,4 @@ Winding scan(const std::vector<PixelEdge>& edges, glm::ivec2 size) {
     return scanline.take();
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

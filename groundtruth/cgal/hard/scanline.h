@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::hard {
+
+using namespace geometry;
 
 /// An edge in pixels, clipped to the neighbourhood of the image. The true edge lies within `error` pixels. In the image (y
 /// down), going right across an edge that runs down adds `covers` to the winding number.
@@ -39,4 +41,4 @@ std::pair<int, int> rowsNear(const PixelEdge& edge, glm::ivec2 size);
 
 Winding scan(const std::vector<PixelEdge>& edges, glm::ivec2 size);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::hard

@@ -2,15 +2,14 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "groundtruth/cgal/plan/plane_box.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <glm/common.hpp>
-#include <limits>
 #include <map>
 #include <string_view>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::plan {
 namespace {
 
 using Ring = std::vector<glm::dvec2>;
@@ -42,22 +41,10 @@ std::string pathOf(const ReceiverRegion& region) {
     return path;
 }
 
-struct Box {
-    glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-
-    [[nodiscard]] glm::dvec2 size() const { return high - low; }
-    [[nodiscard]] bool holds(const glm::dvec2& p) const {
-        return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y;
-    }
-};
-
-Box boxOf(const ReceiverRegion& region) {
-    Box box;
+PlaneBox boxOf(const ReceiverRegion& region) {
+    PlaneBox box;
     for (const PlanarPolygon& polygon : region.polygons)
-        for (const glm::dvec2& p : polygon.outer) {
-            box.low = glm::min(box.low, p);
-            box.high = glm::max(box.high, p);
-        }
+        for (const glm::dvec2& p : polygon.outer) box.add(p);
     return box;
 }
 
@@ -71,10 +58,10 @@ std::string descriptionOf(const PlaneAxes& axes) {
 }
 
 /// Names without extension: one per receiver, numbered where a surface has several.
-std::vector<std::string> stems(std::string_view kind, const std::vector<PlanarReceiver>& receivers) {
+std::vector<std::string> stems(std::string_view kind, const std::vector<hard::PlanarReceiver>& receivers) {
     std::map<std::uint32_t, int> planes;
     std::vector<std::string> names;
-    for (const PlanarReceiver& receiver : receivers) {
+    for (const hard::PlanarReceiver& receiver : receivers) {
         const int plane = ++planes[receiver.id];
         names.push_back(plane == 1 ? fmt::format("{}-{}", kind, receiver.id)
                                    : fmt::format("{}-{}-{}", kind, receiver.id, plane));
@@ -104,7 +91,7 @@ std::string wkt(const std::vector<PlanarPolygon>& polygons) {
 std::string svg(const PolygonPicture& picture) {
     const PlaneAxes& axes = picture.region.axes;
     const bool flipped = axes.v == 1;
-    const Box box = boxOf(picture.receiver);
+    const PlaneBox box = boxOf(picture.receiver);
     const double margin = 0.02 * std::max(box.size().x, box.size().y);
     const glm::dvec2 size = box.size() + 2 * margin;
     const double top = flipped ? -box.high.y : box.low.y;
@@ -118,7 +105,7 @@ std::string svg(const PolygonPicture& picture) {
     text += fmt::format("<path fill=\"#f4f1ea\" stroke=\"#888\" stroke-width=\"{:.3g}\" d=\"{}\"/>\n", 0.1 * margin,
                         pathOf(picture.receiver));
     text += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", picture.fill, pathOf(picture.region));
-    if (picture.lightFoot && box.holds(*picture.lightFoot))
+    if (picture.lightFoot && box.contains(*picture.lightFoot))
         text += fmt::format("<circle fill=\"#c05000\" cx=\"{:.9g}\" cy=\"{:.9g}\" r=\"{:.3g}\"/>\n", picture.lightFoot->x,
                             picture.lightFoot->y, 0.4 * margin);
     return text + "</g>\n</svg>\n";
@@ -128,7 +115,7 @@ std::vector<std::filesystem::path> writeShadowPolygons(const Snapshot& snapshot,
                                                        const std::filesystem::path& folder) {
     Snapshot hard = snapshot;
     hard.light = snapshot.light.centreOnly();
-    const std::vector<PlanarReceiver> receivers = planarReceivers(hard, primary);
+    const std::vector<hard::PlanarReceiver> receivers = hard::planarReceivers(hard, primary);
     if (receivers.empty())
         throw BadInput("shadow polygons need a planar receiver, and none of this scene's covers enough of the image");
     const std::vector<ShadowPolygons> shadows = shadowPolygons(hard, receivers);
@@ -144,7 +131,7 @@ std::vector<std::filesystem::path> writeShadowPolygons(const Snapshot& snapshot,
 
 std::vector<std::filesystem::path> writeVisiblePolygons(const Snapshot& snapshot, const PrimaryHits& primary,
                                                         const std::filesystem::path& folder) {
-    const std::vector<PlanarReceiver> receivers = planReceivers(snapshot, planarReceivers(snapshot, primary));
+    const std::vector<hard::PlanarReceiver> receivers = planReceivers(snapshot, hard::planarReceivers(snapshot, primary));
     if (receivers.empty())
         throw BadInput("a plan view needs a horizontal receiver, and none of this scene's covers enough of the image");
     const std::vector<std::string> names = stems("visible", receivers);
@@ -159,4 +146,4 @@ std::vector<std::filesystem::path> writeVisiblePolygons(const Snapshot& snapshot
     return written;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::plan

@@ -1,7 +1,7 @@
-// Exact polygons as text: well-known text for programs, SVG for people.
+// Exact polygons as text: well-known text (WKT) and SVG.
 #pragma once
 
-#include "groundtruth/cgal/plan/plan.h"
+#include "groundtruth/cgal/plan/plan_view.h"
 #include "groundtruth/cgal/plan/shadow_polygons.h"
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::plan {
 
 /// One line without an end: `MULTIPOLYGON (((u v, …), (hole), …), …)` or `MULTIPOLYGON EMPTY`, 17 significant digits, every
 /// ring closed by its first point, outer rings counter-clockwise and holes clockwise.
@@ -24,8 +24,8 @@ struct PolygonPicture {
     std::optional<glm::dvec2> lightFoot; // a dot, if it lies in the receiver's box
 };
 
-/// One user unit is one metre; v runs down the page, but up if it is the world's y. A description tells how (u, v) lies in
-/// the world.
+/// One user unit is one metre; v runs down the page, but up if it is the world's y. The description of the picture states
+/// how (u, v) lies in the world.
 std::string svg(const PolygonPicture& picture);
 
 /// Writes for every planar receiver of `primary` (ExactScene::planarReceivers) `shadow-ID.wkt` and `shadow-ID.svg`, ID being
@@ -40,4 +40,4 @@ std::vector<std::filesystem::path> writeShadowPolygons(const Snapshot& snapshot,
 std::vector<std::filesystem::path> writeVisiblePolygons(const Snapshot& snapshot, const PrimaryHits& primary,
                                                         const std::filesystem::path& folder);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::plan

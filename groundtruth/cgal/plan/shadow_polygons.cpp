@@ -8,46 +8,40 @@
 #include "groundtruth/cgal/geometry/silhouette.h"
 #include "groundtruth/cgal/geometry/vector.h"
 #include "groundtruth/cgal/hard/rays.h"
+#include "groundtruth/cgal/plan/plane_box.h"
 #include "groundtruth/cgal/plan/shadow_polygons_plane.h"
 
 #include <algorithm>
 #include <array>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::plan {
 namespace {
 
 /// The receiver's bounding box in plane coordinates.
-struct Window {
-    glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+PlaneBox windowAround(const std::vector<Triangle>& receiver, const PlaneAxes& axes) {
+    PlaneBox window;
+    for (const Triangle& t : receiver)
+        for (const glm::dvec3& v : t) window.add({v[axes.u], v[axes.v]});
+    return window;
+}
 
-    Window(const std::vector<Triangle>& receiver, const PlaneAxes& axes) {
-        for (const Triangle& t : receiver)
-            for (const glm::dvec3& v : t) {
-                low = glm::min(low, glm::dvec2(v[axes.u], v[axes.v]));
-                high = glm::max(high, glm::dvec2(v[axes.u], v[axes.v]));
-            }
-    }
-};
-
-/// A shadow point (x, y) / w in homogeneous plane coordinates; w > 0 below the light.
-struct Homogeneous {
+/// A vertex's shadow (x, y) / w in homogeneous plane coordinates; w > 0 below the light.
+struct ShadowPoint {
     ExactNumber x, y, w;
 
     [[nodiscard]] ExactPoint point() const { return {x / w, y / w}; }
 };
 
-Homogeneous between(const Homogeneous& a, const Homogeneous& b, const ExactNumber& share) {
+ShadowPoint between(const ShadowPoint& a, const ShadowPoint& b, const ExactNumber& share) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.w + share * (b.w - a.w)};
 }
 
 /// Distances from the window's sides times w, positive inside. All of them are positive only where w is.
-std::array<ExactNumber, 4> insets(const Homogeneous& p, const Window& window) {
+std::array<ExactNumber, 4> insets(const ShadowPoint& p, const PlaneBox& window) {
     return {p.x - window.low.x * p.w, window.high.x * p.w - p.x, p.y - window.low.y * p.w, window.high.y * p.w - p.y};
 }
 
@@ -59,7 +53,7 @@ public:
           lightHeight_(dot(normal_, light.w == 0 ? light_ : light_ - origin_)) {}
 
     /// The plane's point H v − h l of weight H − h w_l (h and H: heights of v and of the light l above the plane).
-    [[nodiscard]] Homogeneous project(const EdgePoint& point) const {
+    [[nodiscard]] ShadowPoint project(const EdgePoint& point) const {
         const Vector<ExactNumber> v = located(point);
         const ExactNumber h = heightOf(v);
         const Vector<ExactNumber> shadow = lightHeight_ * v - h * light_;
@@ -91,7 +85,7 @@ private:
 /// comparisons.
 class ShadowEdges {
 public:
-    ShadowEdges(const PlaneFrame& frame, const glm::dvec4& light, const Window& window)
+    ShadowEdges(const PlaneFrame& frame, const glm::dvec4& light, const PlaneBox& window)
         : projection_(frame, light), window_(window), orientation_(frame.orientation) {}
 
     void add(const SpatialEdge& edge) {
@@ -107,7 +101,7 @@ public:
 
 private:
     struct Shadow {
-        Homogeneous position;
+        ShadowPoint position;
         std::array<ExactNumber, 4> inset;
         std::optional<ExactPoint> within; // if in the window
     };
@@ -147,13 +141,13 @@ private:
     }
 
     PlaneProjection projection_;
-    Window window_;
+    PlaneBox window_;
     int orientation_;
     std::map<EdgePoint, Shadow, Less> shadows_;
     std::vector<CoverEdge> edges_;
 };
 
-void addFence(const Window& window, std::vector<CoverEdge>& edges) {
+void addFence(const PlaneBox& window, std::vector<CoverEdge>& edges) {
     const std::array<ExactPoint, 4> corners{ExactPoint(window.low.x, window.low.y), ExactPoint(window.high.x, window.low.y),
                                             ExactPoint(window.high.x, window.high.y),
                                             ExactPoint(window.low.x, window.high.y)};
@@ -163,7 +157,7 @@ void addFence(const Window& window, std::vector<CoverEdge>& edges) {
 /// Counts what covers a point of the window.
 class AnchorCounter {
 public:
-    AnchorCounter(const SceneTriangles& scene, const PlanarReceiver& receiver, const std::vector<Triangle>& triangles,
+    AnchorCounter(const SceneTriangles& scene, const hard::PlanarReceiver& receiver, const std::vector<Triangle>& triangles,
                   const PlaneFrame& frame, const glm::dvec4& light)
         : scene_(scene), name_{scene.instanceOf(receiver.id), receiver.triangles.front()}, triangles_(triangles),
           frame_(frame), light_(light) {}
@@ -175,7 +169,7 @@ public:
         origin[frame_.axes.v] = point.y;
         direction[frame_.axes.dropped] = 1;
         const ReceiverPoint onPlane({origin, direction}, frame_.triangle);
-        const std::optional<int> shadows = coverCount(scene_, onPlane, name_, light_);
+        const std::optional<int> shadows = hard::coverCount(scene_, onPlane, name_, light_);
         if (!shadows) return std::nullopt;
         const auto receivers = std::ranges::count_if(triangles_, [&](const Triangle& t) { return holds(t, point); });
         return Covers{*shadows, static_cast<int>(receivers)};
@@ -197,7 +191,7 @@ private:
 
 /// Counts from one point of the window and checks with another. The points are those of the R2 sequence, the first of which
 /// that lie on no edge are taken.
-void countFromAnchor(CoveredPlane& plane, const AnchorCounter& counter, const Window& window) {
+void countFromAnchor(CoveredPlane& plane, const AnchorCounter& counter, const PlaneBox& window) {
     constexpr int attempts = 100;
     bool counted = false;
     for (int i = 1; i <= attempts; ++i) {
@@ -227,7 +221,7 @@ bool inShadow(Covers covers) {
 }
 
 std::vector<CoverEdge> shadowEdges(const SceneTriangles& scene, const PlaneFrame& frame, const glm::dvec4& light,
-                                   const Window& window) {
+                                   const PlaneBox& window) {
     ShadowEdges shadows(frame, light, window);
     std::map<std::size_t, MeshEdges> meshEdges; // by tree: once for all instances of a mesh
     for (const TriangleInstance& instance : scene.instances()) {
@@ -247,11 +241,11 @@ std::optional<glm::dvec2> footOf(const Light& light, const PlaneFrame& frame) {
     return glm::dvec2(foot[frame.axes.u], foot[frame.axes.v]);
 }
 
-ShadowPolygons shadowsOn(const SceneTriangles& scene, const Snapshot& snapshot, const PlanarReceiver& receiver) {
+ShadowPolygons shadowsOn(const SceneTriangles& scene, const Snapshot& snapshot, const hard::PlanarReceiver& receiver) {
     const glm::dvec4 light = snapshot.light.homogeneous();
     const std::vector<Triangle> triangles = receiverTriangles(snapshot, receiver);
     const PlaneFrame frame(triangles.front(), light);
-    const Window window(triangles, frame.axes);
+    const PlaneBox window = windowAround(triangles, frame.axes);
 
     std::vector<CoverEdge> edges = shadowEdges(scene, frame, light, window);
     const std::vector<CoverEdge> outline = receiverEdges(triangles, frame);
@@ -285,7 +279,7 @@ private:
     Vector<ExactNumber> normal_, origin_;
 };
 
-bool sees(const PrimaryHits& primary, int x, int y, const PlanarReceiver& receiver) {
+bool sees(const PrimaryHits& primary, int x, int y, const hard::PlanarReceiver& receiver) {
     return primary.surface(x, y) == Surface::Receiver && primary.id(x, y) == receiver.id &&
            std::ranges::binary_search(receiver.triangles, primary.triangle(x, y));
 }
@@ -303,12 +297,12 @@ void label(const std::vector<glm::ivec2>& pixels, const ExactPixels& exact, cons
 
 } // namespace
 
-std::vector<ShadowPolygons> shadowPolygons(const Snapshot& snapshot, const std::vector<PlanarReceiver>& receivers) {
+std::vector<ShadowPolygons> shadowPolygons(const Snapshot& snapshot, const std::vector<hard::PlanarReceiver>& receivers) {
     if (snapshot.light.isArea())
         throw InternalError("Shadow polygons were asked for an area light; use Light::centreOnly for its centre.");
     const SceneTriangles scene(snapshot);
     std::vector<ShadowPolygons> result;
-    for (const PlanarReceiver& receiver : receivers) result.push_back(shadowsOn(scene, snapshot, receiver));
+    for (const hard::PlanarReceiver& receiver : receivers) result.push_back(shadowsOn(scene, snapshot, receiver));
     return result;
 }
 
@@ -321,8 +315,8 @@ double differingArea(const ReceiverRegion& a, const ReceiverRegion& b) {
     return areaOf(plane.where([](Covers c) { return (c.first > 0) != (c.second > 0); }));
 }
 
-void labelByRegion(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver,
-                   const ReceiverRegion& shadow, Reference& out) {
+void labelByRegion(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary,
+                   const hard::PlanarReceiver& receiver, const ReceiverRegion& shadow, Reference& out) {
     if (!out.visibility.sameSize(primary.id) || !out.surface.sameSize(primary.id) || primary.id.width() != size.x ||
         primary.id.height() != size.y)
         throw InternalError("Labels by polygons were asked for images of different sizes.");
@@ -337,4 +331,4 @@ void labelByRegion(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits&
     }
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::plan

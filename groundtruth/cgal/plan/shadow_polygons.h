@@ -1,5 +1,5 @@
 // The exact shadows on one plane as polygons with holes: silhouette chains projected from the light onto the receiver's
-// plane, their arrangement, and the winding number of each of its faces (GROUNDTRUTH.md: "CGAL hard shadows").
+// plane, their arrangement, and the winding number of each of its faces (docs/ground-truth.md, "Exact hard shadows").
 #pragma once
 
 #include "groundtruth/cgal/hard/exact.h"
@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::plan {
 
 /// Coordinates on a plane: those of the world without the axis along which the plane's normal is longest, so that nothing
 /// is rounded on the way. Metres along the world's axes, not along the plane.
@@ -51,16 +51,16 @@ struct ShadowPolygons {
 };
 
 /// One per receiver, in the same order. Point and directional lights, else InternalError; the light must lie in front of the
-/// receivers, as it does for those of ExactScene::planarReceivers. Costs a pass over all triangles per receiver and some
-/// 10 µs per silhouette edge and crossing: 0.1 s for a bumpy mesh of 70,000 triangles.
-std::vector<ShadowPolygons> shadowPolygons(const Snapshot& snapshot, const std::vector<PlanarReceiver>& receivers);
+/// receivers, as it does for those of ExactScene::planarReceivers. Costs a pass over all triangles per receiver and
+/// exact arithmetic for each silhouette edge and crossing.
+std::vector<ShadowPolygons> shadowPolygons(const Snapshot& snapshot, const std::vector<hard::PlanarReceiver>& receivers);
 
 /// Area (in u, v) of the points that lie in one region of a plane but not in the other: 0 exactly if they are equal.
 double differingArea(const ReceiverRegion& a, const ReceiverRegion& b);
 
 /// Labels the pixels of `primary` that see `receiver` by the exact location of their receiver points: 0 inside `shadow`, 1
 /// outside, OnEdge on its border. Writes visibility and surface only; throws InternalError unless `out` has its images.
-void labelByRegion(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver,
-                   const ReceiverRegion& shadow, Reference& out);
+void labelByRegion(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary,
+                   const hard::PlanarReceiver& receiver, const ReceiverRegion& shadow, Reference& out);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::plan

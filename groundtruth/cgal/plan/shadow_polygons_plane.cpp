@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::plan {
 namespace {
 
 /// The axis along which the normal is longest; up to rounding, which any of the longest ones suits.
@@ -53,7 +53,7 @@ std::size_t ReceiverRegion::vertices() const {
     return count;
 }
 
-std::vector<Triangle> receiverTriangles(const Snapshot& snapshot, const PlanarReceiver& receiver) {
+std::vector<Triangle> receiverTriangles(const Snapshot& snapshot, const hard::PlanarReceiver& receiver) {
     if (receiver.triangles.empty()) throw InternalError("A planar receiver without triangles has no plane.");
     for (const Batch& batch : snapshot.batches)
         for (const Placement& placement : batch.placements) {
@@ -69,8 +69,8 @@ std::vector<Triangle> receiverTriangles(const Snapshot& snapshot, const PlanarRe
     throw InternalError("The snapshot has no surface " + std::to_string(receiver.id) + ".");
 }
 
-PlaneFrame::PlaneFrame(const Triangle& receiver, const glm::dvec4& light) : triangle(receiver), axes(axesOf(receiver)) {
-    if (side(triangle, light) < 0) std::swap(triangle[1], triangle[2]);
+PlaneFrame::PlaneFrame(const Triangle& receiver, const glm::dvec4& light)
+    : triangle(facing(receiver, light)), axes(axesOf(receiver)) {
     orientation = CGAL::orientation(drop(triangle[0]), drop(triangle[1]), drop(triangle[2]));
 }
 
@@ -93,4 +93,4 @@ ReceiverRegion rounded(std::uint32_t id, const PlaneAxes& axes, ExactRegion regi
     return result;
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::plan

@@ -6,10 +6,12 @@
 
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::plan {
+
+using namespace geometry;
 
 /// The world triangles of a receiver.
-std::vector<Triangle> receiverTriangles(const Snapshot& snapshot, const PlanarReceiver& receiver);
+std::vector<Triangle> receiverTriangles(const Snapshot& snapshot, const hard::PlanarReceiver& receiver);
 
 /// How a plane's coordinates lie in the world.
 struct PlaneFrame {
@@ -29,4 +31,4 @@ std::vector<CoverEdge> receiverEdges(const std::vector<Triangle>& receiver, cons
 /// The region with rounded coordinates beside the exact ones.
 ReceiverRegion rounded(std::uint32_t id, const PlaneAxes& axes, ExactRegion region);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::plan

@@ -17,7 +17,7 @@
 #include <map>
 #include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::plan {
 namespace {
 
 /// What a segment separates; `more` is to the left of its direction from left to right.
@@ -277,4 +277,4 @@ double areaOf(const ExactRegion& region) {
     return region.polygons.empty() ? 0 : std::max(area, std::numeric_limits<double>::min());
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::plan

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::plan {
 
 using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using ExactNumber = ExactKernel::FT;
@@ -75,4 +75,4 @@ std::vector<Location> locate(const ExactRegion& region, const std::vector<ExactP
 /// To some 1e-16 of the area around the polygons; positive if there is any.
 double areaOf(const ExactRegion& region);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::plan

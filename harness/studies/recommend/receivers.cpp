@@ -8,7 +8,7 @@ namespace shadowbench::recommend {
 using groundtruth::Surface;
 
 Receivers receivers(const Snapshot& drawn, glm::ivec2 size, const Casters& casters, const Progress& progress) {
-    Receivers result{groundtruth::primaryHits(drawn, size, progress), size, {}};
+    Receivers result{groundtruth::hard::primaryHits(drawn, size, progress), size, {}};
     for (std::size_t i = 0; i < result.primary.id.size(); ++i) {
         if (result.primary.surface[i] != Surface::Receiver) continue;
         ++result.all;

@@ -1,22 +1,20 @@
 #include "harness/studies/recommend/shadows.h"
 
+#include "base/parallel.h"
 #include "groundtruth/cgal/area/area.h"
 #include "groundtruth/cgal/hard/exact.h"
 #include "groundtruth/povray/povray.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <thread>
 
 namespace shadowbench::recommend {
 namespace {
 
-using groundtruth::ExactScene;
-using groundtruth::PlanarReceiver;
 using groundtruth::Reference;
 using groundtruth::Surface;
-
-int threads() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+using groundtruth::hard::ExactScene;
+using groundtruth::hard::PlanarReceiver;
 
 Shadow shadowOf(const Reference& labels) {
     Shadow shadow{labels.visibility, Image<std::uint8_t>(labels.surface.width(), labels.surface.height())};
@@ -27,12 +25,12 @@ Shadow shadowOf(const Reference& labels) {
 
 Reference byRays(const Snapshot& casters, const Receivers& receivers) {
     Reference labels;
-    ExactScene(casters, threads()).labelByRays(receivers.size, receivers.primary, labels);
+    ExactScene(casters, hardwareThreads()).labelByRays(receivers.size, receivers.primary, labels);
     return labels;
 }
 
 Reference byPolygons(const Snapshot& casters, const Receivers& receivers) {
-    const ExactScene scene(casters, threads());
+    const ExactScene scene(casters, hardwareThreads());
     const std::vector<PlanarReceiver> planes = scene.planarReceivers(receivers.primary);
     std::size_t planar = 0;
     for (const PlanarReceiver& plane : planes) planar += plane.pixels;
@@ -95,7 +93,7 @@ ShadowOracle rayOracle(const Receivers& receivers) {
 ShadowOracle areaOracle(const Receivers& receivers) {
     return {"area", [&receivers](const Snapshot& casters) {
                 Reference fractions;
-                groundtruth::AreaScene(casters, threads()).label(receivers.size, receivers.primary, fractions);
+                groundtruth::area::AreaScene(casters, hardwareThreads()).label(receivers.size, receivers.primary, fractions);
                 return shadowOf(fractions);
             }};
 }
@@ -107,7 +105,7 @@ ShadowOracle sampledOracle(const Receivers& receivers, int samples) {
                             Image<std::uint8_t>(receivers.size.x, receivers.size.y, 1)};
                 for (int i = 0; i < samples; ++i) {
                     casters.light = area.centreOnly();
-                    casters.light.centre = area.sample(groundtruth::lightSample(i, samples));
+                    casters.light.centre = area.sample(groundtruth::povray::lightSample(i, samples));
                     const Shadow one = shadowOf(byRays(casters, receivers));
                     for (std::size_t pixel = 0; pixel < one.labelled.size(); ++pixel) {
                         mean.visibility[pixel] += one.visibility[pixel];

@@ -5,6 +5,9 @@
 #include <numbers>
 
 namespace shadowbench::groundtruth::testing {
+
+using namespace area;
+using namespace hard;
 namespace {
 
 constexpr double rounding = 1e-14; // closed forms in double precision, a few operations

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 
 namespace shadowbench::groundtruth::testing {
+
+using namespace hard;
 namespace {
 
 constexpr glm::ivec2 size(64, 48);

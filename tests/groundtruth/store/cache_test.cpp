@@ -144,6 +144,14 @@ TEST_F(CacheFolder, GetComputesOnceAndThenReads) {
     expectEqual(first, second); // the recorded seconds too: it was not computed again
 }
 
+TEST_F(CacheFolder, AKeyThatIsGivenIsNotMadeAgain) {
+    const ReferenceKey key{someKey, {{"tool", "1"}}};
+    const Reference reference = groundtruth::cached(cache(), quick(), key);
+    EXPECT_EQ(reference.provenance.key, someKey);
+    EXPECT_EQ(reference.provenance.tools, key.tools);
+    EXPECT_TRUE(cache().find(someKey));
+}
+
 TEST_F(CacheFolder, WhoAsksWhileAReferenceIsBeingComputedWaitsForIt) {
     std::vector<Reference> got(4);
     std::vector<std::thread> asking;

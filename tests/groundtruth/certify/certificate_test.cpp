@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 namespace shadowbench::groundtruth {
+
+using namespace area;
 namespace {
 
 constexpr int side = 128;
@@ -27,9 +29,9 @@ PrimaryHits ground() {
 /// A render of the ramp. `error` gives by how many samples all, the first half and the first quarter err at a penumbra
 /// pixel.
 template <typename Error>
-PovRayImage render(const Error& error) {
-    PovRayImage image{Image<float>(side, side), Image<float>(side, side), Image<float>(side, side),
-                      Image<std::uint8_t>(side, side, 1), 1024};
+povray::Render render(const Error& error) {
+    povray::Render image{Image<float>(side, side), Image<float>(side, side), Image<float>(side, side),
+                         Image<std::uint8_t>(side, side, 1), 1024};
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
             const double truth = ramp(x);
@@ -43,15 +45,15 @@ PovRayImage render(const Error& error) {
 }
 
 /// Signs by turns, so that there is no bias.
-PovRayImage honest() {
+povray::Render honest() {
     return render([](int x, int y) { return ((x + y) % 2 == 0 ? 1.0 : -1.0) * glm::dvec3(2, 3, 5); });
 }
 
-Certificate certified(const PovRayImage& image, int points = certificatePointCount) {
+Certificate certified(const povray::Render& image, int points = certificatePointCount) {
     return certify(image, ground(), samples, points, exactRamp);
 }
 
-void expectRejected(const PovRayImage& image, const std::string& reason) {
+void expectRejected(const povray::Render& image, const std::string& reason) {
     try {
         requireCertified(certified(image), samples);
         ADD_FAILURE() << "certified in spite of: " << reason;
@@ -61,7 +63,7 @@ void expectRejected(const PovRayImage& image, const std::string& reason) {
 }
 
 TEST(CertificatePoints, AreTheSameEachTimeAndMostlyInThePenumbra) {
-    const PovRayImage image = honest();
+    const povray::Render image = honest();
     const std::vector<glm::ivec2> points = certificatePoints(image, ground(), 512);
     EXPECT_EQ(points, certificatePoints(image, ground(), 512));
     ASSERT_EQ(points.size(), 512U);
@@ -82,7 +84,7 @@ TEST(CertificatePoints, ReachEveryPartOfThePenumbra) {
 }
 
 TEST(CertificatePoints, TakeFromTheOtherKindsWhatOneLacks) {
-    PovRayImage lit = honest();
+    povray::Render lit = honest();
     for (float& value : lit.visible) value = 1;
     EXPECT_EQ(certificatePoints(lit, ground(), 512).size(), 512U);
     EXPECT_EQ(certificatePoints(lit, ground(), 100000).size(), static_cast<std::size_t>(side * side)); // all there are
@@ -91,7 +93,7 @@ TEST(CertificatePoints, TakeFromTheOtherKindsWhatOneLacks) {
 
 TEST(CertificatePoints, SeeReceiversOnly) {
     PrimaryHits primary = ground();
-    PovRayImage image = honest();
+    povray::Render image = honest();
     for (int x = 0; x < side; ++x) {
         for (int y = 0; y < side / 2; ++y) primary.surface(x, y) = Surface::FacesAway;
         image.hit(x, side - 1) = 0;
@@ -137,7 +139,7 @@ TEST(Certificate, LeavesOutPointsThatSeeTheLightEdgeOn) {
 }
 
 TEST(Certificate, RejectsAFullyLitPixelThatIsInTheUmbra) {
-    PovRayImage image = honest();
+    povray::Render image = honest();
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < 10; ++x) image.visible(x, y) = 1; // a quarter of the umbra
     expectRejected(image, "fully lit or fully shadowed");
@@ -167,7 +169,7 @@ TEST(Certificate, RejectsAnErrorThatDoesNotFall) {
 }
 
 TEST(Certificate, DoesNotJudgeByAFewPenumbraPixels) {
-    PovRayImage image = honest();
+    povray::Render image = honest();
     const auto almostLit = [](glm::ivec2 p) {
         return p == glm::ivec2(64, 64) ? VisibleFraction{0.2, 0.2} : VisibleFraction{1, 1};
     };
@@ -180,9 +182,9 @@ TEST(Certificate, DoesNotJudgeByAFewPenumbraPixels) {
 }
 
 TEST(Certificate, CalibratesTheUncertainty) {
-    const PovRayImage image = honest();
+    const povray::Render image = honest();
     const Certificate c = certified(image);
-    const Image<float> sampled = samplingUncertainty(image, ground().id, samples);
+    const Image<float> sampled = povray::samplingUncertainty(image, ground().id, samples);
     const Image<float> sigma = calibrated(sampled, c, samples);
     double squares = 0;
     int penumbra = 0;

@@ -10,6 +10,8 @@
 #include <limits>
 
 namespace shadowbench::groundtruth::testing {
+
+using namespace hard;
 namespace {
 
 /// By how much the ray from `p` along `way` passes through the box [low, high] (in parameter): positive if it does.

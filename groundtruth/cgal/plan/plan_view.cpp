@@ -1,6 +1,6 @@
 // Footprints are cross-sections of the meshes half-way between receiver and light. The free plan around them is the
 // environment of a visibility polygon.
-#include "groundtruth/cgal/plan/plan.h"
+#include "groundtruth/cgal/plan/plan_view.h"
 
 #include "base/error.h"
 #include "groundtruth/cgal/plan/shadow_polygons_plane.h"
@@ -17,7 +17,7 @@
 #include <string>
 #include <utility>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::plan {
 namespace {
 
 using Traits = CGAL::Arr_segment_traits_2<ExactKernel>;
@@ -161,14 +161,15 @@ Storey storeyOf(const Snapshot& snapshot, const std::vector<Triangle>& receiver,
 
 } // namespace
 
-std::vector<PlanarReceiver> planReceivers(const Snapshot& snapshot, const std::vector<PlanarReceiver>& receivers) {
-    std::vector<PlanarReceiver> result;
-    for (const PlanarReceiver& receiver : receivers)
+std::vector<hard::PlanarReceiver> planReceivers(const Snapshot& snapshot,
+                                                const std::vector<hard::PlanarReceiver>& receivers) {
+    std::vector<hard::PlanarReceiver> result;
+    for (const hard::PlanarReceiver& receiver : receivers)
         if (std::ranges::all_of(receiverTriangles(snapshot, receiver), horizontal)) result.push_back(receiver);
     return result;
 }
 
-PlanView planView(const Snapshot& snapshot, const PlanarReceiver& receiver) {
+PlanView planView(const Snapshot& snapshot, const hard::PlanarReceiver& receiver) {
     const std::vector<Triangle> triangles = receiverTriangles(snapshot, receiver);
     const Storey storey = storeyOf(snapshot, triangles, receiver.id);
     const PlaneFrame frame(triangles.front(), snapshot.light.homogeneous());
@@ -190,9 +191,9 @@ PlanView planView(const Snapshot& snapshot, const PlanarReceiver& receiver) {
             glm::dvec2(snapshot.light.centre.x, snapshot.light.centre.z)};
 }
 
-void labelByPlan(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver,
+void labelByPlan(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, const hard::PlanarReceiver& receiver,
                  Reference& out) {
     labelByRegion(snapshot, size, primary, receiver, planView(snapshot, receiver).shadow, out);
 }
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::plan

@@ -8,10 +8,10 @@
 
 #include <vector>
 
-namespace shadowbench::groundtruth {
+namespace shadowbench::groundtruth::plan {
 
-/// To be raised with every change that can alter a label.
-constexpr int planCodeVersion = 1;
+/// Raise it with every change that can alter a label.
+constexpr int codeVersion = 1;
 
 /// A horizontal receiver in coordinates (x, z). Where a footprint covers it, it is in shadow, as it is for the other
 /// derivations: the footprint's walls stand between it and the light.
@@ -24,15 +24,16 @@ struct PlanView {
 };
 
 /// Those of the receivers that are exactly horizontal.
-std::vector<PlanarReceiver> planReceivers(const Snapshot& snapshot, const std::vector<PlanarReceiver>& receivers);
+std::vector<hard::PlanarReceiver> planReceivers(const Snapshot& snapshot,
+                                                const std::vector<hard::PlanarReceiver>& receivers);
 
 /// Throws BadInput, naming the surface and the reason, unless the light is a point light strictly above a horizontal
 /// receiver and outside all footprints, and every mesh with a part between the heights of the receiver and the light is
 /// closed, has no vertex strictly between them, and only vertical triangles pass from one to the other.
-PlanView planView(const Snapshot& snapshot, const PlanarReceiver& receiver);
+PlanView planView(const Snapshot& snapshot, const hard::PlanarReceiver& receiver);
 
 /// Labels the pixels that see `receiver` as `labelByRegion` does with the plan's shadow. Throws what planView throws.
-void labelByPlan(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver,
+void labelByPlan(const Snapshot& snapshot, glm::ivec2 size, const PrimaryHits& primary, const hard::PlanarReceiver& receiver,
                  Reference& out);
 
-} // namespace shadowbench::groundtruth
+} // namespace shadowbench::groundtruth::plan

@@ -10,6 +10,8 @@
 #include <limits>
 
 namespace shadowbench::groundtruth::testing {
+
+using namespace hard;
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -239,8 +241,8 @@ TEST(ExactPolygon, ResultsDoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(ExactPolygon, ToolsNameTheirVersions) {
-    EXPECT_EQ(exactTools().count("cgal"), 1U);
-    EXPECT_EQ(exactTools().count("exact"), 1U);
+    EXPECT_EQ(toolVersions().count("cgal"), 1U);
+    EXPECT_EQ(toolVersions().count("exact"), 1U);
 }
 
 } // namespace

@@ -1,0 +1,86 @@
+// Two headers that define the same qualified type name break the one-definition rule as soon as one program has both; the
+// compiler does not notice. So no two headers of the project may.
+#include "base/files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace shadowbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string withoutComments(const std::string& text) {
+    static const std::regex comments(R"(//[^\n]*|"(\\.|[^"\\\n])*")");
+    return std::regex_replace(text, comments, " ");
+}
+
+/// The qualified names of the types (classes, enumerations, aliases) that a header defines; not those inside functions.
+std::set<std::string> typesOf(const std::string& header) {
+    static const std::regex token(R"(namespace\s+([\w:]+)\s*\{)"
+                                  R"(|\b(?:struct|class|union|enum(?:\s+class)?)\s+([\w:]+)\s*(?:final\s*)?(?::[^;{(]*)?\{)"
+                                  R"(|\busing\s+(\w+)\s*=)"
+                                  R"(|[{}])");
+    const std::string text = withoutComments(header);
+    std::vector<std::string> scopes; // "" for a function or an initialiser
+    std::set<std::string> types;
+    const auto qualified = [&](const std::string& name) {
+        std::string result;
+        for (const std::string& scope : scopes) result += scope + "::";
+        return result + name;
+    };
+    const auto inFunction = [&] { return std::ranges::find(scopes, "") != scopes.end(); };
+    for (std::sregex_iterator i(text.begin(), text.end(), token), end; i != end; ++i) {
+        const std::smatch& match = *i;
+        const bool isType = match[2].matched || match[3].matched;
+        if (isType && !inFunction()) types.insert(qualified(match[2].matched ? match[2] : match[3]));
+        if (match.str() == "}") {
+            if (!scopes.empty()) scopes.pop_back();
+        } else if (!match[3].matched) {
+            scopes.push_back(match[1].matched ? match[1] : match[2].matched ? match[2] : std::string());
+        }
+    }
+    return types;
+}
+
+TEST(TypeNames, AreReadWithTheirNamespacesAndClasses) {
+    const std::string header = R"(
+namespace a::b {
+class Declared;
+struct Outer final : Base<int> { // struct Commented {
+    enum class Inner : int { One };
+    void f() { struct Local { int x; }; }
+};
+template <typename T> struct Pair { T x{}; };
+using Alias = int;
+} // namespace a::b
+namespace a::c { struct Outer {}; }
+)";
+    EXPECT_EQ(typesOf(header),
+              (std::set<std::string>{"a::b::Outer", "a::b::Outer::Inner", "a::b::Pair", "a::b::Alias", "a::c::Outer"}));
+}
+
+TEST(TypeNames, NoTwoHeadersDefineTheSame) {
+    std::map<std::string, std::vector<std::string>> headersOf;
+    for (const char* folder : {"base", "scene", "techniques", "groundtruth", "harness"})
+        for (const fs::directory_entry& file : fs::recursive_directory_iterator(fs::path(SOURCE_FOLDER) / folder)) {
+            if (file.path().extension() != ".h") continue;
+            for (const std::string& type : typesOf(readFile(file.path())))
+                headersOf[type].push_back(fs::relative(file.path(), SOURCE_FOLDER).string());
+        }
+    EXPECT_GT(headersOf.size(), 200U); // else they were not found
+    EXPECT_TRUE(headersOf.contains("shadowbench::groundtruth::hard::ExactScene"));
+    for (const auto& [type, headers] : headersOf)
+        EXPECT_EQ(headers.size(), 1U) << type << " is defined in " << fmt::format("{}", fmt::join(headers, ", "));
+}
+
+} // namespace
+} // namespace shadowbench
