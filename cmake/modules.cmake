@@ -1,6 +1,6 @@
 # shadowbench_modules(file): a static library for each line of the file, `folder: folders it includes | packages it links`.
 # Its sources are those of the folder that no deeper folder of the file holds. Folders become target names: harness/cells is
-# harness_cells. tests/layers_test.cpp holds every include to the same file.
+# harness_cells. tests/tree/layers_test.cpp holds every include to the same file.
 
 # Headers that many files of a module include, compiled once: pch_common for all, pch_<package> for the modules that link it.
 function(shadowbench_precompiled name)
