@@ -1,5 +1,5 @@
-// Area-light visibility by densely sampled POV-Ray renders (docs/ground-truth.md, "POV-Ray soft
-// shadows").
+// Area-light visibility by densely sampled POV-Ray renders
+// (docs/ground-truth.md, "POV-Ray soft shadows").
 #pragma once
 
 #include "base/progress.h"

@@ -1,6 +1,6 @@
 // Hard shadows by 2-D visibility: a third derivation, which shares neither silhouettes nor rays with the others, for scenes
-// that are a plan: upright walls and columns that reach from the receiver up to the light (GROUNDTRUTH.md: "2-D
-// visibility").
+// that are a plan: upright walls and columns that reach from the receiver up to the light
+// (docs/ground-truth.md, "2-D visibility").
 #pragma once
 
 #include "groundtruth/cgal/hard/exact.h"
