@@ -10,9 +10,10 @@
 namespace shadowbench::gl {
 
 struct ContextOptions {
-    int rasterThreads = 0; // 0: raster on the calling thread (the reproducible setting)
-    int vectorBits = 256;  // native vector width of the software rasteriser
-    bool debug = false;    // GL messages of type error become exceptions at the next `check`
+    int rasterThreads = 0;   // 0: raster on the calling thread (the reproducible setting)
+    int vectorBits = 256;    // native vector width of the software rasteriser
+    bool debug = false;      // GL messages of type error become exceptions at the next `check`
+    std::string shaderCache; // folder of machine code that contexts and processes share; empty: each compiles its own
 };
 
 /// What the records' environment block says about the rasteriser.

@@ -15,7 +15,8 @@ void fixRasteriser(const ContextOptions& options) {
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     setenv("LP_NUM_THREADS", std::to_string(options.rasterThreads).c_str(), 1);
     setenv("LP_NATIVE_VECTOR_WIDTH", std::to_string(options.vectorBits).c_str(), 1);
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    setenv("MESA_SHADER_CACHE_DISABLE", options.shaderCache.empty() ? "true" : "false", 1);
+    if (!options.shaderCache.empty()) setenv("MESA_SHADER_CACHE_DIR", options.shaderCache.c_str(), 1);
 }
 
 class OsMesaContext final : public Context {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <map>
 #include <set>
 
 namespace shadowbench::recommend {
@@ -155,24 +156,40 @@ struct Case {
     bool saves;
 };
 
+std::string nameOf(const Case& tested) { return tested.scene + (tested.chains.empty() ? "" : "Simplified"); }
+
+/// A case's scene and what is recommended for it, searched once for all tests.
+struct Search {
+    explicit Search(const Case& tested) : scene(loadScene(tested.scene, Profile::Gate)) {
+        CasterOptions options;
+        options.chains = tested.chains;
+        result = recommendCasters(scene, options);
+    }
+
+    Scene scene;
+    CasterRecommendation result;
+};
+
+const Search& searched(const Case& tested) {
+    static std::map<std::string, Search> known;
+    return known.try_emplace(nameOf(tested), tested).first->second;
+}
+
 class CasterLevelsOn : public testing::TestWithParam<Case> {};
 
 TEST_P(CasterLevelsOn, HardLightAreWithinToleranceAndNoCoarserOneIs) {
-    const Scene scene = loadScene(GetParam().scene, Profile::Gate);
-    CasterOptions options;
-    options.chains = GetParam().chains;
-    const CasterRecommendation r = recommendCasters(scene, options);
+    const auto& [scene, r] = searched(GetParam());
     expectVerified(r);
     EXPECT_EQ(r.verifier, "rays");
     EXPECT_EQ(r.errors, r.verifiedErrors); // both oracles are exact
     EXPECT_EQ(r.triangles < r.finestTriangles, GetParam().saves);
 
     const Levels levels = levelsOf(r);
-    EXPECT_LE(mismatchByRays(scene, options.chains, r, levels), 0.005);
+    EXPECT_LE(mismatchByRays(scene, GetParam().chains, r, levels), 0.005);
     for (std::size_t group = 0; group < levels.size(); ++group) {
         Levels coarser = levels;
         ++coarser[group];
-        EXPECT_GT(mismatchByRays(scene, options.chains, r, coarser), 0.005) << r.groups[group].object;
+        EXPECT_GT(mismatchByRays(scene, GetParam().chains, r, coarser), 0.005) << r.groups[group].object;
     }
 }
 
@@ -181,9 +198,7 @@ TEST_P(CasterLevelsOn, HardLightAreWithinToleranceAndNoCoarserOneIs) {
 INSTANTIATE_TEST_SUITE_P(Gate, CasterLevelsOn,
                          testing::Values(Case{"windmills", {}, true}, Case{"trees", {}, false},
                                          Case{"trees", {{"", {600, 500, 400, 300}}}, true}),
-                         [](const auto& tested) {
-                             return tested.param.scene + (tested.param.chains.empty() ? "" : "Simplified");
-                         });
+                         [](const auto& tested) { return nameOf(tested.param); });
 
 /// The same casters, but those of `model` as drawn.
 Snapshot withOwnShadow(Snapshot casters, const Snapshot& drawn, const std::set<std::uint32_t>& model) {
@@ -224,11 +239,8 @@ std::size_t wrongOnModels(const Scene& scene, const Snapshot& fine, const Snapsh
 
 // Why only the ground counts: where it is within tolerance, so are the shadows that models throw on one another.
 TEST_P(CasterLevelsOn, HardLightAreRightOnOtherModelsToo) {
-    const Scene scene = loadScene(GetParam().scene, Profile::Gate);
-    CasterOptions options;
-    options.chains = GetParam().chains;
-    const CasterRecommendation r = recommendCasters(scene, options);
-    const Casters casters(withChains(scene, options.chains), r.frame, ownBands(scene));
+    const auto& [scene, r] = searched(GetParam());
+    const Casters casters(withChains(scene, GetParam().chains), r.frame, ownBands(scene));
     const std::size_t wrong = wrongOnModels(scene, casters.cast(casters.finest()), casters.cast(levelsOf(r)), r.frame);
     EXPECT_LE(static_cast<double>(wrong), 0.005 * static_cast<double>(r.allReceiverPixels - r.receiverPixels));
 }

@@ -64,16 +64,15 @@ struct Comparison {
     double offEdge = 0; // share of all compared
 };
 
-Comparison compared(const Scene& scene, const std::string& variant) {
-    Stage stage(scene);
-    const groundtruth::Cache cache = testCache();
-    Truths truths(scene, cache);
+Comparison compared(CellScene& cells, const std::string& variant) {
+    const Scene& scene = cells.scene();
+    Stage& stage = cells.stage();
     const int frame = scene.timeline.still - 1;
     stage.show(frame);
     const auto technique = techniques::parseVariant(variant).entry->make(techniques::parseVariant(variant).parameters);
     stage.render(*technique, frame, 1);
     const Image<float> v = stage.visibility();
-    const groundtruth::Reference& truth = truths.at(Truth::Hard, frame);
+    const groundtruth::Reference& truth = cells.truths().at(Truth::Hard, frame);
     const metrics::Mask mask = metrics::receiverMask(truth, stage.drawn(), stage.shown().camera.eye);
     Comparison result;
     result.compared = mask.count;
@@ -112,8 +111,9 @@ std::vector<Case> everyExactCell() {
 class ExactTechnique : public testing::TestWithParam<Case> {};
 
 TEST_P(ExactTechnique, DiffersFromTheTruthOnlyWhereTheTruthChanges) {
-    const Scene scene = stillScene(GetParam().scene);
-    const Comparison found = compared(scene, GetParam().variant);
+    CellScene& cells = stillScene(GetParam().scene);
+    const Scene& scene = cells.scene();
+    const Comparison found = compared(cells, GetParam().variant);
     EXPECT_LE(found.offEdge, 0.0002);
 
     const Snapshot shown = snapshot(scene, scene.timeline.still - 1);

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <iostream>
-#include <map>
 
 namespace shadowbench {
 namespace {
@@ -33,44 +32,43 @@ bool needsMovingFrames(const Scene& scene) {
 
 class FailureScene : public testing::TestWithParam<std::string> {
 protected:
-    void SetUp() override {
+    /// With moving frames only where an expectation is about them.
+    static Scene scene() {
         testContext();
-        scene_ = loadScene(GetParam(), Profile::Gate);
-        if (!needsMovingFrames(scene_)) scene_.timeline.moving = 0;
+        Scene scene = loadScene(GetParam(), Profile::Gate);
+        if (!needsMovingFrames(scene)) scene.timeline.moving = 0;
+        return scene;
     }
 
     /// The metric that an expectation is about; nothing, with a note, for a technique that is still to come.
     std::optional<double> measured(const Expectation& expectation) {
         const std::string id = idOf(expectation.technique);
         if (isToCome(id)) {
-            std::cout << fmt::format("[     NOTE ] {}: {} is still to come, its expectation is not checked\n", scene_.id,
-                                     expectation.technique);
+            std::cout << fmt::format("[     NOTE ] {}: {} is still to come, its expectation is not checked\n",
+                                     cells_.scene().id, expectation.technique);
             return std::nullopt;
         }
         if (!inCatalogue(id)) {
-            ADD_FAILURE() << "there is no technique " << id << ", of which " << scene_.id << " expects something";
+            ADD_FAILURE() << "there is no technique " << id << ", of which " << cells_.scene().id << " expects something";
             return std::nullopt;
         }
-        auto known = records_.find(expectation.technique);
-        if (known == records_.end())
-            known = records_.emplace(expectation.technique, scored(scene_, expectation.technique)).first;
-        const std::optional<double> value = boundedMetric(known->second, expectation.metric);
+        const Record& record = cells_.scored(expectation.technique);
+        const std::optional<double> value = boundedMetric(record, expectation.metric);
         EXPECT_TRUE(value.has_value()) << expectation.technique << " has no " << expectation.metric << " on this scene";
         return value;
     }
 
-    Scene scene_;
-    std::map<std::string, Record> records_;
+    CellScene cells_{scene()};
 };
 
-TEST_P(FailureScene, BreaksAndSparesTheTechniquesThatItSays) {
-    for (const Expectation& expected : scene_.fails) {
+TEST_P(FailureScene, BreaksAndSparesTheTechniquesThatItLists) {
+    for (const Expectation& expected : cells_.scene().fails) {
         const auto value = measured(expected);
         if (!value) continue;
         EXPECT_GT(*value, expected.bound) << expected.technique << " has stopped failing (" << expected.metric
                                           << "), though " << expected.reason;
     }
-    for (const Expectation& expected : scene_.holds) {
+    for (const Expectation& expected : cells_.scene().holds) {
         const auto value = measured(expected);
         if (!value) continue;
         EXPECT_LT(*value, expected.bound) << expected.technique << " does not hold (" << expected.metric << "), though "

@@ -1,7 +1,8 @@
 // What level-of-detail techniques must show on the dissertation's three scenes, in the gate profile.
 #include "harness/cells/lod_cell.h"
 #include "scene/load/load.h"
-#include "tests/support/cell_stage.h"
+#include "techniques/catalog.h"
+#include "tests/support/test_context.h"
 
 #include <gtest/gtest.h>
 #include <map>
@@ -9,20 +10,31 @@
 namespace shadowbench {
 namespace {
 
-/// Cells of one scene, each scored once for all tests.
-const Record& lodCell(const std::string& sceneId, const std::string& variantName) {
-    static std::map<std::pair<std::string, std::string>, Record> known;
-    const auto key = std::pair(sceneId, variantName);
-    if (const auto found = known.find(key); found != known.end()) return found->second;
-    testContext();
-    const Scene scene = loadScene(sceneId, Profile::Gate);
-    lod::LodScene lodScene(scene);
-    lod::LodCellOptions options;
-    options.time = false;
-    Record record;
-    const auto silent = [](double, std::string_view) {};
-    lod::runLodCell(lodScene, techniques::parseVariant(variantName), options, record, silent, {});
-    return known.emplace(key, std::move(record)).first->second;
+/// A scene's walk, whose cells are scored once each.
+class Walk {
+public:
+    explicit Walk(const std::string& sceneId) : scene_(loadScene(sceneId, Profile::Gate)), cells_(scene_) {}
+
+    const Record& scored(const std::string& variant) {
+        if (const auto found = records_.find(variant); found != records_.end()) return found->second;
+        lod::LodCellOptions options;
+        options.time = false;
+        const auto silent = [](double, std::string_view) {};
+        Record record;
+        lod::runLodCell(cells_, techniques::parseVariant(variant), options, record, silent, {});
+        return records_.emplace(variant, std::move(record)).first->second;
+    }
+
+private:
+    Scene scene_;
+    lod::LodScene cells_; // with the reference that they are compared with
+    std::map<std::string, Record> records_;
+};
+
+const Record& lodCell(const std::string& scene, const std::string& variant) {
+    testContext(); // outlives the walks
+    static std::map<std::string, Walk> walks;
+    return walks.try_emplace(scene, scene).first->second.scored(variant);
 }
 
 const Lod& scores(const std::string& scene, const std::string& variant) { return *lodCell(scene, variant).lod; }

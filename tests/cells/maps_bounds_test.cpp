@@ -12,13 +12,13 @@ class MapsOnStandardScene : public testing::TestWithParam<std::string> {};
 
 // Two pixels in ten thousand: primary hits of rasteriser and truth that differ by a rounding, as with stencil volumes.
 TEST_P(MapsOnStandardScene, AliasFreeMapsAreExactOffEdges) {
-    EXPECT_LE(*scored(stillScene(GetParam()), "sm-alias-free").accuracy.mismatchOffEdge, 0.0002);
+    EXPECT_LE(*stillScene(GetParam()).scored("sm-alias-free").accuracy.mismatchOffEdge, 0.0002);
 }
 
 TEST_P(MapsOnStandardScene, FocusingIsNoWorseThanAUniformMap) {
-    const Scene scene = stillScene(GetParam());
-    const double uniform = *scored(scene, "sm-uniform").accuracy.mismatch;
-    EXPECT_LE(*scored(scene, "sm-focused").accuracy.mismatch, uniform);
+    CellScene& scene = stillScene(GetParam());
+    const double uniform = *scene.scored("sm-uniform").accuracy.mismatch;
+    EXPECT_LE(*scene.scored("sm-focused").accuracy.mismatch, uniform);
 }
 
 INSTANTIATE_TEST_SUITE_P(Gate, MapsOnStandardScene, testing::ValuesIn(standardScenes()), nameOfText);
@@ -26,24 +26,24 @@ INSTANTIATE_TEST_SUITE_P(Gate, MapsOnStandardScene, testing::ValuesIn(standardSc
 // Not at most half: the visible depths have a ratio of 6, and of a focused map with four times the texels, which is more
 // than slices can give, 0.55 of the error is left.
 TEST(CascadedMapsOnWindmills, AreBetterThanOneFocusedMapOfEqualTexels) {
-    const Scene scene = stillScene("windmills");
-    const double focused = *scored(scene, "sm-focused").accuracy.mismatch;
-    EXPECT_LE(*scored(scene, "sm-cascaded").accuracy.mismatch, 0.8 * focused);
-    EXPECT_GE(*scored(scene, "sm-focused:map=2048").accuracy.mismatch, 0.5 * focused);
+    CellScene& scene = stillScene("windmills");
+    const double focused = *scene.scored("sm-focused").accuracy.mismatch;
+    EXPECT_LE(*scene.scored("sm-cascaded").accuracy.mismatch, 0.8 * focused);
+    EXPECT_GE(*scene.scored("sm-focused:map=2048").accuracy.mismatch, 0.5 * focused);
 }
 
 TEST(PerspectiveMapOnDuelingFrusta, IsWithinAFactorTwoOfAUniformMap) { // course: it degenerates to one
-    const Scene scene = stillScene("dueling-frusta");
-    const double uniform = *scored(scene, "sm-uniform").accuracy.mismatch;
-    const double perspective = *scored(scene, "sm-psm").accuracy.mismatch;
+    CellScene& scene = stillScene("dueling-frusta");
+    const double uniform = *scene.scored("sm-uniform").accuracy.mismatch;
+    const double perspective = *scene.scored("sm-psm").accuracy.mismatch;
     EXPECT_LE(perspective, 2 * uniform);
     EXPECT_GE(perspective, 0.5 * uniform);
 }
 
 TEST(SilhouetteMapOnDuelingFrusta, LeavesAtMostAThirdOfAUniformMapsEdgeError) {
-    const Scene scene = stillScene("dueling-frusta");
-    const double uniform = scored(scene, "sm-uniform:map=512").accuracy.edgeError->mean;
-    EXPECT_LE(scored(scene, "sm-silhouette:map=512").accuracy.edgeError->mean, uniform / 3);
+    CellScene& scene = stillScene("dueling-frusta");
+    const double uniform = scene.scored("sm-uniform:map=512").accuracy.edgeError->mean;
+    EXPECT_LE(scene.scored("sm-silhouette:map=512").accuracy.edgeError->mean, uniform / 3);
 }
 
 } // namespace

@@ -7,7 +7,7 @@ namespace shadowbench {
 namespace {
 
 double mismatchOf(const std::string& scene, const std::string& variant) {
-    return *scored(stillScene(scene), variant).accuracy.mismatch;
+    return *stillScene(scene).scored(variant).accuracy.mismatch;
 }
 
 TEST(TiledMaps, LeaveAtMostHalfOfAUniformMapsErrorAtEqualTexels) {
@@ -15,7 +15,7 @@ TEST(TiledMaps, LeaveAtMostHalfOfAUniformMapsErrorAtEqualTexels) {
         EXPECT_LE(mismatchOf(scene, "sm-tiled"), 0.5 * mismatchOf(scene, "sm-uniform")) << scene;
 }
 
-// Its errors there are on the sides of a column that the light grazes: no depth discontinuity and no pixel's size tells that
+// Its errors there are on the sides of a column that the light grazes: no depth discontinuity and no pixel's size shows that
 // they are narrower than any texel in the light's view. Tiles that serve the rest better serve them worse.
 TEST(TiledMaps, AreNoBetterThanAUniformMapWhereTheHeuristicHasNothingToGoBy) {
     EXPECT_GE(mismatchOf("moving-caster", "sm-tiled"), mismatchOf("moving-caster", "sm-uniform"));
@@ -36,7 +36,7 @@ TEST(AdaptiveMaps, ApproachTheTruthWithMoreTexelsAPixel) {
 }
 
 TEST(AdaptiveMaps, PayWithManyPasses) {
-    const Record record = scored(stillScene("windmills"), "sm-adaptive");
+    const Record& record = stillScene("windmills").scored("sm-adaptive");
     ASSERT_TRUE(record.cost.work);
     EXPECT_GE(record.figures.at("pages"), 200);
     EXPECT_LE(record.figures.at("pages"), 1024);

@@ -1,4 +1,4 @@
-// A standard scene on the GPU with its truths, for tests of whole cells.
+// Scenes on the GPU with their truths, and the cells that tests score on them: each made once in a test process.
 #pragma once
 
 #include "harness/cells/cell.h"
@@ -6,42 +6,58 @@
 #include "harness/render/stage.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
-#include "techniques/gl/context.h"
+#include "tests/support/test_context.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 
 namespace shadowbench {
-
-inline gl::Context& testContext() {
-    static const auto context = gl::Context::create({.debug = true});
-    return *context;
-}
 
 /// References are shared by all tests of one build: several programs may fill the folder at once.
 inline groundtruth::Cache testCache() {
     return groundtruth::Cache(std::filesystem::temp_directory_path() / "shadowbench-test-references");
 }
 
-/// The scene at its gate size with still frames only, so that one reference of each kind is enough.
-inline Scene stillScene(const std::string& id, int still = 60) {
-    testContext();
+/// A scene whose cells are scored once each, without measuring time.
+class CellScene {
+public:
+    explicit CellScene(Scene scene) : scene_(std::move(scene)), stage_(scene_), truths_(scene_, cache_) {}
+    CellScene(const CellScene&) = delete;
+    CellScene& operator=(const CellScene&) = delete;
+
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    Stage& stage() { return stage_; }
+    Truths& truths() { return truths_; }
+
+    const Record& scored(const std::string& variant) {
+        if (const auto found = records_.find(variant); found != records_.end()) return found->second;
+        CellOptions options;
+        options.cost.time = false;
+        Record record;
+        CellImages images;
+        runCell(scene_, stage_, truths_, techniques::parseVariant(variant), options, record, images);
+        return records_.emplace(variant, std::move(record)).first->second;
+    }
+
+private:
+    Scene scene_;
+    groundtruth::Cache cache_ = testCache();
+    Stage stage_;
+    Truths truths_;
+    std::map<std::string, Record> records_;
+};
+
+/// A built-in scene at its gate size with still frames only, so that one reference of each kind is enough.
+inline CellScene& stillScene(const std::string& id, int still = 60) {
+    testContext(); // outlives the scenes
+    static std::map<std::pair<std::string, int>, CellScene> scenes;
+    const auto key = std::pair(id, still);
+    if (const auto found = scenes.find(key); found != scenes.end()) return found->second;
     Scene scene = loadScene(id, Profile::Gate);
     scene.timeline = {still, 0};
-    return scene;
-}
-
-/// Scores one variant without measuring time.
-inline Record scored(const Scene& scene, const std::string& variant) {
-    Stage stage(scene);
-    const groundtruth::Cache cache = testCache();
-    Truths truths(scene, cache);
-    CellOptions options;
-    options.cost.time = false;
-    Record record;
-    CellImages images;
-    runCell(scene, stage, truths, techniques::parseVariant(variant), options, record, images);
-    return record;
+    return scenes.try_emplace(key, std::move(scene)).first->second;
 }
 
 } // namespace shadowbench

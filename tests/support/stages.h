@@ -1,11 +1,11 @@
-// One GL context for the test program, and small scenes whose shadows have a closed form.
+// Small scenes whose shadows have a closed form.
 #pragma once
 
 #include "harness/render/stage.h"
 #include "scene/meshes/primitives.h"
 #include "techniques/catalog.h"
 #include "techniques/contract/entry.h"
-#include "techniques/gl/context.h"
+#include "tests/support/test_context.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -14,12 +14,6 @@
 #include <utility>
 
 namespace shadowbench {
-
-/// Made on first use; debug output on, so that a GL error is a test failure.
-inline gl::Context& testContext() {
-    static const auto context = gl::Context::create({.debug = true});
-    return *context;
-}
 
 inline Object object(Mesh mesh, const glm::dvec3& at, double turn = 0) {
     Object result;

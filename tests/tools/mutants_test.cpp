@@ -41,7 +41,7 @@ std::string refusal(const std::string& lines) {
     return "";
 }
 
-const std::string sound = "id = 'a'\nwhat = 'w'\nfile = 'f'\nfind = 'x'\nreplace = 'y'\ntechniques = ['pcf']\n";
+const std::string withoutClass = "id = 'a'\nwhat = 'w'\nfile = 'f'\nfind = 'x'\nreplace = 'y'\ntechniques = ['pcf']\n";
 
 TEST(Mutants, EveryOneCanBePlantedAndChangesItsFile) {
     for (const Mutant& mutant : all()) {
@@ -88,14 +88,15 @@ TEST(Mutants, ATextThatIsMissingOrAmbiguousIsAnErrorThatNamesTheMutant) {
 }
 
 TEST(Mutants, AListWithAFaultOfItsOwnIsRefused) {
-    EXPECT_EQ(refusal(sound + "class = 'leak'\n"), "");
-    EXPECT_NE(refusal(sound + "class = 'leaks'\n").find("did you mean \"leak\""), std::string::npos);
-    EXPECT_NE(refusal(sound).find("class"), std::string::npos);
-    EXPECT_NE(refusal(sound + "class = 'leak'\nscene = 'simple'\n").find("scene"), std::string::npos);
-    EXPECT_NE(refusal(sound + "class = 'break point'\nsweep = { axis = 'map', values = [1] }\n").find("one scene"),
+    EXPECT_EQ(refusal(withoutClass + "class = 'leak'\n"), "");
+    EXPECT_NE(refusal(withoutClass + "class = 'leaks'\n").find("did you mean \"leak\""), std::string::npos);
+    EXPECT_NE(refusal(withoutClass).find("class"), std::string::npos);
+    EXPECT_NE(refusal(withoutClass + "class = 'leak'\nscene = 'simple'\n").find("scene"), std::string::npos);
+    EXPECT_NE(refusal(withoutClass + "class = 'break point'\nsweep = { axis = 'map', values = [1] }\n").find("one scene"),
               std::string::npos);
-    EXPECT_NE(refusal(sound + "class = 'leak'\n[[mutant]]\n" + sound + "class = 'leak'\n").find("two of \"a\""),
-              std::string::npos);
+    EXPECT_NE(
+        refusal(withoutClass + "class = 'leak'\n[[mutant]]\n" + withoutClass + "class = 'leak'\n").find("two of \"a\""),
+        std::string::npos);
 }
 
 TEST(Mutants, GlobsChooseAndOneThatMatchesNothingIsAnError) {

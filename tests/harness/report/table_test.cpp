@@ -16,7 +16,7 @@ std::vector<std::string> variants(const std::vector<Record>& records, const std:
     return result;
 }
 
-TEST(TerminalTable, ReadsAsInTheReadme) {
+TEST(TerminalTable, ListsEveryTechniqueAndEndsWithTheCheapestWithinTolerance) {
     EXPECT_EQ(report::terminalTable(hardScene(), "dueling-frusta"),
               " scene: dueling-frusta · 256² · error = mismatching pixels · cost = frames of sm-uniform\n"
               " technique                 error   false shadow     leak   edge error px   flicker   cost   front\n"
