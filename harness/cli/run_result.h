@@ -1,4 +1,4 @@
-// What a person is told when all cells of a run are there.
+// What `run` and `merge` print once all cells are measured.
 #pragma once
 
 #include "harness/runs/run.h"
