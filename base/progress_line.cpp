@@ -23,38 +23,55 @@ std::string clock(double seconds) {
     return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
+double seconds(std::chrono::steady_clock::duration time) { return std::chrono::duration<double>(time).count(); }
+
 } // namespace
 
+bool logLineIsDue(double elapsed, double last) { return elapsed - last >= std::clamp(elapsed / 2, 10.0, 60.0); }
+
 ProgressLine::ProgressLine(std::string title, int total, bool quiet)
-    : title_(std::move(title)), total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0),
-      start_(std::chrono::steady_clock::now()) {}
+    : title_(std::move(title)), total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()),
+      lastShown_(start_) {}
 
 ProgressLine::~ProgressLine() {
-    if (quiet_) return;
-    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    if (terminal_) std::fputs("\r\033[K", stderr);
+    if (quiet_ || !terminal_) return;
+    std::fputs("\r\033[K", stderr);
     fmt::print(stderr, "{:<24}{} {}/{}  {}\n", title_, bar(static_cast<double>(lastDone_) / std::max(1, total_)), lastDone_,
-               total_, clock(elapsed));
+               total_, clock(seconds(Clock::now() - start_)));
 }
 
 void ProgressLine::show(int done, double share, std::string_view what) {
     lastDone_ = done;
     if (quiet_) return;
-    const auto now = std::chrono::steady_clock::now();
-    const bool news = what != lastWhat_;
-    if (!terminal_) {
-        if (news && !what.empty()) fmt::print(stderr, "{} {}/{}  {}\n", title_, done, total_, what);
-        lastWhat_ = what;
-        return;
-    }
-    if (!news && now - shown_ < std::chrono::milliseconds(100)) return;
-    shown_ = now;
-    lastWhat_ = what;
+    const auto now = Clock::now();
     const double finished = (done + share) / std::max(1, total_);
-    const double elapsed = std::chrono::duration<double>(now - start_).count();
-    const std::string left = finished > 0.05 ? fmt::format("about {} left", clock(elapsed * (1 - finished) / finished)) : "";
-    fmt::print(stderr, "\r\033[K{:<24}{} {}/{}  {:<44.44}  {}", title_, bar(finished), done, total_, what, left);
+    if (terminal_)
+        draw(now, finished, what);
+    else
+        log(now, finished, what);
+}
+
+void ProgressLine::draw(Clock::time_point now, double finished, std::string_view what) {
+    const bool first = lastShown_ == start_;
+    if (!first && what == lastWhat_ && now - lastShown_ < std::chrono::milliseconds(100)) return;
+    lastShown_ = now;
+    lastWhat_ = what;
+    fmt::print(stderr, "\r\033[K{:<24}{} {}/{}  {:<44.44}  {}", title_, bar(finished), lastDone_, total_, what,
+               timeLeft(now, finished));
     std::fflush(stderr);
+}
+
+void ProgressLine::log(Clock::time_point now, double finished, std::string_view what) {
+    if (what.empty() || !logLineIsDue(seconds(now - start_), seconds(lastShown_ - start_))) return;
+    lastShown_ = now;
+    const std::string left = timeLeft(now, finished);
+    fmt::print(stderr, "{} {}/{}  {}  {}{}\n", title_, lastDone_, total_, what, clock(seconds(now - start_)),
+               left.empty() ? "" : ", " + left);
+}
+
+std::string ProgressLine::timeLeft(Clock::time_point now, double finished) const {
+    if (finished <= 0.05) return "";
+    return fmt::format("about {} left", clock(seconds(now - start_) * (1 - finished) / finished));
 }
 
 } // namespace shadowbench

@@ -1,4 +1,4 @@
-// What a person sees of long work: one line, redrawn on a terminal, plain lines elsewhere.
+// What a person sees of long work: one line, redrawn on a terminal; elsewhere a plain line now and then.
 #pragma once
 
 #include <chrono>
@@ -6,6 +6,10 @@
 #include <string_view>
 
 namespace shadowbench {
+
+/// Where there is no terminal: whether a line is due `elapsed` seconds after the start, if the last one was written `last`
+/// seconds after it. Every ten seconds at first, the less often the longer the work takes, at last once a minute.
+bool logLineIsDue(double elapsed, double last);
 
 class ProgressLine {
 public:
@@ -19,10 +23,16 @@ public:
     void show(int done, double share, std::string_view what);
 
 private:
+    using Clock = std::chrono::steady_clock;
+
+    void draw(Clock::time_point now, double finished, std::string_view what);
+    void log(Clock::time_point now, double finished, std::string_view what);
+    [[nodiscard]] std::string timeLeft(Clock::time_point now, double finished) const;
+
     std::string title_;
     int total_;
     bool quiet_, terminal_;
-    std::chrono::steady_clock::time_point start_, shown_;
+    Clock::time_point start_, lastShown_;
     std::string lastWhat_;
     int lastDone_ = 0;
 };

@@ -3,7 +3,9 @@
 #include "embedded_commit.h"
 
 #include <ctime>
+#include <fmt/format.h>
 #include <fstream>
+#include <string_view>
 
 namespace shadowbench {
 namespace {
@@ -29,6 +31,11 @@ Environment environmentOf(const gl::ContextInfo& context) {
 }
 
 Commit builtFrom() { return {embedded::commit, embedded::dirty}; }
+
+std::string programVersion() {
+    return fmt::format("{} (commit {}{})", embedded::version, std::string_view(embedded::commit).substr(0, 12),
+                       embedded::dirty ? ", with changes" : "");
+}
 
 std::string timeNow() {
     const std::time_t now = std::time(nullptr);

@@ -17,6 +17,9 @@ struct Commit {
 };
 Commit builtFrom();
 
+/// The version of the project, and the commit: "0.1.0 (commit 79e0c196bffc, with changes)".
+std::string programVersion();
+
 /// Now, ISO 8601 in UTC to the second.
 std::string timeNow();
 

@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "harness/cli/command.h"
+#include "harness/cli/options.h"
 #include "harness/gate/gate_report.h"
 #include "harness/gate/verdict.h"
 
@@ -13,19 +14,20 @@
 namespace shadowbench {
 namespace {
 
-struct Told {
+/// What is written beside the page and the terminal.
+struct GateFiles {
     std::filesystem::path junit, summary;
     bool annotations = false;
 };
 
-ExitCode gateAndPrint(const gate::GateOptions& options, const Told& told) {
+ExitCode gateAndPrint(const gate::GateOptions& options, const GateFiles& files) {
     const gate::GateResult result = gate::gate(options);
     const std::filesystem::path page = options.out / "gate.md";
     writeFile(page, gate::gateReport(result, options, "md"));
-    if (!told.summary.empty()) writeFile(told.summary, gate::gateReport(result, options, "md"));
-    if (!told.junit.empty()) writeFile(told.junit, gate::junit(result.changes));
+    if (!files.summary.empty()) writeFile(files.summary, gate::gateReport(result, options, "md"));
+    if (!files.junit.empty()) writeFile(files.junit, gate::junit(result.changes));
     fmt::print("{}page: {}\n", gate::gateReport(result, options, "text"), page.string());
-    if (told.annotations) fmt::print("{}", gate::annotations(result.changes));
+    if (files.annotations) fmt::print("{}", gate::annotations(result.changes));
     return result.code();
 }
 
@@ -33,7 +35,7 @@ ExitCode gateAndPrint(const gate::GateOptions& options, const Told& told) {
 
 void addGate(CLI::App& app, Action& action) {
     const auto options = std::make_shared<gate::GateOptions>();
-    const auto told = std::make_shared<Told>();
+    const auto files = std::make_shared<GateFiles>();
     const auto profile = std::make_shared<std::string>("gate");
     const auto cost = std::make_shared<std::vector<std::string>>(std::vector<std::string>{"instructions", "time"});
     CLI::App* verb = app.add_subcommand("gate", "Judges this build against another: is anything worse?");
@@ -47,7 +49,7 @@ void addGate(CLI::App& app, Action& action) {
                      "A build folder or program, a git revision (built once and kept), or records (then no time is judged)");
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
     verb->add_option("--technique", options->techniques, "Variant, or a glob over ids; repeatable (default: all)");
-    verb->add_option("--profile", *profile, "gate, standard or paper")->capture_default_str();
+    addProfileOption(*verb, *profile);
     verb->add_option("--cost", *cost,
                      "What is judged beside accuracy and stability: instructions, time, both as instructions,time, or none")
         ->delimiter(',')
@@ -58,19 +60,17 @@ void addGate(CLI::App& app, Action& action) {
     verb->add_option("--out", options->out, "Folder of the page and of pictures of failing cells")->capture_default_str();
     verb->add_option("--cache", options->cache,
                      "Folder of references, builds and records (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
-    verb->add_option("--seed", options->seed, "Seed of pseudo-random choices")
-        ->check(CLI::Range(1U, 100000U))
-        ->capture_default_str();
-    verb->add_option("--junit", told->junit, "Write the verdicts as JUnit XML");
-    verb->add_option("--summary", told->summary, "Write the page there, too (a CI host's summary file)");
-    verb->add_flag("--annotations", told->annotations, "Print what is worse as CI annotations, too");
+    addSeedOption(*verb, options->seed);
+    verb->add_option("--junit", files->junit, "Write the verdicts as JUnit XML");
+    verb->add_option("--summary", files->summary, "Write the page there, too (a CI host's summary file)");
+    verb->add_flag("--annotations", files->annotations, "Print what is worse as CI annotations, too");
     verb->add_flag("--quiet", options->quiet, "No progress");
-    verb->callback([&action, options, told, profile, cost] {
-        action = [options, told, profile, cost] {
+    verb->callback([&action, options, files, profile, cost] {
+        action = [options, files, profile, cost] {
             options->profile = profileNamed(*profile);
             options->instructions = std::ranges::find(*cost, "instructions") != cost->end();
             options->time = std::ranges::find(*cost, "time") != cost->end();
-            return gateAndPrint(*options, *told);
+            return gateAndPrint(*options, *files);
         };
     });
 }

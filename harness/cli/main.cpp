@@ -1,6 +1,8 @@
 // The command line: parses, calls the chosen verb, turns errors into one line and a documented exit code.
 #include "base/files.h"
+#include "harness/cells/environment.h"
 #include "harness/cli/command.h"
+#include "harness/cli/documents.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -26,7 +28,7 @@ void requireKnownVerb(const CLI::App& app, const std::vector<std::string>& words
 ExitCode dispatch(int argc, char** argv) {
     CLI::App app("shadowbench scores real-time shadow techniques against proven ground truth.", "shadowbench");
     app.require_subcommand(1);
-    app.set_version_flag("--version", "shadowbench 0.1.0");
+    app.set_version_flag("--version", "shadowbench " + programVersion());
     app.footer(
         "Exit codes: 0 pass, 1 internal, 2 usage or bad input, 3 cost regression, 4 accuracy or stability regression, "
         "5 inconclusive.\nEvery verb has --help with an example.");
@@ -35,6 +37,7 @@ ExitCode dispatch(int argc, char** argv) {
     for (const auto& add : {addList, addRun, addMerge, addReference, addSweep, addRecommend, addClaims, addCompare, addGate,
                             addHistory, addCache, addReport, addCountFrames, addTimeFrames})
         add(app, action);
+    addDocuments(app, action);
 
     requireKnownVerb(app, {argv + std::min(argc, 1), argv + argc});
     try {

@@ -1,4 +1,5 @@
 #include "harness/cli/command.h"
+#include "harness/cli/options.h"
 #include "harness/studies/recommend/recommendation_text.h"
 
 #include <CLI/CLI.hpp>
@@ -107,7 +108,7 @@ void addRecommend(CLI::App& app, Action& action) {
     verb->add_option("--out", options.out, "Folder of the records of cells that are run; those that it holds are kept")
         ->excludes(records)
         ->capture_default_str();
-    verb->add_option("--profile", words->profile, "gate, standard or paper")->capture_default_str();
+    addProfileOption(*verb, words->profile);
     verb->add_option("--cache", options.cache, "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     verb->add_flag("--json", words->json, "For machines");
     verb->add_flag("--quiet", options.quiet, "No progress");

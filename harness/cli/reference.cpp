@@ -5,6 +5,7 @@
 #include "groundtruth/cgal/plan/polygon_files.h"
 #include "groundtruth/contract/reference_files.h"
 #include "harness/cli/command.h"
+#include "harness/cli/options.h"
 #include "scene/load/load.h"
 
 #include <CLI/CLI.hpp>
@@ -108,7 +109,7 @@ void addReference(CLI::App& app, Action& action) {
     CLI::Option* samples =
         verb->add_option("--samples", options.samples, "Light samples of an area light (default: the scene's)")
             ->check(CLI::Range(4, 16384));
-    verb->add_option("--profile", words->profile, "gate, standard or paper")->capture_default_str();
+    addProfileOption(*verb, words->profile);
     CLI::Option* out =
         verb->add_option("--out", options.out, "Folder for visibility.exr and provenance.json")->capture_default_str();
     CLI::Option* polygons =

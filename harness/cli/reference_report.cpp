@@ -46,7 +46,7 @@ ExitCode reportOnTruth(const ReferenceOptions& options) {
         const Scene scene = loadScene(id, options.profile);
         scenes.push_back(truthOf(scene, frameOf(scene, options), cache, options.quiet));
     }
-    print(report::writeTruthReport(scenes, options.report));
+    printFiles(report::writeTruthReport(scenes, options.report));
     return ExitCode::Pass;
 }
 

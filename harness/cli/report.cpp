@@ -16,7 +16,7 @@ struct ReportOptions {
 
 ExitCode makeReport(const ReportOptions& options) {
     const std::filesystem::path out = options.out.empty() ? options.records.parent_path() : options.out;
-    print(report::writeReport(readRecords(options.records), out));
+    printFiles(report::writeReport(readRecords(options.records), out));
     return ExitCode::Pass;
 }
 

@@ -1,6 +1,7 @@
 #include "harness/runs/run.h"
 
 #include "harness/cli/command.h"
+#include "harness/cli/options.h"
 #include "harness/cli/run_result.h"
 #include "harness/runs/measure_part.h"
 
@@ -65,6 +66,7 @@ void addRun(CLI::App& app, Action& action) {
     const auto options = std::make_shared<RunOptions>();
     const auto profile = std::make_shared<std::string>("gate");
     const auto cost = std::make_shared<std::vector<std::string>>(1, "time");
+    const auto images = std::make_shared<bool>(false);
     const auto part = std::make_shared<PartOptions>();
     CLI::App* verb = app.add_subcommand("run", "Renders and scores cells: scenes × techniques");
     verb->footer(
@@ -79,15 +81,13 @@ void addRun(CLI::App& app, Action& action) {
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
     verb->add_option("--technique", options->techniques,
                      "Variant such as pcss:taps=32+32, or a glob over ids; repeatable (default: all)");
-    verb->add_option("--profile", *profile, "gate, standard or paper")->capture_default_str();
+    addProfileOption(*verb, *profile);
     verb->add_option("--out", options->out, "Folder of records and report")->capture_default_str();
     verb->add_option("--cache", options->cache,
                      "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
-    verb->add_option("--seed", options->seed, "Seed of pseudo-random choices")
-        ->check(CLI::Range(1U, 100000U))
-        ->capture_default_str();
+    addSeedOption(*verb, options->measure.seed);
     verb->add_flag("--resume", options->resume, "Keep the cells that --out already holds, run the rest");
-    verb->add_flag("--images", options->images, "Write visibility, reference and error of each cell as EXR and PNG");
+    verb->add_flag("--images", *images, "Write visibility, reference and error of each cell as EXR and PNG");
     verb->add_option("--cost", *cost,
                      "What is measured beside work counters: time, instructions (under Valgrind, the same in every run), "
                      "both as time,instructions, or none: the records of two runs are then equal")
@@ -103,11 +103,12 @@ void addRun(CLI::App& app, Action& action) {
     shard->excludes(cell, manifest);
     cell->excludes(manifest);
     verb->add_flag("--quiet", options->quiet, "No progress");
-    verb->callback([&action, options, profile, cost, part] {
-        action = [options, profile, cost, part] {
+    verb->callback([&action, options, profile, cost, images, part] {
+        action = [options, profile, cost, images, part] {
             options->profile = profileNamed(*profile);
-            options->time = std::find(cost->begin(), cost->end(), "time") != cost->end();
+            options->measure.time = std::find(cost->begin(), cost->end(), "time") != cost->end();
             options->instructions = std::find(cost->begin(), cost->end(), "instructions") != cost->end();
+            if (*images) options->measure.images = options->out / "images";
             return part->any() ? runPart(*options, *part) : runAndPrint(*options);
         };
     });

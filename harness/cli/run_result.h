@@ -1,4 +1,4 @@
-// The summary that is printed when all cells of a run are done.
+// What `run` and `merge` print once all cells are measured.
 #pragma once
 
 #include "harness/runs/run.h"

@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "harness/cli/command.h"
+#include "harness/cli/options.h"
 #include "harness/report/charts.h"
 #include "harness/report/lod_report.h"
 #include "harness/report/run_report.h"
@@ -77,13 +78,11 @@ void addSweep(CLI::App& app, Action& action) {
         ->delimiter(',');
     verb->add_option("--technique", options->techniques,
                      "Variant such as pcss:taps=32+32, or a glob over ids; repeatable (default: all)");
-    verb->add_option("--profile", *profile, "gate, standard or paper")->capture_default_str();
+    addProfileOption(*verb, *profile);
     verb->add_option("--out", *out, "Folder of sweep.jsonl, sweep.md and sweep.svg")->capture_default_str();
     verb->add_option("--cache", options->cache,
                      "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
-    verb->add_option("--seed", options->seed, "Seed of pseudo-random choices")
-        ->check(CLI::Range(1U, 100000U))
-        ->capture_default_str();
+    addSeedOption(*verb, options->seed);
     verb->add_flag("--quiet", options->quiet, "No progress");
     verb->callback([&action, options, profile, out] {
         action = [options, profile, out] {

@@ -1,4 +1,4 @@
-// What a person is told about a report's files.
+// The lines that say where a report lies.
 #pragma once
 
 #include "harness/report/run_report.h"
@@ -7,9 +7,10 @@
 
 namespace shadowbench {
 
-inline void print(const report::Written& written) {
+inline void printFiles(const report::Written& written) {
     fmt::print("page: {}\n", written.page.string());
-    for (const std::filesystem::path& chart : written.charts) fmt::print("chart: {}\n", chart.string());
+    if (!written.charts.empty())
+        fmt::print("charts: {} in {}\n", written.charts.size(), written.page.parent_path().string());
 }
 
 } // namespace shadowbench

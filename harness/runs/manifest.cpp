@@ -46,7 +46,7 @@ ManifestCell parseCell(const std::string& line) {
 
 std::vector<std::string> costsOf(const RunOptions& options) {
     std::vector<std::string> cost;
-    if (options.time) cost.emplace_back("time");
+    if (options.measure.time) cost.emplace_back("time");
     if (options.instructions) cost.emplace_back("instructions");
     return cost;
 }
@@ -79,9 +79,9 @@ std::vector<ManifestCell> plannedCells(const RunOptions& options) {
     const Commit commit = builtFrom();
     ManifestCell cell;
     cell.profile = name(options.profile);
-    cell.seed = options.seed;
+    cell.seed = options.measure.seed;
     cell.cost = costsOf(options);
-    cell.images = options.images;
+    cell.images = !options.measure.images.empty();
     cell.commit = commit.hash;
     cell.dirty = commit.dirty;
 
@@ -90,7 +90,7 @@ std::vector<ManifestCell> plannedCells(const RunOptions& options) {
     std::vector<ManifestCell> cells;
     for (const Scene& scene : chosenScenes(options.scenes, options.profile)) {
         cell.scene = scene.id;
-        const SceneCells sceneCells(scene, noTruths, measureOptions(options));
+        const SceneCells sceneCells(scene, noTruths, options.measure);
         for (const techniques::Variant& variant : variants) {
             const auto reason = sceneCells.notApplicable(variant);
             cell.variant = variant.name;

@@ -58,7 +58,7 @@ private:
 
         const Scene loaded = loadScene(names_[scene], options_.profile);
         if (!context_) context_ = gl::Context::create();
-        SceneCells cells(loaded, cache_, measureOptions(options_));
+        SceneCells cells(loaded, cache_, options_.measure);
         ProgressLine line(loaded.id, static_cast<int>(open.size()), options_.quiet);
         int done = 0;
         for (const std::size_t i : open) {

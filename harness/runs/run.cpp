@@ -47,7 +47,7 @@ public:
 private:
     void runScene(const Scene& scene) {
         ProgressLine line(scene.id, static_cast<int>(variants_.size()), options_.quiet);
-        SceneCells cells(scene, cache_, measureOptions(options_));
+        SceneCells cells(scene, cache_, options_.measure);
         int done = 0;
         for (const techniques::Variant& variant : variants_) {
             line.show(done, 0, variant.name);
@@ -113,10 +113,6 @@ private:
 };
 
 } // namespace
-
-MeasureOptions measureOptions(const RunOptions& options) {
-    return {options.seed, options.time, options.images ? options.out / "images" : std::filesystem::path()};
-}
 
 RunResult run(const RunOptions& options) { return Runner(options).all(); }
 

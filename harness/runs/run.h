@@ -6,7 +6,6 @@
 #include "harness/records/record.h"
 #include "scene/scene.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,16 +18,11 @@ struct RunOptions {
     Profile profile = Profile::Gate;
     std::filesystem::path out = "results/latest";
     std::filesystem::path cache;
-    std::uint32_t seed = 1;
+    MeasureOptions measure; // of every cell
     bool resume = false;
-    bool images = false;
-    bool time = true;          // wall time
-    bool instructions = false; // of a steady frame, under Callgrind
+    bool instructions = false; // counted of a steady frame, under Callgrind
     bool quiet = false;
 };
-
-/// What a run's options say of a cell.
-MeasureOptions measureOptions(const RunOptions& options);
 
 struct RunResult {
     std::vector<Record> records;

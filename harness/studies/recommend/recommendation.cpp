@@ -74,7 +74,7 @@ private:
         cells.profile = options_.profile;
         cells.out = options_.out / std::string(name(question));
         cells.cache = options_.cache;
-        cells.time = question == Question::Technique;
+        cells.measure.time = question == Question::Technique;
         cells.resume = true;
         cells.quiet = options_.quiet;
         RunResult result = run(cells);

@@ -51,14 +51,14 @@ TEST(Manifest, HasIdsThatChangeWithWhatIsMeasuredAndWithNothingElse) {
     EXPECT_EQ(plannedCells(fewCells())[1].id, id);
     RunOptions elsewhere = fewCells();
     elsewhere.out = "elsewhere";
-    elsewhere.images = true;
+    elsewhere.measure.images = "elsewhere/images";
     elsewhere.techniques = {"sm-uniform"};
     EXPECT_EQ(plannedCells(elsewhere)[0].id, id);
     RunOptions seed = fewCells();
-    seed.seed = 2;
+    seed.measure.seed = 2;
     EXPECT_NE(plannedCells(seed)[1].id, id);
     RunOptions cost = fewCells();
-    cost.time = false;
+    cost.measure.time = false;
     EXPECT_NE(plannedCells(cost)[1].id, id);
     RunOptions profile = fewCells();
     profile.profile = Profile::Standard;

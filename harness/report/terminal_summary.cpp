@@ -1,0 +1,66 @@
+#include "harness/report/terminal_summary.h"
+
+#include "harness/report/run_report.h"
+#include "harness/report/summary.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace shadowbench::report {
+namespace {
+
+constexpr std::size_t untimedRows = 5;
+
+std::vector<std::size_t> scored(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::size_t> indices = ofScene(records, scene);
+    std::erase_if(indices, [&](std::size_t i) { return !headline(records[i]); });
+    return indices;
+}
+
+std::vector<std::size_t> leastErrors(const std::vector<Record>& records, std::vector<std::size_t> indices) {
+    std::ranges::stable_sort(indices, {}, [&](std::size_t i) { return headline(records[i])->value; });
+    indices.resize(std::min(indices.size(), untimedRows));
+    return indices;
+}
+
+std::vector<std::size_t> frontAndCheapest(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::size_t> rows = paretoFront(records, scene);
+    const std::optional<std::size_t> cheapest = cheapestAdequate(records, scene);
+    if (!cheapest || std::ranges::find(rows, *cheapest) != rows.end()) return rows;
+    const auto dearer = [&](std::size_t i) { return place(records[i])->cost > place(records[*cheapest])->cost; };
+    rows.insert(std::ranges::find_if(rows, dearer), *cheapest);
+    return rows;
+}
+
+/// "not applicable: 4, errors: 1"; "" if all are scored.
+std::string others(const std::vector<Record>& records, const std::string& scene) {
+    std::size_t inapplicable = 0, errors = 0;
+    for (const std::size_t i : ofScene(records, scene)) {
+        if (records[i].status == Status::NotApplicable) ++inapplicable;
+        if (records[i].status == Status::Error) ++errors;
+    }
+    std::string text;
+    if (inapplicable > 0) text += fmt::format("; not applicable: {}", inapplicable);
+    if (errors > 0) text += fmt::format("; errors: {}", errors);
+    return text;
+}
+
+} // namespace
+
+std::string terminalSummary(const std::vector<Record>& records, const std::string& scene, const std::string& page) {
+    const std::vector<std::size_t> all = scored(records, scene);
+    const std::string unscored = others(records, scene);
+    if (all.empty()) return unscored.empty() ? "" : fmt::format(" {}: no technique is scored{}\n", scene, unscored);
+    std::vector<std::size_t> rows = frontAndCheapest(records, scene);
+    const bool timed = !rows.empty();
+    if (!timed) rows = leastErrors(records, all);
+
+    std::vector<Record> chosen;
+    for (const std::size_t i : rows) chosen.push_back(records[i]);
+    std::string text = terminalTable(chosen, scene);
+    const std::string which = timed ? "Pareto front" : "least errors";
+    text += fmt::format(" {}: {} of {} techniques{}; the full table: {}\n", which, rows.size(), all.size(), unscored, page);
+    return text;
+}
+
+} // namespace shadowbench::report
