@@ -239,7 +239,8 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
             if (temporal) curve.finish(mask, record.stability);
             scoreStillFrame(scene, truths, variant, v, stage.drawn(), stage.shown().camera.eye, record);
             requireSamePrimaryHits(record.accuracy.primaryMismatch, scene, frame);
-            record.figures = techniques::declaredFigures(*variant.entry, *technique);
+            record.figures =
+                techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame, options.seed)));
             record.aliasing = aliasingOf(*technique, stage, mask);
             images = {v, scene.light.isArea() ? &truths.at(Truth::Soft, frame) : &truth};
             bytes = gl::Context::current().tally().bytes - bytesBefore;

@@ -47,8 +47,8 @@ struct Runner {
 Time measureTime(Stage& stage, const techniques::Variant& variant, techniques::Technique& technique, int index,
                  std::uint32_t seed, const CostOptions& options) {
     const auto uniform = make(techniques::parseVariant("sm-uniform"));
-    const std::string baseName = techniques::baseVariant(variant);
-    const auto base = baseName.empty() ? nullptr : make(techniques::parseVariant(baseName));
+    const std::optional<techniques::Variant> baseVariant = techniques::costBase(variant);
+    const auto base = baseVariant ? make(*baseVariant) : nullptr;
 
     int next = index;
     const auto frameOf = [&](techniques::Technique& t) {

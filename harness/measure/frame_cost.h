@@ -17,8 +17,8 @@ struct CostOptions {
 };
 
 /// Measures `technique` on the frame that the stage shows. Every round times one frame each of the G-buffer alone,
-/// sm-uniform with default parameters, the technique's base if it has one, and the technique, in an order that alternates
-/// from round to round; all of them are warmed up first (the first frame compiles shaders). `index` numbers the first frame
+/// sm-uniform with default parameters, what its cost is compared with if there is such (Entry::costBase), and the technique,
+/// in an order that alternates from round to round; all of them are warmed up first (the first frame compiles shaders). `index` numbers the first frame
 /// rendered.
 Cost measureCost(Stage& stage, const techniques::Variant& variant, techniques::Technique& technique, std::uint64_t bytes,
                  int index, std::uint32_t seed, const CostOptions& options);

@@ -1,5 +1,6 @@
 #include "harness/measure/lod_cost.h"
 
+#include "harness/measure/raster_clock.h"
 #include "harness/measure/statistics.h"
 #include "techniques/catalog.h"
 #include "techniques/gl/context.h"
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 namespace shadowbench::lod {
@@ -17,22 +17,13 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Milliseconds of this thread's processor time where the rasteriser draws on it, so that other programs do not count;
-/// else of wall time.
-double millisecondsNow() {
-    const clockid_t clock = gl::Context::current().info().rasterThreads == 0 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
-    timespec now{};
-    clock_gettime(clock, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 double milliseconds(LodStage& stage, techniques::LodTechnique& technique) {
     gl::Context& context = gl::Context::current();
     context.finish();
-    const double start = millisecondsNow();
+    const double start = timing::rasterMilliseconds();
     stage.render(technique);
     context.finish();
-    return millisecondsNow() - start;
+    return timing::rasterMilliseconds() - start;
 }
 
 /// One of the two that are timed, with its least time of each frame.
