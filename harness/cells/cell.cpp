@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "harness/cells/environment.h"
+#include "harness/measure/frame_cost.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
@@ -213,7 +214,7 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
 }
 
 void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
-             const CellOptions& options, Record& record, CellImages& images) {
+             const MeasureOptions& options, Record& record, CellImages& images) {
     const Truth kind = mainTruth(variant);
     const int scored = scene.timeline.still - 1;
     const bool temporal = variant.entry->temporal;
@@ -250,8 +251,9 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     motion.finish(record.stability);
 
     stage.show(scored);
-    record.cost =
-        timing::measureCost(stage, variant, *technique, bytes, scene.timeline.frames(), options.seed, options.cost);
+    const int next = scene.timeline.frames(); // of the technique's sequence
+    record.cost.work = timing::measureWork(stage, *technique, bytes, next, options.seed);
+    if (options.time) record.cost.time = timing::measureTime(stage, variant, *technique, next + 1, options.seed);
     record.status = Status::Scored;
 }
 

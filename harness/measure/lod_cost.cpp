@@ -43,7 +43,7 @@ LodTime timeOf(const std::vector<double>& own, const std::vector<double>& base) 
     return {timing::median(own), timing::median(ratios), timing::median(changes)};
 }
 
-LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int frames, const LodCostOptions& options) {
+LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int frames, const LodTimingLimits& limits) {
     const techniques::Variant base = techniques::parseVariant("lod-switch");
     const auto switching = base.entry->makeLod(base.parameters);
     std::vector<Contestant> contestants{{&technique, {}}, {switching.get(), {}}};
@@ -53,7 +53,7 @@ LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int
     const auto start = Clock::now();
     std::size_t timed = static_cast<std::size_t>(frames);
     for (Contestant& contestant : contestants) contestant.least.assign(timed, std::numeric_limits<double>::infinity());
-    for (int round = 0; round < options.maximumRounds && (round == 0 || secondsSince(start) < options.budgetSeconds);
+    for (int round = 0; round < limits.maximumRounds && (round == 0 || secondsSince(start) < limits.budgetSeconds);
          ++round) {
         technique.reset();
         for (std::size_t frame = 0; frame < timed; ++frame) {
@@ -61,8 +61,8 @@ LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int
             for (Contestant& contestant : contestants)
                 contestant.least[frame] = std::min(contestant.least[frame], milliseconds(stage, *contestant.technique));
             std::ranges::reverse(contestants);
-            const bool enough = static_cast<int>(frame) + 1 >= options.leastFrames;
-            if (round == 0 && enough && secondsSince(start) > options.budgetSeconds) timed = frame + 1;
+            const bool enough = static_cast<int>(frame) + 1 >= limits.leastFrames;
+            if (round == 0 && enough && secondsSince(start) > limits.budgetSeconds) timed = frame + 1;
         }
     }
     if (contestants.front().technique != &technique) std::ranges::reverse(contestants);

@@ -17,8 +17,7 @@ const Record& lodCell(const std::string& sceneId, const std::string& variantName
     testContext();
     const Scene scene = loadScene(sceneId, Profile::Gate);
     lod::LodScene lodScene(scene);
-    lod::LodCellOptions options;
-    options.time = false;
+    const MeasureOptions options{.seed = 1, .time = false, .images = {}};
     Record record;
     const auto silent = [](double, std::string_view) {};
     lod::runLodCell(lodScene, techniques::parseVariant(variantName), options, record, silent, {});

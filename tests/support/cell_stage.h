@@ -36,8 +36,7 @@ inline Record scored(const Scene& scene, const std::string& variant) {
     Stage stage(scene);
     const groundtruth::Cache cache = testCache();
     Truths truths(scene, cache);
-    CellOptions options;
-    options.cost.time = false;
+    const MeasureOptions options{.seed = 1, .time = false, .images = {}};
     Record record;
     CellImages images;
     runCell(scene, stage, truths, techniques::parseVariant(variant), options, record, images);
