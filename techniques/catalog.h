@@ -3,6 +3,7 @@
 
 #include "techniques/contract/entry.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,10 +20,11 @@ const Entry& entryNamed(std::string_view id);
 /// "pcss:taps=32+32" → variant; throws BadInput naming what is valid.
 Variant parseVariant(std::string_view text);
 
-/// Variants matching a pattern: one variant string, or a glob over ids ("sm-*", "*") that gives each match's shown variants.
+/// Variants matching a pattern: one variant string, or a glob over ids ("sm-*", "*") that gives each match's
+/// Entry::variants.
 std::vector<Variant> matchVariants(const std::string& pattern);
 
-/// The variant whose cost `variant` is compared with beside sm-uniform: history over its base map; nothing for the others.
-std::string baseVariant(const Variant& variant);
+/// The variant that `variant` is compared in cost with (Entry::costBase), if there is one.
+std::optional<Variant> costBase(const Variant& variant);
 
 } // namespace shadowbench::techniques

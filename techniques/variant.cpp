@@ -49,10 +49,9 @@ std::vector<Variant> matchVariants(const std::string& pattern) {
     return result;
 }
 
-std::string baseVariant(const Variant& variant) {
-    for (const auto& [name, value] : variant.parameters.all())
-        if (name == "base") return parseVariant("sm-" + value + ":map=" + variant.parameters.text("map")).name;
-    return "";
+std::optional<Variant> costBase(const Variant& variant) {
+    if (!variant.entry->costBase) return std::nullopt;
+    return parseVariant(variant.entry->costBase(variant.parameters));
 }
 
 } // namespace shadowbench::techniques

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "harness/cells/environment.h"
+#include "harness/measure/frame_cost.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
@@ -212,7 +213,7 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
 }
 
 void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
-             const CellOptions& options, Record& record, CellImages& images) {
+             const MeasureOptions& options, Record& record, CellImages& images) {
     const Truth kind = mainTruth(variant);
     const int scored = scene.timeline.still - 1;
     const bool temporal = variant.entry->temporal;
@@ -238,7 +239,8 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
             if (temporal) curve.finish(mask, record.stability);
             scoreStillFrame(scene, truths, variant, v, stage.drawn(), stage.shown().camera.eye, record);
             requireSamePrimaryHits(record.accuracy.primaryMismatch, scene, frame);
-            record.figures = techniques::declaredFigures(*variant.entry, *technique);
+            record.figures =
+                techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame, options.seed)));
             record.aliasing = aliasingOf(*technique, stage, mask);
             images = {v, scene.light.isArea() ? &truths.at(Truth::Soft, frame) : &truth};
             bytes = gl::Context::current().tally().bytes - bytesBefore;
@@ -248,8 +250,9 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     motion.finish(record.stability);
 
     stage.show(scored);
-    record.cost =
-        timing::measureCost(stage, variant, *technique, bytes, scene.timeline.frames(), options.seed, options.cost);
+    const int next = scene.timeline.frames(); // of the technique's sequence
+    record.cost.work = timing::measureWork(stage, *technique, bytes, next, options.seed);
+    if (options.time) record.cost.time = timing::measureTime(stage, variant, *technique, next + 1, options.seed);
     record.status = Status::Scored;
 }
 

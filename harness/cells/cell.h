@@ -1,8 +1,8 @@
 // One cell: a technique variant on a scene. Renders its frames, scores them against the truth, measures their cost.
 #pragma once
 
+#include "harness/cells/measure_options.h"
 #include "harness/cells/truths.h"
-#include "harness/measure/frame_cost.h"
 #include "harness/records/record.h"
 #include "harness/render/stage.h"
 #include "techniques/contract/entry.h"
@@ -10,11 +10,6 @@
 #include <optional>
 
 namespace shadowbench {
-
-struct CellOptions {
-    std::uint32_t seed = 1;
-    timing::CostOptions cost;
-};
 
 /// What a cell leaves beside its record: the scored frame's images.
 struct CellImages {
@@ -34,6 +29,6 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
 /// Fills in status, references, accuracy, stability and cost. Throws what rendering or the truth throws, and InternalError
 /// when more than 0.1 % of the primary hits disagree with the truth's: that is an error of the set-up, not a score.
 void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
-             const CellOptions& options, Record& record, CellImages& images);
+             const MeasureOptions& options, Record& record, CellImages& images);
 
 } // namespace shadowbench

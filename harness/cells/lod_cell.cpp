@@ -2,6 +2,7 @@
 
 #include "base/hash.h"
 #include "groundtruth/oracle.h"
+#include "harness/measure/lod_cost.h"
 #include "techniques/gl/context.h"
 #include "techniques/gl/counters.h"
 
@@ -153,7 +154,7 @@ std::string lodCellId(const Scene& scene, const techniques::Variant& variant) {
     return hash128(inputs).text();
 }
 
-void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const LodCellOptions& options, Record& record,
+void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const MeasureOptions& options, Record& record,
                 const Progress& progress, const KeepPicture& keep) {
     const int frames = lodScene.scene().lod->frames;
     const LodReference& reference = lodScene.reference(progress);
@@ -179,7 +180,7 @@ void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const Lo
         scoreStanding(stage, *technique, frames, progress, *record.lod);
     record.lod->orderError = orderError(lodScene, *technique, variant.entry->temporal);
     if (options.time) {
-        LodCost cost = measureLodCost(stage, *technique, frames, options.cost);
+        LodCost cost = measureLodCost(stage, *technique, frames);
         record.lod->time = cost.time;
         record.lod->millisecondsByFrame = std::move(cost.milliseconds);
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "harness/cells/lod_reference.h"
-#include "harness/measure/lod_cost.h"
+#include "harness/cells/measure_options.h"
 #include "harness/records/record.h"
 #include "techniques/contract/entry.h"
 
@@ -28,11 +28,6 @@ private:
     std::optional<LodReference> reference_;
 };
 
-struct LodCellOptions {
-    bool time = true;
-    LodCostOptions cost;
-};
-
 /// Why the scene has nothing for level-of-detail techniques; nothing if it has.
 std::optional<std::string> notApplicable(const Scene& scene);
 
@@ -41,7 +36,7 @@ std::string lodCellId(const Scene& scene, const techniques::Variant& variant);
 
 /// Fills in status, frames, lod and cost. Pictures of the walk go to `keep` frame by frame, if it is set.
 using KeepPicture = std::function<void(int frame, const metrics::ColourImage& picture)>;
-void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const LodCellOptions& options, Record& record,
+void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const MeasureOptions& options, Record& record,
                 const Progress& progress, const KeepPicture& keep);
 
 } // namespace shadowbench::lod

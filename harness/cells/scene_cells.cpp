@@ -40,25 +40,20 @@ void SceneCells::measure(const techniques::Variant& variant, Record& record, con
     if (variant.isLod()) return measureLod(variant, record, progress);
     computeTruths(variant, progress);
     progress(0, variant.name);
-    CellOptions cellOptions;
-    cellOptions.seed = options_.seed;
-    cellOptions.cost.time = options_.time;
     CellImages images;
     if (!stage_) stage_.emplace(scene_);
-    runCell(scene_, *stage_, truths_, variant, cellOptions, record, images);
+    runCell(scene_, *stage_, truths_, variant, options_, record, images);
     if (!options_.images.empty()) writeCellImages(imageFolder(variant), images);
 }
 
 void SceneCells::measureLod(const techniques::Variant& variant, Record& record, const Progress& progress) {
-    lod::LodCellOptions cellOptions;
-    cellOptions.time = options_.time;
     lod::KeepPicture keep;
     std::optional<lod::LodImages> images;
     if (!options_.images.empty()) {
         images.emplace(lodScene_.reference(progress));
         keep = [&images](int frame, const metrics::ColourImage& picture) { images->keep(frame, picture); };
     }
-    lod::runLodCell(lodScene_, variant, cellOptions, record, progress, keep);
+    lod::runLodCell(lodScene_, variant, options_, record, progress, keep);
     if (images) images->write(imageFolder(variant));
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "harness/cells/lod_cell.h"
+#include "harness/cells/measure_options.h"
 #include "harness/cells/truths.h"
 #include "harness/records/record.h"
 #include "harness/render/stage.h"
@@ -13,12 +14,6 @@
 #include <string>
 
 namespace shadowbench {
-
-struct MeasureOptions {
-    std::uint32_t seed = 1;
-    bool time = true;             // wall time
-    std::filesystem::path images; // folder of <scene>/<variant>/; empty: no images are written
-};
 
 class SceneCells {
 public:

@@ -1,6 +1,7 @@
 // The half of instruction counting that runs under Callgrind.
 #include "base/error.h"
 #include "harness/measure/callgrind.h"
+#include "harness/measure/warm_frames.h"
 #include "harness/render/lod_stage.h"
 #include "harness/render/stage.h"
 #include "scene/load/load.h"
@@ -23,8 +24,6 @@
 
 namespace shadowbench::timing {
 namespace {
-
-constexpr int warmFrames = 2; // the first compiles shaders, the second meets what the first left
 
 /// Counts what `frame` does, under the name of `variant`.
 void count(const techniques::Variant& variant, const std::function<void()>& frame) {

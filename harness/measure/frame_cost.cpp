@@ -44,11 +44,13 @@ struct Runner {
     std::vector<double> samples;
 };
 
+} // namespace
+
 Time measureTime(Stage& stage, const techniques::Variant& variant, techniques::Technique& technique, int index,
-                 std::uint32_t seed, const CostOptions& options) {
+                 std::uint32_t seed, const TimingLimits& limits) {
     const auto uniform = make(techniques::parseVariant("sm-uniform"));
-    const std::string baseName = techniques::baseVariant(variant);
-    const auto base = baseName.empty() ? nullptr : make(techniques::parseVariant(baseName));
+    const std::optional<techniques::Variant> baseVariant = techniques::costBase(variant);
+    const auto base = baseVariant ? make(*baseVariant) : nullptr;
 
     int next = index;
     const auto frameOf = [&](techniques::Technique& t) {
@@ -64,8 +66,8 @@ Time measureTime(Stage& stage, const techniques::Variant& variant, techniques::T
         if (&runner != &runners[Own]) runner.frame(); // warm up; the technique itself is warm from being scored
     const auto start = Clock::now();
     const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-    for (int round = 0; round < options.maximumRounds; ++round) {
-        if (round >= options.minimumRounds && spent() > options.budgetSeconds) break;
+    for (int round = 0; round < limits.maximumRounds; ++round) {
+        if (round >= limits.minimumRounds && spent() > limits.budgetSeconds) break;
         ++next;
         std::vector<Runner*> order;
         for (Runner& runner : runners) order.push_back(&runner);
@@ -92,16 +94,6 @@ Work measureWork(Stage& stage, techniques::Technique& technique, std::uint64_t b
     stage.render(technique, index, seed);
     const gl::WorkCount count = meter.finish();
     return {count.fragments, count.vertices, count.primitives, count.draws, count.passes, bytes};
-}
-
-} // namespace
-
-Cost measureCost(Stage& stage, const techniques::Variant& variant, techniques::Technique& technique, std::uint64_t bytes,
-                 int index, std::uint32_t seed, const CostOptions& options) {
-    Cost cost;
-    cost.work = measureWork(stage, technique, bytes, index, seed);
-    if (options.time) cost.time = measureTime(stage, variant, technique, index + 1, seed, options);
-    return cost;
 }
 
 } // namespace shadowbench::timing

@@ -9,18 +9,23 @@
 
 namespace shadowbench::timing {
 
-struct CostOptions {
+/// How long a technique's frames are timed.
+struct TimingLimits {
     int minimumRounds = 3;
     int maximumRounds = 25;
-    double budgetSeconds = 1.5; // of measuring one cell, once the minimum is done
-    bool time = true;           // off: work only, which is the same on every machine
+    double budgetSeconds = 1.5; // once the minimum is done
 };
 
-/// Measures `technique` on the frame that the stage shows. Every round times one frame each of the G-buffer alone,
-/// sm-uniform with default parameters, the technique's base if it has one, and the technique, in an order that alternates
+/// The work of one frame, number `index` of the technique's sequence, of what the stage shows: the same on every machine.
+/// `bytes` are those that the technique holds.
+Work measureWork(Stage& stage, techniques::Technique& technique, std::uint64_t bytes, int index, std::uint32_t seed);
+
+/// Times `technique` on the frame that the stage shows. Every round times one frame each of the G-buffer alone,
+/// sm-uniform with default parameters, what its cost is compared with if there is such (Entry::costBase), and the technique,
+/// in an order that alternates
 /// from round to round; all of them are warmed up first (the first frame compiles shaders). `index` numbers the first frame
 /// rendered.
-Cost measureCost(Stage& stage, const techniques::Variant& variant, techniques::Technique& technique, std::uint64_t bytes,
-                 int index, std::uint32_t seed, const CostOptions& options);
+Time measureTime(Stage& stage, const techniques::Variant& variant, techniques::Technique& technique, int index,
+                 std::uint32_t seed, const TimingLimits& limits = {});
 
 } // namespace shadowbench::timing

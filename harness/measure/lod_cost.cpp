@@ -1,5 +1,6 @@
 #include "harness/measure/lod_cost.h"
 
+#include "harness/measure/raster_clock.h"
 #include "harness/measure/statistics.h"
 #include "techniques/catalog.h"
 #include "techniques/gl/context.h"
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 namespace shadowbench::lod {
@@ -17,22 +17,13 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Milliseconds of this thread's processor time where the rasteriser draws on it, so that other programs do not count;
-/// else of wall time.
-double millisecondsNow() {
-    const clockid_t clock = gl::Context::current().info().rasterThreads == 0 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
-    timespec now{};
-    clock_gettime(clock, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 double milliseconds(LodStage& stage, techniques::LodTechnique& technique) {
     gl::Context& context = gl::Context::current();
     context.finish();
-    const double start = millisecondsNow();
+    const double start = timing::rasterMilliseconds();
     stage.render(technique);
     context.finish();
-    return millisecondsNow() - start;
+    return timing::rasterMilliseconds() - start;
 }
 
 /// One of the two that are timed, with its least time of each frame.
@@ -52,7 +43,7 @@ LodTime timeOf(const std::vector<double>& own, const std::vector<double>& base) 
     return {timing::median(own), timing::median(ratios), timing::median(changes)};
 }
 
-LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int frames, const LodCostOptions& options) {
+LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int frames, const LodTimingLimits& limits) {
     const techniques::Variant base = techniques::parseVariant("lod-switch");
     const auto switching = base.entry->makeLod(base.parameters);
     std::vector<Contestant> contestants{{&technique, {}}, {switching.get(), {}}};
@@ -62,7 +53,7 @@ LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int
     const auto start = Clock::now();
     std::size_t timed = static_cast<std::size_t>(frames);
     for (Contestant& contestant : contestants) contestant.least.assign(timed, std::numeric_limits<double>::infinity());
-    for (int round = 0; round < options.maximumRounds && (round == 0 || secondsSince(start) < options.budgetSeconds);
+    for (int round = 0; round < limits.maximumRounds && (round == 0 || secondsSince(start) < limits.budgetSeconds);
          ++round) {
         technique.reset();
         for (std::size_t frame = 0; frame < timed; ++frame) {
@@ -70,8 +61,8 @@ LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int
             for (Contestant& contestant : contestants)
                 contestant.least[frame] = std::min(contestant.least[frame], milliseconds(stage, *contestant.technique));
             std::ranges::reverse(contestants);
-            const bool enough = static_cast<int>(frame) + 1 >= options.leastFrames;
-            if (round == 0 && enough && secondsSince(start) > options.budgetSeconds) timed = frame + 1;
+            const bool enough = static_cast<int>(frame) + 1 >= limits.leastFrames;
+            if (round == 0 && enough && secondsSince(start) > limits.budgetSeconds) timed = frame + 1;
         }
     }
     if (contestants.front().technique != &technique) std::ranges::reverse(contestants);

@@ -8,7 +8,8 @@
 
 namespace shadowbench::lod {
 
-struct LodCostOptions {
+/// How long a walk is timed.
+struct LodTimingLimits {
     int maximumRounds = 5;
     double budgetSeconds = 1.5; // of timing one technique, once the least has been done
     int leastFrames = 3;        // timed at least, of a walk that takes longer than the budget
@@ -21,7 +22,7 @@ struct LodCost {
 
 /// Times `technique` frame after frame beside lod-switch, the two in an order that alternates; both are warmed up first.
 /// Walks are repeated, or cut short, to fit the budget. The technique's history is reset.
-LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int frames, const LodCostOptions& options);
+LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int frames, const LodTimingLimits& limits = {});
 
 /// `own` and `base`: milliseconds by frame, equally many, at least two.
 LodTime timeOf(const std::vector<double>& own, const std::vector<double>& base);

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/process.h"
 #include "base/temporary_folder.h"
+#include "harness/measure/warm_frames.h"
 #include "harness/render/stage.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
@@ -21,7 +22,6 @@
 namespace shadowbench::timing {
 namespace {
 
-constexpr int warmFrames = 2; // the first compiles shaders, the second meets what the first left
 constexpr std::chrono::minutes longestAnswer{2};
 
 double cpuMilliseconds() {

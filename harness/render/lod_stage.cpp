@@ -22,21 +22,22 @@ void LodStage::show(int index) { shown_ = walkFrame(scene_, index, aspect(size_)
 
 void LodStage::showStanding(int index) { shown_ = standingFrame(scene_, index, aspect(size_)); }
 
-techniques::LodFrame LodStage::frame() {
+techniques::LodFrame LodStage::frame(techniques::PassListener* passes) {
     const double shape = aspect(size_);
-    return {chains_,
-            shown_.instances,
-            drawer_,
-            scene_.light.centreOnly().homogeneous(),
-            size_,
-            shown_.camera.view(),
-            shown_.previousCamera.view(),
-            shown_.camera.projection(shape),
-            shown_.previousCamera.projection(shape)};
+    return {.chains = chains_,
+            .instances = shown_.instances,
+            .drawer = drawer_,
+            .light = scene_.light.centreOnly().homogeneous(),
+            .size = size_,
+            .view = shown_.camera.view(),
+            .previousView = shown_.previousCamera.view(),
+            .projection = shown_.camera.projection(shape),
+            .previousProjection = shown_.previousCamera.projection(shape),
+            .passes = passes};
 }
 
-void LodStage::render(techniques::LodTechnique& technique) {
-    technique.render(frame(), {colour_, depth_, target_});
+void LodStage::render(techniques::LodTechnique& technique, techniques::PassListener* passes) {
+    technique.render(frame(passes), {colour_, depth_, target_});
     gl::Context::current().check("rendering the walk of scene " + scene_.id);
 }
 

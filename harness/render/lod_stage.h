@@ -1,4 +1,4 @@
-// A scene's walk on the GPU: shows a frame and lets level-of-detail techniques draw it.
+// The frames of a walk through a scene on the GPU: shows one and lets level-of-detail techniques draw it.
 #pragma once
 
 #include "harness/metrics/lod.h"
@@ -20,7 +20,7 @@ public:
     void showStanding(int index);
     [[nodiscard]] const WalkFrame& shown() const { return shown_; }
 
-    void render(techniques::LodTechnique& technique);
+    void render(techniques::LodTechnique& technique, techniques::PassListener* passes = nullptr);
 
     /// What the last `render` drew.
     [[nodiscard]] metrics::ColourImage picture() const;
@@ -29,7 +29,7 @@ public:
     [[nodiscard]] Image<unsigned> transitionMask();
 
 private:
-    [[nodiscard]] techniques::LodFrame frame();
+    [[nodiscard]] techniques::LodFrame frame(techniques::PassListener* passes = nullptr);
 
     const Scene& scene_;
     glm::ivec2 size_;

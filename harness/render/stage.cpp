@@ -22,26 +22,35 @@ Stage::Stage(const Scene& scene)
 
 void Stage::show(int index) {
     snapshot_ = snapshot(scene_, index);
+    hardLight_ = snapshot_.light.centreOnly();
     buffers_.update(snapshot_);
     redraw();
 }
 
-void Stage::redraw() { gbuffer_.draw(buffers_, clipFromWorld(snapshot_.camera, scene_.size)); }
+void Stage::redraw(techniques::PassListener* passes) {
+    const techniques::Pass pass("G-buffer", passes);
+    gbuffer_.draw(buffers_, clipFromWorld(snapshot_.camera, scene_.size));
+}
 
 metrics::Drawn Stage::drawn() const { return {gbuffer_.readIds(), firstThree(gbuffer_.readPositions())}; }
 
 Image<glm::vec3> Stage::normals() const { return firstThree(gbuffer_.readNormals()); }
 
-void Stage::render(techniques::Technique& technique, int index, std::uint32_t seed) {
-    const techniques::Frame frame{snapshot_,
-                                  buffers_,
-                                  gbuffer_,
-                                  scene_.size,
-                                  clipFromWorld(snapshot_.camera, scene_.size),
-                                  clipFromWorld(snapshot_.previousCamera, scene_.size),
-                                  index,
-                                  seed};
-    technique.render(frame, visibility_);
+techniques::Frame Stage::frame(int index, std::uint32_t seed, techniques::PassListener* passes) const {
+    return {.snapshot = snapshot_,
+            .hardLight = hardLight_,
+            .scene = buffers_,
+            .gbuffer = gbuffer_,
+            .size = scene_.size,
+            .clipFromWorld = clipFromWorld(snapshot_.camera, scene_.size),
+            .previousClipFromWorld = clipFromWorld(snapshot_.previousCamera, scene_.size),
+            .index = index,
+            .seed = seed,
+            .passes = passes};
+}
+
+void Stage::render(techniques::Technique& technique, int index, std::uint32_t seed, techniques::PassListener* passes) {
+    technique.render(frame(index, seed, passes), visibility_);
     gl::Context::current().check("rendering frame " + std::to_string(index) + " of scene " + scene_.id);
 }
 

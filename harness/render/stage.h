@@ -17,8 +17,11 @@ public:
     void show(int index);
     [[nodiscard]] const Snapshot& shown() const { return snapshot_; }
 
-    /// Draws the G-buffer of the shown frame again (the floor of every technique's cost).
-    void redraw();
+    /// The shown frame as number `index` of a technique's sequence (which seeds its jitter), until another is shown.
+    [[nodiscard]] techniques::Frame frame(int index, std::uint32_t seed, techniques::PassListener* passes = nullptr) const;
+
+    /// Draws the G-buffer of the shown frame again (the least that any technique's frame costs), as the pass "G-buffer".
+    void redraw(techniques::PassListener* passes = nullptr);
 
     /// What the G-buffer of the shown frame holds.
     [[nodiscard]] metrics::Drawn drawn() const;
@@ -26,8 +29,8 @@ public:
     /// Its geometric normals, on the side that is seen; anything for background.
     [[nodiscard]] Image<glm::vec3> normals() const;
 
-    /// Renders the shown frame as number `index` of the technique's sequence (which seeds its jitter).
-    void render(techniques::Technique& technique, int index, std::uint32_t seed);
+    /// Renders `frame(index, seed, passes)`.
+    void render(techniques::Technique& technique, int index, std::uint32_t seed, techniques::PassListener* passes = nullptr);
 
     /// The visibility image of the last `render`.
     [[nodiscard]] Image<float> visibility() const { return target_.readFloat(0); }
@@ -35,6 +38,7 @@ public:
 private:
     const Scene& scene_;
     Snapshot snapshot_;
+    Light hardLight_;
     gl::SceneBuffers buffers_;
     gl::GBuffer gbuffer_;
     gl::Texture visibility_;

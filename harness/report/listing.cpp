@@ -42,7 +42,7 @@ Json techniquesAsJson() {
             figures.push_back({{"name", figure.name}, {"meaning", figure.meaning}});
         all.push_back({{"id", entry.id},
                        {"title", entry.title},
-                       {"source", fmt::format("{}, {}", techniques::title(entry.source.seed), entry.source.where)},
+                       {"source", fmt::format("{}, {}", techniques::title(entry.source.document), entry.source.where)},
                        {"answer", meaning(entry.answer)},
                        {"history", entry.temporal},
                        {"parameters", parameters},

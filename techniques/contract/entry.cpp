@@ -8,27 +8,26 @@
 
 namespace shadowbench::techniques {
 
-std::string_view title(Seed seed) {
-    switch (seed) {
-    case Seed::Dissertation:
+std::string_view title(Document document) {
+    switch (document) {
+    case Document::Dissertation:
         return "Scherzer, dissertation";
-    case Seed::PixelCorrectPaper:
+    case Document::PixelCorrectPaper:
         return "Scherzer et al., EGSR 2007";
-    case Seed::Course:
+    case Document::Course:
         return "SIGGRAPH 2004 course, Real-Time Shadowing Techniques";
-    case Seed::Zapotocky:
+    case Document::Zapotocky:
         return "Zápotocký, thesis";
     }
     return "";
 }
 
-std::map<std::string, double> declaredFigures(const Entry& entry, const Technique& technique) {
-    std::map<std::string, double> figures = technique.figures();
+std::map<std::string, double> declaredFigures(const Entry& entry, std::map<std::string, double> figures) {
     for (const auto& [name, value] : figures) {
         const bool declared = std::ranges::any_of(entry.figures, [&](const Figure& f) { return f.name == name; });
         if (!declared)
-            throw InternalError(
-                fmt::format("technique {} tells a figure \"{}\" that its catalogue entry does not declare", entry.id, name));
+            throw InternalError(fmt::format("technique {} reports a figure \"{}\" that its catalogue entry does not declare",
+                                            entry.id, name));
         if (!std::isfinite(value))
             throw InternalError(
                 fmt::format("technique {}: its figure \"{}\" is {}; leave out what has no value", entry.id, name, value));

@@ -16,16 +16,16 @@
 
 namespace shadowbench::techniques {
 
-/// The documents that techniques come from.
-enum class Seed { Dissertation, PixelCorrectPaper, Course, Zapotocky };
-std::string_view title(Seed seed);
+/// The documents that techniques are implemented from.
+enum class Document { Dissertation, PixelCorrectPaper, Course, Zapotocky };
+std::string_view title(Document document);
 
 struct Source {
-    Seed seed;
+    Document document;
     std::string where; // section, equation, listing
 };
 
-/// What kind of answer a technique gives, hence which truth it is scored against (METRICS.md).
+/// What kind of answer a technique gives, hence which ground truth it is scored against.
 enum class Answer {
     Hard,     // lit or not, from the light's centre
     Filtered, // a hard shadow with smoothed edges
@@ -33,7 +33,7 @@ enum class Answer {
     Colour,   // a picture of a scene with levels of detail (techniques/contract/lod_technique.h)
 };
 
-/// A number that a technique tells of each frame (`Technique::figures`).
+/// A number that a technique reports of each frame (`Technique::figures`).
 struct Figure {
     std::string name;
     std::string meaning; // with its unit
@@ -46,12 +46,14 @@ struct Entry {
     Source source;
     Answer answer = Answer::Hard;
     bool temporal = false; // keeps history: its frames must be rendered in order
-    /// Why the technique has nothing to do on a scene; nothing if it has. Empty: it takes every scene with a light that it
-    /// can answer for.
+    /// Why the technique does not apply to a scene; nothing if it does. Empty: it applies to every scene whose light it has
+    /// an answer for.
     std::function<std::optional<std::string>(const Scene&)> notApplicable = {};
     std::vector<Parameter> parameters;
     std::vector<Figure> figures = {};
-    std::vector<std::string> variants; // what a run of all techniques shows: parameter strings, "" = all defaults
+    std::vector<std::string> variants; // those that a run of all techniques renders: parameter strings, "" = all defaults
+    /// The variant that this one's cost is compared with beside sm-uniform's, such as the map under a history. Empty: none.
+    std::function<std::string(const Parameters&)> costBase = {};
     std::function<std::unique_ptr<Technique>(const Parameters&)> make = {};       // of a shadow
     std::function<std::unique_ptr<LodTechnique>(const Parameters&)> makeLod = {}; // of a picture: Answer::Colour
 };
@@ -65,8 +67,8 @@ struct Variant {
     [[nodiscard]] bool isLod() const { return entry->answer == Answer::Colour; }
 };
 
-/// The figures of the frame that `technique`, made by `entry`, rendered last; throws InternalError naming one that the entry
-/// does not declare or that is not finite.
-std::map<std::string, double> declaredFigures(const Entry& entry, const Technique& technique);
+/// `figures`, which a technique of `entry` has reported; throws InternalError naming one that the entry does not declare or
+/// that is not finite.
+std::map<std::string, double> declaredFigures(const Entry& entry, std::map<std::string, double> figures);
 
 } // namespace shadowbench::techniques

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/mesh.h"
+#include "techniques/contract/pass.h"
 #include "techniques/gl/texture.h"
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <glm/vec4.hpp>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace shadowbench::techniques {
@@ -50,11 +52,14 @@ struct LodFrame {
     std::span<const LodChain> chains;
     std::span<const LodInstance> instances; // those that the camera may see, by ascending id
     LevelDrawer& drawer;
-    glm::dvec4 light; // homogeneous position
+    glm::dvec4 light; // homogeneous position of the hard light
     glm::ivec2 size;  // of the image, in pixels
     glm::dmat4 view, previousView;
     glm::dmat4 projection, previousProjection;
+    PassListener* passes = nullptr; // learns of the frame's passes; null: nobody does
 
+    /// Begins a pass, which ends with what is returned: `const auto pass = frame.pass("opaque levels");`.
+    [[nodiscard]] Pass pass(std::string_view name) const { return {name, passes}; }
     [[nodiscard]] glm::dmat4 clipFromWorld() const { return projection * view; }
     [[nodiscard]] glm::dmat4 previousClipFromWorld() const { return previousProjection * previousView; }
 };

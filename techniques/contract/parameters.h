@@ -28,7 +28,7 @@ struct Parameter {
     std::string defaultValue;
     Domain domain;
     std::string meaning; // one line, with the unit
-    std::string source;  // where the seed gives the parameter or its default; empty if it is ours
+    std::string source;  // where the document gives the parameter or its default; empty if it is ours
 };
 
 /// Values for all declared parameters of one technique, in declared order.

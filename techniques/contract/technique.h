@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/snapshot.h"
+#include "techniques/contract/pass.h"
 #include "techniques/gl/gbuffer.h"
 #include "techniques/gl/scene_buffers.h"
 #include "techniques/gl/texture.h"
@@ -14,12 +15,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace shadowbench::techniques {
 
 /// Everything a technique may know of one frame. The G-buffer has already been drawn.
 struct Frame {
     const Snapshot& snapshot;
+    const Light& hardLight; // the snapshot's as a hard-shadow technique sees it: an area light's centre alone
     const gl::SceneBuffers& scene;
     const gl::GBuffer& gbuffer;
     glm::ivec2 size;                  // of the image, in pixels
@@ -27,9 +30,13 @@ struct Frame {
     glm::dmat4 previousClipFromWorld; // the same one frame earlier
     int index;                        // frame number from 0
     std::uint32_t seed;               // of pseudo-random choices; 1 is the default
+    PassListener* passes = nullptr;   // learns of the frame's passes; null: nobody does
 
     [[nodiscard]] double aspect() const { return static_cast<double>(size.x) / size.y; }
     [[nodiscard]] bool cameraMoved() const { return clipFromWorld != previousClipFromWorld; }
+
+    /// Begins a pass, which ends with what is returned: `const auto pass = frame.pass("blur");`.
+    [[nodiscard]] Pass pass(std::string_view name) const { return {name, passes}; }
 };
 
 class Technique {
@@ -43,14 +50,14 @@ public:
     /// Forgets all history: the next frame is the first.
     virtual void reset() {}
 
-    /// Numbers of the frame last rendered that only the technique knows, by names that its entry declares. Asked for right
-    /// after `render`, while that frame's G-buffer and scene are there; what it takes to count them belongs here, not into
-    /// the timed frame.
-    [[nodiscard]] virtual std::map<std::string, double> figures() const { return {}; }
+    /// Numbers of `frame`, the one that was rendered last, that only the technique knows, by names that its entry declares.
+    /// The work of counting them belongs here, where it is not timed.
+    [[nodiscard]] virtual std::map<std::string, double> figures([[maybe_unused]] const Frame& frame) const { return {}; }
 
-    /// Where `world` lies in the map that it was tested against in the frame last rendered: in texels of that map,
-    /// continuous over the map; several maps may lie anywhere. Nothing where no map holds the point (beside it, behind the
-    /// light) and from techniques without a map.
+    /// Where `world` lies in the map that it was tested against in the frame rendered last: in texels, continuous within a
+    /// map; how several maps lie to each other does not matter. Nothing where no map holds the point (beside it, behind the
+    /// light) and from techniques without a map. The shader computes the same point on its own: a test compares the two
+    /// (tests/techniques/gl/map_point_test.cpp).
     [[nodiscard]] virtual std::optional<glm::dvec2> mapPoint([[maybe_unused]] const glm::dvec3& world) const { return {}; }
 };
 

@@ -1,6 +1,6 @@
 #include "techniques/filtered/prefiltered_map.h"
 
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/maps/single_map.h"
 
 #include <algorithm>
@@ -85,8 +85,13 @@ PrefilteredMap::PrefilteredMap(const Parameters& parameters, const Basis& basis)
 
 void PrefilteredMap::draw(const Frame& frame) {
     light_ = withFreeRim(withDepthFromNear(uniformView(frame)), freeRim(box_), depth_.side());
-    depth_.draw(light_, frame.scene);
+    depth_.draw(light_, frame);
+    storeBasis(frame);
+    blur(frame);
+}
 
+void PrefilteredMap::storeBasis(const Frame& frame) {
+    const auto pass = frame.pass("basis");
     basis_.set("linearDepth", depth_.texture()).set("depthRange", glm::vec2(light_.near, light_.far));
     for (int layer = 0; layer < stored_.layers(); ++layer) {
         if (basis_.uses("layer")) basis_.set("layer", layer);
@@ -94,6 +99,10 @@ void PrefilteredMap::draw(const Frame& frame) {
         target.bind();
         basis_.drawScreen();
     }
+}
+
+void PrefilteredMap::blur(const Frame& frame) {
+    const auto pass = frame.pass("blur");
     if (box_.level > 0) stored_.makeMipmaps();
     for (int layer = 0; layer < stored_.layers(); ++layer) filter(layer);
     filtered_.makeMipmaps();

@@ -31,11 +31,10 @@ mat2 projectedTangents(mat4 projection, vec3 world, vec3 u, vec3 v) {
 
 /// Movement in the map per pixel of the image along its x and y.
 mat2 footprint(vec3 world, vec3 normal) {
-    vec3 u = normalize(abs(normal.x) < 0.5 ? cross(normal, vec3(1, 0, 0)) : cross(normal, vec3(0, 1, 0)));
-    vec3 v = cross(normal, u);
-    mat2 image = projectedTangents(imageFromWorld, world, u, v);
+    Tangents t = tangentsOf(normal);
+    mat2 image = projectedTangents(imageFromWorld, world, t.u, t.v);
     if (abs(determinant(image)) < 1e-6) return mat2(0.0);  // seen edge-on
-    return projectedTangents(mapFromWorld, world, u, v) * inverse(image);
+    return projectedTangents(mapFromWorld, world, t.u, t.v) * inverse(image);
 }
 
 FilteredReceiver filteredReceiver() {

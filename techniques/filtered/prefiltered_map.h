@@ -51,7 +51,7 @@ public:
     /// The basis's program, for uniforms of its own.
     gl::Program& basis() { return basis_; }
 
-    /// Draws the frame's scene into a map of linear depth fitted to all of it, stores the basis of each depth and filters.
+    /// Draws the frame's scene into a map of linear depth fitted to all of it, stores the basis of each depth and blurs it.
     void draw(const Frame& frame);
 
     /// Sets what filtered/prefiltered_map.glsl reads.
@@ -66,6 +66,8 @@ public:
     void bindDepthsTo(gl::Program& resolve) const;
 
 private:
+    void storeBasis(const Frame& frame);
+    void blur(const Frame& frame);
     void filter(int layer);
 
     BoxFilter box_;

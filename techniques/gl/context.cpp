@@ -43,6 +43,11 @@ void Context::becomeCurrent(bool debug) {
 
 void Context::ceaseCurrent() { currentContext = nullptr; }
 
+unsigned Context::noAttributes() {
+    if (noAttributes_ == 0) glGenVertexArrays(1, &noAttributes_);
+    return noAttributes_;
+}
+
 void Context::finish() { glFinish(); }
 
 void Context::discardErrors() {

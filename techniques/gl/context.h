@@ -3,6 +3,7 @@
 #pragma once
 
 #include "techniques/gl/counters.h"
+#include "techniques/gl/framebuffers.h"
 
 #include <memory>
 #include <string>
@@ -37,6 +38,10 @@ public:
 
     [[nodiscard]] const ContextInfo& info() const { return info_; }
     [[nodiscard]] Tally& tally() { return tally_; }
+    [[nodiscard]] Framebuffers& framebuffers() { return framebuffers_; }
+
+    /// A vertex array without attributes: what full-screen passes draw from.
+    [[nodiscard]] unsigned noAttributes();
 
     /// A GL function that the library does not export by name.
     [[nodiscard]] virtual void* function(const char* name) const = 0;
@@ -59,6 +64,8 @@ protected:
 private:
     ContextInfo info_;
     Tally tally_;
+    Framebuffers framebuffers_; // end with the context, as the vertex array does
+    unsigned noAttributes_ = 0;
     std::string firstError_;
     friend void noteMessage(Context&, unsigned type, const char* message);
 };

@@ -29,8 +29,7 @@ std::string withOrigins(const std::string& log, const ShaderSource& source) {
     return result;
 }
 
-GLuint compile(GLenum stage, const std::string& file, const Defines& defines) {
-    const ShaderSource source = loadShader(file, defines);
+GLuint compile(GLenum stage, const std::string& name, const ShaderSource& source) {
     const GLuint shader = glCreateShader(stage);
     const char* text = source.text.c_str();
     glShaderSource(shader, 1, &text, nullptr);
@@ -44,10 +43,10 @@ GLuint compile(GLenum stage, const std::string& file, const Defines& defines) {
     log.resize(static_cast<std::size_t>(length));
     glDeleteShader(shader);
     Context::current().discardErrors();
-    throw InternalError("compiling shader " + file + " failed:\n" + withOrigins(log, source));
+    throw InternalError("compiling shader " + name + " failed:\n" + withOrigins(log, source));
 }
 
-GLuint link(std::initializer_list<GLuint> shaders, const std::string& title) {
+GLuint link(const std::vector<GLuint>& shaders, const std::string& title) {
     const GLuint program = glCreateProgram();
     for (const GLuint shader : shaders) glAttachShader(program, shader);
     glLinkProgram(program);
@@ -79,11 +78,20 @@ bool isSampler(GLenum type) {
 } // namespace
 
 Program::Program(const std::string& vertexFile, const std::string& fragmentFile, const Defines& defines)
-    : Program(link({compile(GL_VERTEX_SHADER, vertexFile, defines), compile(GL_FRAGMENT_SHADER, fragmentFile, defines)},
-                   vertexFile + " + " + fragmentFile),
-              vertexFile + " + " + fragmentFile) {}
+    : Program({{GL_VERTEX_SHADER, vertexFile, loadShader(vertexFile, defines)},
+               {GL_FRAGMENT_SHADER, fragmentFile, loadShader(fragmentFile, defines)}}) {}
 
-Program::Program(unsigned id, std::string title) : id_(id), title_(std::move(title)) {
+Program::Program(const std::vector<Stage>& stages) {
+    std::vector<GLuint> shaders;
+    for (const Stage& stage : stages) {
+        shaders.push_back(compile(stage.kind, stage.name, stage.source));
+        title_ += (title_.empty() ? "" : " + ") + stage.name;
+    }
+    id_ = link(shaders, title_);
+    findUniforms();
+}
+
+void Program::findUniforms() {
     GLint count = 0;
     glGetProgramiv(id_, GL_ACTIVE_UNIFORMS, &count);
     int unit = 0;
@@ -102,8 +110,13 @@ Program Program::screen(const std::string& fragmentFile, const Defines& defines)
     return {"gl/screen.vert", fragmentFile, defines};
 }
 
+Program Program::screenFromText(const std::string& name, const std::string& fragmentText, const Defines& defines) {
+    return Program({{GL_VERTEX_SHADER, "gl/screen.vert", loadShader("gl/screen.vert", {})},
+                    {GL_FRAGMENT_SHADER, name, shaderFromText(name, fragmentText, defines)}});
+}
+
 Program Program::compute(const std::string& file, const Defines& defines) {
-    return {link({compile(GL_COMPUTE_SHADER, file, defines)}, file), file};
+    return Program({{GL_COMPUTE_SHADER, file, loadShader(file, defines)}});
 }
 
 Program::~Program() {
@@ -212,12 +225,10 @@ void Program::dispatch(std::size_t invocations) const {
 void Program::drawTriangle() const {
     use();
     glDisable(GL_CULL_FACE);
-    GLuint noAttributes = 0;
-    glGenVertexArrays(1, &noAttributes);
-    glBindVertexArray(noAttributes);
+    Context& context = Context::current();
+    glBindVertexArray(context.noAttributes());
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDeleteVertexArrays(1, &noAttributes);
-    ++Context::current().tally().draws;
+    ++context.tally().draws;
 }
 
 } // namespace shadowbench::gl

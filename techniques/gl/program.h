@@ -22,12 +22,27 @@ class TextureArray;
 /// Preprocessor definitions put before the source.
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
+/// A shader's source with its includes in place. `origin[i]` names file and line of line i + 1 of `text`.
+struct ShaderSource {
+    std::string text;
+    std::vector<std::string> origin;
+};
+
+/// Throws InternalError naming a file that is not there, and what includes it.
+ShaderSource loadShader(const std::string& file, const Defines& defines);
+
+/// The same of a source that is no file; `name` stands for it in messages.
+ShaderSource shaderFromText(const std::string& name, const std::string& text, const Defines& defines);
+
 class Program {
 public:
     Program(const std::string& vertexFile, const std::string& fragmentFile, const Defines& defines = {});
 
     /// A full-screen pass of one fragment shader.
     static Program screen(const std::string& fragmentFile, const Defines& defines = {});
+
+    /// The same of a source that is no file: for tests of functions that shaders include.
+    static Program screenFromText(const std::string& name, const std::string& fragmentText, const Defines& defines = {});
 
     /// A compute shader.
     static Program compute(const std::string& file, const Defines& defines = {});
@@ -66,7 +81,14 @@ public:
     void dispatch(std::size_t invocations) const;
 
 private:
-    Program(unsigned id, std::string title);
+    struct Stage {
+        unsigned kind; // GL's
+        std::string name;
+        ShaderSource source;
+    };
+    explicit Program(const std::vector<Stage>& stages);
+    void findUniforms();
+
     struct Uniform {
         int location;
         int unit; // texture unit of a sampler, else −1
@@ -79,12 +101,5 @@ private:
     std::string title_;
     std::unordered_map<std::string, Uniform> uniforms_;
 };
-
-/// A shader source with its includes in place. `origin[i]` names file and line of line i + 1 of `text`.
-struct ShaderSource {
-    std::string text;
-    std::vector<std::string> origin;
-};
-ShaderSource loadShader(const std::string& file, const Defines& defines);
 
 } // namespace shadowbench::gl

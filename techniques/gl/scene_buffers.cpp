@@ -11,7 +11,7 @@
 namespace shadowbench::gl {
 namespace {
 
-/// What a vertex shader is told of one placement.
+/// What a vertex shader reads of one placement.
 struct InstanceData {
     glm::mat3x4 world; // three rows of the affine matrix
     glm::mat3x4 previous;

@@ -18,35 +18,54 @@ std::string_view embeddedText(const std::string& file, const std::string& includ
     return found->text;
 }
 
-/// Appends `file`, each included file once.
-void append(const std::string& file, const std::string& includedFrom, std::set<std::string>& seen, ShaderSource& out) {
-    if (!seen.insert(file).second) return;
-    std::istringstream lines{std::string(embeddedText(file, includedFrom))};
-    std::string line;
-    for (int number = 1; std::getline(lines, line); ++number) {
-        const std::string origin = file + ":" + std::to_string(number);
-        if (line.starts_with("#include \"")) {
-            append(line.substr(10, line.find('"', 10) - 10), origin, seen, out);
-            continue;
-        }
-        out.text += line + "\n";
-        out.origin.push_back(origin);
+/// Collects the lines of a source and of what it includes, each included file once.
+class Assembly {
+public:
+    Assembly(const std::string& name, const Defines& defines) {
+        add("#version 450 core", name + ":0");
+        for (const auto& [macro, value] : defines) add("#define " + macro + " " + value, name + ":0");
     }
-}
+
+    void appendFile(const std::string& file, const std::string& includedFrom) {
+        if (included_.insert(file).second) appendText(file, std::string(embeddedText(file, includedFrom)));
+    }
+
+    void appendText(const std::string& name, const std::string& text) {
+        std::istringstream lines(text);
+        std::string line;
+        for (int number = 1; std::getline(lines, line); ++number) {
+            const std::string origin = name + ":" + std::to_string(number);
+            if (line.starts_with("#include \""))
+                appendFile(line.substr(10, line.find('"', 10) - 10), origin);
+            else
+                add(line, origin);
+        }
+    }
+
+    ShaderSource take() { return std::move(source_); }
+
+private:
+    void add(const std::string& line, const std::string& origin) {
+        source_.text += line + "\n";
+        source_.origin.push_back(origin);
+    }
+
+    ShaderSource source_;
+    std::set<std::string> included_;
+};
 
 } // namespace
 
 ShaderSource loadShader(const std::string& file, const Defines& defines) {
-    ShaderSource source;
-    const auto prelude = [&](const std::string& line) {
-        source.text += line + "\n";
-        source.origin.push_back(file + ":0");
-    };
-    prelude("#version 450 core");
-    for (const auto& [name, value] : defines) prelude("#define " + name + " " + value);
-    std::set<std::string> seen;
-    append(file, "", seen, source);
-    return source;
+    Assembly assembly(file, defines);
+    assembly.appendFile(file, "");
+    return assembly.take();
+}
+
+ShaderSource shaderFromText(const std::string& name, const std::string& text, const Defines& defines) {
+    Assembly assembly(name, defines);
+    assembly.appendText(name, text);
+    return assembly.take();
 }
 
 } // namespace shadowbench::gl

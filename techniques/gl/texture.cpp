@@ -70,6 +70,37 @@ void requireComplete() {
         throw InternalError("a framebuffer is incomplete (status " + std::to_string(status) + ")");
 }
 
+GLuint makeFramebuffer(std::initializer_list<const Texture*> attachments) {
+    GLuint id = 0;
+    glGenFramebuffers(1, &id);
+    glBindFramebuffer(GL_FRAMEBUFFER, id);
+    std::vector<GLenum> colours;
+    for (const Texture* texture : attachments) {
+        GLenum point = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colours.size());
+        if (texture->format() == Format::Depth32F) point = GL_DEPTH_ATTACHMENT;
+        if (texture->format() == Format::Depth32FStencil8) point = GL_DEPTH_STENCIL_ATTACHMENT;
+        if (!isDepth(texture->format())) colours.push_back(point);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, point, GL_TEXTURE_2D, texture->id(), 0);
+    }
+    if (colours.empty()) {
+        glDrawBuffer(GL_NONE);
+        glReadBuffer(GL_NONE);
+    } else {
+        glDrawBuffers(static_cast<GLsizei>(colours.size()), colours.data());
+    }
+    requireComplete();
+    return id;
+}
+
+GLuint makeFramebuffer(const TextureArray& array, int layer) {
+    GLuint id = 0;
+    glGenFramebuffers(1, &id);
+    glBindFramebuffer(GL_FRAMEBUFFER, id);
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, array.id(), 0, layer);
+    requireComplete();
+    return id;
+}
+
 } // namespace
 
 Texture::Texture(Format format, glm::ivec2 size, Filter filter, Wrap wrap) : format_(format), size_(size) {
@@ -93,7 +124,9 @@ Texture::~Texture() { release(); }
 
 void Texture::release() {
     if (id_ == 0) return;
-    Context::current().tally().bytes -= bytes();
+    Context& context = Context::current();
+    context.tally().bytes -= bytes();
+    context.framebuffers().forget(id_);
     glDeleteTextures(1, &id_);
     id_ = 0;
 }
@@ -145,7 +178,9 @@ TextureArray::TextureArray(Format format, glm::ivec2 size, int layers) : size_(s
 }
 
 TextureArray::~TextureArray() {
-    Context::current().tally().bytes -= bytes_;
+    Context& context = Context::current();
+    context.tally().bytes -= bytes_;
+    context.framebuffers().forget(id_);
     glDeleteTextures(1, &id_);
 }
 
@@ -155,48 +190,17 @@ void TextureArray::makeMipmaps() {
 }
 
 RenderTarget::RenderTarget(std::initializer_list<const Texture*> attachments) {
-    glGenFramebuffers(1, &id_);
-    glBindFramebuffer(GL_FRAMEBUFFER, id_);
-    std::vector<GLenum> colours;
+    Attachments names;
+    std::size_t count = 0;
     for (const Texture* texture : attachments) {
         size_ = texture->size();
-        GLenum point = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colours.size());
-        if (texture->format() == Format::Depth32F) point = GL_DEPTH_ATTACHMENT;
-        if (texture->format() == Format::Depth32FStencil8) point = GL_DEPTH_STENCIL_ATTACHMENT;
-        if (!isDepth(texture->format())) colours.push_back(point);
-        glFramebufferTexture2D(GL_FRAMEBUFFER, point, GL_TEXTURE_2D, texture->id(), 0);
+        names.textures.at(count++) = texture->id();
     }
-    if (colours.empty()) {
-        glDrawBuffer(GL_NONE);
-        glReadBuffer(GL_NONE);
-    } else {
-        glDrawBuffers(static_cast<GLsizei>(colours.size()), colours.data());
-    }
-    requireComplete();
+    id_ = Context::current().framebuffers().over(names, [&] { return makeFramebuffer(attachments); });
 }
 
 RenderTarget::RenderTarget(const TextureArray& array, int layer) : size_(array.size()) {
-    glGenFramebuffers(1, &id_);
-    glBindFramebuffer(GL_FRAMEBUFFER, id_);
-    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, array.id(), 0, layer);
-    requireComplete();
-}
-
-RenderTarget::~RenderTarget() { release(); }
-
-void RenderTarget::release() {
-    if (id_ != 0) glDeleteFramebuffers(1, &id_);
-    id_ = 0;
-}
-
-RenderTarget::RenderTarget(RenderTarget&& other) noexcept : id_(std::exchange(other.id_, 0)), size_(other.size_) {}
-
-RenderTarget& RenderTarget::operator=(RenderTarget&& other) noexcept {
-    if (this == &other) return *this;
-    release();
-    id_ = std::exchange(other.id_, 0);
-    size_ = other.size_;
-    return *this;
+    id_ = Context::current().framebuffers().over({{array.id()}, layer}, [&] { return makeFramebuffer(array, layer); });
 }
 
 void RenderTarget::bind() const {

@@ -68,16 +68,14 @@ private:
     std::size_t bytes_; // all levels
 };
 
-/// A framebuffer over textures that outlive it: colour attachments in order, and at most one depth(-stencil) texture.
+/// Textures to draw into: colour attachments in order, and at most one depth(-stencil) texture. They must outlive it. Cheap
+/// to make: the framebuffer itself is kept as long as its textures live (gl/framebuffers.h).
 class RenderTarget {
 public:
     explicit RenderTarget(std::initializer_list<const Texture*> attachments);
 
     /// Draws into the largest level of one layer.
     RenderTarget(const TextureArray& array, int layer);
-    ~RenderTarget();
-    RenderTarget(RenderTarget&& other) noexcept;
-    RenderTarget& operator=(RenderTarget&& other) noexcept;
 
     /// Binds for drawing and sets the viewport to the whole of it; counts as a pass.
     void bind() const;
@@ -97,7 +95,6 @@ public:
     [[nodiscard]] Image<float> readDepth() const;
 
 private:
-    void release();
     unsigned id_ = 0;
     glm::ivec2 size_{0, 0};
 };

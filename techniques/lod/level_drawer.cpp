@@ -11,7 +11,7 @@
 namespace shadowbench::techniques {
 namespace {
 
-/// What the vertex shader is told of one instance (lod/instance.vert).
+/// What the vertex shader reads of one instance (lod/instance.vert).
 struct InstanceData {
     glm::mat3x4 world; // three rows of the affine matrix
     glm::vec4 colourAndVisibility;

@@ -14,7 +14,7 @@ struct LevelDraw {
     const LodInstance* instance;
     int level;
     float visibility = 1; // opacity, or the threshold τ of eq. 5.1
-    std::uint32_t id = 0; // what the shader is told: 0 for what is not in transition
+    std::uint32_t id = 0; // what the shader reads: 0 for what is not in transition
 };
 
 /// The level that discrete switching shows of an instance.

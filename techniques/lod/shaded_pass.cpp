@@ -16,6 +16,7 @@ void ShadedPass::draw(const LodFrame& frame, std::span<const LevelDraw> draws) {
 }
 
 void ShadedPass::drawOpaque(const LodFrame& frame, const LodPicture& picture, std::span<const LevelDraw> draws) {
+    const auto pass = frame.pass("opaque levels");
     picture.target.clearColour(0, lodBackground);
     picture.target.clearDepth(1);
     picture.target.bind();
@@ -24,6 +25,7 @@ void ShadedPass::drawOpaque(const LodFrame& frame, const LodPicture& picture, st
 
 void ShadedPass::drawFading(const LodFrame& frame, const LodPicture& picture, std::span<const LevelDraw> draws) {
     if (draws.empty()) return;
+    const auto pass = frame.pass("blended levels");
     picture.target.bind();
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);

@@ -65,8 +65,8 @@ struct ReceiverFinder::Candidate {
     glm::dvec4 plane;
 };
 
-std::vector<ReceiverFinder::Candidate> ReceiverFinder::facesTowardsLight(const Snapshot& snapshot) const {
-    const glm::dvec4 light = snapshot.light.centreOnly().homogeneous();
+std::vector<ReceiverFinder::Candidate> ReceiverFinder::facesTowardsLight(const Snapshot& snapshot,
+                                                                         const glm::dvec4& light) const {
     std::vector<Candidate> candidates;
     for (const Batch& batch : snapshot.batches) {
         for (const Placement& placement : batch.placements) {
@@ -87,12 +87,12 @@ std::vector<ReceiverFinder::Candidate> ReceiverFinder::facesTowardsLight(const S
     return candidates;
 }
 
-std::optional<PlanarReceiver> ReceiverFinder::find(const Snapshot& snapshot) {
+std::optional<PlanarReceiver> ReceiverFinder::find(const Snapshot& snapshot, const Light& light) {
     for (const Batch& batch : snapshot.batches)
         if (!meshes_.contains(batch.mesh.get()))
             meshes_.emplace(batch.mesh.get(), MeshFaces{batch.mesh, flatFaces(*batch.mesh)});
 
-    std::vector<Candidate> candidates = facesTowardsLight(snapshot);
+    std::vector<Candidate> candidates = facesTowardsLight(snapshot, light.homogeneous());
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.area > b.area; });
     const auto chosen = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
@@ -107,7 +107,9 @@ std::optional<PlanarReceiver> ReceiverFinder::find(const Snapshot& snapshot) {
     return receiver;
 }
 
-std::optional<PlanarReceiver> planarReceiver(const Snapshot& snapshot) { return ReceiverFinder().find(snapshot); }
+std::optional<PlanarReceiver> planarReceiver(const Snapshot& snapshot) {
+    return ReceiverFinder().find(snapshot, snapshot.light.centreOnly());
+}
 
 std::optional<std::string> noPlanarReceiver(const Scene& scene) {
     if (planarReceiver(snapshot(scene, scene.timeline.still - 1))) return std::nullopt;

@@ -25,10 +25,10 @@ struct PlanarReceiver {
 /// placement; nothing if there is none.
 std::optional<PlanarReceiver> planarReceiver(const Snapshot& snapshot);
 
-/// The same for frame after frame: finds the flat faces of each mesh once.
+/// The same for frame after frame: the flat faces of each mesh are found once.
 class ReceiverFinder {
 public:
-    std::optional<PlanarReceiver> find(const Snapshot& snapshot);
+    std::optional<PlanarReceiver> find(const Snapshot& snapshot, const Light& hardLight);
 
     /// Triangles of a mesh in one plane.
     struct FlatFace {
@@ -43,12 +43,12 @@ private:
     };
     struct Candidate;
 
-    std::vector<Candidate> facesTowardsLight(const Snapshot& snapshot) const;
+    std::vector<Candidate> facesTowardsLight(const Snapshot& snapshot, const glm::dvec4& light) const;
 
     std::unordered_map<const Mesh*, MeshFaces> meshes_;
 };
 
-/// Why a scene has no use for a planar shadow; nothing if it has one.
+/// Why planar shadows do not apply to a scene; nothing if they do.
 std::optional<std::string> noPlanarReceiver(const Scene& scene);
 
 /// Projection of the world onto `plane` away from the homogeneous `light` (eq. 2.3, for column vectors). w is positive for

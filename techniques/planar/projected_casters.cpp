@@ -37,6 +37,7 @@ void ProjectedCasters::draw(const gl::SceneBuffers& scene, const PlanarReceiver&
 }
 
 void ProjectedCasters::markReceiver(const Frame& frame, const PlanarReceiver& receiver, const gl::RenderTarget& target) {
+    const auto pass = frame.pass("receiver stencil");
     target.clearStencil();
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(GL_ALWAYS, 1, 0xFF);

@@ -11,8 +11,8 @@ class ProjectedCasters {
 public:
     ProjectedCasters();
 
-    /// Draws what lies between plane and `light` into the bound target, flattened onto the plane; every pixel that it covers
-    /// gets `value`, whatever the depth.
+    /// Draws the scene's casters between plane and `light` into the bound target, flattened onto the plane; every pixel that
+    /// they cover gets `value`, whatever the depth.
     void draw(const gl::SceneBuffers& scene, const PlanarReceiver& receiver, const glm::dvec4& light,
               const glm::dmat4& clipFromWorld, float value);
 
@@ -23,7 +23,8 @@ private:
     gl::Program project_, mark_;
 };
 
-/// How far from its plane, in metres, a surface of this receiver counts as being in it: what 32-bit positions cannot tell.
+/// How far from its plane, in metres, a surface of this receiver counts as being in it: below the rounding of 32-bit
+/// positions.
 float planeMargin(const PlanarReceiver& receiver);
 
 } // namespace shadowbench::techniques

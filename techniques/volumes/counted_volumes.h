@@ -13,7 +13,9 @@ public:
         volumes_.render(frame, glm::mat4(frame.clipFromWorld), frame.gbuffer.depthStencil(), visibility);
     }
 
-    [[nodiscard]] std::map<std::string, double> figures() const override { return volumes_.figures(); }
+    [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
+        return volumes_.figures(frame.gbuffer.depthStencil());
+    }
 
 private:
     StencilVolumes volumes_;

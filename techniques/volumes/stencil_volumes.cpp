@@ -8,8 +8,9 @@
 namespace shadowbench::techniques {
 namespace {
 
-// The stencil holds 8 bits: 256 volumes around a point would count as none. So many placements at most are counted together;
-// a point within 256 layers of so many placements, some of which then shade it more than once, is not told from a lit one.
+// The stencil holds 8 bits: 256 volumes around a point would count as none. At most this many placements are counted
+// together; a point within 256 layers of their volumes, which takes placements that shade it more than once, still counts as
+// lit.
 constexpr std::size_t countedTogether = 255;
 
 void setStencilOperations(VolumeTest test) {
@@ -48,15 +49,13 @@ StencilVolumes::VolumeMesh::VolumeMesh(std::shared_ptr<const Mesh> mesh) : sourc
 }
 
 StencilVolumes::StencilVolumes(VolumeTest test)
-    : test_(test), volume_("volumes/volume.vert", "shared/maps/depth_map.frag"),
+    : test_(test), volume_("volumes/volume.vert", "gl/depth_only.frag"),
       shadowed_(gl::Program::screen("volumes/shadowed.frag")) {}
 
 void StencilVolumes::render(const Frame& frame, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,
                             const gl::Texture& visibility) {
     buildVolumes(frame);
-    depthStencil_ = &depthStencil;
-    indices_.upload(corners_.data(), corners_.size() * sizeof(std::uint32_t));
-    volume_.set("clipFromWorld", clipFromWorld).set("light", glm::vec4(frame.snapshot.light.centreOnly().homogeneous()));
+    volume_.set("clipFromWorld", clipFromWorld).set("light", glm::vec4(frame.hardLight.homogeneous()));
 
     const gl::RenderTarget target({&visibility, &depthStencil});
     target.clearColour(0, glm::vec4(1));
@@ -65,8 +64,8 @@ void StencilVolumes::render(const Frame& frame, const glm::mat4& clipFromWorld, 
     for (std::size_t first = 0; first < draws_.size(); first += group) {
         target.clearStencil();
         target.bind();
-        count(first, std::min(first + group, draws_.size()));
-        darken(target);
+        count(frame, first, std::min(first + group, draws_.size()));
+        darken(frame, target);
     }
 }
 
@@ -85,7 +84,8 @@ const StencilVolumes::VolumeMesh& StencilVolumes::volumeMesh(const std::shared_p
 
 /// The volumes of all placements, each with its own light position in object space.
 void StencilVolumes::buildVolumes(const Frame& frame) {
-    const glm::dvec4 light = frame.snapshot.light.centreOnly().homogeneous();
+    const auto pass = frame.pass("silhouette volumes");
+    const glm::dvec4 light = frame.hardLight.homogeneous();
     const Caps caps = test_ == VolumeTest::DepthFail ? Caps::Both : Caps::None;
     draws_.clear();
     corners_.clear();
@@ -98,9 +98,11 @@ void StencilVolumes::buildVolumes(const Frame& frame) {
             draws_.push_back({&mesh, first, capCorners, corners_.size() - first - capCorners});
         }
     }
+    indices_.upload(corners_.data(), corners_.size() * sizeof(std::uint32_t));
 }
 
-void StencilVolumes::count(std::size_t first, std::size_t last) const {
+void StencilVolumes::count(const Frame& frame, std::size_t first, std::size_t last) const {
+    const auto pass = frame.pass("stencil count");
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glEnable(GL_STENCIL_TEST);
     setStencilOperations(test_);
@@ -128,8 +130,8 @@ void StencilVolumes::drawVolumes(std::size_t first, std::size_t last) const {
     glDepthMask(GL_TRUE);
 }
 
-std::uint64_t StencilVolumes::fragmentsPassing(unsigned depthFunction) const {
-    const gl::RenderTarget depthOnly({depthStencil_});
+std::uint64_t StencilVolumes::fragmentsPassing(unsigned depthFunction, const gl::Texture& depthStencil) const {
+    const gl::RenderTarget depthOnly({&depthStencil});
     depthOnly.bind();
     glDepthFunc(depthFunction);
     gl::FragmentMeter meter;
@@ -138,9 +140,9 @@ std::uint64_t StencilVolumes::fragmentsPassing(unsigned depthFunction) const {
     return meter.finish();
 }
 
-std::map<std::string, double> StencilVolumes::figures() const {
-    if (depthStencil_ == nullptr) return {};
-    const std::uint64_t fragments = fragmentsPassing(GL_ALWAYS), passing = fragmentsPassing(GL_LESS);
+std::map<std::string, double> StencilVolumes::figures(const gl::Texture& depthStencil) const {
+    const std::uint64_t fragments = fragmentsPassing(GL_ALWAYS, depthStencil);
+    const std::uint64_t passing = fragmentsPassing(GL_LESS, depthStencil);
     const std::uint64_t updates = test_ == VolumeTest::DepthFail ? fragments - passing : passing;
     return {{"volume_triangles", static_cast<double>(corners_.size() / 3)},
             {"volume_fragments", static_cast<double>(fragments)},
@@ -167,7 +169,8 @@ void StencilVolumes::drawCorners(std::size_t first, std::size_t count, std::size
     ++gl::Context::current().tally().draws;
 }
 
-void StencilVolumes::darken(const gl::RenderTarget& target) const {
+void StencilVolumes::darken(const Frame& frame, const gl::RenderTarget& target) const {
+    const auto pass = frame.pass("resolve");
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(GL_NOTEQUAL, 0, 0xFF);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);

@@ -21,7 +21,7 @@ enum class VolumeTest {
     ExclusiveOr, // those before it invert one bit
 };
 
-/// What every technique over `StencilVolumes` tells of a frame.
+/// What every technique over `StencilVolumes` reports of a frame.
 std::vector<Figure> volumeFigures();
 
 class StencilVolumes {
@@ -33,8 +33,8 @@ public:
     void render(const Frame& frame, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,
                 const gl::Texture& visibility);
 
-    /// `volumeFigures` of the frame last rendered: its volumes are drawn again without a trace.
-    [[nodiscard]] std::map<std::string, double> figures() const;
+    /// `volumeFigures` of the frame rendered last, against the same depth: its volumes are drawn again, and change nothing.
+    [[nodiscard]] std::map<std::string, double> figures(const gl::Texture& depthStencil) const;
 
 private:
     /// A mesh's vertices twice, at w = 1 and at w = 0, and its edges.
@@ -54,18 +54,17 @@ private:
 
     const VolumeMesh& volumeMesh(const std::shared_ptr<const Mesh>& mesh, const gl::SceneBuffers& scene);
     void buildVolumes(const Frame& frame);
-    void count(std::size_t first, std::size_t last) const;
+    void count(const Frame& frame, std::size_t first, std::size_t last) const;
     void drawVolumes(std::size_t first, std::size_t last) const;
-    [[nodiscard]] std::uint64_t fragmentsPassing(unsigned depthFunction) const;
+    [[nodiscard]] std::uint64_t fragmentsPassing(unsigned depthFunction, const gl::Texture& depthStencil) const;
     void drawCaps(const Draw& draw, std::size_t placement) const;
     void drawCorners(std::size_t first, std::size_t count, std::size_t placement) const;
-    void darken(const gl::RenderTarget& target) const;
+    void darken(const Frame& frame, const gl::RenderTarget& target) const;
 
     VolumeTest test_;
     gl::Program volume_, shadowed_;
     std::unordered_map<const Mesh*, std::unique_ptr<VolumeMesh>> meshes_;
-    std::vector<Draw> draws_; // of the frame last rendered, and the depth it was counted against
-    const gl::Texture* depthStencil_ = nullptr;
+    std::vector<Draw> draws_; // of the frame rendered last
     std::vector<std::uint32_t> corners_;
     gl::Buffer indices_;
 };

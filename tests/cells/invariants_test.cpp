@@ -85,7 +85,7 @@ std::vector<Image<float>> shortRun(Stage& stage, const std::string& name, Figure
         stage.render(*technique, frame, 1);
         images.push_back(stage.visibility());
         if (figures == Figures::Asked) {
-            EXPECT_NO_THROW(techniques::declaredFigures(*variant.entry, *technique)) << name;
+            EXPECT_NO_THROW(techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame, 1)))) << name;
         }
     }
     return images;

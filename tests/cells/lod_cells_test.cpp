@@ -17,8 +17,7 @@ public:
 
     const Record& scored(const std::string& variant) {
         if (const auto found = records_.find(variant); found != records_.end()) return found->second;
-        lod::LodCellOptions options;
-        options.time = false;
+        const MeasureOptions options{.seed = 1, .time = false, .images = {}};
         const auto silent = [](double, std::string_view) {};
         Record record;
         lod::runLodCell(cells_, techniques::parseVariant(variant), options, record, silent, {});

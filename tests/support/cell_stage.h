@@ -33,8 +33,7 @@ public:
 
     const Record& scored(const std::string& variant) {
         if (const auto found = records_.find(variant); found != records_.end()) return found->second;
-        CellOptions options;
-        options.cost.time = false;
+        const MeasureOptions options{.seed = 1, .time = false, .images = {}};
         Record record;
         CellImages images;
         runCell(scene_, stage_, truths_, techniques::parseVariant(variant), options, record, images);

@@ -86,7 +86,7 @@ inline std::map<std::string, double> figuresOf(Stage& stage, const std::string& 
     const techniques::Variant parsed = techniques::parseVariant(variant);
     const auto technique = parsed.entry->make(parsed.parameters);
     stage.render(*technique, 0, 1);
-    return techniques::declaredFigures(*parsed.entry, *technique);
+    return techniques::declaredFigures(*parsed.entry, technique->figures(stage.frame(0, 1)));
 }
 
 } // namespace shadowbench

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "techniques/filtered/deep-sm/deep_texture.h"
 #include "techniques/filtered/deep-sm/transmittance.h"
+#include "tests/support/models/deep_sm.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,8 @@
 
 namespace shadowbench::techniques {
 namespace {
+
+using models::transmittanceAt;
 
 Transmittance steps(std::vector<float> hits, int samples) {
     std::sort(hits.begin(), hits.end());

@@ -1,10 +1,10 @@
 // The exponential test without GL.
-#include "techniques/filtered/esm/esm.h"
+#include "tests/support/models/esm.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace shadowbench::techniques {
+namespace shadowbench::models {
 namespace {
 
 constexpr double c = 80;
@@ -41,4 +41,4 @@ TEST(ExponentialTest, LeaksWhereSomeOfTheKernelLiesFarther) { // a twentieth of 
 }
 
 } // namespace
-} // namespace shadowbench::techniques
+} // namespace shadowbench::models

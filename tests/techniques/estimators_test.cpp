@@ -1,8 +1,9 @@
 // The seeds' own numbers: confidence, exponential smoothing, Table 4.1, Halton points, P_inf.
 #include "techniques/maps/sm-history/sm-history.h"
-#include "techniques/sampled/temporal-soft/temporal-soft.h"
 #include "techniques/shared/casters/shadow_volume.h"
 #include "techniques/shared/sampling/sampling.h"
+#include "tests/support/models/sm_history.h"
+#include "tests/support/models/temporal_soft.h"
 
 #include <array>
 #include <cmath>
@@ -12,6 +13,8 @@
 
 namespace shadowbench::techniques {
 namespace {
+
+using namespace models;
 
 TEST(Confidence, IsOneAtATexelCentreAndZeroAtItsBorder) {
     EXPECT_DOUBLE_EQ(confidence({7.5, 3.5}), 1);

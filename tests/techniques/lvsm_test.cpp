@@ -1,10 +1,10 @@
-// Layered variance shadow maps without GL: what a layer tells apart, and the leak that clamping removes.
-#include "techniques/filtered/lvsm/lvsm.h"
-#include "techniques/filtered/vsm/vsm.h"
+// Layered variance shadow maps without GL: which depths a layer distinguishes, and the leak that clamping removes.
+#include "tests/support/models/lvsm.h"
+#include "tests/support/models/vsm.h"
 
 #include <gtest/gtest.h>
 
-namespace shadowbench::techniques {
+namespace shadowbench::models {
 namespace {
 
 TEST(DepthLayer, OneLayerIsTheWholeRange) {
@@ -61,4 +61,4 @@ TEST(LayeredMoments, KeepThePenumbraOfOneOccluder) {
 }
 
 } // namespace
-} // namespace shadowbench::techniques
+} // namespace shadowbench::models

@@ -29,7 +29,7 @@ Snapshot groundScene(const Light& light) {
 TEST(Psm, NearToTwiceNearTakesHalfOfTheMapOfTheWholeFrustum) { // course: z → 1 − 1/z
     const Light overhead = sun({0, -1, 0});
     Snapshot scene = groundScene(overhead);
-    const LightView view = fitPsm(overhead, scene, 1, {0, BehindEye::NegativeNear, PsmBody::Cube});
+    const LightView view = fitPsm(overhead, scene, scene.camera, 1, {0, BehindEye::NegativeNear, PsmBody::Cube});
     const double n = scene.camera.near, f = scene.camera.far;
     const auto along = [&](double depth) { return mapped(view, {0, 2, -depth}).y; };
     EXPECT_NEAR((along(2 * n) - along(n)) / (along(f) - along(n)), 0.5 / (1 - n / f), 1e-3);
@@ -48,7 +48,7 @@ TEST(Psm, TheShareOfNearDepthFallsAsTheVirtualCameraMovesBack) {
 TEST(Psm, ALightCloseToThePostPerspectiveBodyStillHasItAllInItsMap) { // course, "Deep Light Sources"
     const Light facing = lamp({3, 1.5, -130}); // low behind the ground's end, a hundredth beyond the body
     const Snapshot scene = groundScene(facing);
-    const LightView view = fitPsm(facing, scene, 1, {});
+    const LightView view = fitPsm(facing, scene, scene.camera, 1, {});
     ASSERT_FALSE(view.covered.empty());
     for (const glm::dvec3& corner : view.covered) {
         const glm::dvec3 at = mapped(view, corner);
@@ -59,7 +59,7 @@ TEST(Psm, ALightCloseToThePostPerspectiveBodyStillHasItAllInItsMap) { // course,
 TEST(Psm, ALightParallelToTheImagePlaneGivesEveryPixelEqualWidth) {
     for (const Light& light : {sun({0, -1, 0}), sun({0.5, -1, 0})}) {
         const Snapshot scene = groundScene(light);
-        const LightView view = fitPsm(light, scene, 1, {});
+        const LightView view = fitPsm(light, scene, scene.camera, 1, {});
         // A pixel's width on the ground grows with depth; across the view it is the same share of the map everywhere.
         const auto width = [&](double depth) {
             return glm::distance(glm::dvec2(mapped(view, {1e-3 * depth, 0, -depth})),
@@ -79,7 +79,8 @@ TEST(Psm, KeepsLightRaysOnOneTexelWithDepthGrowingAwayFromTheLight) {
         sun({0.3, -1, 0}),
     };
     for (const Light& light : lights) {
-        const LightView view = fitPsm(light, groundScene(light), 1, {});
+        const Snapshot scene = groundScene(light);
+        const LightView view = fitPsm(light, scene, scene.camera, 1, {});
         const glm::dvec3 ground(1.5, 0, -12);
         const glm::dvec4 at = light.homogeneous();
         glm::dvec3 previous = mapped(view, ground);
@@ -101,7 +102,7 @@ TEST(Psm, HoldsEveryVisiblePointWhereTheLightIsJustBehindThePostPerspectiveScene
     const Light light = sun({0.13, -0.47, -0.87});
     Snapshot scene = groundScene(light);
     scene.camera = {{0.3, 2.1, 3.4}, {-0.2, 0.3, -2.1}, {0, 1, 0}, 48, 0.3, 15};
-    const LightView view = fitPsm(light, scene, 1, {});
+    const LightView view = fitPsm(light, scene, scene.camera, 1, {});
     for (int i = 0; i < 400; ++i) {
         const glm::dvec2 pixel(5.0 * (i % 20) + 2.5, 5.0 * (i / 20) + 2.5);
         const glm::dvec3 ray = scene.camera.ray(pixel, {100, 100}), p = scene.camera.eye - scene.camera.eye.y / ray.y * ray;
@@ -125,7 +126,7 @@ TEST(Psm, AVirtualCameraHoldsTheOldFrustumAndItsNearPlane) {
 TEST(Psm, TendsToAUniformMapAsTheVirtualCameraMovesBack) {
     const Light overhead = sun({0, -1, 0});
     const Snapshot scene = groundScene(overhead);
-    const LightView far = fitPsm(overhead, scene, 1, {1e4, BehindEye::NegativeNear, PsmBody::Box});
+    const LightView far = fitPsm(overhead, scene, scene.camera, 1, {1e4, BehindEye::NegativeNear, PsmBody::Box});
     const glm::dvec3 a = mapped(far, {0, 0, -10}), b = mapped(far, {0, 0, -30}), c = mapped(far, {0, 0, -50});
     EXPECT_NEAR(glm::distance(a, b) / glm::distance(b, c), 1, 0.02);
 }
@@ -133,10 +134,10 @@ TEST(Psm, TendsToAUniformMapAsTheVirtualCameraMovesBack) {
 TEST(Psm, MovesBackUntilNothingIsBehindTheEye) {
     const Light light = sun({0.3, -1, -0.7});
     const Snapshot scene = groundScene(light);
-    const LightView lost = fitPsm(light, scene, 1, {0, BehindEye::Lost, PsmBody::Box});
+    const LightView lost = fitPsm(light, scene, scene.camera, 1, {0, BehindEye::Lost, PsmBody::Box});
     EXPECT_LT(glm::dot(lost.casterPlane, glm::dvec4(0, 1, 5, 1)), 0);
     EXPECT_GT(glm::dot(lost.casterPlane, glm::dvec4(0, 1, -5, 1)), 0);
-    const LightView back = fitPsm(light, scene, 1, {0, BehindEye::MoveBack, PsmBody::Box});
+    const LightView back = fitPsm(light, scene, scene.camera, 1, {0, BehindEye::MoveBack, PsmBody::Box});
     EXPECT_GT(glm::dot(back.casterPlane, glm::dvec4(0, 1, 99, 1)), 0);
     // The ground ends 100 m behind the eye: from there the perspective is nearly gone.
     const double first = glm::distance(mapped(back, {0, 0, -10}), mapped(back, {0, 0, -20}));

@@ -19,7 +19,7 @@ TEST(Tsm, CentreOfProjectionIsThePapers) { // η = λ δ (1 + ξ) / (λ − 2 δ
 TEST(Tsm, TheFocusRegionTakesFourFifthsOfTheMap) {
     const Light overhead = sun({0, -1, 0});
     const Snapshot scene = slabScene(overhead);
-    const LightView view = fitTsm(overhead, scene, 1, 0.3);
+    const LightView view = fitTsm(overhead, scene, scene.camera, 1, 0.3);
     // Visible depths: from where the 30° lower plane meets the slab's lower side to its far end.
     const double near = 1.95 / std::tan(glm::radians(30.0)), far = 20;
     EXPECT_NEAR(mapped(view, {0, 0, 10 - (near + 0.3 * (far - near))}).y, 2 * 0.8 - 1, 0.01);
@@ -28,7 +28,8 @@ TEST(Tsm, TheFocusRegionTakesFourFifthsOfTheMap) {
 
 TEST(Tsm, KeepsLightRaysOnOneTexel) {
     const Light light = sun({0.4, -1, 0.3});
-    const LightView view = fitTsm(light, slabScene(light), 1, 0.3);
+    const Snapshot scene = slabScene(light);
+    const LightView view = fitTsm(light, scene, scene.camera, 1, 0.3);
     const glm::dvec3 ground(1.5, 0.05, -2), above = ground - 3.0 * light.direction;
     EXPECT_NEAR(glm::distance(glm::dvec2(mapped(view, ground)), glm::dvec2(mapped(view, above))), 0, 1e-9);
     EXPECT_LT(mapped(view, above).z, mapped(view, ground).z);
@@ -36,7 +37,8 @@ TEST(Tsm, KeepsLightRaysOnOneTexel) {
 
 TEST(Tsm, IsUnwarpedInDuellingFrusta) {
     const Light light = sun({0, 0, 1});
-    const LightView view = fitTsm(light, slabScene(light), 1, 0.3);
+    const Snapshot scene = slabScene(light);
+    const LightView view = fitTsm(light, scene, scene.camera, 1, 0.3);
     const glm::dvec3 a = mapped(view, {-2, 0, 0}), b = mapped(view, {0, 0, 0}), c = mapped(view, {2, 0, 0});
     EXPECT_NEAR(glm::distance(a, b), glm::distance(b, c), 1e-6);
 }

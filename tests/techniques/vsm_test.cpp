@@ -1,6 +1,6 @@
 // Variance shadow maps without GL: Chebyshev's bound and the box that the moments are averaged over.
 #include "techniques/filtered/prefiltered_map.h"
-#include "techniques/filtered/vsm/vsm.h"
+#include "tests/support/models/vsm.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -9,6 +9,8 @@
 
 namespace shadowbench::techniques {
 namespace {
+
+using namespace models;
 
 Moments momentsOf(const std::vector<double>& depths) {
     Moments moments;

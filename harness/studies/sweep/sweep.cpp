@@ -125,11 +125,9 @@ private:
         }
         try {
             record.cell = cellId(truths, scene, variant, options_.seed);
-            CellOptions cell;
-            cell.seed = options_.seed;
-            cell.cost.time = false;
             CellImages images;
-            runCell(scene, stage, truths, variant, cell, record, images);
+            const MeasureOptions measure{.seed = options_.seed, .time = false, .images = {}};
+            runCell(scene, stage, truths, variant, measure, record, images);
         } catch (const Error& error) {
             Record failed = blankRecord(scene, variant, options_.seed);
             failed.sweep = record.sweep;

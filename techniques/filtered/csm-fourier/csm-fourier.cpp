@@ -10,15 +10,14 @@
 #include "techniques/filtered/csm-fourier/csm-fourier.h"
 
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/filtered/prefiltered_map.h"
 #include "techniques/gl/counters.h"
-#include "techniques/gl/resolve.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <map>
-#include <optional>
 #include <string>
 
 namespace shadowbench::techniques {
@@ -56,19 +55,17 @@ public:
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        last_.emplace(frame);
         map_.draw(frame);
         map_.bindTo(resolve_, frame);
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return map_.pointAt(world); }
 
-    [[nodiscard]] std::map<std::string, double> figures() const override {
-        if (!last_) return {};
+    [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
         gl::Program series = program({{"SERIES", "1"}});
-        map_.bindTo(series, *last_);
-        const gl::Texture sums(gl::Format::R32F, last_->size);
+        map_.bindTo(series, frame);
+        const gl::Texture sums(gl::Format::R32F, frame.size);
         const gl::RenderTarget target{&sums};
         target.clearColour(0, glm::vec4(0.5F)); // neither above 1 nor below 0
         target.bind();
@@ -98,7 +95,6 @@ private:
 
     int terms_;
     double damping_, offset_;
-    std::optional<Frame> last_; // the frame last rendered, for `figures`
     PrefilteredMap map_;
     gl::Program resolve_;
 };
@@ -115,7 +111,7 @@ Entry csmFourier() {
         {"offset", "1", RealRange{0.25, 1}, "of receivers towards the light, in 1/(2M) of the depth range", ""});
     return {.id = "csm-fourier",
             .title = "Convolution shadow map",
-            .source = {Seed::Dissertation, "2.2.1"},
+            .source = {Document::Dissertation, "2.2.1"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
             .figures = {{"overshoot", "largest excess of the Fourier sum above 1 or below 0 in the image (1 = full light)"},

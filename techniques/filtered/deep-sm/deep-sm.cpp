@@ -9,9 +9,9 @@
 // surface they lie on; in the compression the last segment ends as close to the true function as its error window allows,
 // where the paper takes the middle of the window for all: what is fully shadowed stays dark.
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/filtered/deep-sm/deep_texture.h"
 #include "techniques/gl/api.h"
-#include "techniques/gl/resolve.h"
 #include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
@@ -34,15 +34,14 @@ public:
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         light_ = uniformView(frame);
-        depths_.draw(light_, frame.scene);
-        buildDeepTexture(readBack_.readDepth(), samples_, error_, deep_);
-        upload();
+        depths_.draw(light_, frame);
+        build(frame);
         resolve_.set("positions", frame.gbuffer.position())
             .set("normals", frame.gbuffer.normal())
             .set("mapFromWorld", mapFromWorld(light_))
             .set("side", side_)
             .set("followPlane", followPlane_ ? 1.0F : 0.0F);
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
@@ -50,6 +49,12 @@ public:
     }
 
 private:
+    void build(const Frame& frame) {
+        const auto pass = frame.pass("deep texture");
+        buildDeepTexture(readBack_.readDepth(), samples_, error_, deep_);
+        upload();
+    }
+
     void upload() {
         if (deep_.nodes.empty()) deep_.nodes.push_back({1, 1}); // a buffer must not be empty; no texel refers to it
         firsts_.upload(deep_.first.data(), deep_.first.size() * sizeof(deep_.first.front()));
@@ -79,7 +84,7 @@ Entry deepSm() {
                        {"error", "0.04", RealRange{0, 0.5}, "of the compressed transmittance", "Lokovic and Veach 2000"}});
     return {.id = "deep-sm",
             .title = "Deep shadow map",
-            .source = {Seed::Dissertation, "2.2.1"},
+            .source = {Document::Dissertation, "2.2.1"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
             .variants = {""},

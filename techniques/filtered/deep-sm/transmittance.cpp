@@ -6,17 +6,6 @@
 
 namespace shadowbench::techniques {
 
-double transmittanceAt(std::span<const TransmittanceNode> function, double depth) {
-    const auto behind = std::find_if(function.begin(), function.end(), [&](const TransmittanceNode& node) {
-        return depth <= static_cast<double>(node.depth);
-    });
-    if (behind == function.begin()) return 1;
-    const TransmittanceNode& a = *(behind - 1);
-    if (behind == function.end()) return a.transmittance;
-    const double share = (depth - static_cast<double>(a.depth)) / static_cast<double>(behind->depth - a.depth);
-    return static_cast<double>(a.transmittance) + share * static_cast<double>(behind->transmittance - a.transmittance);
-}
-
 void gatherSteps(std::span<const float> hits, int samples, Transmittance& function) {
     function.clear();
     float passed = 1;

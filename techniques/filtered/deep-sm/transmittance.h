@@ -15,9 +15,6 @@ struct TransmittanceNode {
 /// vertices, and constant behind the last.
 using Transmittance = std::vector<TransmittanceNode>;
 
-/// Share of light that passes everything nearer than `depth`: at a jump, its upper end.
-double transmittanceAt(std::span<const TransmittanceNode> function, double depth);
-
 /// The mean of `samples` step functions: those that hit something are stopped there, at the depths of `hits` (ascending).
 /// Replaces what `function` holds.
 void gatherSteps(std::span<const float> hits, int samples, Transmittance& function);

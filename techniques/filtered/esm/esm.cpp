@@ -8,22 +8,11 @@
 // 1.3 times the cost; the default is the one lookup alone, which is what the technique is known for. Departures of the
 // remedy: the comparison follows the receiver's plane, since a slanted kernel exceeds 1 too, and kernels of more than 8
 // texels are compared at every second, fourth … texel. For the rest (footprint, box, linear depth) see vsm.cpp.
-#include "techniques/filtered/esm/esm.h"
-
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/filtered/prefiltered_map.h"
-#include "techniques/gl/resolve.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace shadowbench::techniques {
-
-double exponentialTest(double depth, double meanExponential, double c) {
-    return std::min(std::exp(-c * depth) * meanExponential, 1.0);
-}
-
-double exponentialReach(double visibility, double c) { return -std::log(visibility) / c; }
 
 namespace {
 
@@ -43,7 +32,7 @@ public:
         map_.draw(frame);
         map_.bindTo(resolve_, frame);
         if (fallsBack_) map_.bindDepthsTo(resolve_);
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return map_.pointAt(world); }
@@ -68,7 +57,7 @@ Entry esm() {
         {"tolerance", "0.02", RealRange{0, 1}, "by which the test exceeds 1 (beyond=pcf)", "Annen et al. 2008"});
     return {.id = "esm",
             .title = "Exponential shadow map",
-            .source = {Seed::Dissertation, "2.2.1"},
+            .source = {Document::Dissertation, "2.2.1"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
             .variants = {""},

@@ -1,3 +1,4 @@
+#include "filtered/esm/exponential.glsl"
 #include "filtered/prefiltered_map.glsl"
 
 uniform float c;
@@ -11,11 +12,10 @@ uniform float width;           // of the box in those
 
 /// Change of unit depth along the receiver's plane per unit of map x and y; zero where the plane is seen edge-on.
 vec2 planeSlope(vec3 world, vec3 normal) {
-    vec3 u = normalize(abs(normal.x) < 0.5 ? cross(normal, vec3(1, 0, 0)) : cross(normal, vec3(0, 1, 0)));
-    vec3 v = cross(normal, u);
-    mat2 tangents = projectedTangents(mapFromWorld, world, u, v);
+    Tangents t = tangentsOf(normal);
+    mat2 tangents = projectedTangents(mapFromWorld, world, t.u, t.v);
     if (abs(determinant(tangents)) < 1e-12) return vec2(0.0);
-    return vec2(dot(unitDepthFromWorld.xyz, u), dot(unitDepthFromWorld.xyz, v)) * inverse(tangents);
+    return vec2(dot(unitDepthFromWorld.xyz, t.u), dot(unitDepthFromWorld.xyz, t.v)) * inverse(tangents);
 }
 
 /// The share of the box's texels that are not before the receiver's plane.
@@ -44,8 +44,8 @@ void main() {
     FilteredReceiver receiver = filteredReceiver();
     visibility = 1.0;
     if (!receiver.known) return;
-    float test = exp(-c * receiver.depth) * filtered(receiver, 0).r;
-    visibility = min(test, 1.0);
+    float test = meanTest(receiver.depth, filtered(receiver, 0).r, c);
+    visibility = exponentialTest(test);
 #ifdef PCF_BEYOND
     if (test > 1.0 + tolerance) visibility = percentageCloser(receiver);
 #endif

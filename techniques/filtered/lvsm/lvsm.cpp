@@ -5,27 +5,12 @@
 // and what its kernel holds behind it is not yet clamped to 1. Departures: layers have equal thickness, where the paper also
 // places them by Lloyd's algorithm over the depths of the image; 32-bit floats, where the paper's layers need fewer bits;
 // for the rest see vsm.cpp.
-#include "techniques/filtered/lvsm/lvsm.h"
-
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/filtered/prefiltered_map.h"
 #include "techniques/filtered/vsm/vsm.h"
-#include "techniques/gl/resolve.h"
-
-#include <algorithm>
 
 namespace shadowbench::techniques {
-
-DepthLayer depthLayer(int index, int count, double overlap) {
-    const double below = index > 0 ? overlap : 0, above = index + 1 < count ? overlap : 0;
-    return {(index - below) / count, (index + 1 + above) / count};
-}
-
-double layerDepth(const DepthLayer& layer, double depth) {
-    return std::clamp((depth - layer.low) / (layer.high - layer.low), 0.0, 1.0);
-}
-
-int layerOf(double depth, int count) { return std::min(static_cast<int>(depth * count), count - 1); }
 
 namespace {
 
@@ -42,7 +27,7 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         map_.draw(frame);
         map_.bindTo(resolve_, frame);
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return map_.pointAt(world); }
@@ -64,7 +49,7 @@ Entry lvsm() {
     parameters.push_back(leastVarianceParameter());
     return {.id = "lvsm",
             .title = "Layered variance shadow map",
-            .source = {Seed::Dissertation, "2.2.1"},
+            .source = {Document::Dissertation, "2.2.1"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
             .variants = {""},

@@ -4,7 +4,7 @@
 // around the receiver, where the paper projects the pixel into the map; as for `pcf`, with bias=slope each tap is compared
 // with the depth of the receiver's plane at the tap.
 #include "techniques/contract/entry.h"
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/maps/single_map.h"
 #include "techniques/shared/sampling/sampling.h"
 
@@ -21,7 +21,7 @@ public:
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         light_ = uniformView(frame);
-        map_.draw(light_, frame.scene);
+        map_.draw(light_, frame);
         resolve_.set("positions", frame.gbuffer.position())
             .set("normals", frame.gbuffer.normal())
             .set("mapFromWorld", mapFromWorld(light_))
@@ -31,7 +31,7 @@ public:
             .set("radius", radius_)
             .set("turned", turned_ ? 1 : 0)
             .set("seed", static_cast<int>(frame.seed));
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
@@ -50,15 +50,14 @@ private:
 } // namespace
 
 Entry pcfPoisson() {
-    std::vector<Parameter> parameters{
+    std::vector<Parameter> parameters = withDepthMapParameters({
         {"taps", "16", IntegerRange{4, 64}, "taps of the disk", "dissertation 2.2.1"},
         {"radius", "3.5", RealRange{0.5, 32}, "of the disk in texels; 3.5 reaches as far as pcf:kernel=7", ""},
         {"rotate", "pixel", OneOf{{"none", "pixel"}}, "turn the disk by an angle of each pixel's own", ""},
-    };
-    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    });
     return {.id = "pcf-poisson",
             .title = "Percentage-closer filtering over a Poisson disk",
-            .source = {Seed::Dissertation, "2.2.1"},
+            .source = {Document::Dissertation, "2.2.1"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
             .variants = {""},

@@ -5,7 +5,7 @@
 // the offset follows the surface slope, here over the whole kernel), else a k×k kernel darkens every slanted surface. As the
 // sources admit, the penumbra is k texels wide wherever the occluder is.
 #include "techniques/contract/entry.h"
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/maps/midpoint_map.h"
 #include "techniques/shared/maps/single_map.h"
 
@@ -27,15 +27,15 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         light_ = uniformView(frame);
         if (map_)
-            map_->draw(light_, frame.scene);
+            map_->draw(light_, frame);
         else
-            midpoint_->draw(light_, frame.scene);
+            midpoint_->draw(light_, frame);
         resolve_.set("positions", frame.gbuffer.position())
             .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_ ? map_->texture() : midpoint_->texture());
         if (!bilinear_) // its one tap lies in the receiver's own texel
             resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", slope_ ? 1.0F : 0.0F);
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
@@ -54,15 +54,14 @@ private:
 } // namespace
 
 Entry pcf() {
-    std::vector<Parameter> parameters{
+    std::vector<Parameter> parameters = withDepthMapParameters({
         {"kernel", "3", OneOf{{"2", "3", "5", "7"}}, "taps per side; 2 is bilinear 2×2", "Zápotocký 3.2"},
         {"depth", "basic", OneOf{{"basic", "midpoint"}}, "nearest depth, or the mean of first and second surface",
          "Zápotocký 4.4.2"},
-    };
-    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    });
     return {.id = "pcf",
             .title = "Percentage-closer filtering",
-            .source = {Seed::Zapotocky, "3.2"},
+            .source = {Document::Zapotocky, "3.2"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
             .variants = {"", "kernel=7"},

@@ -9,23 +9,10 @@
 #include "techniques/filtered/vsm/vsm.h"
 
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/filtered/prefiltered_map.h"
-#include "techniques/gl/resolve.h"
-
-#include <algorithm>
 
 namespace shadowbench::techniques {
-
-double chebyshevBound(const Moments& moments, double depth, double leastVariance) {
-    if (depth <= moments.mean) return 1;
-    const double variance = std::max(moments.meanSquare - moments.mean * moments.mean, leastVariance);
-    const double beyond = depth - moments.mean;
-    return variance / (variance + beyond * beyond);
-}
-
-double withoutBleeding(double visibility, double amount) {
-    return std::clamp((visibility - amount) / (1 - amount), 0.0, 1.0);
-}
 
 Parameter leastVarianceParameter() {
     return {"variance", "1e-06", RealRange{0, 1}, "least variance of depths in [0, 1]: above what rounding leaves of none",
@@ -46,7 +33,7 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         map_.draw(frame);
         map_.bindTo(resolve_, frame);
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return map_.pointAt(world); }
@@ -64,7 +51,7 @@ Entry vsm() {
     parameters.push_back({"bleeding", "0", RealRange{0, 0.99}, "visibility taken for a leak, and removed", ""});
     return {.id = "vsm",
             .title = "Variance shadow map",
-            .source = {Seed::Dissertation, "2.2.1"},
+            .source = {Document::Dissertation, "2.2.1"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
             .variants = {""},

@@ -37,7 +37,7 @@ private:
 Entry lodBlend() {
     return {.id = "lod-blend",
             .title = "Two-phase alpha blending of levels",
-            .source = {Seed::Dissertation, "2.4.3"},
+            .source = {Document::Dissertation, "2.4.3"},
             .answer = Answer::Colour,
             .parameters = {},
             .variants = {""},

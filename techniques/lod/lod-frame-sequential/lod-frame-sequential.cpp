@@ -78,6 +78,7 @@ public:
 
 private:
     void draw(const LodFrame& frame, const LodBuffer& buffer) {
+        const auto pass = frame.pass("LOD buffer");
         std::vector<LevelDraw> still, inTransition;
         for (const LevelDraw& draw : alternation_.next(frame.instances))
             (draw.id == 0 ? still : inTransition).push_back(draw);
@@ -100,6 +101,7 @@ private:
 
     /// `first`: both buffers are of this very frame.
     void combine(const LodFrame& frame, const LodPicture& picture, bool first) {
+        const auto pass = frame.pass("combination");
         combine_.set("newColour", newer_->colour)
             .set("newData", newer_->data)
             .set("oldColour", older_->colour)
@@ -140,7 +142,7 @@ private:
 Entry lodFrameSequential() {
     return {.id = "lod-frame-sequential",
             .title = "Frame-sequential interpolation of levels",
-            .source = {Seed::Dissertation, "chapter 5, listings 5.1 and 6.3"},
+            .source = {Document::Dissertation, "chapter 5, listings 5.1 and 6.3"},
             .answer = Answer::Colour,
             .temporal = true,
             .parameters = {{"vis", "noise", OneOf{{"noise", "checker", "centre-out"}},

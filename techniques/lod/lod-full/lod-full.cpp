@@ -22,7 +22,7 @@ private:
 Entry lodFull() {
     return {.id = "lod-full",
             .title = "Always the finest level of detail",
-            .source = {Seed::Dissertation, "chapter 5"},
+            .source = {Document::Dissertation, "chapter 5"},
             .answer = Answer::Colour,
             .parameters = {},
             .variants = {""},

@@ -23,7 +23,7 @@ private:
 Entry lodSwitch() {
     return {.id = "lod-switch",
             .title = "Discrete switching of levels",
-            .source = {Seed::Dissertation, "2.4.2"},
+            .source = {Document::Dissertation, "2.4.2"},
             .answer = Answer::Colour,
             .parameters = {},
             .variants = {""},

@@ -4,7 +4,7 @@
 // drawn at a time, the pixels in them are tested, and the map is used again: up to (page · 2^levels)² texels in effect.
 // Departures: every pixel is asked, not those of a reduced buffer or one of each connected surface; nothing is kept from
 // frame to frame; only placements whose box meets a page are drawn into it.
-// Its price is passes, one a page: `pages` bounds them. Where they do not suffice, those pages stay coarse whose texels are
+// It costs a pass a page: `pages` bounds them. Where they do not suffice, those pages stay coarse whose texels are
 // too long by the least, summed over their pixels.
 #include "base/error.h"
 #include "techniques/contract/entry.h"
@@ -32,10 +32,10 @@ public:
           maps_(p.integer("map"), cells_, static_cast<float>(limits_.texels) * static_cast<float>(cells_), biasFrom(p)) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        maps_.shade(frame, tilesOf(refine(maps_.demands(frame, visibility), limits_)), slots(), visibility);
+        maps_.shade(frame, chosenPages(frame, maps_.demands(frame, visibility)), slots(), visibility);
     }
 
-    [[nodiscard]] std::map<std::string, double> figures() const override {
+    [[nodiscard]] std::map<std::string, double> figures(const Frame& /*frame*/) const override {
         const std::size_t pages = maps_.tiles().size();
         return {{"pages", static_cast<double>(pages)},
                 {"fillings", static_cast<double>((pages + slots() - 1) / slots())},
@@ -48,6 +48,11 @@ private:
     /// How many pages the map holds at a time.
     [[nodiscard]] std::size_t slots() const {
         return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(columns_);
+    }
+
+    [[nodiscard]] std::vector<PlaneTile> chosenPages(const Frame& frame, std::vector<Demand> demands) const {
+        const auto pass = frame.pass("refinement");
+        return tilesOf(refine(std::move(demands), limits_));
     }
 
     /// The pages, slot after slot of the map, again from the first when all are taken.
@@ -71,17 +76,16 @@ private:
 } // namespace
 
 Entry smAdaptive() {
-    std::vector<Parameter> parameters{
+    std::vector<Parameter> parameters = withDepthMapParameters({
         {"page", "128", IntegerRange{16, 1024}, "texels per side of a page", ""},
         {"levels", "8", IntegerRange{0, 8}, "how often a page may be cut in four: (page · 2^levels)² texels at most",
          "dissertation, 2.2.2"},
         {"pages", "1024", IntegerRange{6, 4096}, "pages drawn a frame, at most: one pass each", ""},
         {"density", "1", RealRange{0.125, 16}, "texels along a pixel, at least, where pages and levels suffice", ""},
-    };
-    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    });
     return {.id = "sm-adaptive",
             .title = "Adaptive shadow map (fitted virtual)",
-            .source = {Seed::Dissertation, "2.2.2, Subdivision"},
+            .source = {Document::Dissertation, "2.2.2, Subdivision"},
             .answer = Answer::Hard,
             .parameters = std::move(parameters),
             .figures = {{"pages", "pages drawn, one pass each"},

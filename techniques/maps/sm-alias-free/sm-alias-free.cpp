@@ -5,7 +5,7 @@
 // projection's bounding box, not of a conservative rasterisation, and the test is made in world space relative to the
 // pixel's point.
 #include "techniques/contract/entry.h"
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/maps/depth_map.h"
 #include "techniques/shared/maps/single_map.h"
 
@@ -33,8 +33,17 @@ public:
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const auto pixels = static_cast<std::size_t>(frame.size.x) * static_cast<std::size_t>(frame.size.y);
-        clear(pixels, triangles(frame.scene.batches()));
+        binPixels(frame, pixels);
+        castAll(frame, pixels);
+        resolve_.set("width", frame.size.x);
+        resolve(frame, {&visibility}, resolve_);
+    }
 
+private:
+    /// Puts the pixels into the lists of their cells.
+    void binPixels(const Frame& frame, std::size_t pixels) {
+        const auto pass = frame.pass("pixel lists");
+        clear(pixels, triangles(frame.scene.batches()));
         const LightView view = focusedView(frame);
         for (gl::Program* program : {&bin_, &cast_})
             program->set("mapFromWorld", mapFromWorld(view))
@@ -42,12 +51,8 @@ public:
                 .set("nearest", static_cast<float>(view.perspective ? 1e-4 * view.far : 0));
         bin_.set("positions", frame.gbuffer.position()).set("pixels", static_cast<int>(pixels));
         bin_.dispatch(pixels);
-        castAll(frame, pixels);
-        resolve_.set("width", frame.size.x);
-        resolveInto({&visibility}, resolve_);
     }
 
-private:
     void clear(std::size_t pixels, std::size_t triangles) {
         constexpr std::size_t word = sizeof(std::uint32_t), corner = sizeof(glm::vec4);
         heads_.clear(2 * static_cast<std::size_t>(grid_) * static_cast<std::size_t>(grid_) * word);
@@ -59,9 +64,10 @@ private:
     }
 
     void castAll(const Frame& frame, std::size_t pixels) {
+        const auto pass = frame.pass("triangle tests");
         const Bounds bounds = frame.snapshot.bounds();
         for (gl::Program* program : {&cast_, &castLarge_})
-            program->set("light", glm::vec4(frame.snapshot.light.centreOnly().homogeneous()))
+            program->set("light", glm::vec4(frame.hardLight.homogeneous()))
                 .set("slack", static_cast<float>(slack_ * glm::distance(bounds.low, bounds.high)))
                 .set("positions", frame.gbuffer.position());
         frame.scene.instances().bindStorage(2);
@@ -88,7 +94,7 @@ private:
 Entry smAliasFree() {
     return {.id = "sm-alias-free",
             .title = "Alias-free shadow map (irregular z-buffer)",
-            .source = {Seed::Dissertation, "2.2.2, Irregular Sampling; 2.3.5"},
+            .source = {Document::Dissertation, "2.2.2, Irregular Sampling; 2.3.5"},
             .answer = Answer::Hard,
             .parameters = {{"grid", "256", IntegerRange{1, 2048}, "cells per side of the grid over the light's view", ""},
                            {"slack", "1e-5", RealRange{0, 1},

@@ -4,7 +4,7 @@
 // as on the right of Fig. 2.11. Departure: depths between the nearest and farthest visible point of the scene's box are
 // partitioned, not those between the camera's near and far plane.
 #include "techniques/contract/entry.h"
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/light_views/cascades.h"
 #include "techniques/shared/light_views/focused_view.h"
 #include "techniques/shared/light_views/lispsm_view.h"
@@ -36,22 +36,19 @@ public:
             slice.near = splits_[i];
             slice.far = splits_[i + 1];
             const auto fit = warped_ ? fitLispsm : fitFocused;
-            views.push_back(fit(frame.snapshot.light, frame.snapshot, slice, frame.aspect()));
+            views.push_back(fit(frame.hardLight, frame.snapshot, slice, frame.aspect()));
             ends.emplace_back(splits_[i + 1], 0, 0, 0);
         }
-        atlas_.draw(views, frame.scene);
+        atlas_.draw(views, frame);
 
         atlas_.bindTo(resolve_);
         resolve_.set("positions", frame.gbuffer.position());
         if (slices_ > 1) resolve_.set("eyeDepthFromWorld", glm::vec4(eyeDepthFromWorld_)).set("sliceEnds", ends);
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
-        const double depth = glm::dot(eyeDepthFromWorld_, glm::dvec4(world, 1));
-        std::size_t slice = 0; // as in sm-cascaded.frag
-        while (slice + 2 < splits_.size() && depth > splits_[slice + 1]) ++slice;
-        return atlas_.pointAt(slice, world);
+        return atlas_.pointAt(sliceOf(splits_, glm::dot(eyeDepthFromWorld_, glm::dvec4(world, 1))), world);
     }
 
 private:
@@ -67,17 +64,16 @@ private:
 } // namespace
 
 Entry smCascaded() {
-    std::vector<Parameter> parameters{
+    std::vector<Parameter> parameters = withDepthMapParameters({
         {"slices", "4", IntegerRange{1, 8}, "parts of the view frustum; their maps have map² texels together",
          "dissertation, Fig. 2.11"},
         {"lambda", "0.5", RealRange{0, 1}, "share of geometrical (1) against even (0) steps between slices",
          "dissertation, 2.2.2"},
         {"warp", "none", OneOf{{"none", "lispsm"}}, "warp of each slice's map", "dissertation, Fig. 2.11"},
-    };
-    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    });
     return {.id = "sm-cascaded",
             .title = "Cascaded shadow maps",
-            .source = {Seed::Dissertation, "2.2.2, Fig. 2.11"},
+            .source = {Document::Dissertation, "2.2.2, Fig. 2.11"},
             .answer = Answer::Hard,
             .parameters = std::move(parameters),
             .variants = {""},

@@ -2,7 +2,7 @@
 // light sources). The six share the texels of one map of `map`² and lie in one texture, which tests as a cube map does.
 #include "techniques/contract/applicability.h"
 #include "techniques/contract/entry.h"
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/light_views/cube_view.h"
 #include "techniques/shared/maps/depth_atlas.h"
 
@@ -17,10 +17,10 @@ public:
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         light_ = frame.snapshot.light.centre;
-        atlas_.draw(cubeViews(light_, boundingCorners(frame.snapshot)), frame.scene);
+        atlas_.draw(cubeViews(light_, boundingCorners(frame.snapshot)), frame);
         atlas_.bindTo(resolve_);
         resolve_.set("positions", frame.gbuffer.position()).set("light", glm::vec3(light_));
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
@@ -38,7 +38,7 @@ private:
 Entry smCube() {
     return {.id = "sm-cube",
             .title = "Cube shadow map",
-            .source = {Seed::Course, "Extensions"},
+            .source = {Document::Course, "Extensions"},
             .answer = Answer::Hard,
             .notApplicable = lightWithoutPosition,
             .parameters = depthMapParameters(),

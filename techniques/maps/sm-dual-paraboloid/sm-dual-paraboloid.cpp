@@ -5,12 +5,14 @@
 // its half space, for texels on the rim.
 #include "techniques/contract/applicability.h"
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
-#include "techniques/gl/resolve.h"
+#include "techniques/maps/sm-dual-paraboloid/paraboloid.h"
 #include "techniques/shared/maps/depth_atlas.h"
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -18,12 +20,14 @@
 namespace shadowbench::techniques {
 namespace {
 
+gl::Defines paraboloidDefines() { return {{"FILLED", fmt::format("{}", paraboloidFilled)}}; }
+
 class DualParaboloid final : public Technique {
 public:
     explicit DualParaboloid(const Parameters& p)
         : bias_(biasFrom(p)), atlas_(squareTiles(p.integer("map"), 2), bias_),
-          draw_("maps/sm-dual-paraboloid/paraboloid.vert", "shared/maps/depth_map.frag"),
-          resolve_(gl::Program::screen("maps/sm-dual-paraboloid/sm-dual-paraboloid.frag")) {}
+          draw_("maps/sm-dual-paraboloid/paraboloid.vert", "gl/depth_only.frag", paraboloidDefines()),
+          resolve_(gl::Program::screen("maps/sm-dual-paraboloid/sm-dual-paraboloid.frag", paraboloidDefines())) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const glm::dvec3 light = frame.snapshot.light.centre;
@@ -33,7 +37,7 @@ public:
         views_ = halfSpaces(light, frame.snapshot.bounds().centre());
 
         draw_.set("far", far).set("constantBias", static_cast<float>(bias_.units * depthStep));
-        atlas_.drawTiles([&](std::size_t i) {
+        atlas_.drawTiles(frame, [&](std::size_t i) {
             const CasterState state(bias_);
             glEnable(GL_CLIP_DISTANCE0);
             draw_.set("lightFromWorld", glm::mat4(views_[i])).use();
@@ -44,16 +48,15 @@ public:
             .set("depthAtlas", atlas_.texture())
             .set("lightFromWorld", glm::mat4(views_[0]))
             .set("far", far);
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
-        constexpr double filled = 0.95; // as in paraboloid.glsl
-        const glm::dvec3 front = glm::normalize(glm::dvec3(views_[0] * glm::dvec4(world, 1)));
-        const std::size_t half = front.z < 0 ? 1 : 0;
-        const glm::dvec3 n = half == 1 ? front * glm::dvec3(-1, 1, -1) : front;
-        const Tile& tile = atlas_.tiles()[half];
-        return glm::dvec2(tile.at) + (0.5 + 0.5 * filled * glm::dvec2(n) / (1 + n.z)) * glm::dvec2(tile.size);
+        const glm::dvec3 front(views_[0] * glm::dvec4(world, 1));
+        const bool back = front.z < 0; // as in sm-dual-paraboloid.frag
+        const glm::dvec2 at(paraboloid(back ? front * glm::dvec3(-1, 1, -1) : front, 1));
+        const Tile& tile = atlas_.tiles()[back ? 1 : 0];
+        return glm::dvec2(tile.at) + (0.5 + 0.5 * at) * glm::dvec2(tile.size);
     }
 
 private:
@@ -78,7 +81,7 @@ private:
 Entry smDualParaboloid() {
     return {.id = "sm-dual-paraboloid",
             .title = "Dual-paraboloid shadow map",
-            .source = {Seed::Course, "Extensions"},
+            .source = {Document::Course, "Extensions"},
             .answer = Answer::Hard,
             .notApplicable = lightWithoutPosition,
             .parameters = depthMapParameters(),

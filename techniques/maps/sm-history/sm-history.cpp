@@ -6,27 +6,15 @@
 #include "techniques/maps/sm-history/sm-history.h"
 
 #include "techniques/contract/entry.h"
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/maps/single_map.h"
 #include "techniques/shared/sampling/sampling.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <optional>
 
 namespace shadowbench::techniques {
-
-double confidence(glm::dvec2 texel) {
-    const double dx = std::abs(texel.x - std::floor(texel.x) - 0.5);
-    const double dy = std::abs(texel.y - std::floor(texel.y) - 0.5);
-    return 1 - 2 * std::max(dx, dy);
-}
-
-double smoothed(double previous, double current, double confidence, double m) {
-    const double w = std::pow(confidence, m);
-    return w * current + (1 - w) * previous;
-}
 
 double MSchedule::next(bool moved) {
     if (moved)
@@ -57,7 +45,7 @@ public:
         if (fresh) history_.emplace(frame.size);
 
         light_ = rasterisedAnew(fit_(frame), frame);
-        map_.draw(light_, frame.scene);
+        map_.draw(light_, frame);
         resolve_.set("positions", frame.gbuffer.position())
             .set("previousPositions", frame.gbuffer.previousPosition())
             .set("mapFromWorld", mapFromWorld(light_))
@@ -68,7 +56,7 @@ public:
             .set("m", static_cast<float>(schedule_.next(frame.cameraMoved())))
             .set("hasHistory", fresh ? 0 : 1);
         if (filtered_) resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", followPlane_ ? 1.0F : 0.0F);
-        resolveInto({&visibility, &history_->write}, resolve_);
+        resolve(frame, {&visibility, &history_->write}, resolve_, "temporal resolve");
         std::swap(history_->read, history_->write);
     }
 
@@ -106,22 +94,22 @@ private:
 } // namespace
 
 Entry smHistory() {
-    std::vector<Parameter> parameters{
+    std::vector<Parameter> parameters = withDepthMapParameters({
         {"base", "lispsm", OneOf{{"uniform", "lispsm"}}, "how the map under the history is fitted", "EGSR paper, 4"},
         {"filter", "none", OneOf{{"none", "pcf"}}, "of each frame's test: none or PCF 3×3", "EGSR paper, Fig. 6"},
         {"m", "3", RealRange{0, 64}, "exponent of the confidence while the camera moves", "EGSR paper, 3.3"},
         {"step", "0.1", RealRange{0, 16}, "added to m for each frame that the camera stands still", "EGSR paper, 4"},
         {"jitter", "rotation", OneOf{{"none", "translation", "rotation"}}, "none, Halton translation, or with rotation too",
          "EGSR paper, 3.3"},
-    };
-    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    });
     return {.id = "sm-history",
             .title = "Pixel-correct shadow map with history",
-            .source = {Seed::PixelCorrectPaper, "3, listing 6.1 of the dissertation"},
+            .source = {Document::PixelCorrectPaper, "3, listing 6.1 of the dissertation"},
             .answer = Answer::Hard,
             .temporal = true,
             .parameters = std::move(parameters),
             .variants = {"", "m=15,step=0", "base=uniform", "filter=pcf"},
+            .costBase = [](const Parameters& p) { return "sm-" + p.text("base") + ":map=" + p.text("map"); },
             .make = [](const Parameters& p) { return std::make_unique<History>(p); }};
 }
 

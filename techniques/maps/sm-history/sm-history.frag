@@ -1,6 +1,7 @@
 // One frame of pixel-correct shadow maps.
 #include "gl/half.glsl"
 #include "gl/receiver.glsl"
+#include "maps/sm-history/history.glsl"
 #include "shared/filters/pcf.glsl"
 
 uniform sampler2DShadow depthMap;
@@ -34,12 +35,6 @@ float currentTest(MapPoint point, vec3 world) {
     return percentageCloser(depthMap, point, slope, KERNEL);
 }
 
-/// Eq. 3.6.
-float confidence(MapPoint point) {
-    vec2 fromCentre = abs(fract(point.at.xy * vec2(textureSize(depthMap, 0))) - 0.5);
-    return 1.0 - 2.0 * max(fromCentre.x, fromCentre.y);
-}
-
 void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
     if (!receiver.seen) {
@@ -54,8 +49,10 @@ void main() {
     bool inside = all(greaterThanEqual(before.xy, vec2(0.0))) && all(lessThanEqual(before.xy, vec2(1.0)));
     if (hasHistory == 1 && inside) {
         vec2 old = texture(history, before.xy).xy;
-        if (abs(old.y - before.z) < depthTolerance)
-            visibility = mix(old.x, visibility, pow(confidence(point), m));  // eq. 3.3, 3.7
+        if (abs(old.y - before.z) < depthTolerance) {
+            float sure = confidence(point.at.xy * vec2(textureSize(depthMap, 0)));
+            visibility = smoothed(old.x, visibility, sure, m);
+        }
     }
     newHistory = toHalf(vec2(visibility, windowPosition(clipFromWorld, receiver.position).z));
 }

@@ -10,7 +10,7 @@ namespace shadowbench::techniques {
 Entry smMidpoint() {
     return {.id = "sm-midpoint",
             .title = "Midpoint shadow map",
-            .source = {Seed::Course, "Bias; Zápotocký 4.4.2"},
+            .source = {Document::Course, "Bias; Zápotocký 4.4.2"},
             .answer = Answer::Hard,
             .parameters = {mapParameter(),
                            {"second", "surface", OneOf{{"surface", "backface"}},

@@ -126,12 +126,12 @@ Camera movedBack(const Camera& camera, double shift) {
     return moved;
 }
 
-Camera virtualCamera(const Snapshot& snapshot, double aspect, const PsmOptions& options) {
-    Camera camera = snapshot.camera;
-    camera.far = visibleDepths(snapshot.bounds(), camera, aspect).far;
+Camera virtualCamera(const Snapshot& snapshot, const Camera& camera, double aspect, const PsmOptions& options) {
+    Camera shortened = camera;
+    shortened.far = visibleDepths(snapshot.bounds(), camera, aspect).far;
     double shift = options.shift;
-    if (options.behindEye == BehindEye::MoveBack) shift = std::max(shift, clearance(snapshot, camera));
-    return movedBack(camera, shift);
+    if (options.behindEye == BehindEye::MoveBack) shift = std::max(shift, clearance(snapshot, shortened));
+    return movedBack(shortened, shift);
 }
 
 double nearDepthShare(const Camera& camera, const Camera& eye, double aspect) {
@@ -143,17 +143,18 @@ double nearDepthShare(const Camera& camera, const Camera& eye, double aspect) {
     return depth(2 * camera.near) - depth(camera.near);
 }
 
-LightView fitPsm(const Light& light, const Snapshot& snapshot, double aspect, const PsmOptions& options) {
-    LightView view = fitToScene(light.centreOnly(), snapshot);
+LightView fitPsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect,
+                 const PsmOptions& options) {
+    LightView view = fitToScene(light, snapshot);
     const glm::dvec4 nearPlane = view.depthFromWorld - glm::dvec4(0, 0, 0, view.near);
-    std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), snapshot.camera, aspect, {&nearPlane, 1});
+    std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, {&nearPlane, 1});
     if (body.size() < 3) return view;
 
-    const Camera eye = virtualCamera(snapshot, aspect, options);
+    const Camera eye = virtualCamera(snapshot, camera, aspect, options);
     const glm::dmat4 clipFromWorld = eye.projection(aspect) * eye.view();
 
     const std::vector<glm::dvec4> points = inClipSpace(body, clipFromWorld, options.body);
-    view.clipFromWorld = projectionFrom(clipFromWorld * light.centreOnly().homogeneous(), points) * clipFromWorld;
+    view.clipFromWorld = projectionFrom(clipFromWorld * light.homogeneous(), points) * clipFromWorld;
     view.covered = std::move(body);
     if (options.behindEye == BehindEye::Lost) {
         const glm::dvec3 forward = eye.basis().forward;

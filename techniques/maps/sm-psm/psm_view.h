@@ -24,17 +24,18 @@ struct PsmOptions {
 /// stay where they are (course, "Near/Far Selection", Kozlov 2004).
 Camera movedBack(const Camera& camera, double shift);
 
-/// The camera whose perspective the map's space comes after: moved back as the options say, its far plane where the visible
-/// part of the scene ends.
-Camera virtualCamera(const Snapshot& snapshot, double aspect, const PsmOptions& options);
+/// The camera whose perspective the map's space comes after: `camera` moved back as the options say, its far plane where the
+/// visible part of the scene ends.
+Camera virtualCamera(const Snapshot& snapshot, const Camera& camera, double aspect, const PsmOptions& options);
 
 /// Share of the post-perspective depth range of `eye`, a virtual camera behind `camera`, between the near plane of `camera`
 /// and twice its distance. Half of it if they are the same camera and the far plane is far (course, "Near/Far Selection").
 double nearDepthShare(const Camera& camera, const Camera& eye, double aspect);
 
-/// Perspective shadow map (Stamminger, Drettakis 2002; course, "Perspective Shadow Maps"): the light frustum fitted in the
-/// space after the camera's perspective. The light becomes a point there, at infinity if it lies in the camera's plane.
-/// Falls back to `fitToScene` where nothing visible lies in front of the light.
-LightView fitPsm(const Light& light, const Snapshot& snapshot, double aspect, const PsmOptions& options);
+/// Perspective shadow map (Stamminger, Drettakis 2002; course, "Perspective Shadow Maps") of a hard light: its frustum
+/// fitted in the space after the perspective of `camera`. The light becomes a point there, at infinity if it lies in the
+/// camera's plane. Falls back to `fitToScene` where nothing visible lies in front of the light.
+LightView fitPsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect,
+                 const PsmOptions& options);
 
 } // namespace shadowbench::techniques

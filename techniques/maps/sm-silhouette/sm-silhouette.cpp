@@ -3,10 +3,10 @@
 // edge. Course, "Shadow Silhouette Maps". Departures: outlines are projected by the CPU; the slope factor of the bias is 2,
 // for four samples up to a texel away in x and y; borders of open meshes are outlines too.
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
 #include "techniques/gl/counters.h"
-#include "techniques/gl/resolve.h"
 #include "techniques/maps/sm-silhouette/outline.h"
 #include "techniques/shared/maps/depth_map.h"
 #include "techniques/shared/maps/single_map.h"
@@ -39,25 +39,21 @@ public:
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        last_.emplace(frame);
         light_ = uniformView(frame);
-        map_.draw(light_, frame.scene);
-        const std::vector<DualEdge> edges = outlines(frame, light_);
-        edgeCount_ = edges.size();
-        buffer_.upload(edges.data(), edges.size() * sizeof(DualEdge));
-        drawOutlines(edge_);
-        bindTo(resolve_);
-        resolveInto({&visibility}, resolve_);
+        map_.draw(light_, frame);
+        uploadOutlines(frame);
+        drawSilhouetteMap(frame);
+        bindTo(resolve_, frame);
+        resolve(frame, {&visibility}, resolve_);
     }
 
-    [[nodiscard]] std::map<std::string, double> figures() const override {
-        if (!last_) return {};
+    [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
         constexpr double depth = 4, point = 4; // bytes
-        const CasterFragments casters = map_.fragments(light_, last_->scene);
+        const CasterFragments casters = map_.fragments(light_, frame);
         const double cells = outlineFragments({{"CROSSED", "1"}}), points = outlineFragments({});
-        const double tested = pixels({{"TESTED", "1"}}), branch = pixels({{"BRANCH", "1"}});
-        const double facing = pixels({{"TESTED", "1"}, {"FACING", "1"}});
-        const double facingBranch = pixels({{"BRANCH", "1"}, {"FACING", "1"}});
+        const double tested = pixels(frame, {{"TESTED", "1"}}), branch = pixels(frame, {{"BRANCH", "1"}});
+        const double facing = pixels(frame, {{"TESTED", "1"}, {"FACING", "1"}});
+        const double facingBranch = pixels(frame, {{"BRANCH", "1"}, {"FACING", "1"}});
         std::map<std::string, double> figures{
             {"map_bytes",
              depth * static_cast<double>(casters.rasterised + casters.written) + 4 * depth * cells + point * points},
@@ -84,8 +80,16 @@ private:
         return entry->edges;
     }
 
+    /// Finds the outlines of all placements, in the map drawn last, for `drawOutlines`.
+    void uploadOutlines(const Frame& frame) {
+        const auto pass = frame.pass("silhouette edges");
+        const std::vector<DualEdge> edges = outlines(frame, light_);
+        edgeCount_ = edges.size();
+        buffer_.upload(edges.data(), edges.size() * sizeof(DualEdge));
+    }
+
     std::vector<DualEdge> outlines(const Frame& frame, const LightView& view) {
-        const glm::dvec4 light = frame.snapshot.light.centreOnly().homogeneous();
+        const glm::dvec4 light = frame.hardLight.homogeneous();
         std::vector<DualEdge> result;
         for (const Batch& batch : frame.snapshot.batches) {
             const EdgeMesh& mesh = edgesOf(batch.mesh);
@@ -98,6 +102,11 @@ private:
             }
         }
         return result;
+    }
+
+    void drawSilhouetteMap(const Frame& frame) {
+        const auto pass = frame.pass("silhouette map");
+        drawOutlines(edge_);
     }
 
     /// Every cell starts with its middle; later edges overwrite earlier ones.
@@ -113,14 +122,13 @@ private:
         ++gl::Context::current().tally().draws;
     }
 
-    void bindTo(gl::Program& resolve) const {
-        resolve.set("positions", last_->gbuffer.position())
+    void bindTo(gl::Program& program, const Frame& frame) const {
+        program.set("positions", frame.gbuffer.position())
             .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_.texture());
-        if (resolve.uses("silhouetteMap")) resolve.set("silhouetteMap", points_);
-        if (!resolve.uses("light")) return;
-        resolve.set("light", glm::vec4(last_->snapshot.light.centreOnly().homogeneous()))
-            .set("normals", last_->gbuffer.normal());
+        if (program.uses("silhouetteMap")) program.set("silhouetteMap", points_);
+        if (!program.uses("light")) return;
+        program.set("light", glm::vec4(frame.hardLight.homogeneous())).set("normals", frame.gbuffer.normal());
     }
 
     [[nodiscard]] double outlineFragments(const gl::Defines& defines) const {
@@ -131,16 +139,15 @@ private:
     }
 
     /// Pixels of the image that get as far as `defines` says (sm-silhouette.frag).
-    [[nodiscard]] double pixels(const gl::Defines& defines) const {
-        const gl::Texture image(gl::Format::R8, last_->size);
-        gl::Program resolve = gl::Program::screen("maps/sm-silhouette/sm-silhouette.frag", defines);
-        bindTo(resolve);
+    [[nodiscard]] double pixels(const Frame& frame, const gl::Defines& defines) const {
+        const gl::Texture image(gl::Format::R8, frame.size);
+        gl::Program counted = gl::Program::screen("maps/sm-silhouette/sm-silhouette.frag", defines);
+        bindTo(counted, frame);
         gl::FragmentMeter meter;
-        resolveInto({&image}, resolve);
+        resolve(frame, {&image}, counted);
         return static_cast<double>(meter.finish());
     }
 
-    std::optional<Frame> last_; // the frame last rendered, for `figures`
     LightView light_;
     std::size_t edgeCount_ = 0;
     DepthMap map_;
@@ -160,7 +167,7 @@ Entry smSilhouette() {
         if (parameter.name == "factor") parameter.defaultValue = std::string("2");
     return {.id = "sm-silhouette",
             .title = "Shadow silhouette map",
-            .source = {Seed::Course, "Shadow Silhouette Maps"},
+            .source = {Document::Course, "Shadow Silhouette Maps"},
             .answer = Answer::Hard,
             .parameters = std::move(parameters),
             .figures = {{"silhouette_branch", "share of the pixels facing the light whose four depth tests differ"},

@@ -17,10 +17,9 @@ double tsmCentre(double height, double focus, double rule) {
     return room <= 0 ? std::numeric_limits<double>::infinity() : height * focus * (1 - rule) / room;
 }
 
-LightView fitTsm(const Light& light, const Snapshot& snapshot, double aspect, double focus) {
+LightView fitTsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect, double focus) {
     constexpr double rule = 0.8;
-    const Camera& camera = snapshot.camera;
-    LightView view = fitToScene(light.centreOnly(), snapshot);
+    LightView view = fitToScene(light, snapshot);
     const glm::dvec4 nearPlane = view.depthFromWorld - glm::dvec4(0, 0, 0, view.near);
     std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, {&nearPlane, 1});
     if (body.size() < 3) return view;
@@ -38,12 +37,12 @@ LightView fitTsm(const Light& light, const Snapshot& snapshot, double aspect, do
         return !view.perspective || glm::dot(nearPlane, glm::dvec4(p, 1)) >= 0;
     };
     const glm::dvec2 start = mapped(onAxis(0)), line = mapped(onAxis(1)) - start;
-    const Extent unwarped = extentOf(plane, body);
+    const Bounds unwarped = boundsOf(plane, body);
     const bool degenerate = !beforeLight(onAxis(0)) || !beforeLight(onAxis(1)) ||
                             glm::length(line) < 1e-3 * glm::length(glm::dvec2(unwarped.high - unwarped.low));
     if (!degenerate) {
         plane = glm::rotate(glm::dmat4(1), std::atan2(line.x, line.y), glm::dvec3(0, 0, 1)) * plane; // brings it onto +y
-        const Extent box = extentOf(plane, body);
+        const Bounds box = boundsOf(plane, body);
         const double height = box.high.y - box.low.y;
         const double eta = tsmCentre(height, mapped(onAxis(focus)).y - box.low.y, rule);
         if (std::isfinite(eta) && eta > 0) {
@@ -54,7 +53,7 @@ LightView fitTsm(const Light& light, const Snapshot& snapshot, double aspect, do
             plane = warp * glm::translate(glm::dmat4(1), glm::dvec3(-centre, 0)) * plane;
         }
     }
-    view.clipFromWorld = fitMatrix(extentOf(plane, body), 0) * plane;
+    view.clipFromWorld = fitMatrix(boundsOf(plane, body), 0) * plane;
     view.covered = std::move(body);
     return view;
 }

@@ -8,7 +8,7 @@ namespace shadowbench::techniques {
 Entry smUniform() {
     return {.id = "sm-uniform",
             .title = "Shadow map, uniform",
-            .source = {Seed::Course, "Shadow Mapping"},
+            .source = {Document::Course, "Shadow Mapping"},
             .answer = Answer::Hard,
             .parameters = depthMapParameters(),
             .variants = {""},

@@ -6,7 +6,8 @@ namespace {
 
 class None final : public Technique {
 public:
-    void render(const Frame& /*frame*/, const gl::Texture& visibility) override {
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        const auto pass = frame.pass("clear");
         gl::RenderTarget({&visibility}).clearColour(0, glm::vec4(1));
     }
 };
@@ -16,7 +17,7 @@ public:
 Entry none() {
     return {.id = "none",
             .title = "No shadow",
-            .source = {Seed::Zapotocky, "5.2"},
+            .source = {Document::Zapotocky, "5.2"},
             .answer = Answer::Hard,
             .parameters = {},
             .variants = {""},

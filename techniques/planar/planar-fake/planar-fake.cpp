@@ -3,8 +3,8 @@
 // light's size and the caster's height; no other surface gets a shadow. Departures: those of planar-hard; the texture lies
 // over the receiver's rectangle in its plane, since the thesis does not say what its texture is spread over.
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
-#include "techniques/gl/resolve.h"
 #include "techniques/planar/projected_casters.h"
 
 #include <glm/geometric.hpp>
@@ -40,15 +40,13 @@ public:
           resolve_(gl::Program::screen("planar/planar-fake/planar-fake.frag", {{"KERNEL", p.text("kernel")}})) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const auto receiver = finder_.find(frame.snapshot);
+        const auto receiver = finder_.find(frame.snapshot, frame.hardLight);
         if (!receiver) {
             gl::RenderTarget({&visibility}).clearColour(0, glm::vec4(1));
             return;
         }
         const glm::dmat4 clip = clipFromReceiver(*receiver);
-        shadowTarget_.clearColour(0, glm::vec4(1));
-        shadowTarget_.bind();
-        casters_.draw(frame.scene, *receiver, frame.snapshot.light.centreOnly().homogeneous(), clip, 0);
+        drawShadow(frame, *receiver, clip);
 
         const glm::dmat4 half = glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(0.5)), glm::dvec3(1));
         resolve_.set("positions", frame.gbuffer.position())
@@ -58,10 +56,17 @@ public:
             .set("margin", planeMargin(*receiver))
             .set("mapFromWorld", glm::mat4(half * clip))
             .set("shadow", shadow_);
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
 private:
+    void drawShadow(const Frame& frame, const PlanarReceiver& receiver, const glm::dmat4& clip) {
+        const auto pass = frame.pass("projected casters");
+        shadowTarget_.clearColour(0, glm::vec4(1));
+        shadowTarget_.bind();
+        casters_.draw(frame.scene, receiver, frame.hardLight.homogeneous(), clip, 0);
+    }
+
     gl::Texture shadow_;
     gl::RenderTarget shadowTarget_;
     ReceiverFinder finder_;
@@ -74,7 +79,7 @@ private:
 Entry planarFake() {
     return {.id = "planar-fake",
             .title = "Projected shadow on a plane, percentage-closer filtered",
-            .source = {Seed::Zapotocky, "5.2 and A.6"},
+            .source = {Document::Zapotocky, "5.2 and A.6"},
             .answer = Answer::Filtered,
             .notApplicable = noPlanarReceiver,
             .parameters = {{"kernel", "7", OneOf{{"3", "5", "7", "9"}}, "taps per side", "Zápotocký 5.2"},

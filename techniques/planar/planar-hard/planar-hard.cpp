@@ -15,15 +15,16 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const gl::RenderTarget target({&visibility, &frame.gbuffer.depthStencil()});
         target.clearColour(0, glm::vec4(1));
-        const auto receiver = finder_.find(frame.snapshot);
+        const auto receiver = finder_.find(frame.snapshot, frame.hardLight);
         if (!receiver) return;
         casters_.markReceiver(frame, *receiver, target);
 
+        const auto pass = frame.pass("projected casters");
         glEnable(GL_STENCIL_TEST);
         glStencilFunc(GL_EQUAL, 1, 0xFF);
         glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
         target.bind();
-        casters_.draw(frame.scene, *receiver, frame.snapshot.light.centreOnly().homogeneous(), frame.clipFromWorld, 0);
+        casters_.draw(frame.scene, *receiver, frame.hardLight.homogeneous(), frame.clipFromWorld, 0);
         glDisable(GL_STENCIL_TEST);
     }
 
@@ -37,7 +38,7 @@ private:
 Entry planarHard() {
     return {.id = "planar-hard",
             .title = "Projected shadow on a plane",
-            .source = {Seed::Zapotocky, "2.2"},
+            .source = {Document::Zapotocky, "2.2"},
             .answer = Answer::Hard,
             .notApplicable = noPlanarReceiver,
             .parameters = {},

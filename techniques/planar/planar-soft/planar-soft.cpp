@@ -2,8 +2,8 @@
 // Converges to the visible fraction of the light on the receiver's plane as N grows, at a cost that grows with N; no other
 // surface gets a shadow. Departures: those of planar-hard, and the light's points are a Hammersley set, as in sampled-maps.
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
-#include "techniques/gl/resolve.h"
 #include "techniques/planar/projected_casters.h"
 #include "techniques/shared/sampling/sampling.h"
 
@@ -24,12 +24,12 @@ public:
         if (!lit_ || lit_->size() != frame.size) lit_.emplace(gl::Format::R32F, frame.size);
         const gl::RenderTarget target({&*lit_, &frame.gbuffer.depthStencil()});
         target.clearColour(0, glm::vec4(static_cast<float>(count_)));
-        if (const auto receiver = finder_.find(frame.snapshot)) {
+        if (const auto receiver = finder_.find(frame.snapshot, frame.hardLight)) {
             casters_.markReceiver(frame, *receiver, target);
             for (int i = 0; i < count_; ++i) takeShadow(frame, *receiver, sample(i, frame), target);
         }
         mean_.set("sum", *lit_).set("count", static_cast<float>(count_));
-        resolveInto({&visibility}, mean_);
+        resolve(frame, {&visibility}, mean_);
     }
 
 private:
@@ -40,6 +40,7 @@ private:
     /// Takes one from the count of light points at each receiver pixel that the shadow from `light` covers, however often.
     void takeShadow(const Frame& frame, const PlanarReceiver& receiver, const glm::dvec3& light,
                     const gl::RenderTarget& target) {
+        const auto pass = frame.pass("projected casters");
         glEnable(GL_STENCIL_TEST);
         glStencilMask(counted);
         target.bind();
@@ -67,7 +68,7 @@ private:
 Entry planarSoft() {
     return {.id = "planar-soft",
             .title = "Projected shadows on a plane, blended",
-            .source = {Seed::Zapotocky, "2.2 and B.3"},
+            .source = {Document::Zapotocky, "2.2 and B.3"},
             .answer = Answer::Soft,
             .notApplicable = noPlanarReceiver,
             .parameters = {{"n", "64", IntegerRange{1, 4096}, "light samples, one projection each",

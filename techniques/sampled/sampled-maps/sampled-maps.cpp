@@ -1,8 +1,8 @@
 // N shadow maps over the light, averaged (Heckbert–Herf 1997): eq. 4.2 of the dissertation; Zápotocký's "sampled" methods.
 // Converges to the visible fraction of the light's area as N grows; N samples give N − 1 levels between lit and umbra.
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
-#include "techniques/gl/resolve.h"
 #include "techniques/shared/maps/depth_map.h"
 #include "techniques/shared/sampling/sampling.h"
 
@@ -26,11 +26,11 @@ public:
         const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
         for (int i = 0; i < count_; ++i) {
             const LightView light = fitFromSample(frame.snapshot.light, sample(i, frame), corners);
-            map_.draw(light, frame.scene);
+            map_.draw(light, frame);
             addTest(frame, light, sumTarget);
         }
         mean_.set("sum", *sum_).set("count", static_cast<float>(count_));
-        resolveInto({&visibility}, mean_);
+        resolve(frame, {&visibility}, mean_);
     }
 
 private:
@@ -45,6 +45,7 @@ private:
     }
 
     void addTest(const Frame& frame, const LightView& light, const gl::RenderTarget& sumTarget) {
+        const auto pass = frame.pass("shadow test");
         test_.set("positions", frame.gbuffer.position())
             .set("mapFromWorld", mapFromWorld(light))
             .set("depthMap", map_.texture());
@@ -65,18 +66,17 @@ private:
 } // namespace
 
 Entry sampledMaps() {
-    std::vector<Parameter> parameters{
+    std::vector<Parameter> parameters = withDepthMapParameters({
         {"n", "64", IntegerRange{1, 4096},
          "light samples, one map each: 256 of a scene of 100,000 triangles take some seconds a frame",
          "Zápotocký 5.2 (64 and 100)"},
         {"pattern", "hammersley", OneOf{{"hammersley", "halton", "grid"}},
          "where the samples lie: Hammersley (its first coordinate is regular in n), Halton, or a grid of ⌊√n⌋ a side",
          "dissertation 4.2"},
-    };
-    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    });
     return {.id = "sampled-maps",
             .title = "Sampled area light, one shadow map a sample",
-            .source = {Seed::Dissertation, "2.3.5, eq. 4.2"},
+            .source = {Document::Dissertation, "2.3.5, eq. 4.2"},
             .answer = Answer::Soft,
             .parameters = std::move(parameters),
             .variants = {"", "n=256"},

@@ -4,11 +4,9 @@
 // 16+16. While the estimated standard error is at least 1/50 what is shown is smoothed over the estimated penumbra; the
 // buffer is not. Departures: eq. 4.6's near/depth projection is written as pixels per metre at the receiver; the filter's
 // disk has the penumbra width as its diameter and takes neighbours whose depth agrees by eq. 4.8; the tolerance of eq. 4.8,
-// which the seed leaves open, is a parameter.
-#include "techniques/sampled/temporal-soft/temporal-soft.h"
-
+// which the dissertation leaves open, is a parameter.
 #include "techniques/contract/entry.h"
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/filters/pcss_program.h"
 #include "techniques/shared/sampling/sampling.h"
 
@@ -18,16 +16,6 @@
 #include <optional>
 
 namespace shadowbench::techniques {
-
-double occlusionEstimate(double shadowed, double n) { return shadowed / n; }
-
-double occlusionUpdate(double shadowed, double n, double tau) { return (tau + shadowed) / (n + 1); }
-
-double occlusionVariance(double estimate, double n) { return n > 1 ? estimate * (1 - estimate) / (n - 1) : 0; }
-
-double blockerUpdate(double previousMean, double depth, double i, double k) {
-    return (depth + previousMean * (i - 1 + k)) / (i + k);
-}
 
 namespace {
 
@@ -49,21 +37,21 @@ public:
         const bool fresh = !buffers_ || buffers_->size != frame.size;
         if (fresh) buffers_.emplace(frame.size, static_cast<int>(std::ceil(0.5 * overscan_ * frame.size.x)));
         gl::GBuffer& wide = buffers_->gbuffer;
-        wide.draw(frame.scene, frame.clipFromWorld);
+        drawWide(frame, wide);
 
         const Light& light = frame.snapshot.light;
         const std::uint32_t i = haltonIndex(frame.index, frame.seed);
         const LightView view =
             fitFromSample(light, light.sample({halton(i, 2), halton(i, 3)}), boundingCorners(frame.snapshot));
-        map_.draw(view, frame.scene);
+        map_.draw(view, frame);
 
         setPcss(resolve_, startTaps, light, view, map_, followPlane_);
         setFrame(frame, wide, fresh);
-        resolveInto({&buffers_->shown, &buffers_->write}, resolve_);
+        resolve(frame, {&buffers_->shown, &buffers_->write}, resolve_, "temporal resolve");
         std::swap(buffers_->read, buffers_->write);
 
         copy_.set("wide", buffers_->shown).set("border", wide.border());
-        resolveInto({&visibility}, copy_);
+        resolve(frame, {&visibility}, copy_, "crop");
     }
 
 private:
@@ -76,6 +64,11 @@ private:
         gl::GBuffer gbuffer;
         gl::Texture read, write, shown;
     };
+
+    static void drawWide(const Frame& frame, gl::GBuffer& wide) {
+        const auto pass = frame.pass("overscan G-buffer");
+        wide.draw(frame.scene, frame.clipFromWorld);
+    }
 
     static gl::Defines defines() {
         gl::Defines result = startTaps.defines();
@@ -121,7 +114,7 @@ private:
 } // namespace
 
 Entry temporalSoft() {
-    std::vector<Parameter> parameters{
+    std::vector<Parameter> parameters = withDepthMapParameters({
         {"start", "1", IntegerRange{0, 64}, "samples that the PCSS start counts for; 0 starts from the first sample alone",
          "dissertation 4.1.3, Fig. 4.6"},
         {"threshold", "0.02", RealRange{0, 1}, "standard error from which what is shown is smoothed over the penumbra",
@@ -129,11 +122,10 @@ Entry temporalSoft() {
         {"epsilon", "0.01", RealRange{1e-5, 1}, "relative depth tolerance of reprojection", "dissertation eq. 4.8"},
         {"overscan", "0.05", RealRange{0, 0.5}, "share by which the shadow buffer is larger than the image",
          "dissertation 4.2"},
-    };
-    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    });
     return {.id = "temporal-soft",
             .title = "Physically correct soft shadows over time",
-            .source = {Seed::Dissertation, "4, listing 6.2"},
+            .source = {Document::Dissertation, "4, listing 6.2"},
             .answer = Answer::Soft,
             .temporal = true,
             .parameters = std::move(parameters),

@@ -1,6 +1,7 @@
 // One frame of temporally sampled soft shadows. ψ is the occluded fraction; the output is 1 − ψ.
 #include "gl/half.glsl"
 #include "gl/receiver.glsl"
+#include "sampled/temporal-soft/estimators.glsl"
 #include "shared/filters/pcss.glsl"
 
 uniform sampler2D normals;
@@ -62,15 +63,15 @@ void main() {
     bool known = hasHistory == 1 && inside && old.y > 0.5 && sameDepth(dot(previousEyeDepth, vec4(before, 1.0)), old.z);
 
     if (known && !movingShadow) {
-        float rho = old.x + tau;  // eq. 4.5
-        float n = old.y + 1.0;
+        vec2 counts = withSample(old.xy, tau);
+        float n = counts.y;
         float blocker = old.w;
-        if (tau == 1.0)  // eq. 4.7, from the sixteen depths of the blocker search
-            blocker = old.w > 0.0 ? (abs(mapDepth) + old.w * (n - 1.0 + float(SEARCH_TAPS))) / (n + float(SEARCH_TAPS)) : abs(mapDepth);
-        newShadowBuffer = toHalf(vec4(rho, n, depth, blocker));
+        if (tau == 1.0)
+            blocker = old.w > 0.0 ? blockerUpdate(old.w, abs(mapDepth), n, float(SEARCH_TAPS)) : abs(mapDepth);
+        newShadowBuffer = toHalf(vec4(counts, depth, blocker));
 
-        float psi = rho / n;
-        float standardError = sqrt(psi * (1.0 - psi) / max(n - 1.0, 1.0));  // eq. 4.3
+        float psi = occlusionEstimate(counts.x, n);
+        float standardError = sqrt(occlusionVariance(psi, n));
         if (standardError >= threshold && blocker > 0.0) psi = neighbourhoodFilter(at, psi, depth, r.depth, blocker);
         visibility = 1.0 - psi;
         return;

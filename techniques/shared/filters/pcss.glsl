@@ -1,5 +1,7 @@
 // Percentage-closer soft shadows over a map of linear depth: blocker search, penumbra width, filter. Shared by the techniques that
 // start from it.
+#include "gl/tangents.glsl"
+
 uniform mat4 mapFromWorld;
 uniform vec4 depthFromWorld;
 uniform sampler2D linearDepth;   // negative: moving caster
@@ -20,16 +22,15 @@ struct LightReceiver {
 LightReceiver lightReceiver(vec3 world, vec3 normal) {
     vec4 h = mapFromWorld * vec4(world, 1.0);
     LightReceiver r = LightReceiver(h.xy / h.w, dot(depthFromWorld, vec4(world, 1.0)), vec2(0.0), h.w <= 0.0);
-    vec3 u = normalize(abs(normal.x) < 0.5 ? cross(normal, vec3(1, 0, 0)) : cross(normal, vec3(0, 1, 0)));
-    vec3 v = cross(normal, u);
-    vec4 hu = mapFromWorld * vec4(u, 0.0);
-    vec4 hv = mapFromWorld * vec4(v, 0.0);
+    Tangents t = tangentsOf(normal);
+    vec4 hu = mapFromWorld * vec4(t.u, 0.0);
+    vec4 hv = mapFromWorld * vec4(t.v, 0.0);
     vec2 du = (hu.xy - r.at * hu.w) / h.w;
     vec2 dv = (hv.xy - r.at * hv.w) / h.w;
     float determinant = du.x * dv.y - du.y * dv.x;
     if (abs(determinant) < 1e-12) return r;  // seen edge-on from the light
-    float zu = dot(depthFromWorld.xyz, u);
-    float zv = dot(depthFromWorld.xyz, v);
+    float zu = dot(depthFromWorld.xyz, t.u);
+    float zv = dot(depthFromWorld.xyz, t.v);
     vec2 slope = vec2(zu * dv.y - zv * du.y, zv * du.x - zu * dv.x) / determinant;
     r.inverseSlope = -followPlane * slope / (r.depth * r.depth);
     return r;

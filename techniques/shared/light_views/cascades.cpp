@@ -18,6 +18,12 @@ std::vector<double> practicalSplits(double near, double far, int count, double l
     return splits;
 }
 
+std::size_t sliceOf(const std::vector<double>& splits, double depth) {
+    std::size_t slice = 0;
+    while (slice + 2 < splits.size() && depth > splits[slice + 1]) ++slice;
+    return slice;
+}
+
 DepthRange visibleDepths(const Bounds& box, const Camera& camera, double aspect) {
     const std::vector<glm::dvec3> body = visiblePart(box, camera, aspect);
     if (body.empty()) return {camera.near, camera.far};

@@ -11,7 +11,8 @@ namespace shadowbench::techniques {
 /// of `points`; near is a hundredth of it.
 std::vector<LightView> cubeViews(const glm::dvec3& light, const std::vector<glm::dvec3>& points);
 
-/// The side that a direction from the light leaves the cube by; the first one where it meets an edge.
+/// The side through which a direction from the light leaves the cube; the first one where it meets an edge. The same as
+/// sideOf() of shared/maps/cube_side.glsl (compared in tests/techniques/gl/map_point_test.cpp).
 std::size_t cubeSide(const glm::dvec3& direction);
 
 } // namespace shadowbench::techniques

@@ -26,13 +26,12 @@ bool holds(const LightView& view, const glm::dvec3& p) {
 } // namespace
 
 std::vector<LightView> lightPlanes(const Light& light, const Snapshot& snapshot) {
-    const Light centre = light.centreOnly();
-    if (centre.kind == LightKind::Directional) return {fitToScene(centre, snapshot)};
+    if (light.kind == LightKind::Directional) return {fitToScene(light, snapshot)};
     const std::vector<glm::dvec3> corners = boundingCorners(snapshot);
-    if (contains(snapshot.bounds(), centre.centre)) return cubeViews(centre.centre, corners);
-    const LightView whole = fitToPoints(centre, corners);
+    if (contains(snapshot.bounds(), light.centre)) return cubeViews(light.centre, corners);
+    const LightView whole = fitToPoints(light, corners);
     if (std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& p) { return holds(whole, p); })) return {whole};
-    return cubeViews(centre.centre, corners);
+    return cubeViews(light.centre, corners);
 }
 
 LightView partOf(const LightView& view, const glm::dvec2& low, const glm::dvec2& high) {

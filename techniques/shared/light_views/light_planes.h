@@ -9,8 +9,8 @@
 
 namespace shadowbench::techniques {
 
-/// The views that together hold the whole scene: `fitToScene` alone where it holds every bounding box, otherwise the six
-/// sides of a cube around the light (`cubeViews`).
+/// The views of a hard light that together hold the whole scene: `fitToScene` alone where it holds every bounding box,
+/// otherwise the six sides of a cube around the light (`cubeViews`).
 std::vector<LightView> lightPlanes(const Light& light, const Snapshot& snapshot);
 
 /// The part of a view's map between `low` and `high`, which lie in [0, 1]²; its depths stay as they are.

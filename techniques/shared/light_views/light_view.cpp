@@ -62,7 +62,7 @@ LightView fitPerspective(const glm::dvec3& eye, const Camera::Basis& basis, std:
     near = std::max(near * (1 - 1e-6), nearestShare * far);
     far *= 1 + 1e-6;
 
-    Extent slopes;
+    Bounds slopes;
     for (const glm::dvec3& p : points) {
         const glm::dvec3 v(view * glm::dvec4(p, 1));
         const double depth = std::max(-v.z, near);
@@ -81,7 +81,7 @@ LightView fitPerspective(const glm::dvec3& eye, const Camera::Basis& basis, std:
 
 LightView fitOrthographic(const Camera::Basis& basis, std::vector<glm::dvec3> points) {
     const glm::dmat4 view = viewFrom(glm::dvec3(0), basis);
-    const Extent box = extentOf(view, points);
+    const Bounds box = boundsOf(view, points);
     const double slack = 1e-6 * (box.high.z - box.low.z);
     const double near = -box.high.z - slack;
     const double far = -box.low.z + slack;
@@ -126,7 +126,7 @@ LightView fitToScene(const Light& light, const Snapshot& snapshot) { return fitT
 LightView jittered(const LightView& view, double angle, glm::dvec2 shift, int texels) {
     LightView result = view;
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 0, 1)) * view.clipFromWorld;
-    Extent extent;
+    Bounds extent;
     for (const glm::dvec3& p : view.covered) {
         // Points that the unturned map holds at its rim (behind or beside the light) must not blow up the turned one.
         const glm::dvec4 h = view.clipFromWorld * glm::dvec4(p, 1);

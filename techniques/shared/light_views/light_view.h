@@ -23,6 +23,7 @@ struct LightView {
 };
 
 /// Where `world` lies in a map of `size` texels drawn with `view`, in texels; nothing beside the map or behind the light.
+/// The same as mapPoint() of shared/maps/light_space.glsl (compared in tests/techniques/gl/map_point_test.cpp).
 std::optional<glm::dvec2> texelAt(const LightView& view, const glm::dvec3& world, const glm::dvec2& size);
 
 /// World corners of the bounding boxes of all placements.

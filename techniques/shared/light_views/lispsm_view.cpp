@@ -17,7 +17,7 @@ double lispsmNear(double d, double z0, double z1) {
 }
 
 LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect) {
-    LightView view = fitToScene(light.centreOnly(), snapshot);
+    LightView view = fitToScene(light, snapshot);
     // Nothing of the scene is nearer to the light than the near plane, though corners of its bounding box may be.
     const glm::dvec4 nearPlane = view.depthFromWorld - glm::dvec4(0, 0, 0, view.near);
     std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, {&nearPlane, 1});
@@ -36,7 +36,7 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& 
 
     const double turn = std::atan2(axis.x, axis.y); // about z: brings the axis onto +y
     glm::dmat4 light2 = glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 0, 1)) * view.clipFromWorld;
-    const Extent box = extentOf(light2, body);
+    const Bounds box = boundsOf(light2, body);
     const glm::dvec3 e = divided(light2 * glm::dvec4(nearest, 1));
 
     // Two points of one line along y, at the near and far end of the body; the first on the plane through `nearest` parallel
@@ -58,7 +58,7 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& 
                               glm::dvec4(0, -2 * f * n / (f - n), 0, 0));
         light2 = warp * glm::translate(glm::dmat4(1), -centre) * light2;
     }
-    view.clipFromWorld = fitMatrix(extentOf(light2, body), 0) * light2;
+    view.clipFromWorld = fitMatrix(boundsOf(light2, body), 0) * light2;
     view.covered = std::move(body);
     return view;
 }

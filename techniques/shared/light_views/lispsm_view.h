@@ -5,10 +5,11 @@
 
 namespace shadowbench::techniques {
 
-/// Light space perspective shadow map (Wimmer, Scherzer, Purgathofer 2004; Scherzer 2.2.2): light space turned so that the
-/// view direction lies along y, then warped by a perspective along y whose near distance n spreads the error evenly over the
-/// depth range (`lispsmNear`), then focused on what `camera` sees (the snapshot's, or a slice of its depth range). Falls
-/// back to the focused, unwarped map where the view direction is parallel to the light (duelling frusta).
+/// Light space perspective shadow map (Wimmer, Scherzer, Purgathofer 2004; Scherzer 2.2.2) of a hard light: light space
+/// turned so that the view direction lies along y, then warped by a perspective along y whose near distance n spreads the
+/// error evenly over the depth range (`lispsmNear`), then focused on what `camera` sees (the snapshot's, or a slice of its
+/// depth range). Falls back to the focused, unwarped map where the view direction is parallel to the light (duelling
+/// frusta).
 LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect);
 
 /// n_opt for a light-space depth range `d` along the view axis whose ends lie at eye depths z0 < z1: d / (√(z1/z0) − 1),

@@ -1,5 +1,7 @@
-// What each pixel asks of the maps (maps/plane_tiles.h, Demand). Surfaces that face away from the light ask nothing and are dark.
+// What each pixel asks of the maps (shared/maps/tile_choice.h, Demand). Surfaces that face away from the light ask for nothing and are
+// dark.
 #include "gl/receiver.glsl"
+#include "gl/tangents.glsl"
 #include "shared/maps/cube_side.glsl"
 #ifdef DISCONTINUITY
 #include "shared/maps/depth_atlas.glsl"
@@ -7,14 +9,14 @@
 uniform float discontinuity;  // share of a pixel's weight that it has only for an edge beside it
 #endif
 
-uniform mat4 planeFromWorld[6];  // x, y and depth in [0, 1] over the plane (maps/light_planes.h)
+uniform mat4 planeFromWorld[6];  // x, y and depth in [0, 1] over the plane (shared/light_views/light_planes.h)
 uniform int planes;              // 1, or the six sides of a cube around the light
 uniform vec4 light;              // homogeneous
 uniform sampler2D normals;
 uniform mat4 clipFromWorld;  // camera
-uniform float most;          // pixels that a map's side may be long: no end where the light grazes a surface
+uniform float most;          // pixels along a map's side, at most: they grow without end where the light grazes a surface
 
-layout(location = 0) out vec4 demand;  // plane + x, y, pixels along x and y (0: asks nothing)
+layout(location = 0) out vec4 demand;  // plane + x, y, pixels along x and y (0: asks for nothing)
 layout(location = 1) out float visibility;
 
 const float averted = -0.005;  // cosine: what the 16 bits of a normal leave uncertain
@@ -26,8 +28,9 @@ vec3 along(mat4 transform, vec4 h, vec3 t) {
 }
 
 #ifdef DISCONTINUITY
-/// Length of shadow edge, in pixels, that a depth discontinuity of the map lets expect in this pixel, whose surface's depth changes by
-/// `slope` over the plane. An edge may run wherever the nine texels around the point tell lit and shadowed: in a band three texels wide.
+/// Length of shadow edge, in pixels, to be expected in this pixel from depth discontinuities of the map; the surface's depth changes by
+/// `slope` over the plane. An edge may run wherever the nine texels around the point are not all lit or all shadowed: in a band three
+/// texels wide.
 float edgeInPixel(int plane, vec3 world, vec2 slope, vec2 pixels) {
     vec4 h = atlasFromWorld[plane] * vec4(world, 1.0);
     vec3 at = h.xyz / h.w;
@@ -58,13 +61,12 @@ void main() {
     }
 
     int plane = planes == 1 ? 0 : sideOf(receiver.position - light.xyz);
-    vec3 u = normalize(abs(normal.x) < 0.5 ? cross(normal, vec3(1, 0, 0)) : cross(normal, vec3(0, 1, 0)));
-    vec3 v = cross(normal, u);
+    Tangents t = tangentsOf(normal);
     vec4 inImage = clipFromWorld * vec4(receiver.position, 1.0);
     vec4 inPlane = planeFromWorld[plane] * vec4(receiver.position, 1.0);
     vec2 viewport = 0.5 * vec2(textureSize(positions, 0));  // pixels of a unit of clip space
-    mat2 pixelOfSurface = mat2(viewport * along(clipFromWorld, inImage, u).xy, viewport * along(clipFromWorld, inImage, v).xy);
-    vec3 du = along(planeFromWorld[plane], inPlane, u), dv = along(planeFromWorld[plane], inPlane, v);
+    mat2 pixelOfSurface = mat2(viewport * along(clipFromWorld, inImage, t.u).xy, viewport * along(clipFromWorld, inImage, t.v).xy);
+    vec3 du = along(planeFromWorld[plane], inPlane, t.u), dv = along(planeFromWorld[plane], inPlane, t.v);
     float determinant = du.x * dv.y - du.y * dv.x;
 
     vec2 pixels = vec2(most);

@@ -37,7 +37,7 @@ std::vector<Tile> squareTiles(int side, int count) {
 
 DepthAtlas::DepthAtlas(glm::ivec2 size, Bias bias)
     : depth_(gl::Format::Depth32F, size, gl::Filter::Nearest, gl::Wrap::BorderFar), target_{&depth_},
-      program_("shared/maps/depth_map.vert", "shared/maps/depth_map.frag"), bias_(bias) {
+      program_("shared/maps/depth_map.vert", "gl/depth_only.frag"), bias_(bias) {
     depth_.compareDepth();
 }
 
@@ -55,7 +55,8 @@ void DepthAtlas::setTiles(std::vector<Tile> tiles) {
     }
 }
 
-void DepthAtlas::drawTiles(const std::function<void(std::size_t)>& drawTile) const {
+void DepthAtlas::drawTiles(const Frame& frame, const std::function<void(std::size_t)>& drawTile) const {
+    const auto pass = frame.pass("depth map");
     target_.clearDepth(1);
     glEnable(GL_SCISSOR_TEST);
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
@@ -68,19 +69,19 @@ void DepthAtlas::drawTiles(const std::function<void(std::size_t)>& drawTile) con
     glDisable(GL_SCISSOR_TEST);
 }
 
-void DepthAtlas::draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene) {
-    drawTiles([&](std::size_t i) {
-        const CasterPass pass(program_, views[i], bias_);
-        scene.draw();
+void DepthAtlas::draw(const std::vector<LightView>& views, const Frame& frame) {
+    drawTiles(frame, [&](std::size_t i) {
+        const CasterPass tile(program_, views[i], bias_);
+        frame.scene.draw();
     });
     placeViews(views);
 }
 
-void DepthAtlas::draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene,
+void DepthAtlas::draw(const std::vector<LightView>& views, const Frame& frame,
                       const std::vector<std::vector<bool>>& casters) {
-    drawTiles([&](std::size_t i) {
-        const CasterPass pass(program_, views[i], bias_);
-        scene.draw(casters[i]);
+    drawTiles(frame, [&](std::size_t i) {
+        const CasterPass tile(program_, views[i], bias_);
+        frame.scene.draw(casters[i]);
     });
     placeViews(views);
 }

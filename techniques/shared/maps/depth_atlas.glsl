@@ -1,9 +1,9 @@
-// Shadow test against one of several depth maps in a texture (maps/depth_atlas.h).
+// Shadow test against one of several depth maps in a texture (shared/maps/depth_atlas.h).
 uniform sampler2DShadow depthAtlas;
 uniform mat4 atlasFromWorld[TILES];
 uniform vec4 innerTiles[TILES];
 
-/// 1 lit, 0 shadowed. Beside the tile its outermost texels go on; behind the light: lit.
+/// 1 lit, 0 shadowed. Beside the tile its outermost texels continue; behind the light: lit.
 float atlasTest(int tile, vec3 world) {
     vec4 h = atlasFromWorld[tile] * vec4(world, 1.0);
     if (h.w <= 0.0) return 1.0;

@@ -1,8 +1,8 @@
 // Several depth maps in one texture: for techniques that share a number of texels among the parts of a scene.
 #pragma once
 
+#include "techniques/contract/technique.h"
 #include "techniques/gl/program.h"
-#include "techniques/gl/scene_buffers.h"
 #include "techniques/gl/texture.h"
 #include "techniques/shared/light_views/light_view.h"
 #include "techniques/shared/maps/depth_map.h"
@@ -38,14 +38,13 @@ public:
     void setTiles(std::vector<Tile> tiles);
 
     /// Draws one view of the scene into each tile, `views[i]` into tile i.
-    void draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene);
+    void draw(const std::vector<LightView>& views, const Frame& frame);
 
     /// The same, of the placements `casters[i]` only (`castersIn`).
-    void draw(const std::vector<LightView>& views, const gl::SceneBuffers& scene,
-              const std::vector<std::vector<bool>>& casters);
+    void draw(const std::vector<LightView>& views, const Frame& frame, const std::vector<std::vector<bool>>& casters);
 
-    /// Clears the atlas and calls `drawTile` once for each tile, drawing into which it confines.
-    void drawTiles(const std::function<void(std::size_t)>& drawTile) const;
+    /// Clears the atlas and calls `drawTile` once for each tile, with drawing confined to that tile.
+    void drawTiles(const Frame& frame, const std::function<void(std::size_t)>& drawTile) const;
 
     /// Sets the uniforms of shared/maps/depth_atlas.glsl for the views drawn last; TILES must be the number of tiles, or
     /// more.

@@ -24,6 +24,11 @@ std::vector<Parameter> depthMapParameters(int defaultSide) {
     };
 }
 
+std::vector<Parameter> withDepthMapParameters(std::vector<Parameter> own) {
+    for (Parameter& parameter : depthMapParameters()) own.push_back(std::move(parameter));
+    return own;
+}
+
 Bias biasFrom(const Parameters& parameters) {
     const std::string& kind = parameters.text("bias");
     if (kind == "none") return {0, 0};
@@ -53,8 +58,8 @@ CasterPass::CasterPass(gl::Program& program, const LightView& light, Bias bias) 
     // The constant part goes into the matrix: polygon offset's unit of a floating-point depth buffer vanishes near depth 0.
     const glm::dmat4 away = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 2 * bias.units * depthStep));
     program.set("clipFromWorld", glm::mat4(away * light.clipFromWorld));
-    // Nothing casts from behind the light or from closer to its plane than a ten-thousandth of the scene's depth. A
-    // directional light has no behind; llvmpipe clips by a written gl_ClipDistance even where it is disabled, so that the
+    // Nothing casts from behind the light or from closer to its plane than a ten-thousandth of the scene's depth. Nothing is
+    // behind a directional light; llvmpipe clips by a written gl_ClipDistance even where it is disabled, so that the
     // distance must be positive there.
     const glm::dvec4 inFront = light.depthFromWorld - glm::dvec4(0, 0, 0, 1e-4 * light.far);
     program.set("lightPlane", glm::vec4(light.perspective ? inFront : glm::dvec4(0, 0, 0, 1)));
@@ -78,11 +83,11 @@ DepthMap::DepthMap(int side, Bias bias, Lookup lookup, bool cutsCasters)
 }
 
 gl::Program DepthMap::program(bool cutsCasters) {
-    return {"shared/maps/depth_map.vert", "shared/maps/depth_map.frag",
+    return {"shared/maps/depth_map.vert", "gl/depth_only.frag",
             cutsCasters ? gl::Defines{{"CASTER_PLANE", "1"}} : gl::Defines{}};
 }
 
-CasterFragments DepthMap::fragments(const LightView& light, const gl::SceneBuffers& scene) const {
+CasterFragments DepthMap::fragments(const LightView& light, const Frame& frame) const {
     gl::Program again = program(cutsCasters_);
     const auto drawn = [&](GLenum depthFunction, GLboolean write) {
         target_.bind();
@@ -90,7 +95,7 @@ CasterFragments DepthMap::fragments(const LightView& light, const gl::SceneBuffe
         glDepthFunc(depthFunction);
         glDepthMask(write);
         gl::FragmentMeter meter;
-        scene.draw();
+        frame.scene.draw();
         glDepthMask(GL_TRUE);
         glDepthFunc(GL_LESS);
         return meter.finish();
@@ -102,11 +107,12 @@ CasterFragments DepthMap::fragments(const LightView& light, const gl::SceneBuffe
     return count;
 }
 
-void DepthMap::draw(const LightView& light, const gl::SceneBuffers& scene) {
+void DepthMap::draw(const LightView& light, const Frame& frame) {
+    const auto pass = frame.pass("depth map");
     target_.clearDepth(1);
     target_.bind();
-    const CasterPass pass(program_, light, bias_);
-    scene.draw();
+    const CasterPass casters(program_, light, bias_);
+    frame.scene.draw();
 }
 
 glm::dmat4 mapFromClip() { return glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(0.5)), glm::dvec3(1)); }

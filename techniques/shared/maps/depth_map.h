@@ -2,8 +2,8 @@
 #pragma once
 
 #include "techniques/contract/parameters.h"
+#include "techniques/contract/technique.h"
 #include "techniques/gl/program.h"
-#include "techniques/gl/scene_buffers.h"
 #include "techniques/gl/texture.h"
 #include "techniques/shared/light_views/light_view.h"
 
@@ -17,7 +17,7 @@ namespace shadowbench::techniques {
 /// One step of a 24-bit depth buffer: the unit of a constant bias.
 inline constexpr double depthStep = 1.0 / (1 << 24);
 
-/// Offset away from the light while the map is drawn (course, "Bias"): factor · max depth slope per texel + units ·
+/// Offset away from the light while the map is drawn (course, "Bias"): factor · greatest depth slope per texel + units ·
 /// depthStep.
 struct Bias {
     float factor = 0;
@@ -29,6 +29,10 @@ Parameter mapParameter(int defaultSide = 1024);
 
 /// `map`, `bias`, `factor` and `units`: the parameters of every technique over a depth map.
 std::vector<Parameter> depthMapParameters(int defaultSide = 1024);
+
+/// A technique's own parameters, and after them `depthMapParameters()`.
+std::vector<Parameter> withDepthMapParameters(std::vector<Parameter> own);
+
 Bias biasFrom(const Parameters& parameters);
 
 /// Compare: sampled through sampler2DShadow with 2×2 interpolated comparisons if `Filter::Linear`; Raw: depths read as
@@ -40,8 +44,8 @@ class ShadowMap {
 public:
     virtual ~ShadowMap() = default;
 
-    /// Draws the scene as seen from the light. Occluders between the light and the near plane are kept, at depth 0.
-    virtual void draw(const LightView& light, const gl::SceneBuffers& scene) = 0;
+    /// Draws the frame's scene as seen from the light. Occluders between the light and the near plane are kept, at depth 0.
+    virtual void draw(const LightView& light, const Frame& frame) = 0;
 
     [[nodiscard]] virtual const gl::Texture& texture() const = 0;
 };
@@ -57,10 +61,10 @@ public:
     /// `cutsCasters`: what lies behind the view's casterPlane is not drawn.
     DepthMap(int side, Bias bias, Lookup lookup, bool cutsCasters = false);
 
-    void draw(const LightView& light, const gl::SceneBuffers& scene) override;
+    void draw(const LightView& light, const Frame& frame) override;
 
     /// Counted by drawing the same map again.
-    [[nodiscard]] CasterFragments fragments(const LightView& light, const gl::SceneBuffers& scene) const;
+    [[nodiscard]] CasterFragments fragments(const LightView& light, const Frame& frame) const;
 
     [[nodiscard]] const gl::Texture& texture() const override { return depth_; }
     [[nodiscard]] int side() const { return depth_.size().x; }
@@ -79,7 +83,7 @@ private:
 glm::dmat4 mapFromClip();
 glm::mat4 mapFromWorld(const LightView& light);
 
-/// State shared by every pass that draws casters into a map: what lies before the near plane is clamped; slope bias.
+/// GL state of every pass that draws casters into a map: depth before the near plane is clamped; slope bias.
 class CasterState {
 public:
     explicit CasterState(Bias bias);

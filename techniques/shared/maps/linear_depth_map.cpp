@@ -9,14 +9,15 @@ LinearDepthMap::LinearDepthMap(int side, Bias bias)
       depth_(gl::Format::Depth32F, {side, side}), target_{&linear_, &depth_},
       program_("shared/maps/linear_depth_map.vert", "shared/maps/linear_depth_map.frag"), bias_(bias) {}
 
-void LinearDepthMap::draw(const LightView& light, const gl::SceneBuffers& scene) {
+void LinearDepthMap::draw(const LightView& light, const Frame& frame) {
+    const auto pass = frame.pass("depth map");
     target_.clearColour(0, glm::vec4(gl::nothingInTheWay));
     target_.clearDepth(1);
     target_.bind();
     const double constant = bias_.units * depthStep * light.far;
     program_.set("depthFromWorld", glm::vec4(light.depthFromWorld)).set("bias", glm::vec2(bias_.factor, constant));
-    const CasterPass pass(program_, light, Bias{});
-    scene.draw();
+    const CasterPass casters(program_, light, Bias{});
+    frame.scene.draw();
 }
 
 } // namespace shadowbench::techniques

@@ -9,7 +9,7 @@ namespace shadowbench::techniques {
 class LinearDepthMap {
 public:
     LinearDepthMap(int side, Bias bias);
-    void draw(const LightView& light, const gl::SceneBuffers& scene);
+    void draw(const LightView& light, const Frame& frame);
 
     [[nodiscard]] const gl::Texture& texture() const { return linear_; }
     [[nodiscard]] int side() const { return linear_.size().x; }

@@ -10,21 +10,37 @@ MidpointMap::MidpointMap(int side, Lookup lookup, SecondDepth second)
       middle_(gl::Format::Depth32F, {side, side},
               lookup == Lookup::CompareBilinear ? gl::Filter::Linear : gl::Filter::Nearest, gl::Wrap::BorderFar),
       firstTarget_{&first_}, secondTarget_{&second_}, middleTarget_{&middle_},
-      nearest_("shared/maps/depth_map.vert", "shared/maps/depth_map.frag"),
+      nearest_("shared/maps/depth_map.vert", "gl/depth_only.frag"),
       peel_("shared/maps/depth_map.vert", "shared/maps/midpoint_peel.frag"),
       mean_(gl::Program::screen("shared/maps/midpoint_mean.frag")) {
     if (lookup != Lookup::Raw) middle_.compareDepth();
 }
 
-void MidpointMap::draw(const LightView& light, const gl::SceneBuffers& scene) {
-    if (kind_ == SecondDepth::Surface) {
-        drawNearest(firstTarget_, nearest_, Faces::Both, light, scene);
-        peel_.set("firstDepth", first_);
-        drawNearest(secondTarget_, peel_, Faces::Both, light, scene);
-    } else {
-        drawNearest(firstTarget_, nearest_, Faces::Front, light, scene);
-        drawNearest(secondTarget_, nearest_, Faces::Back, light, scene);
+void MidpointMap::drawSurfaces(const LightView& light, const Frame& frame) {
+    {
+        const auto pass = frame.pass("depth map");
+        drawNearest(firstTarget_, nearest_, Faces::Both, light, frame.scene);
     }
+    const auto pass = frame.pass("second depth");
+    peel_.set("firstDepth", first_);
+    drawNearest(secondTarget_, peel_, Faces::Both, light, frame.scene);
+}
+
+void MidpointMap::drawFaces(const LightView& light, const Frame& frame) {
+    {
+        const auto pass = frame.pass("depth map");
+        drawNearest(firstTarget_, nearest_, Faces::Front, light, frame.scene);
+    }
+    const auto pass = frame.pass("second depth");
+    drawNearest(secondTarget_, nearest_, Faces::Back, light, frame.scene);
+}
+
+void MidpointMap::draw(const LightView& light, const Frame& frame) {
+    if (kind_ == SecondDepth::Surface)
+        drawSurfaces(light, frame);
+    else
+        drawFaces(light, frame);
+    const auto pass = frame.pass("midpoint");
     mean_.set("firstDepth", first_).set("secondDepth", second_);
     middleTarget_.bind();
     mean_.drawScreenDepth();

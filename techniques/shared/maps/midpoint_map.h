@@ -15,7 +15,7 @@ public:
     MidpointMap(int side, Lookup lookup, SecondDepth second = SecondDepth::Surface);
 
     /// Depth 1 where there is no second surface.
-    void draw(const LightView& light, const gl::SceneBuffers& scene) override;
+    void draw(const LightView& light, const Frame& frame) override;
 
     [[nodiscard]] const gl::Texture& texture() const override { return middle_; }
 
@@ -23,6 +23,8 @@ private:
     enum class Faces { Both, Front, Back };
     static void drawNearest(const gl::RenderTarget& target, gl::Program& program, Faces faces, const LightView& light,
                             const gl::SceneBuffers& scene);
+    void drawSurfaces(const LightView& light, const Frame& frame);
+    void drawFaces(const LightView& light, const Frame& frame);
 
     SecondDepth kind_;
     gl::Texture first_, second_, middle_;

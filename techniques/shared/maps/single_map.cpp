@@ -1,6 +1,6 @@
 #include "techniques/shared/maps/single_map.h"
 
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/light_views/focused_view.h"
 #include "techniques/shared/light_views/lispsm_view.h"
 
@@ -9,22 +9,21 @@ namespace {
 
 class SingleMap final : public Technique {
 public:
-    SingleMap(std::unique_ptr<ShadowMap> map, FitView fit, TellFigures tell)
-        : fit_(std::move(fit)), tell_(std::move(tell)), map_(std::move(map)),
+    SingleMap(std::unique_ptr<ShadowMap> map, FitView fit, ReportFigures report)
+        : fit_(std::move(fit)), report_(std::move(report)), map_(std::move(map)),
           resolve_(gl::Program::screen("shared/maps/single_map.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        last_.emplace(frame);
         light_ = fit_(frame);
-        map_->draw(light_, frame.scene);
+        map_->draw(light_, frame);
         resolve_.set("positions", frame.gbuffer.position())
             .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_->texture());
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
-    [[nodiscard]] std::map<std::string, double> figures() const override {
-        return tell_ && last_ ? tell_(*last_) : std::map<std::string, double>{};
+    [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
+        return report_ ? report_(frame) : std::map<std::string, double>{};
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
@@ -33,8 +32,7 @@ public:
 
 private:
     FitView fit_;
-    TellFigures tell_;
-    std::optional<Frame> last_; // the frame last rendered, for `figures`
+    ReportFigures report_;
     LightView light_;
     std::unique_ptr<ShadowMap> map_;
     gl::Program resolve_;
@@ -42,7 +40,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit, TellFigures figures) {
+std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit, ReportFigures figures) {
     return std::make_unique<SingleMap>(std::move(map), std::move(fit), std::move(figures));
 }
 
@@ -51,14 +49,14 @@ std::unique_ptr<Technique> makeSingleMap(const Parameters& parameters, FitView f
                          std::move(fit));
 }
 
-LightView uniformView(const Frame& frame) { return fitToScene(frame.snapshot.light.centreOnly(), frame.snapshot); }
+LightView uniformView(const Frame& frame) { return fitToScene(frame.hardLight, frame.snapshot); }
 
 LightView focusedView(const Frame& frame) {
-    return fitFocused(frame.snapshot.light, frame.snapshot, frame.snapshot.camera, frame.aspect());
+    return fitFocused(frame.hardLight, frame.snapshot, frame.snapshot.camera, frame.aspect());
 }
 
 LightView lispsmView(const Frame& frame) {
-    return fitLispsm(frame.snapshot.light, frame.snapshot, frame.snapshot.camera, frame.aspect());
+    return fitLispsm(frame.hardLight, frame.snapshot, frame.snapshot.camera, frame.aspect());
 }
 
 } // namespace shadowbench::techniques

@@ -14,10 +14,10 @@ namespace shadowbench::techniques {
 /// How a map is fitted to a frame.
 using FitView = std::function<LightView(const Frame&)>;
 
-/// What such a technique tells of a frame (`Technique::figures`).
-using TellFigures = std::function<std::map<std::string, double>(const Frame&)>;
+/// What such a technique reports of a frame (`Technique::figures`).
+using ReportFigures = std::function<std::map<std::string, double>(const Frame&)>;
 
-std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit, TellFigures figures = {});
+std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit, ReportFigures figures = {});
 
 /// The same over a depth map with these `depthMapParameters`.
 std::unique_ptr<Technique> makeSingleMap(const Parameters& parameters, FitView fit);

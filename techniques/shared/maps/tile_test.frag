@@ -1,7 +1,7 @@
 // The shadow test of the pixels that lie in one of the tiles in the atlas; the others keep what they have.
 #include "gl/receiver.glsl"
 
-layout(std430, binding = 3) readonly buffer Table { uint tileOfCell[]; };  // tileTable() of maps/plane_tiles.h
+layout(std430, binding = 3) readonly buffer Table { uint tileOfCell[]; };  // tileTable() of shared/maps/tile_choice.h
 layout(std430, binding = 4) readonly buffer Places { vec4 places[]; };     // two a tile: from plane to atlas (offset, scale), texel centres
 
 uniform mat4 planeFromWorld[6];  // as in shared/maps/demand.frag, which wrote `demands`

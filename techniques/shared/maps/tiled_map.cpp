@@ -1,6 +1,6 @@
 #include "techniques/shared/maps/tiled_map.h"
 
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ TiledPlanes::TiledPlanes(int side, int cells, float most, Bias bias, Discontinui
 }
 
 void TiledPlanes::fit(const Frame& frame) {
-    planes_ = lightPlanes(frame.snapshot.light, frame.snapshot);
+    planes_ = lightPlanes(frame.hardLight, frame.snapshot);
     corners_ = boundingCorners(frame.snapshot);
     std::vector<glm::mat4> planeFromWorld;
     for (const LightView& plane : planes_) planeFromWorld.push_back(mapFromWorld(plane));
@@ -51,16 +51,17 @@ void TiledPlanes::fit(const Frame& frame) {
 
 void TiledPlanes::drawWholePlanes(const Frame& frame) {
     atlas_.setTiles(squareTiles(side_, static_cast<int>(planes_.size())));
-    atlas_.draw(planes_, frame.scene);
+    atlas_.draw(planes_, frame);
     atlas_.bindTo(demand_);
 }
 
 std::vector<Demand> TiledPlanes::demands(const Frame& frame, const gl::Texture& visibility) {
     fit(frame);
     if (discontinuity_) drawWholePlanes(frame);
+    const auto pass = frame.pass("demands");
     if (!demands_ || demands_->size() != frame.size) demands_.emplace(gl::Format::RGBA32F, frame.size);
     demand_.set("planes", static_cast<int>(planes_.size()))
-        .set("light", glm::vec4(frame.snapshot.light.centreOnly().homogeneous()))
+        .set("light", glm::vec4(frame.hardLight.homogeneous()))
         .set("positions", frame.gbuffer.position())
         .set("normals", frame.gbuffer.normal())
         .set("clipFromWorld", glm::mat4(frame.clipFromWorld));
@@ -86,7 +87,7 @@ void TiledPlanes::shade(const Frame& frame, std::vector<PlaneTile> tiles, std::s
         const std::size_t count = std::min(together, tiles_.size() - first);
         drawTiles(frame, std::span(tiles_).subspan(first, count));
         test_.set("firstTile", static_cast<int>(first)).set("tilesDrawn", static_cast<int>(count));
-        resolveInto({&visibility}, test_);
+        resolve(frame, {&visibility}, test_);
     }
 }
 
@@ -112,7 +113,7 @@ void TiledPlanes::drawTiles(const Frame& frame, std::span<const PlaneTile> tiles
         casters.push_back(castersIn(views.back(), corners_));
     }
     atlas_.setTiles(std::move(rectangles));
-    atlas_.draw(views, frame.scene, casters);
+    atlas_.draw(views, frame, casters);
 }
 
 double TiledPlanes::effectiveResolution() const {

@@ -23,9 +23,9 @@ public:
     /// An atlas of `side`² texels, for planes cut into `cells`² cells. A pixel asks for at most `most` texels along a plane.
     TiledPlanes(int side, int cells, float most, Bias bias, Discontinuity discontinuity = {});
 
-    /// Fits the planes to the frame and gives what its pixels ask of them, row by row. With a discontinuity share the atlas
-    /// is first filled with a map of the planes. Pixels that ask nothing get their visibility here: 1 where nothing is seen,
-    /// 0 on surfaces that face away from the light.
+    /// Fits the planes to the frame and returns what its pixels ask of them, row by row. With a discontinuity share the
+    /// atlas is first filled with a map of the whole planes. Pixels that ask for nothing get their visibility here: 1 where
+    /// nothing is seen, 0 on surfaces that face away from the light.
     std::vector<Demand> demands(const Frame& frame, const gl::Texture& visibility);
 
     /// Draws the tiles and tests the pixels that lie in them: `together` at a time, which lie apart in the atlas.

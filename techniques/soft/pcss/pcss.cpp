@@ -1,10 +1,10 @@
 // Percentage-closer soft shadows (Fernando 2005), after Zápotocký 3.5 and Scherzer 2.3.3:
 // 1. blocker search  2. penumbra width from similar triangles (eq. 3.3)  3. PCF over that width.
-// Departures: the search window is the light's own projection on the map's near plane, where the seed scales an empirical
-// offset; a rectangular light has its own width along each side (the seed's 4.4.1 interpolates a ratio by angle); with
+// Departures: the search window is the light's own projection on the map's near plane, where the thesis scales an empirical
+// offset; a rectangular light has its own width along each side (the thesis's 4.4.1 interpolates a ratio by angle); with
 // bias=slope every tap is compared with the receiver's plane, without which wide kernels shadow every slanted surface.
 #include "techniques/contract/entry.h"
-#include "techniques/gl/resolve.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/filters/pcss_program.h"
 #include "techniques/shared/maps/single_map.h"
 
@@ -20,10 +20,10 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const Light& light = frame.snapshot.light;
         const LightView view = fitToScene(light, frame.snapshot);
-        map_.draw(view, frame.scene);
+        map_.draw(view, frame);
         setPcss(resolve_, taps_, light, view, map_, followPlane_);
         resolve_.set("positions", frame.gbuffer.position()).set("normals", frame.gbuffer.normal());
-        resolveInto({&visibility}, resolve_);
+        resolve(frame, {&visibility}, resolve_);
     }
 
 private:
@@ -36,12 +36,12 @@ private:
 } // namespace
 
 Entry pcss() {
-    std::vector<Parameter> parameters{
-        {"taps", "16+16", OneOf{{"16+16", "32+32", "25+49"}}, "blocker search + filter", "dissertation 4.2; Zápotocký 5.2"}};
-    for (Parameter& parameter : depthMapParameters()) parameters.push_back(std::move(parameter));
+    std::vector<Parameter> parameters =
+        withDepthMapParameters({{"taps", "16+16", OneOf{{"16+16", "32+32", "25+49"}}, "blocker search + filter",
+                                 "dissertation 4.2; Zápotocký 5.2"}});
     return {.id = "pcss",
             .title = "Percentage-closer soft shadows",
-            .source = {Seed::Zapotocky, "3.5"},
+            .source = {Document::Zapotocky, "3.5"},
             .answer = Answer::Soft,
             .parameters = std::move(parameters),
             .variants = {"", "taps=32+32"},

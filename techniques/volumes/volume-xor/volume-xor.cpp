@@ -10,7 +10,7 @@ namespace shadowbench::techniques {
 Entry volumeXor() {
     return {.id = "volume-xor",
             .title = "Stencil shadow volumes, exclusive-or",
-            .source = {Seed::Zapotocky, "2.4.5"},
+            .source = {Document::Zapotocky, "2.4.5"},
             .answer = Answer::Hard,
             .parameters = {},
             .figures = volumeFigures(),

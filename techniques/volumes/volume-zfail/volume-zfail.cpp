@@ -19,7 +19,7 @@ class VolumeZfail final : public Technique {
 public:
     explicit VolumeZfail(const Parameters& p)
         : infinite_(p.text("far") == "infinity"), volumes_(VolumeTest::DepthFail),
-          depth_("volumes/volume-zfail/depth.vert", "shared/maps/depth_map.frag") {}
+          depth_("volumes/volume-zfail/depth.vert", "gl/depth_only.frag") {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         if (!infinite_) {
@@ -30,16 +30,18 @@ public:
         volumes_.render(frame, clipFromWorld, drawDepth(frame, clipFromWorld), visibility);
     }
 
-    [[nodiscard]] std::map<std::string, double> figures() const override { return volumes_.figures(); }
+    [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
+        return volumes_.figures(infinite_ ? *ownDepth_ : frame.gbuffer.depthStencil());
+    }
 
 private:
     static glm::dmat4 infiniteClip(const Frame& frame) {
         const Camera& camera = frame.snapshot.camera;
-        const double aspect = static_cast<double>(frame.size.x) / frame.size.y;
-        return infiniteProjection(camera.projection(aspect), camera.near) * camera.view();
+        return infiniteProjection(camera.projection(frame.aspect()), camera.near) * camera.view();
     }
 
     const gl::Texture& drawDepth(const Frame& frame, const glm::mat4& clipFromWorld) {
+        const auto pass = frame.pass("depth prepass");
         if (!ownDepth_ || ownDepth_->size() != frame.size) ownDepth_.emplace(gl::Format::Depth32FStencil8, frame.size);
         const gl::RenderTarget target({&*ownDepth_});
         target.clearDepth(1);
@@ -63,7 +65,7 @@ private:
 Entry volumeZfail() {
     return {.id = "volume-zfail",
             .title = "Stencil shadow volumes, depth-fail",
-            .source = {Seed::Course, "Practical and Robust Stenciled Shadow Volumes; Zápotocký 2.4.4"},
+            .source = {Document::Course, "Practical and Robust Stenciled Shadow Volumes; Zápotocký 2.4.4"},
             .answer = Answer::Hard,
             .parameters = {{"far", "clamp", OneOf{{"clamp", "infinity"}},
                             "clamp depth, or put the far plane at infinity (P_inf)", "course, 3.2.1 and 3.4"}},

@@ -11,7 +11,7 @@ namespace shadowbench::techniques {
 Entry volumeZpass() {
     return {.id = "volume-zpass",
             .title = "Stencil shadow volumes, depth-pass",
-            .source = {Seed::Zapotocky, "2.4.3; course, Practical and Robust Stenciled Shadow Volumes, 2.2"},
+            .source = {Document::Zapotocky, "2.4.3; course, Practical and Robust Stenciled Shadow Volumes, 2.2"},
             .answer = Answer::Hard,
             .parameters = {},
             .figures = volumeFigures(),

@@ -1,5 +1,4 @@
 // Exponential shadow maps against their closed forms: an edge far above the ground is a ramp, a near one is transparent.
-#include "techniques/filtered/esm/esm.h"
 #include "techniques/filtered/prefiltered_map.h"
 #include "tests/support/filtered_scenes.h"
 

@@ -1,34 +1,34 @@
 // Programs, textures, the G-buffer and the counters.
 #include "base/error.h"
+#include "techniques/gl/api.h"
 #include "techniques/gl/counters.h"
 #include "tests/support/stages.h"
 
-#include <fmt/format.h>
-#include <fstream>
 #include <gtest/gtest.h>
+#include <sstream>
 
 namespace shadowbench {
 namespace {
 
-/// Counted from 1, in the file itself: the source that is compiled has the text of its includes, too.
-int lastLineWith(const std::string& word, const std::string& shader) {
-    std::ifstream lines(std::string(SOURCE_FOLDER "/techniques/") + shader);
-    int number = 0, last = 0;
-    for (std::string line; std::getline(lines, line);) {
-        ++number;
-        if (line.find(word) != std::string::npos) last = number;
-    }
-    return last;
+/// "file:number" of the line of the shader `file` that has `text` in it.
+std::string lineWith(const std::string& file, const std::string& text) {
+    const gl::ShaderSource source = gl::loadShader(file, {});
+    std::istringstream lines(source.text);
+    std::string line;
+    for (std::size_t i = 0; std::getline(lines, line); ++i)
+        if (line.find(text) != std::string::npos) return source.origin[i];
+    ADD_FAILURE() << file << " has no line with " << text;
+    return "";
 }
 
-TEST(Program, ACompileErrorNamesFileAndLineOfTheSource) {
+TEST(Program, ACompileErrorNamesFileAndLineOfTheSource) { // in a file with includes before that line
     testContext();
     try {
         gl::Program::screen("filtered/pcf/pcf.frag", {{"KERNEL", "nonsense"}});
         FAIL() << "compiled";
     } catch (const InternalError& error) {
-        const std::string place = fmt::format("filtered/pcf/pcf.frag:{}:", lastLineWith("KERNEL", "filtered/pcf/pcf.frag"));
-        EXPECT_NE(std::string(error.what()).find(place), std::string::npos) << place << " in " << error.what();
+        const std::string line = lineWith("filtered/pcf/pcf.frag", "percentageCloser(depthMap, point, slope, KERNEL)");
+        EXPECT_NE(std::string(error.what()).find(line), std::string::npos) << error.what();
     }
 }
 
@@ -65,6 +65,46 @@ TEST(Memory, BytesAreThoseOfTexturesAndBuffersAlive) {
         EXPECT_EQ(gl::Context::current().tally().bytes - before, 1024U * 1024 * 4 + 100 * 50 * 4);
     }
     EXPECT_EQ(gl::Context::current().tally().bytes, before);
+}
+
+TEST(Framebuffers, AreMadeOnceForTheSameTextures) {
+    testContext();
+    const gl::Texture colour(gl::Format::R32F, {8, 8}), depth(gl::Format::Depth32F, {8, 8});
+    const gl::Attachments both{{colour.id(), depth.id()}}, swapped{{depth.id(), colour.id()}};
+    gl::Framebuffers framebuffers;
+    unsigned made = 0;
+    const auto make = [&] { return 1000 + made++; };
+    const unsigned first = framebuffers.over(both, make);
+    EXPECT_EQ(framebuffers.over(both, make), first);
+    EXPECT_NE(framebuffers.over(swapped, make), first);
+    EXPECT_NE(framebuffers.over({{colour.id(), depth.id()}, 1}, make), first); // another layer
+    EXPECT_EQ(made, 3U);
+    framebuffers.forget(depth.id());
+    framebuffers.over(both, make);
+    EXPECT_EQ(made, 4U);
+}
+
+/// The framebuffer that draws go to.
+unsigned boundFramebuffer() {
+    GLint bound = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+    return static_cast<unsigned>(bound);
+}
+
+TEST(Framebuffers, AreSharedByTheTargetsOfATextureAndEndWithIt) {
+    testContext();
+    unsigned framebuffer = 0;
+    {
+        const gl::Texture texture(gl::Format::R32F, {4, 4}), other(gl::Format::R32F, {4, 4});
+        gl::RenderTarget({&texture}).bind();
+        framebuffer = boundFramebuffer();
+        gl::RenderTarget({&other}).bind();
+        EXPECT_NE(boundFramebuffer(), framebuffer);
+        gl::RenderTarget({&texture}).bind();
+        EXPECT_EQ(boundFramebuffer(), framebuffer);
+        EXPECT_TRUE(glIsFramebuffer(framebuffer));
+    }
+    EXPECT_FALSE(glIsFramebuffer(framebuffer)); // GL may give the texture's name to another one
 }
 
 TEST(WorkMeter, CountsTheFragmentsAndDrawsOfAFullScreenPass) {

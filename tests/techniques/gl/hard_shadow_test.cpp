@@ -1,8 +1,8 @@
 // Hard-shadow techniques on scenes whose shadow is a known polygon.
-#include "techniques/maps/sm-history/sm-history.h"
 #include "techniques/shared/light_views/light_view.h"
 #include "techniques/shared/sampling/sampling.h"
 #include "tests/support/ground_score.h"
+#include "tests/support/models/sm_history.h"
 #include "tests/support/stages.h"
 
 #include <glm/gtc/constants.hpp>
@@ -108,7 +108,7 @@ TEST(SmHistory, LearnsNothingFromTheSameRasterisationAgain) {
 }
 
 TEST(SmHistory,
-     ASecondFrameIsWeightedByTheConfidenceOfItsSample) { // eq. 3.3, 3.6, 3.7: the shader against the free functions
+     ASecondFrameIsWeightedByTheConfidenceOfItsSample) { // eq. 3.3, 3.6, 3.7: the shader against its model
     const Scene scene = boxScene(128);
     Stage stage(scene);
     stage.show(0);
@@ -129,8 +129,8 @@ TEST(SmHistory,
     for (std::size_t pixel = 0; pixel < both.size(); ++pixel) {
         if (drawn.id[pixel] == 0) continue;
         const glm::dvec4 h = view.clipFromWorld * glm::dvec4(drawn.position[pixel], 1);
-        const double sure = confidence(64.0 * (0.5 * glm::dvec2(h) / h.w + 0.5));
-        EXPECT_NEAR(both[pixel], smoothed(first[pixel], current[pixel], sure, 3),
+        const double sure = models::confidence(64.0 * (0.5 * glm::dvec2(h) / h.w + 0.5));
+        EXPECT_NEAR(both[pixel], models::smoothed(first[pixel], current[pixel], sure, 3),
                     2e-3); // 16-bit history, 32-bit map position
         weighted += first[pixel] != current[pixel] ? 1 : 0;
     }

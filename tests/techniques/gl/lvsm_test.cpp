@@ -1,10 +1,10 @@
 // Layered variance shadow maps: the leak of plain ones is gone, and back where occluders share the receiver's layer.
 #include "techniques/catalog.h"
 #include "techniques/contract/entry.h"
-#include "techniques/filtered/lvsm/lvsm.h"
 #include "techniques/filtered/prefiltered_map.h"
-#include "techniques/filtered/vsm/vsm.h"
 #include "tests/support/filtered_scenes.h"
+#include "tests/support/models/lvsm.h"
+#include "tests/support/models/vsm.h"
 
 #include <gtest/gtest.h>
 
@@ -29,6 +29,7 @@ TEST(Lvsm, OneLayerIsAVarianceShadowMap) {
 }
 
 TEST(Lvsm, OccludersInTheReceiversLayerStillLeak) { // what the paper admits
+    using namespace models;
     using namespace techniques;
     const Scene scene = stackedScene(lower, upper);
     Stage stage(scene);
@@ -46,6 +47,7 @@ TEST(Lvsm, OccludersInTheReceiversLayerStillLeak) { // what the paper admits
 }
 
 TEST(Lvsm, AnEdgeIsARampOfTheKernelsWidthInEveryLayer) {
+    using namespace models;
     using namespace techniques;
     for (const double height : {1.2, 2.5, 5.0}) { // the ground lies deep in the range or close to the middle
         const Scene scene = edgeScene(height);

@@ -1,7 +1,7 @@
 // Soft-shadow techniques under a half-plane: the penumbra of a rectangle parallel to the edge is linear.
 #include "techniques/catalog.h"
 #include "techniques/contract/entry.h"
-#include "techniques/sampled/temporal-soft/temporal-soft.h"
+#include "tests/support/models/temporal_soft.h"
 #include "tests/support/stages.h"
 
 #include <cmath>
@@ -99,7 +99,7 @@ TEST(TemporalSoft, ConvergesToTheTruthWhileTheCameraStandsStill) {
     EXPECT_LT(many, 0.015);
 }
 
-TEST(TemporalSoft, TheSecondFrameIsTheMeanOfTwoSamples) { // eq. 4.5, the shader against the free function
+TEST(TemporalSoft, TheSecondFrameIsTheMeanOfTwoSamples) { // eq. 4.5, the shader against its model
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
     stage.show(0);
@@ -113,7 +113,7 @@ TEST(TemporalSoft, TheSecondFrameIsTheMeanOfTwoSamples) { // eq. 4.5, the shader
     const Image<float> second = frame(1, true), first = frame(0, true), both = frame(1, false);
     std::size_t differing = 0;
     for (std::size_t i = 0; i < both.size(); ++i) {
-        EXPECT_NEAR(1 - both[i], techniques::occlusionUpdate(1 - first[i], 1, 1 - second[i]), 1e-3); // 16-bit sums
+        EXPECT_NEAR(1 - both[i], models::occlusionUpdate(1 - first[i], 1, 1 - second[i]), 1e-3); // 16-bit sums
         differing += first[i] != second[i] ? 1 : 0;
     }
     EXPECT_GT(differing, 200U); // the two samples see different edges

@@ -1,17 +1,17 @@
 // Variance shadow maps against their closed forms: an edge is a ramp, a second occluder a leak.
 #include "techniques/filtered/prefiltered_map.h"
-#include "techniques/filtered/vsm/vsm.h"
 #include "tests/support/filtered_scenes.h"
+#include "tests/support/models/vsm.h"
 
 #include <gtest/gtest.h>
 
 namespace shadowbench {
 namespace {
 
+using models::chebyshevBound;
+using models::Moments;
 using techniques::boxFilter;
-using techniques::chebyshevBound;
 using techniques::freeRim;
-using techniques::Moments;
 
 /// Ground metres per texel, with the rim that a prefiltered map leaves free.
 double texelOf(const Scene& scene, int map, int kernel) { return texelOf(scene, map - 2 * freeRim(boxFilter(kernel))); }
@@ -44,7 +44,7 @@ TEST(Vsm, LightLeaksAlongTheEdgeOfASecondOccluder) { // what the papers admit
     stage.show(0);
     const auto points = groundPoints(stage, rendered(stage, "vsm:map=256"));
 
-    // The shader against the free function: with a share p of the kernel beside the upper plate, the moments are those of
+    // The shader against its model: with a share p of the kernel beside the upper plate, the moments are those of
     // two depths, neither of them the ground's. Depth 0 is the upper plate's top, depth 1 the slab's lower side.
     const double range = upper + 0.1 + 0.2;
     const auto unit = [&](double y) { return (upper + 0.1 - y) / range; };

@@ -1,0 +1,15 @@
+// What a caller chooses about the measuring of a cell, of either kind.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace shadowbench {
+
+struct MeasureOptions {
+    std::uint32_t seed = 1;
+    bool time = true;             // wall time
+    std::filesystem::path images; // folder of <scene>/<variant>/; empty: no images are written
+};
+
+} // namespace shadowbench

@@ -1,0 +1,144 @@
+#include "harness/measure/pass_cost.h"
+
+#include "base/error.h"
+#include "harness/measure/raster_clock.h"
+#include "harness/measure/statistics.h"
+#include "techniques/gl/context.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+#include <string_view>
+
+namespace shadowbench::timing {
+namespace {
+
+void add(gl::WorkCount& sum, const gl::WorkCount& more) {
+    sum.fragments += more.fragments;
+    sum.vertices += more.vertices;
+    sum.primitives += more.primitives;
+    sum.draws += more.draws;
+    sum.passes += more.passes;
+}
+
+void add(PassCost& sum, const PassCost& more) {
+    sum.milliseconds += more.milliseconds;
+    add(sum.work, more.work);
+}
+
+/// Cuts a frame where passes begin and end. What `Section` measures of each part, between construction and `finish`, is
+/// added to the part's pass, or to what lies outside.
+template <typename Section>
+class FrameCutter final : public techniques::PassListener {
+public:
+    FrameCutter() {
+        gl::Context::current().finish(); // what was submitted before
+        section_.emplace();
+    }
+
+    void begin(std::string_view pass) override {
+        if (inPass_) throw InternalError(fmt::format("the pass \"{}\" begins within another; passes do not nest", pass));
+        endSection(result_.outside);
+        inPass_ = true;
+        ++costOf(pass).runs;
+        section_.emplace();
+    }
+
+    void end(std::string_view pass) override {
+        endSection(costOf(pass));
+        inPass_ = false;
+        section_.emplace();
+    }
+
+    FramePasses finish() {
+        endSection(result_.outside);
+        return std::move(result_);
+    }
+
+private:
+    PassCost& costOf(std::string_view name) {
+        const auto known = std::ranges::find(result_.passes, name, &PassCost::name);
+        return known != result_.passes.end() ? *known : result_.passes.emplace_back(PassCost{std::string(name), 0, 0, {}});
+    }
+
+    void endSection(PassCost& cost) {
+        section_->finish(cost);
+        section_.reset();
+    }
+
+    FramePasses result_;
+    std::optional<Section> section_;
+    bool inPass_ = false;
+};
+
+class WorkSection {
+public:
+    void finish(PassCost& cost) { add(cost.work, meter_.finish()); }
+
+private:
+    gl::WorkMeter meter_;
+};
+
+class TimeSection {
+public:
+    void finish(PassCost& cost) {
+        gl::Context::current().finish();
+        cost.milliseconds += rasterMilliseconds() - start_;
+    }
+
+private:
+    double start_ = rasterMilliseconds();
+};
+
+template <typename Section>
+FramePasses measured(const RenderFrame& render) {
+    FrameCutter<Section> cutter;
+    render(cutter);
+    return cutter.finish();
+}
+
+double medianTime(const std::vector<FramePasses>& rounds, const std::string& pass) {
+    std::vector<double> times;
+    for (const FramePasses& round : rounds) {
+        const auto found = std::ranges::find(round.passes, pass, &PassCost::name);
+        if (found != round.passes.end()) times.push_back(found->milliseconds);
+    }
+    return times.empty() ? 0 : median(times);
+}
+
+} // namespace
+
+PassCost FramePasses::frame() const {
+    PassCost sum{"frame", 1, 0, {}};
+    for (const PassCost& pass : passes) add(sum, pass);
+    add(sum, outside);
+    return sum;
+}
+
+FramePasses measurePasses(const RenderFrame& render, int rounds) {
+    FramePasses result = measured<WorkSection>(render);
+    std::vector<FramePasses> timed;
+    std::vector<double> outside;
+    for (int round = 0; round < rounds; ++round) {
+        timed.push_back(measured<TimeSection>(render));
+        outside.push_back(timed.back().outside.milliseconds);
+    }
+    for (PassCost& pass : result.passes) pass.milliseconds = medianTime(timed, pass.name);
+    result.outside.milliseconds = median(outside);
+    return result;
+}
+
+FramePasses measurePasses(Stage& stage, techniques::Technique& technique, int index, std::uint32_t seed, int rounds) {
+    return measurePasses(
+        [&](techniques::PassListener& listener) {
+            stage.redraw(&listener);
+            stage.render(technique, index++, seed, &listener);
+        },
+        rounds);
+}
+
+FramePasses measurePasses(lod::LodStage& stage, techniques::LodTechnique& technique, int rounds) {
+    return measurePasses([&](techniques::PassListener& listener) { stage.render(technique, &listener); }, rounds);
+}
+
+} // namespace shadowbench::timing

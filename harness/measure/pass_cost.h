@@ -1,0 +1,45 @@
+// The cost of a frame pass by pass, as techniques name their passes (techniques/contract/pass.h).
+#pragma once
+
+#include "harness/render/lod_stage.h"
+#include "harness/render/stage.h"
+#include "techniques/gl/counters.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace shadowbench::timing {
+
+/// A pass of a frame; where it ran several times, all of them together.
+struct PassCost {
+    std::string name;
+    int runs = 0;
+    double milliseconds = 0; // see raster_clock.h; with the work of the CPU, and finished before the next pass begins
+    gl::WorkCount work;
+};
+
+struct FramePasses {
+    std::vector<PassCost> passes; // in the order in which they ran first
+    PassCost outside;             // what belongs to no pass
+
+    /// All of the frame: the sum of the above.
+    [[nodiscard]] PassCost frame() const;
+};
+
+/// Renders one frame whose passes `listener` learns of.
+using RenderFrame = std::function<void(techniques::PassListener& listener)>;
+
+/// Renders a frame to count its work and `rounds` ≥ 1 more to time it; times are medians over these, for a pass over those
+/// that it ran in. Throws InternalError where a pass begins within another.
+FramePasses measurePasses(const RenderFrame& render, int rounds);
+
+/// Of a frame of a shadow technique, G-buffer included: the frame that the stage shows, as number `index` and following of
+/// the technique's sequence. Shaders should have been compiled.
+FramePasses measurePasses(Stage& stage, techniques::Technique& technique, int index, std::uint32_t seed, int rounds);
+
+/// Of the frame that the stage shows, drawn by a level-of-detail technique again and again.
+FramePasses measurePasses(lod::LodStage& stage, techniques::LodTechnique& technique, int rounds);
+
+} // namespace shadowbench::timing

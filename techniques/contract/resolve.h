@@ -1,0 +1,17 @@
+// The full-screen pass that turns a technique's light-space data into visibility.
+#pragma once
+
+#include "techniques/contract/technique.h"
+#include "techniques/gl/program.h"
+#include "techniques/gl/texture.h"
+
+#include <initializer_list>
+#include <string_view>
+
+namespace shadowbench::techniques {
+
+/// Runs `program` on every pixel of `outputs`, which are in the order of the shader's own, as a pass named `name`.
+void resolve(const Frame& frame, std::initializer_list<const gl::Texture*> outputs, const gl::Program& program,
+             std::string_view name = "resolve");
+
+} // namespace shadowbench::techniques

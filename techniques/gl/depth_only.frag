@@ -1,0 +1,2 @@
+// For passes that draw depth alone.
+void main() {}
