@@ -99,7 +99,8 @@ private:
     std::optional<LightMap<Rational>> rationals_;
 };
 
-/// Clips at value ≥ 0; `mark` notes on a new corner on which border it lies. `open`: two corners are a segment, not a polygon.
+/// Clips at value ≥ 0; `mark` notes on a new corner on which border it lies. `open`: two corners are a segment, not a
+/// polygon.
 template <typename Number, typename Value, typename Mark>
 std::vector<Corner<Number>> clip(const std::vector<Corner<Number>>& corners, bool open, const Value& value,
                                  const Mark& mark) {
