@@ -26,8 +26,9 @@ Image<std::uint8_t> ranked(const Key& key) {
 }
 
 double distanceFromCentre(std::size_t texel) {
-    const double x = static_cast<double>(texel % side) + 0.5 - 0.5 * side;
-    const double y = static_cast<double>(texel / side) + 0.5 - 0.5 * side;
+    const std::size_t column = texel % side, row = texel / side;
+    const double x = static_cast<double>(column) + 0.5 - 0.5 * side;
+    const double y = static_cast<double>(row) + 0.5 - 0.5 * side;
     return x * x + y * y;
 }
 
