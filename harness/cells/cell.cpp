@@ -18,7 +18,7 @@ using metrics::FrameResult;
 using metrics::Mask;
 using techniques::Answer;
 
-constexpr double primaryLimit = 0.001; // METRICS: above this the run is an error, not a score
+constexpr double primaryLimit = 0.001; // docs/metrics.md, "Notation": above this a cell is an error, not a score
 
 /// The truth that a technique's answer is measured by frame after frame.
 Truth mainTruth(const techniques::Variant& variant) {
@@ -51,7 +51,7 @@ void addSoftScores(Accuracy& accuracy, const Accuracy& soft) {
     accuracy = both;
 }
 
-/// The last still frame against every truth it is scored by (METRICS, "Which truth a cell is scored against").
+/// The last still frame against every truth it is scored by (docs/metrics.md, "Which truth a cell is scored against").
 void scoreStillFrame(const Scene& scene, Truths& truths, const techniques::Variant& variant, const Image<float>& v,
                      const metrics::Drawn& drawn, const glm::dvec3& eye, Record& record) {
     const int frame = scene.timeline.still - 1;
