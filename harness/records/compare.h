@@ -12,7 +12,7 @@
 
 namespace shadowbench::gate {
 
-/// What a metric is about: verdicts of different classes are never merged (METRICS.md).
+/// What a metric is about: verdicts of different classes are never merged (docs/metrics.md).
 enum class Class {
     Labels,       // lit or shadowed, all in one
     FalseShadow,  // acne, too much shadow

@@ -58,8 +58,8 @@ struct LodTime {
     double spread = 0; // median change from one frame to the next, as a share of the former
 };
 
-/// Scores of a level-of-detail technique over the scene's walk (METRICS: pop; Scherzer and Wimmer 2008, 5.2). Colours are in
-/// [0, 1]; changes are from one frame to the next.
+/// Scores of a level-of-detail technique over the scene's walk (docs/metrics.md, "Levels of detail"; Scherzer and Wimmer
+/// 2008, 5.2). Colours are in [0, 1]; changes are from one frame to the next.
 struct Lod {
     // While camera and instances stand and levels alone change, so that lod-full's picture stays as it is:
     double pop = 0;                  // largest mean change of colour
