@@ -112,7 +112,7 @@ TEST_F(History, AChangeNamesItsCommitsAndHowToNarrowItDown) {
     EXPECT_EQ(change["suspects"], 3);
     const std::string middle = change["middle"];
     EXPECT_TRUE(middle == hashes_[1] || middle == hashes_[2]) << middle;
-    EXPECT_NE(change["narrow"].get<std::string>().find("backfill.sh " + middle.substr(0, 7)), std::string::npos);
+    EXPECT_NE(change["narrow"].get<std::string>().find("tools/backfill " + middle.substr(0, 7)), std::string::npos);
 
     ASSERT_EQ(add(records(hashes_[1], 0.1)).code, 0);
     ASSERT_EQ(add(records(hashes_[2], 0.4)).code, 0);
