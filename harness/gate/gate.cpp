@@ -29,7 +29,7 @@ class StageLine {
 public:
     StageLine(const std::string& what, bool quiet) : line_("gate: " + what, 100, quiet) {}
     [[nodiscard]] Progress progress() {
-        return [this](double share, std::string_view what) { line_.show(static_cast<int>(100 * share), 0, what); };
+        return [this](double share, std::string_view what) { line_.show(static_cast<int>(100 * share), 0.0, what); };
     }
 
 private:

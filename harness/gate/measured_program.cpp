@@ -85,7 +85,7 @@ std::string text(const Step& step) {
 
 } // namespace
 
-Program::Program(fs::path file, const fs::path& cache) : file_(fs::absolute(file)), cache_(fs::absolute(cache)) {
+Program::Program(const fs::path& file, const fs::path& cache) : file_(fs::absolute(file)), cache_(fs::absolute(cache)) {
     std::string key;
     try {
         key = hash128(readFile(file_) + surroundings()).text();

@@ -35,7 +35,7 @@ class Program {
 public:
     /// `file`: the executable. Its records are kept in `cache`, under a hash of the program, Mesa, Valgrind and processor:
     /// the same program is not measured twice. Throws Inconclusive when it cannot be read.
-    Program(std::filesystem::path file, const std::filesystem::path& cache);
+    Program(const std::filesystem::path& file, const std::filesystem::path& cache);
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 

@@ -6,7 +6,6 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 namespace shadowbench::gate {
 namespace {
@@ -25,9 +24,15 @@ double medianLowerBound(std::vector<double> samples, double alpha) {
     if (n == 0) return -std::numeric_limits<double>::infinity();
     // The k-th smallest lies above the median when fewer than k samples lie below it: P(Bin(n, ½) ≤ k − 1).
     const boost::math::binomial below(n, 0.5);
-    const auto ranks = std::views::iota(0, n);
     const auto sure = [&](int k) { return boost::math::cdf(below, k) <= alpha; };
-    const auto rank = std::ranges::partition_point(ranks, sure) - ranks.begin();
+    int rank = 0; // the first that is not sure, by bisection
+    for (int end = n; rank < end;) {
+        const int middle = rank + (end - rank) / 2;
+        if (sure(middle))
+            rank = middle + 1;
+        else
+            end = middle;
+    }
     if (rank == 0) return -std::numeric_limits<double>::infinity();
     std::nth_element(samples.begin(), samples.begin() + (rank - 1), samples.end());
     return samples[static_cast<std::size_t>(rank - 1)];

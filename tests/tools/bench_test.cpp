@@ -23,7 +23,7 @@ protected:
                        "After this operation, 45.6 MB of additional disk space will be used.\\nAbort.\\n'; exit 1 ;; "
                        "esac");
         standIn("cmake",
-                note + "for i in $(seq 300); do echo \"[$i/300] Building CXX object a.o\"; echo 'note: a warning'; done");
+                note + "for i in $(seq 30); do echo \"[$i/30] Building CXX object a.o\"; echo 'note: a warning'; done");
         standIn("ctest", note);
     }
 
