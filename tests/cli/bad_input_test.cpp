@@ -88,7 +88,7 @@ TEST(BadCommand, AnUnknownVerbNamesTheNearMatch) {
     EXPECT_NE(outcome.output.find("\"run\""), std::string::npos) << outcome.output;
 }
 
-TEST(BadCommand, AReferenceThatIsNotNamedWellEndsInOneLine) {
+TEST(BadCommand, WrongArgumentsOfReferenceEndInOneLine) {
     const std::vector<std::pair<std::string, std::string>> wrong{
         {"", "--scene"},
         {"--scene simple --scene trees", "one scene"},
@@ -111,7 +111,7 @@ TEST(BadCommand, AReferenceThatIsNotNamedWellEndsInOneLine) {
 
 TEST(BadCommand, NoVerbIsUsage) { EXPECT_EQ(shell("shadowbench ").code, 2); }
 
-TEST(BadCommand, ARecordThatIsNoneIsNamedByFileAndLine) {
+TEST(BadCommand, ALineThatIsNotARecordIsNamedByFileAndNumber) {
     const Folder folder;
     const Outcome outcome = shell("shadowbench report " + folder.write("results.jsonl", "{}\n"));
     EXPECT_EQ(outcome.code, 2);

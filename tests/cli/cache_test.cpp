@@ -54,7 +54,7 @@ TEST_F(CacheVerb, VerifyNamesTheDamagedFile) {
     EXPECT_EQ(json("verify --quiet")["damaged"].size(), 1U);
 }
 
-TEST_F(CacheVerb, PruneRemovesWhatItSaidItWould) {
+TEST_F(CacheVerb, PruneRemovesWhatADryRunLists) {
     EXPECT_EQ(json("prune --all --dry-run")["removed"].size(), 2U);
     EXPECT_EQ(json("list")["entries"].size(), 2U);
     EXPECT_EQ(json("prune --older-than 1h")["removed"].size(), 0U);
@@ -63,7 +63,7 @@ TEST_F(CacheVerb, PruneRemovesWhatItSaidItWould) {
     EXPECT_EQ(json("list")["entries"].size(), 0U);
 }
 
-TEST_F(CacheVerb, WrongWordsEndInOneLineThatSaysWhatIsValid) {
+TEST_F(CacheVerb, WrongArgumentsEndInOneLineThatSaysWhatIsValid) {
     const std::vector<std::pair<std::string, std::string>> wrong{{"lsit", "did you mean \"list\"?"},
                                                                  {"prune --max-size lots", "500M"},
                                                                  {"prune --older-than 30", "30d"},

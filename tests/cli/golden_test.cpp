@@ -93,7 +93,7 @@ TEST_F(GoldenVerb, AcceptingTheSameAgainChangesNoByte) {
     EXPECT_EQ(readFile(folder_ / "golden/tiny-hard.exr"), image);
 }
 
-TEST_F(GoldenVerb, AChangedTruthIsToldInPixelsAndReplacedOnPurposeOnly) {
+TEST_F(GoldenVerb, AChangedTruthIsReportedInPixelsAndReplacedByAcceptOnly) {
     reference("--accept");
     const std::string before = readFile(folder_ / "golden/lock.json");
     moveTheBox();
@@ -167,7 +167,7 @@ TEST_F(GoldenVerb, AFrameThatNoRunAsksForIsGone) {
     EXPECT_EQ(reference("--verify").code, 0);
 }
 
-TEST_F(GoldenVerb, ALockThatIsNoneIsNamed) {
+TEST_F(GoldenVerb, AnInvalidLockFileIsNamed) {
     reference("--accept");
     for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
              {"\"tiny-hard.exr\"", "\"../tiny-hard.exr\""}, {"\"version\": 1", "\"version\": 9"}, {"{", ""}}) {

@@ -7,14 +7,6 @@
 namespace shadowbench {
 namespace {
 
-std::string walkScene() {
-    return tinyScene(
-        "{ kind = \"point\", centre = [1.7, 6.1, -2.3] }",
-        "[[object]]\nmesh = { sphere = { radius = 0.5 } }\nlod = { triangles = [500, 80], until = [8] }\n"
-        "place = [{ at = [1.5, 0.45, 1.5] }, { at = [-1.5, 0.45, -1.5] }]\n"
-        "[lod]\nframes = 5\nband = 0.5\npath = [{ frame = 0, shift = [0, 0, 0] }, { frame = 4, shift = [0, 0, -1] }]\n");
-}
-
 class LodRun : public testing::Test {
 protected:
     Folder folder_;

@@ -121,7 +121,7 @@ TEST_F(PairedTime, TheProgramTimesItsFrames) {
     for (const TimeJudgement& judgement : judgements)
         for (const PairedRound& round : judgement.samples.restarts.at(0))
             for (const timing::FrameTime& time : {round.base, round.head, round.control}) {
-                EXPECT_GT(time.cpu, 0) << judgement.cell.variant; // how much is the machine's affair
+                EXPECT_GT(time.cpu, 0) << judgement.cell.variant; // how much depends on the machine
                 // A thread cannot use more than all of the time. The coarse clock of a process under a limit says so of
                 // every other frame; the driver's other threads do next to nothing.
                 EXPECT_LE(time.cpu, 1.02 * time.wall + 0.2) << judgement.cell.variant;

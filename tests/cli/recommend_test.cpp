@@ -39,7 +39,7 @@ TEST_F(Recommend, PrintsTheLevelOfEachBandAndTheTrianglesSaved) {
     EXPECT_NE(outcome.output.find("720 180 80 20"), std::string::npos) << outcome.output;
 }
 
-TEST_F(Recommend, TellsMachinesTheSame) {
+TEST_F(Recommend, PrintsTheSameAsJson) {
     const Outcome outcome = recommend("--json --bands 9 --scene " + scene_);
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const auto casters = nlohmann::json::parse(outcome.output).at(0).at("casters");
@@ -92,7 +92,7 @@ TEST_F(Recommend, RunsTheCellsThatMapsAreReadOffAndKeepsTheirRecords) {
     EXPECT_FALSE(nlohmann::json::parse(fromRecords.output).at(0).at("map").empty());
 }
 
-TEST_F(Recommend, WrongWordsAreToldInOneLine) {
+TEST_F(Recommend, WrongArgumentsEndInOneLine) {
     for (const std::string options : {"--scene dueling-frusta", "--scene windmills --levels 600,300", "--scene windmils",
                                       "--scene windmills --what levels", "--scene windmills --tolerance rmse=0.1",
                                       "--scene windmills --levels rotors=many", "--scene windmills --bands 9,7"}) {

@@ -58,7 +58,7 @@ TEST_F(Reference, PolygonsAreWrittenOnRequest) {
     EXPECT_NE(outcome.output.find("shadow-1.svg"), std::string::npos) << outcome.output;
 }
 
-TEST_F(Reference, ByPlanTellsWhyASceneIsNoPlan) {
+TEST_F(Reference, ByPlanRefusesASceneThatIsNotOne) {
     const Outcome outcome = reference("--oracle plan --scene " + point_); // a box that floats
     EXPECT_EQ(outcome.code, 2) << outcome.output;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));

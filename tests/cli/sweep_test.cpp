@@ -48,7 +48,7 @@ TEST_F(Sweep, OfASceneMovesTheSceneAndTheTruthWithIt) {
     EXPECT_NE(all[0].reference->key, all[1].reference->key);
 }
 
-TEST_F(Sweep, AValueThatOneTechniqueDoesNotTakeIsSaidInItsRecord) {
+TEST_F(Sweep, AValueThatOneTechniqueDoesNotTakeIsReportedInItsRecord) {
     const Outcome outcome = sweep("--axis map --values 2048,256 --technique sm-uniform --technique deep-sm");
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const std::vector<Record> all = records();
@@ -59,7 +59,7 @@ TEST_F(Sweep, AValueThatOneTechniqueDoesNotTakeIsSaidInItsRecord) {
     EXPECT_EQ(all[3].status, Status::Scored);
 }
 
-TEST_F(Sweep, ParametersThatDoNotGoTogetherAtAValueAreSaidInItsRecord) {
+TEST_F(Sweep, ParametersThatExcludeEachOtherAtAValueAreReportedInItsRecord) {
     const Outcome outcome = sweep("--axis map --values 256,64 --technique sm-uniform --technique sm-adaptive");
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const std::vector<Record> all = records();
@@ -69,7 +69,7 @@ TEST_F(Sweep, ParametersThatDoNotGoTogetherAtAValueAreSaidInItsRecord) {
     EXPECT_NE(all[3].reason.find("does not fit into a map of 64²"), std::string::npos) << all[3].reason;
 }
 
-TEST_F(Sweep, WrongWordsAreToldBeforeAnythingIsWritten) {
+TEST_F(Sweep, WrongArgumentsAreRejectedBeforeAnythingIsWritten) {
     EXPECT_EQ(sweep("--axis light-view-angel").code, 2);
     EXPECT_EQ(sweep("--axis map --technique none").code, 2);
     EXPECT_EQ(sweep("--axis map --values 0.5 --technique sm-uniform").code, 2);

@@ -4,22 +4,53 @@
 #include "tests/support/program.h"
 
 #include <algorithm>
+#include <csignal>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace shadowbench {
 namespace {
 
 namespace fs = std::filesystem;
 
-TEST(CommandLine, HelpOfTheProgramAndOfEveryVerbHasAnExample) {
-    EXPECT_EQ(shell("shadowbench --help").code, 0);
-    for (const std::string verb : {"list", "run", "merge", "reference", "sweep", "recommend", "claims", "compare", "report",
-                                   "cache", "cache list", "cache verify", "cache prune"}) {
-        const Outcome help = shell("shadowbench " + verb + " --help");
-        EXPECT_EQ(help.code, 0) << verb;
+/// The words in the first column of a help text's list of subcommands; none where it has no such list.
+std::vector<std::string> subcommandsIn(const std::string& help) {
+    std::vector<std::string> names;
+    std::istringstream lines(help.substr(std::min(help.find("\nSubcommands:\n"), help.size())));
+    std::string line;
+    std::getline(lines, line); // the rest of the line before
+    std::getline(lines, line); // the heading
+    while (std::getline(lines, line) && line.starts_with("  "))
+        if (line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2)); // no continuation of the text beside
+    return names;
+}
+
+/// Every verb that the program's help lists, with the subcommands that the verbs' own help lists: "cache", "cache list" …
+/// Each must have an example.
+std::vector<std::string> verbsWithHelp(const std::string& verb = "") {
+    const Outcome help = shell("shadowbench " + verb + " --help");
+    EXPECT_EQ(help.code, 0) << verb;
+    if (!verb.empty()) {
         EXPECT_NE(help.output.find("Example"), std::string::npos) << verb;
     }
+    std::vector<std::string> verbs;
+    for (const std::string& name : subcommandsIn(help.output)) {
+        const std::string inner = verb.empty() ? name : verb + " " + name;
+        verbs.push_back(inner);
+        std::ranges::move(verbsWithHelp(inner), std::back_inserter(verbs));
+    }
+    return verbs;
+}
+
+TEST(CommandLine, HelpOfTheProgramNamesEveryVerbAndEachHasAnExample) {
+    const std::vector<std::string> verbs = verbsWithHelp();
+    for (const char* verb :
+         {"list", "run", "merge", "reference", "sweep", "recommend", "claims", "compare", "gate", "history", "history add",
+          "history show", "report", "cache", "cache list", "cache verify", "cache prune"})
+        EXPECT_EQ(std::ranges::count(verbs, verb), 1) << verb;
+    EXPECT_EQ(std::ranges::count(verbs, "count-frames"), 0) << "for the program's own use";
 }
 
 TEST(CommandLine, ListNamesEveryTechniqueWithItsParameters) {
@@ -94,16 +125,32 @@ TEST_F(Run, AResumedRunKeepsWhatIsFinished) {
     EXPECT_EQ(toJson(records()[0]), toJson(before)); // times and all: it was not run again
 }
 
+/// Kills the command as soon as the file has that many lines and some time has passed.
+Outcome killedAfter(std::size_t lines, const std::string& file, const std::string& seconds, const std::string& command) {
+    return shell(command + " & pid=$!; while kill -0 $pid 2>/dev/null && [ \"$(cat " + file +
+                 " 2>/dev/null | wc -l)\" -lt " + std::to_string(lines) + " ]; do sleep 0.01; done; sleep " + seconds +
+                 "; kill -KILL $pid; wait $pid");
+}
+
 TEST_F(Run, KilledAtAnyMomentItLeavesWholeRecordsAndResumes) {
-    for (const char* delay : {"0.2", "0.5", "0.9", "1.4"}) {
-        shell("timeout -s KILL " + std::string(delay) + " " +
-              command("--resume --technique sm-uniform --technique 'sm-h*' --technique pcf"));
-        if (fs::exists(folder_ / "out/results.jsonl")) {
-            EXPECT_NO_THROW(records());
-        }
+    const std::string all = command("--resume --technique sm-uniform --technique 'sm-h*' --technique pcf");
+    const std::string file = folder_ / "out/results.jsonl";
+    std::vector<std::string> before;
+    for (const auto& [lines, seconds] :
+         std::vector<std::pair<std::size_t, std::string>>{{0, "0.1"}, {1, "0"}, {2, "0.05"}, {4, "0.02"}}) {
+        const Outcome killed = killedAfter(lines, file, seconds, all);
+        EXPECT_EQ(killed.code, 128 + SIGKILL) << "the run ended before the kill: " << killed.output;
+        if (lines == 0 && !fs::exists(file)) continue;
+        const std::vector<Record> whole = records();
+        EXPECT_GE(whole.size(), lines);
+        EXPECT_LT(whole.size(), 6U);
+        for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(toJson(whole.at(i)), before[i]) << "it was run again";
+        before.clear();
+        for (const Record& record : whole) before.push_back(toJson(record));
     }
-    ASSERT_EQ(shell(command("--resume --technique sm-uniform --technique 'sm-h*' --technique pcf")).code, 0);
+    ASSERT_EQ(shell(all).code, 0);
     EXPECT_EQ(records().size(), 6U); // a map, four variants of history, pcf
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(toJson(records().at(i)), before[i]) << "it was run again";
 }
 
 TEST_F(Run, ADamagedCacheEntryIsReplaced) {
