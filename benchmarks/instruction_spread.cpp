@@ -49,8 +49,8 @@ std::string report(const std::vector<std::vector<Record>>& runs) {
     std::set<std::string> techniques, commits;
     for (const std::vector<Record>& run : runs)
         for (const Record& record : run) {
-            if (!record.cost.instructions) continue;
-            cells[{record.variant, record.scene}].counts.push_back(static_cast<double>(*record.cost.instructions));
+            if (!record.values["cost.instructions"]) continue;
+            cells[{record.variant, record.scene}].counts.push_back(*record.values["cost.instructions"]);
             techniques.insert(record.technique);
             commits.insert(record.commit.substr(0, 12));
         }

@@ -4,17 +4,18 @@
 #include "base/hash.h"
 #include "harness/cells/environment.h"
 #include "harness/measure/frame_cost.h"
+#include "harness/metrics/frames.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <fmt/format.h>
 
 namespace shadowbench {
 namespace {
 
 using groundtruth::Reference;
-using metrics::FrameResult;
 using metrics::Mask;
 using techniques::Answer;
 
@@ -39,129 +40,89 @@ ReferenceInfo describe(const Reference& reference) {
             penumbra > 0 ? std::sqrt(sum / static_cast<double>(penumbra)) : 0, provenance.tools};
 }
 
-/// Soft scores join the hard ones of the same cell.
-void addSoftScores(Accuracy& accuracy, const Accuracy& soft) {
-    Accuracy both = soft;
-    both.mismatch = accuracy.mismatch;
-    both.mismatchOffEdge = accuracy.mismatchOffEdge;
-    both.falseShadow = accuracy.falseShadow;
-    both.leak = accuracy.leak;
-    both.edgeError = accuracy.edgeError;
-    both.primaryMismatch = std::max(accuracy.primaryMismatch, soft.primaryMismatch);
-    accuracy = both;
+/// Metrics of one frame against one truth, of those kinds that fit it.
+template <class Kind>
+void score(const metrics::ScoredFrame& frame, Record& record) {
+    metrics::compute<Kind>(frame, record.values);
+    std::optional<double>& worst = record.values["accuracy.primary_mismatch"];
+    worst = std::max(worst.value_or(0), frame.mask.primaryMismatch);
 }
 
 /// The last still frame against every truth it is scored by (docs/metrics.md, "Which truth a cell is scored against").
 void scoreStillFrame(const Scene& scene, Truths& truths, const techniques::Variant& variant, const Image<float>& v,
                      const metrics::Drawn& drawn, const glm::dvec3& eye, Record& record) {
     const int frame = scene.timeline.still - 1;
-    if (variant.entry->answer == Answer::Soft) {
+    const auto scoreSoft = [&](std::optional<ReferenceInfo>& reference) {
         const Reference& soft = truths.at(Truth::Soft, frame);
-        record.reference = describe(soft);
-        record.accuracy = metrics::softAccuracy(v, soft, metrics::receiverMask(soft, drawn, eye));
-        return;
-    }
+        reference = describe(soft);
+        score<metrics::OfVisibility>({v, soft, metrics::receiverMask(soft, drawn, eye)}, record);
+    };
+    if (variant.entry->answer == Answer::Soft) return scoreSoft(record.reference);
     const Reference& hard = truths.at(Truth::Hard, frame);
     const Mask mask = metrics::receiverMask(hard, drawn, eye);
     record.reference = describe(hard);
-    record.accuracy = metrics::hardAccuracy(v, hard, mask);
-    if (scene.light.isArea()) {
-        const Reference& soft = truths.at(Truth::Soft, frame);
-        record.softReference = describe(soft);
-        addSoftScores(record.accuracy, metrics::softAccuracy(v, soft, metrics::receiverMask(soft, drawn, eye)));
-    } else if (variant.entry->answer == Answer::Filtered || variant.entry->temporal) {
-        addSoftScores(record.accuracy, metrics::softAccuracy(v, hard, mask));
-    }
+    score<metrics::OfLabels>({v, hard, mask}, record);
+    if (scene.light.isArea())
+        scoreSoft(record.softReference);
+    else if (variant.entry->answer == Answer::Filtered || variant.entry->temporal)
+        score<metrics::OfVisibility>({v, hard, mask}, record);
 }
 
-Image<std::uint8_t> toBytes(const Image<float>& v) {
-    Image<std::uint8_t> bytes(v.width(), v.height());
-    std::transform(v.begin(), v.end(), bytes.begin(),
-                   [](float x) { return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(x, 0.0F, 1.0F))); });
-    return bytes;
-}
-
-double shareChanged(const Image<std::uint8_t>& a, const Image<std::uint8_t>& b, const Mask& mask) {
-    std::size_t changed = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        if (mask.scored[i] != 0 && std::abs(a[i] - b[i]) > 30) ++changed;
-    return static_cast<double>(changed) / static_cast<double>(mask.count);
-}
-
-/// Error over the still frames from an empty history. Labels are compared with the technique's own truth, graded visibility
-/// with the truth that `rmse` of the record is about.
-class StillCurve {
+/// The still frames from an empty history. Labels are compared with the technique's own truth, graded visibility with the
+/// truth that `accuracy.rmse` of the record is about.
+class StillFrameScores {
 public:
-    StillCurve(const Reference& own, const Reference& graded, bool hard) : own_(own), graded_(graded), hard_(hard) {}
+    StillFrameScores(const Reference& own, const Reference& graded, bool hard) : own_(own), graded_(graded), hard_(hard) {}
 
-    void add(const Image<float>& v, const Mask& mask, const Mask& gradedMask, Stability& stability) {
-        if (hard_) stability.mismatchByFrame.push_back(metrics::mismatch(v, own_, mask));
-        stability.rmseByFrame.push_back(metrics::rmse(v, graded_, gradedMask));
-        stability.bad30ByFrame.push_back(metrics::shareAbove(v, graded_.visibility, gradedMask, 30.0 / 255));
-        ownError_.push_back(metrics::rmse(v, own_, mask));
-        frames_.push_back(toBytes(v));
+    void add(const Image<float>& v, const Mask& mask, const Mask& gradedMask, metrics::Values& values) {
+        const metrics::ScoredFrame frame{v, own_, mask};
+        if (hard_) metrics::appendFrame<metrics::LabelsByFrame>(frame, values);
+        metrics::appendFrame<metrics::VisibilityByFrame>({v, graded_, gradedMask}, values);
+        errors_.push_back(metrics::rmse(frame).value());
+        pictures_.push_back(metrics::inBytes(v));
     }
 
-    void finish(const Mask& mask, Stability& stability) const {
-        for (const Image<std::uint8_t>& frame : frames_)
-            stability.changedByFrame.push_back(shareChanged(frame, frames_.back(), mask));
-        stability.convergence = metrics::convergence(ownError_);
+    void finish(const Mask& mask, metrics::Values& values) const {
+        const metrics::StillFrames frames{pictures_, errors_, mask};
+        metrics::compute<metrics::OfStillFrames>(frames, values);
+        metrics::computeLists(frames, values);
     }
 
 private:
     const Reference& own_;
     const Reference& graded_;
     bool hard_;
-    std::vector<double> ownError_;
-    std::vector<Image<std::uint8_t>> frames_;
+    std::vector<double> errors_;
+    std::vector<Image<std::uint8_t>> pictures_;
 };
 
-/// Flicker and flips from one scored frame to the next, and the error of all after the first.
-class MotionScores {
+/// The frames that are scored one after the other: the last still one and the moving ones.
+class MovingFrameScores {
 public:
     void add(const Snapshot& shown, const Reference& truth, Image<float> v, Mask mask) {
-        if (before_.truth != nullptr) {
-            const Image<glm::vec2> warp = metrics::warp(shown, {v.width(), v.height()}, truth, *before_.truth);
-            const FrameResult now{&v, &truth, &mask}, before{&before_.v, before_.truth, &before_.mask};
-            metrics::flickerSamples(now, before, warp, samples_);
-            metrics::addMovingError(now, warp, error_);
-            const metrics::Flips flips = metrics::flips(now, before, warp);
-            flips_.flipped += flips.flipped;
-            flips_.compared += flips.compared;
-            for (std::size_t i = 0; i < warp.size(); ++i) {
-                if (truth.surface[i] == groundtruth::Surface::Background) continue;
-                ++surfacePixels_;
-                if (!std::isnan(warp[i].x)) ++seenBefore_;
-            }
-        }
-        before_ = {std::move(v), &truth, std::move(mask)};
+        const Kept& now = kept_.emplace_back(Kept{std::move(v), truth, std::move(mask)});
+        if (kept_.size() == 1) return;
+        const Kept& before = kept_[kept_.size() - 2];
+        Image<glm::vec2> warp = metrics::warp(shown, {now.v.width(), now.v.height()}, truth, before.truth);
+        frames_.pairs.push_back({{now.v, now.truth, now.mask}, {before.v, before.truth, before.mask}, std::move(warp)});
     }
 
-    void finish(Stability& stability) {
-        stability.flicker = metrics::flicker(std::move(samples_));
-        if (flips_.compared > 0)
-            stability.flipRate = static_cast<double>(flips_.flipped) / static_cast<double>(flips_.compared);
-        stability.movingRmse = error_.all.root();
-        stability.disocclusionError = error_.disoccluded.root();
-        if (surfacePixels_ > 0) stability.reuse = static_cast<double>(seenBefore_) / static_cast<double>(surfacePixels_);
-    }
+    void finish(metrics::Values& values) const { metrics::compute<metrics::OfMovingFrames>(frames_, values); }
 
 private:
     struct Kept {
         Image<float> v;
-        const Reference* truth = nullptr;
+        const Reference& truth;
         Mask mask;
     };
-    Kept before_;
-    std::vector<float> samples_;
-    metrics::Flips flips_;
-    metrics::MovingError error_;
-    std::size_t surfacePixels_ = 0, seenBefore_ = 0;
+    std::deque<Kept> kept_; // the pairs refer to its elements
+    metrics::MovingFrames frames_;
 };
 
-std::optional<Aliasing> aliasingOf(const techniques::Technique& technique, const Stage& stage, const Mask& mask) {
-    return metrics::aliasing(stage.shown().camera, stage.drawn().position, stage.normals(), mask,
-                             [&](const glm::dvec3& world) { return technique.mapPoint(world); });
+void measureAliasing(const techniques::Technique& technique, const Stage& stage, const Mask& mask, Record& record) {
+    const metrics::MapPoint mapPoint = [&](const glm::dvec3& world) { return technique.mapPoint(world); };
+    const metrics::MappedFrame frame{stage.shown().camera, stage.drawn().position, stage.normals(), mask, mapPoint};
+    metrics::compute<metrics::OfMap>(frame, record.values);
 }
 
 void requireSamePrimaryHits(double share, const Scene& scene, int frame) {
@@ -222,8 +183,8 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     const auto technique = variant.entry->make(variant.parameters);
 
     const Reference& graded = truths.at(scene.light.isArea() ? Truth::Soft : Truth::Hard, scored);
-    StillCurve curve(truths.at(kind, scored), graded, kind == Truth::Hard);
-    MotionScores motion;
+    StillFrameScores still(truths.at(kind, scored), graded, kind == Truth::Hard);
+    MovingFrameScores moving;
     std::uint64_t bytes = 0;
     for (int frame = temporal ? 0 : scored; frame < scene.timeline.frames(); ++frame) {
         if (frame == 0 || frame >= scored) stage.show(frame); // the still frames between are all the same
@@ -233,26 +194,26 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
         Mask mask = metrics::receiverMask(truth, stage.drawn(), stage.shown().camera.eye);
         requireSamePrimaryHits(mask.primaryMismatch, scene, frame);
         if (temporal && frame <= scored)
-            curve.add(v, mask, metrics::receiverMask(graded, stage.drawn(), stage.shown().camera.eye), record.stability);
+            still.add(v, mask, metrics::receiverMask(graded, stage.drawn(), stage.shown().camera.eye), record.values);
         if (frame < scored) continue;
         if (frame == scored) {
-            if (temporal) curve.finish(mask, record.stability);
+            if (temporal) still.finish(mask, record.values);
             scoreStillFrame(scene, truths, variant, v, stage.drawn(), stage.shown().camera.eye, record);
-            requireSamePrimaryHits(record.accuracy.primaryMismatch, scene, frame);
+            requireSamePrimaryHits(*record.values["accuracy.primary_mismatch"], scene, frame);
             record.figures =
                 techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame, options.seed)));
-            record.aliasing = aliasingOf(*technique, stage, mask);
+            measureAliasing(*technique, stage, mask, record);
             images = {v, scene.light.isArea() ? &truths.at(Truth::Soft, frame) : &truth};
             bytes = gl::Context::current().tally().bytes - bytesBefore;
         }
-        motion.add(stage.shown(), truth, std::move(v), std::move(mask));
+        moving.add(stage.shown(), truth, std::move(v), std::move(mask));
     }
-    motion.finish(record.stability);
+    moving.finish(record.values);
 
     stage.show(scored);
     const int next = scene.timeline.frames(); // of the technique's sequence
-    record.cost.work = timing::measureWork(stage, *technique, bytes, next, options.seed);
-    if (options.time) record.cost.time = timing::measureTime(stage, variant, *technique, next + 1, options.seed);
+    setWork(record, timing::measureWork(stage, *technique, bytes, next, options.seed));
+    if (options.time) setTime(record, timing::measureTime(stage, variant, *technique, next + 1, options.seed));
     record.status = Status::Scored;
 }
 

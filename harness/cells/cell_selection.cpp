@@ -1,5 +1,6 @@
 #include "harness/cells/cell_selection.h"
 
+#include "harness/metrics/table.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
 
@@ -24,7 +25,8 @@ std::vector<std::string> chosenSceneNames(const std::vector<std::string>& names)
 
 std::vector<Scene> chosenScenes(const std::vector<std::string>& names, Profile profile) {
     std::vector<Scene> scenes;
-    for (const std::string& name : chosenSceneNames(names)) scenes.push_back(loadScene(name, profile));
+    for (const std::string& name : chosenSceneNames(names))
+        scenes.push_back(loadScene(name, profile, metrics::boundedMetrics()));
     return scenes;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/progress_line.h"
+#include "harness/metrics/table.h"
 #include "scene/load/load.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ class Selection {
 public:
     explicit Selection(const GoldenOptions& options) : options_(options) {
         const std::vector<std::string> ids = options.scenes.empty() ? standardScenes() : options.scenes;
-        for (const std::string& id : ids) scenes_.push_back(loadScene(id, options.profile));
+        for (const std::string& id : ids) scenes_.push_back(loadScene(id, options.profile, metrics::boundedMetrics()));
         for (const Scene& scene : scenes_) add(scene);
         std::ranges::sort(wanted_, {}, &Wanted::name);
         if (wanted_.empty())

@@ -3,12 +3,11 @@
 #include "base/hash.h"
 #include "groundtruth/oracle.h"
 #include "harness/measure/lod_cost.h"
+#include "harness/metrics/frames.h"
 #include "techniques/gl/context.h"
 #include "techniques/gl/counters.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace shadowbench::lod {
@@ -19,41 +18,27 @@ using techniques::LodTechnique;
 
 std::unique_ptr<LodTechnique> make(const techniques::Variant& variant) { return variant.entry->makeLod(variant.parameters); }
 
-/// Gathers the scores of a walk, picture by picture.
-class WalkScores {
+/// What the pictures along the walk give, one after the other.
+class WalkPictures {
 public:
-    explicit WalkScores(const LodReference& reference) : reference_(reference) {}
-
-    void add(std::size_t frame, const ColourImage& picture, double primitives) {
-        if (frame > 0) {
-            lod_.walkPopByFrame.push_back(metrics::meanChange(picture, before_) - reference_.change[frame]);
-        }
-        squares_ += metrics::meanSquare(picture, reference_.pictures[frame]);
-        speckle_ += metrics::speckle(picture, reference_.masks[frame]);
-        lod_.primitivesByFrame.push_back(primitives);
-        before_ = picture;
+    WalkPictures(const LodReference& reference, metrics::Walk& walk) : reference_(reference), walk_(walk) {
+        walk_.referenceSpeckle = reference.speckle;
+        walk_.maskPixels = reference.maskPixels;
+        walk_.transitions = reference.transitions[reference.busiest];
     }
 
-    Lod finish() {
-        const auto frames = static_cast<double>(lod_.primitivesByFrame.size());
-        lod_.walkPop = *std::ranges::max_element(lod_.walkPopByFrame);
-        lod_.colourError = std::sqrt(squares_ / frames);
-        if (reference_.maskPixels > 0)
-            lod_.noise = (speckle_ - reference_.speckle) / static_cast<double>(reference_.maskPixels);
-        const std::vector<double>& primitives = lod_.primitivesByFrame;
-        for (std::size_t frame = 2; frame < primitives.size(); ++frame) // the first one also fills histories
-            lod_.primitiveChange =
-                std::max(lod_.primitiveChange, std::abs(primitives[frame] - primitives[frame - 1]) / primitives[frame - 1]);
-        for (const double count : primitives) lod_.primitives += count / frames;
-        lod_.transitions = reference_.transitions[reference_.busiest];
-        return std::move(lod_);
+    void add(std::size_t frame, const ColourImage& picture, double primitives) {
+        if (frame > 0) walk_.change.push_back(metrics::meanChange(picture, before_) - reference_.change[frame]);
+        walk_.square.push_back(metrics::meanSquare(picture, reference_.pictures[frame]));
+        walk_.speckle.push_back(metrics::speckle(picture, reference_.masks[frame]));
+        walk_.primitives.push_back(primitives);
+        before_ = picture;
     }
 
 private:
     const LodReference& reference_;
-    Lod lod_;
+    metrics::Walk& walk_;
     ColourImage before_;
-    double squares_ = 0, speckle_ = 0;
 };
 
 gl::WorkCount draw(LodStage& stage, LodTechnique& technique, int frame) {
@@ -63,8 +48,8 @@ gl::WorkCount draw(LodStage& stage, LodTechnique& technique, int frame) {
     return meter.finish();
 }
 
-/// Popping where nothing but levels changes.
-void scoreStanding(LodStage& stage, LodTechnique& technique, int frames, const Progress& progress, Lod& scores) {
+/// Draws the frames in which nothing but levels changes.
+void drawStanding(LodStage& stage, LodTechnique& technique, int frames, const Progress& progress, metrics::Walk& walk) {
     technique.reset();
     ColourImage before;
     for (int frame = 0; frame < frames; ++frame) {
@@ -73,13 +58,11 @@ void scoreStanding(LodStage& stage, LodTechnique& technique, int frames, const P
         stage.render(technique);
         ColourImage picture = stage.picture();
         if (frame > 0) {
-            scores.popByFrame.push_back(metrics::meanChange(picture, before));
-            const std::size_t region = metrics::largestChangedRegion(picture, before);
-            scores.changedRegion = std::max<std::uint64_t>(scores.changedRegion, region);
+            walk.standingChange.push_back(metrics::meanChange(picture, before));
+            walk.standingRegion.push_back(metrics::largestChangedRegion(picture, before));
         }
         before = std::move(picture);
     }
-    scores.pop = *std::ranges::max_element(scores.popByFrame);
 }
 
 /// The picture of a frame from an empty history, which holds the frame before.
@@ -92,11 +75,11 @@ ColourImage pictureAt(LodStage& stage, LodTechnique& technique, bool temporal, i
     return stage.picture();
 }
 
-/// Root of the mean squared difference that the order of drawing makes, in the frame with most transitions.
-double orderError(LodScene& lodScene, LodTechnique& technique, bool temporal) {
+/// The mean squared difference that the order of drawing makes, in the frame with most transitions.
+double orderSquare(LodScene& lodScene, LodTechnique& technique, bool temporal) {
     const int frame = static_cast<int>(lodScene.reference().busiest);
     const ColourImage ordered = pictureAt(lodScene.stage(), technique, temporal, frame);
-    return std::sqrt(metrics::meanSquare(ordered, pictureAt(lodScene.reversedStage(), technique, temporal, frame)));
+    return metrics::meanSquare(ordered, pictureAt(lodScene.reversedStage(), technique, temporal, frame));
 }
 
 /// Bytes of textures and buffers that are the technique's own.
@@ -160,7 +143,9 @@ void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const Me
     const LodReference& reference = lodScene.reference(progress);
     LodStage& stage = lodScene.stage();
     std::unique_ptr<LodTechnique> technique = make(variant);
-    WalkScores scores(reference);
+    metrics::Walk walk;
+    WalkPictures pictures(reference, walk);
+    Work busiest;
     const bool isReference = variant.entry->id == "lod-full"; // drawn already, and the same whatever levels are selected
     for (int index = 0; index < frames; ++index) {
         progress(static_cast<double>(index) / frames, fmt::format("{}, frame {} of {}", variant.name, index + 1, frames));
@@ -168,23 +153,27 @@ void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const Me
         gl::WorkCount work = reference.work[frame];
         if (!isReference) work = draw(stage, *technique, index);
         const ColourImage picture = isReference ? reference.pictures[frame] : stage.picture();
-        scores.add(frame, picture, static_cast<double>(work.primitives));
+        pictures.add(frame, picture, static_cast<double>(work.primitives));
         if (frame == reference.busiest)
-            record.cost.work = {work.fragments, work.vertices, work.primitives, work.draws, work.passes, 0};
+            busiest = {work.fragments, work.vertices, work.primitives, work.draws, work.passes, 0};
         if (keep) keep(index, picture);
     }
-    record.lod = scores.finish();
     if (isReference)
-        record.lod->popByFrame.assign(static_cast<std::size_t>(frames - 1), 0);
+        walk.standingChange.assign(static_cast<std::size_t>(frames - 1), 0);
     else
-        scoreStanding(stage, *technique, frames, progress, *record.lod);
-    record.lod->orderError = orderError(lodScene, *technique, variant.entry->temporal);
+        drawStanding(stage, *technique, frames, progress, walk);
+    walk.orderSquare = orderSquare(lodScene, *technique, variant.entry->temporal);
+    metrics::compute<metrics::OfWalk>(walk, record.values);
+    record.values.list("lod.by_frame.pop") = walk.standingChange;
+    record.values.list("lod.by_frame.walk_pop") = walk.change;
+    record.values.list("lod.by_frame.primitives") = walk.primitives;
     if (options.time) {
-        LodCost cost = measureLodCost(stage, *technique, frames);
-        record.lod->time = cost.time;
-        record.lod->millisecondsByFrame = std::move(cost.milliseconds);
+        const LodCost cost = measureLodCost(stage, *technique, frames);
+        setTime(record, cost.time);
+        record.values.list("lod.by_frame.milliseconds") = cost.milliseconds;
     }
-    record.cost.work->bytes = bytesOf(std::move(technique));
+    busiest.bytes = bytesOf(std::move(technique));
+    setWork(record, busiest);
     record.frames = frames;
     record.status = Status::Scored;
 }

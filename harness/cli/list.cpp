@@ -42,10 +42,11 @@ std::string listing(const ListOptions& options) {
 
 void addList(CLI::App& app, Action& action) {
     const auto options = std::make_shared<ListOptions>();
-    CLI::App* verb = app.add_subcommand("list", "Lists techniques with their parameters, scenes or metrics");
+    CLI::App* verb = app.add_subcommand(
+        "list", "Lists techniques with their parameters, scenes or metrics, or prints the JSON Schema of records");
     verb->footer("Example:\n  shadowbench list techniques --format md");
-    verb->add_option("what", options->what, "techniques, scenes or metrics")
-        ->check(CLI::IsMember({"techniques", "scenes", "metrics"}));
+    verb->add_option("what", options->what, "techniques, scenes, metrics or schema")
+        ->check(CLI::IsMember({"techniques", "scenes", "metrics", "schema"}));
     verb->add_option("--format", options->format, "text, md or json; ids: one a line")
         ->check(CLI::IsMember({"text", "md", "json", "ids"}))
         ->capture_default_str();

@@ -6,6 +6,7 @@
 #include "groundtruth/contract/reference_files.h"
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
+#include "harness/metrics/table.h"
 #include "scene/load/load.h"
 
 #include <CLI/CLI.hpp>
@@ -66,7 +67,7 @@ int frameOf(const Scene& scene, const ReferenceOptions& options) {
 
 NamedRequest requestOf(const ReferenceOptions& options) {
     if (options.scenes.size() != 1) throw BadInput("a reference is of one scene: name it with --scene");
-    const Scene scene = loadScene(options.scenes.front(), options.profile);
+    const Scene scene = loadScene(options.scenes.front(), options.profile, metrics::boundedMetrics());
     const int frame = frameOf(scene, options);
     return {scene.id,
             frame,

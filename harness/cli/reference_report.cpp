@@ -1,4 +1,5 @@
 #include "harness/cli/reference.h"
+#include "harness/metrics/table.h"
 #include "scene/load/load.h"
 
 #include "base/progress_line.h"
@@ -43,7 +44,7 @@ ExitCode reportOnTruth(const ReferenceOptions& options) {
     const groundtruth::Cache cache(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache);
     std::vector<report::TruthOfScene> scenes;
     for (const std::string& id : options.scenes.empty() ? standardScenes() : options.scenes) {
-        const Scene scene = loadScene(id, options.profile);
+        const Scene scene = loadScene(id, options.profile, metrics::boundedMetrics());
         scenes.push_back(truthOf(scene, frameOf(scene, options), cache, options.quiet));
     }
     printFiles(report::writeTruthReport(scenes, options.report));

@@ -22,11 +22,12 @@ constexpr std::chrono::hours longestBuild{2};
 bool isProgram(const fs::path& file) { return fs::is_regular_file(file) && access(file.c_str(), X_OK) == 0; }
 
 /// What is at a path; nothing if that is neither program nor records.
-std::optional<Base> baseAt(const fs::path& place, const std::string& name) {
-    if (isProgram(place)) return Base{Base::Kind::Program, place, name};
-    if (fs::is_regular_file(place)) return Base{Base::Kind::Records, place, name};
-    if (isProgram(place / "shadowbench")) return Base{Base::Kind::Program, place / "shadowbench", name};
-    if (fs::is_regular_file(place / "results.jsonl")) return Base{Base::Kind::Records, place / "results.jsonl", name};
+std::optional<Baseline> baselineAt(const fs::path& place, const std::string& name) {
+    if (isProgram(place)) return Baseline{Baseline::Kind::Program, place, name};
+    if (fs::is_regular_file(place)) return Baseline{Baseline::Kind::Records, place, name};
+    if (isProgram(place / "shadowbench")) return Baseline{Baseline::Kind::Program, place / "shadowbench", name};
+    if (fs::is_regular_file(place / "results.jsonl"))
+        return Baseline{Baseline::Kind::Records, place / "results.jsonl", name};
     return std::nullopt;
 }
 
@@ -90,11 +91,11 @@ private:
 
 } // namespace
 
-Base findBase(const std::string& text, const fs::path& cache, const Progress& progress) {
+Baseline findBaseline(const std::string& text, const fs::path& cache, const Progress& progress) {
     if (text.empty())
         throw Inconclusive(
             "the gate has nothing to compare with; name a build folder, a git revision or records with --base");
-    if (const auto base = baseAt(text, text)) return *base;
+    if (const auto base = baselineAt(text, text)) return *base;
     const fs::path here = fs::current_path();
     const std::string repository = firstLine(git(here, {"rev-parse", "--show-toplevel"}));
     const std::string commit = firstLine(git(here, {"rev-parse", "--verify", "--quiet", text + "^{commit}"}));
@@ -105,7 +106,7 @@ Base findBase(const std::string& text, const fs::path& cache, const Progress& pr
                         text));
     const fs::path program = fs::absolute(cache) / "programs" / commit / "shadowbench";
     if (!isProgram(program)) Build(repository, commit, progress).into(program);
-    return {Base::Kind::Program, program, fmt::format("{} ({})", text, commit.substr(0, 12))};
+    return {Baseline::Kind::Program, program, fmt::format("{} ({})", text, commit.substr(0, 12))};
 }
 
 } // namespace shadowbench::gate

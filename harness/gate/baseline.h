@@ -1,4 +1,4 @@
-// What `gate --base` names.
+// The baseline of a gate: what `--base` names.
 #pragma once
 
 #include "base/progress.h"
@@ -8,18 +8,18 @@
 
 namespace shadowbench::gate {
 
-/// A program to measure, or records of one that was.
-struct Base {
+/// A program to measure, or records of one that was measured before.
+struct Baseline {
     enum class Kind { Program, Records };
     Kind kind = Kind::Program;
     std::filesystem::path file; // the executable, or the record file
-    std::string name;           // for people: what was asked for
+    std::string name;           // as reports name it: what was asked for
 };
 
 /// `text` is a build folder or the program in it, a record file or the folder of a run, or else a git revision of the
-/// repository that holds the working directory: that commit is built (once; kept in `cache` by its hash), for which
-/// `progress` is told what the build says. Throws Inconclusive, naming what was tried, when it is none of them or cannot be
-/// built: without a base nothing is judged.
-Base findBase(const std::string& text, const std::filesystem::path& cache, const Progress& progress);
+/// repository that holds the working directory: that commit is built (once; kept in `cache` by its hash), and `progress`
+/// gets the build's output line by line. Throws Inconclusive, naming what was tried, when it is none of them or cannot be
+/// built: without a baseline nothing is judged.
+Baseline findBaseline(const std::string& text, const std::filesystem::path& cache, const Progress& progress);
 
 } // namespace shadowbench::gate

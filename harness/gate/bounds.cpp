@@ -1,23 +1,13 @@
 #include "harness/gate/bounds.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 
 namespace shadowbench::gate {
 namespace {
 
-Class classOf(const std::string& metric) {
-    if (metric == "false_shadow") return Class::FalseShadow;
-    if (metric == "leak" || metric == "umbra_leak") return Class::Leak;
-    if (metric == "edge_error") return Class::Edge;
-    constexpr std::array overTime{"flicker", "flip_rate", "moving_rmse", "disocclusion_error", "convergence", "pop"};
-    if (std::ranges::find(overTime, metric) != overTime.end()) return Class::Flicker;
-    return metric.starts_with("mismatch") ? Class::Labels : Class::Penumbra;
-}
-
 Change judged(const Record& record, const Bound& bound) {
-    const std::optional<double> value = boundedMetric(record, bound.metric);
+    const std::optional<double> value = metrics::bounded(record.values, bound.metric);
     const bool kept = value && (bound.below ? *value < bound.value : *value > bound.value);
     const std::string is = value ? fmt::format("is {}", *value) : "is not measured";
     const std::string what = bound.below ? fmt::format("must be below {}", bound.value)
@@ -26,7 +16,7 @@ Change judged(const Record& record, const Bound& bound) {
         record.scene,
         record.variant,
         "bound." + bound.metric,
-        classOf(bound.metric),
+        *metrics::boundedMetric(bound.metric)->about,
         bound.value,
         value,
         0,

@@ -8,7 +8,7 @@
 
 namespace shadowbench::gate {
 
-/// What a scene's `[expect]` says, as bounds.
+/// A scene's `[expect]` as bounds.
 std::vector<Bound> boundsOf(const Scene& scene);
 
 /// One change for every bound and record that it covers: Worse when the bound is broken. An expected failure that has

@@ -11,25 +11,26 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t mostCells = 12; // more show the same fault again
 
-using Cells = std::vector<std::pair<std::string, std::string>>; // scene, variant
+using Failing = std::vector<std::pair<std::string, std::string>>; // scene, variant
 
-Cells failing(const std::vector<Change>& changes, const Plan& plan) {
-    Cells cells;
+Failing failingCells(const std::vector<Change>& changes, const JudgedCells& judged) {
+    Failing cells;
     for (const Change& change : changes) {
         const bool drawn = change.direction == Direction::Worse && change.changeClass != Class::Instructions &&
                            change.changeClass != Class::Time && change.changeClass != Class::BreakPoint;
-        if (!drawn || !plan.chooses(change.scene, change.variant) || cells.size() == mostCells) continue;
+        if (!drawn || !judged.chooses(change.scene, change.variant) || cells.size() == mostCells) continue;
         if (std::ranges::find(cells, std::pair(change.scene, change.variant)) == cells.end())
             cells.emplace_back(change.scene, change.variant);
     }
     return cells;
 }
 
-void draw(const Program& program, const Cells& cells, const Plan& plan, const fs::path& out, const Progress& progress) {
-    for (const PlannedScene& scene : plan.scenes) {
+void draw(const MeasuredProgram& program, const Failing& cells, const JudgedCells& judged, const fs::path& out,
+          const Progress& progress) {
+    for (const JudgedScene& scene : judged.scenes) {
         Step step{"pictures of " + scene.id,
-                  {"run", "--scene", scene.argument, "--profile", std::string(name(plan.profile)), "--seed",
-                   std::to_string(plan.seed), "--cost", "none", "--images"},
+                  {"run", "--scene", scene.argument, "--profile", std::string(name(judged.profile)), "--seed",
+                   std::to_string(judged.seed), "--cost", "none", "--images"},
                   {},
                   "results.jsonl"};
         for (const auto& [id, variant] : cells)
@@ -45,13 +46,14 @@ fs::path folderOf(const fs::path& out, const std::string& scene, const std::stri
 
 } // namespace
 
-std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, const Plan& plan, const Program* base,
-                                          const Program& head, const fs::path& out, const Progress& progress) {
+std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, const JudgedCells& judged,
+                                          const MeasuredProgram* base, const MeasuredProgram& head, const fs::path& out,
+                                          const Progress& progress) {
     for (const char* side : {"head", "base"}) fs::remove_all(out / side);
-    const Cells cells = failing(changes, plan);
+    const Failing cells = failingCells(changes, judged);
     if (cells.empty()) return {};
-    draw(head, cells, plan, out / "head", progress);
-    if (base != nullptr) draw(*base, cells, plan, out / "base", progress);
+    draw(head, cells, judged, out / "head", progress);
+    if (base != nullptr) draw(*base, cells, judged, out / "base", progress);
     std::vector<FailurePictures> pictures;
     for (const auto& [scene, variant] : cells)
         pictures.push_back({scene, variant, folderOf(out / "head", scene, variant), folderOf(out / "base", scene, variant)});

@@ -9,7 +9,8 @@ namespace shadowbench::gate {
 /// Has both programs (`base` may be absent) draw the cells of the Worse changes, at most a dozen: visibility, reference and
 /// error as EXR and PNG under <out>/head and <out>/base. What an earlier gate left there is removed. Changes of cost need no
 /// picture.
-std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, const Plan& plan, const Program* base,
-                                          const Program& head, const std::filesystem::path& out, const Progress& progress);
+std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, const JudgedCells& judged,
+                                          const MeasuredProgram* base, const MeasuredProgram& head,
+                                          const std::filesystem::path& out, const Progress& progress);
 
 } // namespace shadowbench::gate

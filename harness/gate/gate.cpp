@@ -40,53 +40,54 @@ class Gate {
 public:
     explicit Gate(const GateOptions& options)
         : options_(options), cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache),
-          plan_(options) {
+          cells_(options) {
         if (options.instructions) timing::valgrindVersion(); // to fail before the long part
     }
 
-    GateResult judged() {
-        const Base base = found();
-        const Program head(ownProgram(), cache_);
+    GateResult judge() {
+        const Baseline base = findOrBuildBase();
+        const MeasuredProgram head(ownProgram(), cache_);
         const Commit commit = builtFrom();
         result_.base = base.name;
-        noteStrangers();
+        noteUnknownScenes();
         result_.head = commit.hash.substr(0, 12) + (commit.dirty ? " with changes" : "");
-        if (base.kind == Base::Kind::Records)
+        if (base.kind == Baseline::Kind::Records)
             judgeAgainstRecords(base, head);
         else
-            judgeAgainstProgram(Program(base.file, cache_), head);
+            judgeAgainstProgram(MeasuredProgram(base.file, cache_), head);
         return std::move(result_);
     }
 
 private:
-    Base found() {
+    Baseline findOrBuildBase() {
         StageLine line("base", options_.quiet);
-        return timed("building the base", [&] { return findBase(options_.base, cache_, line.progress()); });
+        return timed("building the base", [&] { return findBaseline(options_.base, cache_, line.progress()); });
     }
 
-    void judgeAgainstRecords(const Base& base, const Program& head) {
+    void judgeAgainstRecords(const Baseline& base, const MeasuredProgram& head) {
         std::vector<Record> before = readRecords(base.file);
-        std::erase_if(before, [&](const Record& r) { return !isPlanned(r); });
-        const bool counted = std::ranges::any_of(before, [](const Record& r) { return r.cost.instructions.has_value(); });
+        std::erase_if(before, [&](const Record& r) { return !isJudged(r); });
+        const bool counted =
+            std::ranges::any_of(before, [](const Record& r) { return r.values["cost.instructions"].has_value(); });
         if (options_.time) result_.notes.emplace_back("time is not judged: the base is a file of records, not a program");
         if (options_.instructions && !counted)
             result_.notes.emplace_back("instructions are not judged: the base's records hold none");
         const bool instructions = options_.instructions && counted;
-        judgeRecords(before, measured(head, "head", instructions), plan_.steps(head, instructions));
+        judgeRecords(before, measure(head, "head", instructions), cells_.steps(head, instructions));
         addPictures(nullptr, head);
     }
 
-    void judgeAgainstProgram(const Program& base, const Program& head) {
+    void judgeAgainstProgram(const MeasuredProgram& base, const MeasuredProgram& head) {
         noteWhatIsGone(base, head);
-        const std::vector<Record> before = measured(base, "base", options_.instructions);
-        judgeRecords(before, measured(head, "head", options_.instructions), plan_.steps(head, options_.instructions));
+        const std::vector<Record> before = measure(base, "base", options_.instructions);
+        judgeRecords(before, measure(head, "head", options_.instructions), cells_.steps(head, options_.instructions));
         if (options_.time) judgeTimes(base, head);
         addPictures(&base, head);
     }
 
-    std::vector<Record> measured(const Program& program, const char* who, bool instructions) {
+    std::vector<Record> measure(const MeasuredProgram& program, const char* who, bool instructions) {
         StageLine line(who, options_.quiet);
-        Measured measured = program.measure(plan_.steps(program, instructions), line.progress());
+        Measured measured = program.measure(cells_.steps(program, instructions), line.progress());
         for (const StepTime& step : measured.times)
             result_.times.push_back({fmt::format("{}: {}", who, step.name), step.seconds});
         return std::move(measured.records);
@@ -94,9 +95,9 @@ private:
 
     void judgeRecords(const std::vector<Record>& before, const std::vector<Record>& now, const std::vector<Step>& steps) {
         result_.changes = compare(before, now);
-        std::vector<Bound> bounds = plan_.watchlist.bounds;
+        std::vector<Bound> bounds = cells_.watchlist.bounds;
         if (options_.profile == Profile::Gate) // what scenes expect, they expect of this profile
-            for (const PlannedScene& scene : plan_.scenes)
+            for (const JudgedScene& scene : cells_.scenes)
                 for (Bound& bound : boundsOf(loadScene(scene.argument, options_.profile)))
                     bounds.push_back(std::move(bound));
         for (Change& change : judgeBounds(now, bounds)) result_.changes.push_back(std::move(change));
@@ -112,7 +113,7 @@ private:
         std::set<std::pair<std::string, std::string>> there;
         for (const Record& record : now)
             if (!record.sweep) there.emplace(record.scene, record.variant);
-        for (const PlannedScene& scene : plan_.scenes)
+        for (const JudgedScene& scene : cells_.scenes)
             for (const std::string& variant : scene.variants)
                 if (!there.contains({scene.id, variant}))
                     result_.unjudged.push_back(fmt::format("{} on {} was not measured", variant, scene.id));
@@ -125,23 +126,23 @@ private:
             result_.unjudged.emplace_back("the base holds none of the cells: nothing is compared");
     }
 
-    void noteStrangers() {
+    void noteUnknownScenes() {
         std::vector<std::string> known;
-        for (const PlannedScene& scene : plan_.scenes) known.push_back(scene.id);
-        for (const std::string& scene : plan_.watchlist.strangers(known))
-            result_.notes.push_back(fmt::format("{} speaks of a scene \"{}\" that is not among the chosen ones",
-                                                options_.bounds.string(), scene));
+        for (const JudgedScene& scene : cells_.scenes) known.push_back(scene.id);
+        for (const std::string& scene : cells_.watchlist.unknownScenes(known))
+            result_.notes.push_back(
+                fmt::format("{} names a scene \"{}\" that is not among the chosen ones", options_.bounds.string(), scene));
     }
 
-    void noteWhatIsGone(const Program& base, const Program& head) {
+    void noteWhatIsGone(const MeasuredProgram& base, const MeasuredProgram& head) {
         if (!options_.techniques.empty()) return;
         for (const std::string& id : base.techniques())
             if (!head.knowsVariant(id))
-                result_.unjudged.push_back(fmt::format("{} is no longer there: what it did is not judged", id));
+                result_.unjudged.push_back(fmt::format("{} no longer exists, so it is not judged", id));
     }
 
-    void judgeTimes(const Program& base, const Program& head) {
-        const std::vector<TimedCell> cells = plan_.timedCells(base, head);
+    void judgeTimes(const MeasuredProgram& base, const MeasuredProgram& head) {
+        const std::vector<TimedCell> cells = cells_.timedCells(base, head);
         if (cells.empty()) {
             result_.notes.emplace_back("time is not judged: none of the chosen cells is timed");
             return;
@@ -172,10 +173,10 @@ private:
                                    fmt::format("{}, surely more than {:.3f}", figures, judgement.lowerBound)});
     }
 
-    void addPictures(const Program* base, const Program& head) {
+    void addPictures(const MeasuredProgram* base, const MeasuredProgram& head) {
         StageLine line("pictures of what is worse", options_.quiet);
         result_.pictures = timed("pictures of what is worse", [&] {
-            return drawFailures(result_.changes, plan_, base, head, options_.out, line.progress());
+            return drawFailures(result_.changes, cells_, base, head, options_.out, line.progress());
         });
     }
 
@@ -187,18 +188,18 @@ private:
         return outcome;
     }
 
-    [[nodiscard]] bool isPlanned(const Record& r) const {
+    [[nodiscard]] bool isJudged(const Record& r) const {
         if (r.profile != name(options_.profile) || r.seed != options_.seed) return false;
-        return plan_.chooses(r.scene, r.sweep ? r.sweep->curve : r.variant);
+        return cells_.chooses(r.scene, r.sweep ? r.sweep->curve : r.variant);
     }
 
     [[nodiscard]] std::string sceneId(const std::string& argument) const {
-        return std::ranges::find(plan_.scenes, argument, &PlannedScene::argument)->id;
+        return std::ranges::find(cells_.scenes, argument, &JudgedScene::argument)->id;
     }
 
     const GateOptions& options_;
     fs::path cache_;
-    Plan plan_;
+    JudgedCells cells_;
     GateResult result_;
 };
 
@@ -212,7 +213,7 @@ ExitCode GateResult::code() const {
 
 GateResult gate(const GateOptions& options) {
     const auto start = Clock::now();
-    GateResult result = Gate(options).judged();
+    GateResult result = Gate(options).judge();
     result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return result;
 }

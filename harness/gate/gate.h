@@ -13,12 +13,12 @@
 namespace shadowbench::gate {
 
 struct GateOptions {
-    std::string base;                    // see findBase
+    std::string base;                    // see findBaseline
     std::vector<std::string> scenes;     // ids or files; empty: the standard scenes
     std::vector<std::string> techniques; // variants or globs; empty: all
     Profile profile = Profile::Gate;
     std::filesystem::path bounds = "harness/gate/bounds.toml";
-    std::filesystem::path out = "results/gate"; // of what is left for people: report and pictures of failing cells
+    std::filesystem::path out = "results/gate"; // of the report and the pictures of failing cells
     std::filesystem::path cache;                // empty: the default
     std::uint32_t seed = 1;
     bool instructions = true, time = true; // which costs are judged
@@ -32,10 +32,10 @@ struct FailurePictures {
 };
 
 struct GateResult {
-    std::string base, head; // names for people
+    std::string base, head; // as reports name them
     std::vector<Change> changes;
-    std::vector<std::string> unjudged; // what nothing can be said of, and why: inconclusive
-    std::vector<std::string> notes;    // what was left out on purpose, or is not certain
+    std::vector<std::string> unjudged; // sentences: what could not be judged, and why
+    std::vector<std::string> notes;    // sentences: what was left out on purpose, or is uncertain
     std::vector<FailurePictures> pictures;
     std::vector<StepTime> times; // of the parts, some of which ran side by side
     double seconds = 0;          // of all

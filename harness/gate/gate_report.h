@@ -1,4 +1,4 @@
-// What a gate tells people.
+// The report of a gate.
 #pragma once
 
 #include "harness/gate/gate.h"

@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "harness/cells/cell.h"
+#include "harness/metrics/table.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
 
@@ -13,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-PlannedScene planned(const std::string& idOrFile, Profile profile) {
-    const Scene scene = loadScene(idOrFile, profile); // to refuse it now
+JudgedScene loadJudged(const std::string& idOrFile, Profile profile) {
+    const Scene scene = loadScene(idOrFile, profile, metrics::boundedMetrics()); // to refuse it now
     const std::vector<std::string> builtin = builtinScenes();
     if (std::ranges::find(builtin, idOrFile) != builtin.end()) return {scene.id, idOrFile, "", {}};
     return {scene.id, fs::absolute(idOrFile).string(), readFile(idOrFile), {}};
@@ -28,13 +29,13 @@ std::vector<std::string> namesOf(const std::vector<std::string>& patterns) {
     return names;
 }
 
-/// What the watches of `scene` cover of `variants`; all of them if no watch is about any of the scenes.
-std::vector<std::string> watched(const std::vector<Watch>& watches, const std::vector<PlannedScene>& scenes,
-                                 const std::string& scene, const std::vector<std::string>& variants) {
-    const auto isPlanned = [&](const Watch& w) {
-        return std::ranges::find(scenes, w.scene, &PlannedScene::id) != scenes.end();
+/// Those of `variants` that a watch of `scene` covers; all of them if no watch names any of the scenes.
+std::vector<std::string> coveredOf(const std::vector<Watch>& watches, const std::vector<JudgedScene>& scenes,
+                                   const std::string& scene, const std::vector<std::string>& variants) {
+    const auto isJudged = [&](const Watch& w) {
+        return std::ranges::find(scenes, w.scene, &JudgedScene::id) != scenes.end();
     };
-    if (std::ranges::none_of(watches, isPlanned)) return variants;
+    if (std::ranges::none_of(watches, isJudged)) return variants;
     std::vector<std::string> result;
     for (const std::string& variant : variants)
         if (std::ranges::any_of(watches, [&](const Watch& w) { return w.scene == scene && w.covers(variant); }))
@@ -49,33 +50,34 @@ Watchlist readBounds(const GateOptions& options) {
     return readWatchlist(options.bounds, options.profile);
 }
 
-bool has(const Program& program, const PlannedScene& scene) {
+bool has(const MeasuredProgram& program, const JudgedScene& scene) {
     return !scene.content.empty() || program.knowsScene(scene.id);
 }
 
 } // namespace
 
-Plan::Plan(const GateOptions& options) : watchlist(readBounds(options)), profile(options.profile), seed(options.seed) {
+JudgedCells::JudgedCells(const GateOptions& options)
+    : watchlist(readBounds(options)), profile(options.profile), seed(options.seed) {
     const std::vector<std::string> chosen = namesOf(options.techniques);
     const auto add = [&](const std::string& scene, const Watch* only) {
-        PlannedScene planned = gate::planned(scene, profile);
-        std::ranges::copy_if(chosen, std::back_inserter(planned.variants),
+        JudgedScene judged = loadJudged(scene, profile);
+        std::ranges::copy_if(chosen, std::back_inserter(judged.variants),
                              [&](const std::string& v) { return only == nullptr || only->covers(v); });
-        if (!planned.variants.empty()) scenes.push_back(std::move(planned));
+        if (!judged.variants.empty()) scenes.push_back(std::move(judged));
     };
     for (const std::string& scene : options.scenes.empty() ? standardScenes() : options.scenes) add(scene, nullptr);
     if (!options.scenes.empty()) return;
     for (const Watch& watch : watchlist.scenes) add(watch.scene, &watch);
 }
 
-std::vector<Step> Plan::steps(const Program& program, bool instructions) const {
-    const auto knownOn = [&](const PlannedScene& scene) {
+std::vector<Step> JudgedCells::steps(const MeasuredProgram& program, bool instructions) const {
+    const auto knownOn = [&](const JudgedScene& scene) {
         std::vector<std::string> known;
         std::ranges::copy_if(scene.variants, std::back_inserter(known),
                              [&](const auto& v) { return program.knowsVariant(v); });
         return known;
     };
-    const auto arguments = [&](const char* verb, const PlannedScene& scene, std::vector<std::string> more) {
+    const auto arguments = [&](const char* verb, const JudgedScene& scene, std::vector<std::string> more) {
         std::vector<std::string> words{
             verb, "--scene", scene.argument, "--profile", std::string(name(profile)), "--seed", std::to_string(seed)};
         words.insert(words.end(), more.begin(), more.end());
@@ -86,10 +88,11 @@ std::vector<Step> Plan::steps(const Program& program, bool instructions) const {
     const auto add = [&](Step step) {
         if (!step.techniques.empty()) steps.push_back(std::move(step));
     };
-    for (const PlannedScene& scene : scenes) {
+    for (const JudgedScene& scene : scenes) {
         if (!has(program, scene)) continue;
         const std::vector<std::string> known = knownOn(scene);
-        const auto counted = instructions ? watched(watchlist.counted, scenes, scene.id, known) : std::vector<std::string>{};
+        const auto counted =
+            instructions ? coveredOf(watchlist.counted, scenes, scene.id, known) : std::vector<std::string>{};
         std::vector<std::string> others;
         std::ranges::copy_if(known, std::back_inserter(others),
                              [&](const auto& v) { return std::ranges::find(counted, v) == counted.end(); });
@@ -98,7 +101,7 @@ std::vector<Step> Plan::steps(const Program& program, bool instructions) const {
              scene.content});
     }
     for (const WatchedSweep& sweep : watchlist.sweeps) {
-        const auto scene = std::ranges::find(scenes, sweep.cells.scene, &PlannedScene::id);
+        const auto scene = std::ranges::find(scenes, sweep.cells.scene, &JudgedScene::id);
         if (scene == scenes.end() || !has(program, *scene)) continue;
         std::vector<std::string> more{"--axis", sweep.axis}, swept;
         for (const double value : sweep.values) more.insert(more.end(), {"--values", fmt::format("{}", value)});
@@ -110,24 +113,24 @@ std::vector<Step> Plan::steps(const Program& program, bool instructions) const {
     return steps;
 }
 
-std::vector<TimedCell> Plan::timedCells(const Program& base, const Program& head) const {
+std::vector<TimedCell> JudgedCells::timedCells(const MeasuredProgram& base, const MeasuredProgram& head) const {
     std::vector<TimedCell> cells;
-    for (const PlannedScene& scene : scenes) {
+    for (const JudgedScene& scene : scenes) {
         if (!has(base, scene)) continue;
         std::vector<std::string> known;
         std::ranges::copy_if(scene.variants, std::back_inserter(known), [&](const std::string& variant) {
             return !techniques::parseVariant(variant).isLod() && base.knowsVariant(variant) && head.knowsVariant(variant);
         });
-        for (const std::string& variant : watched(watchlist.timed, scenes, scene.id, known))
+        for (const std::string& variant : coveredOf(watchlist.timed, scenes, scene.id, known))
             if (!notApplicable(loadScene(scene.argument, profile), techniques::parseVariant(variant)))
                 cells.push_back({scene.argument, variant});
     }
     return cells;
 }
 
-bool Plan::chooses(const std::string& scene, const std::string& variant) const {
-    return std::ranges::any_of(scenes, [&](const PlannedScene& planned) {
-        return planned.id == scene && std::ranges::find(planned.variants, variant) != planned.variants.end();
+bool JudgedCells::chooses(const std::string& scene, const std::string& variant) const {
+    return std::ranges::any_of(scenes, [&](const JudgedScene& judged) {
+        return judged.id == scene && std::ranges::find(judged.variants, variant) != judged.variants.end();
     });
 }
 

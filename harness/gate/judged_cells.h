@@ -1,4 +1,4 @@
-// Which cells a gate judges, as the steps that a program is asked for.
+// Which cells a gate judges, and the runs of a program that measure them.
 #pragma once
 
 #include "harness/gate/gate.h"
@@ -10,27 +10,30 @@
 
 namespace shadowbench::gate {
 
-struct PlannedScene {
-    std::string id, argument;          // what `--scene` is given: the id, or an absolute path
+struct JudgedScene {
+    std::string id;
+    std::string argument;              // of `--scene`: the id, or an absolute path
     std::string content;               // of the file; empty for a built-in scene
     std::vector<std::string> variants; // that are judged there, by their canonical names
 };
 
-struct Plan {
+struct JudgedCells {
     Watchlist watchlist;
-    std::vector<PlannedScene> scenes;
+    std::vector<JudgedScene> scenes;
     Profile profile = Profile::Gate;
     std::uint32_t seed = 1;
 
-    /// Of what `options` choose. Throws BadInput.
-    explicit Plan(const GateOptions& options);
+    /// The cells that `options` choose. Throws BadInput for an unknown scene or technique, Inconclusive without a file of
+    /// bounds.
+    explicit JudgedCells(const GateOptions& options);
 
-    /// What a program that has all scenes and variants, or `program`, runs. With `instructions`, those that the watchlist
-    /// names are counted, or all when it names none of the scenes.
-    [[nodiscard]] std::vector<Step> steps(const Program& program, bool instructions) const;
+    /// The runs that measure all cells whose scene and variant `program` has. With `instructions`, the instructions of those
+    /// that the watchlist names are counted, or of all when it names none of the scenes.
+    [[nodiscard]] std::vector<Step> steps(const MeasuredProgram& program, bool instructions) const;
 
-    /// As the watchlist names them, or all when it names none of the scenes.
-    [[nodiscard]] std::vector<TimedCell> timedCells(const Program& base, const Program& head) const;
+    /// Cells that both programs have and whose time is compared: those that the watchlist names, or all when it names none
+    /// of the scenes.
+    [[nodiscard]] std::vector<TimedCell> timedCells(const MeasuredProgram& base, const MeasuredProgram& head) const;
 
     [[nodiscard]] bool chooses(const std::string& scene, const std::string& variant) const;
 };

@@ -61,7 +61,7 @@ bool isProgress(std::string_view line) {
     return slash != std::string_view::npos && slash > 0 && digit(slash - 1) && digit(slash + 1) && line.front() != ' ';
 }
 
-Json listed(const fs::path& program, const std::string& what) {
+Json listOf(const fs::path& program, const std::string& what) {
     std::string text;
     const auto [code, last] =
         runToEnd(program, {"list", what, "--format", "json"}, [&](std::string_view line) { text += line; });
@@ -85,7 +85,8 @@ std::string text(const Step& step) {
 
 } // namespace
 
-Program::Program(const fs::path& file, const fs::path& cache) : file_(fs::absolute(file)), cache_(fs::absolute(cache)) {
+MeasuredProgram::MeasuredProgram(const fs::path& file, const fs::path& cache)
+    : file_(fs::absolute(file)), cache_(fs::absolute(cache)) {
     std::string key;
     try {
         key = hash128(readFile(file_) + surroundings()).text();
@@ -93,32 +94,34 @@ Program::Program(const fs::path& file, const fs::path& cache) : file_(fs::absolu
         throw Inconclusive(error.what());
     }
     records_ = cache_ / "gate" / key;
-    for (const Json& scene : listed(file_, "scenes")) known_.scenes.push_back(scene.at("id"));
-    for (const Json& technique : listed(file_, "techniques")) {
+    for (const Json& scene : listOf(file_, "scenes")) contents_.scenes.push_back(scene.at("id"));
+    for (const Json& technique : listOf(file_, "techniques")) {
         std::vector<std::string> parameters;
         for (const Json& parameter : technique.at("parameters")) parameters.push_back(parameter.at("name"));
-        known_.techniques.emplace_back(technique.at("id"), std::move(parameters));
+        contents_.techniques.emplace_back(technique.at("id"), std::move(parameters));
     }
 }
 
-bool Program::knowsVariant(const std::string& variant) const {
+bool MeasuredProgram::knowsVariant(const std::string& variant) const {
     const std::string id = variant.substr(0, variant.find(':'));
-    const auto found = std::ranges::find(known_.techniques, id, [](const auto& t) { return t.first; });
-    if (found == known_.techniques.end()) return false;
+    const auto found = std::ranges::find(contents_.techniques, id, [](const auto& t) { return t.first; });
+    if (found == contents_.techniques.end()) return false;
     return std::ranges::all_of(parameterNames(variant), [&](const std::string& name) {
         return std::ranges::find(found->second, name) != found->second.end();
     });
 }
 
-bool Program::knowsScene(const std::string& id) const { return std::ranges::find(known_.scenes, id) != known_.scenes.end(); }
+bool MeasuredProgram::knowsScene(const std::string& id) const {
+    return std::ranges::find(contents_.scenes, id) != contents_.scenes.end();
+}
 
-std::vector<std::string> Program::techniques() const {
+std::vector<std::string> MeasuredProgram::techniques() const {
     std::vector<std::string> ids;
-    for (const auto& [id, parameters] : known_.techniques) ids.push_back(id);
+    for (const auto& [id, parameters] : contents_.techniques) ids.push_back(id);
     return ids;
 }
 
-int Program::run(const Step& step, const fs::path& out, const Progress& progress) const {
+int MeasuredProgram::run(const Step& step, const fs::path& out, const Progress& progress) const {
     std::vector<std::string> arguments = step.arguments;
     for (const std::string& technique : step.techniques) arguments.insert(arguments.end(), {"--technique", technique});
     arguments.insert(arguments.end(), {"--out", fs::absolute(out).string(), "--cache", cache_.string()});
@@ -130,7 +133,7 @@ int Program::run(const Step& step, const fs::path& out, const Progress& progress
     return code;
 }
 
-Measured Program::measure(const std::vector<Step>& steps, const Progress& progress) const {
+Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress& progress) const {
     using Clock = std::chrono::steady_clock;
     std::vector<std::vector<Record>> records(steps.size());
     std::vector<std::optional<StepTime>> times(steps.size());

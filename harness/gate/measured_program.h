@@ -1,4 +1,4 @@
-// The programs that a gate compares: builds of shadowbench, this one's or another commit's, run as a user would.
+// The programs that a gate compares: builds of shadowbench of this or another commit, started as a user would.
 #pragma once
 
 #include "base/progress.h"
@@ -13,7 +13,7 @@ namespace shadowbench::gate {
 
 /// One `run` or `sweep` of a program.
 struct Step {
-    std::string name;                    // for people: "overlapping-occluders, instructions"
+    std::string name;                    // as reports name it: "overlapping-occluders, instructions"
     std::vector<std::string> arguments;  // without --technique, --out, --cache and --quiet
     std::vector<std::string> techniques; // canonical names
     std::string records;                 // the file that it leaves in --out
@@ -31,11 +31,11 @@ struct Measured {
     std::vector<StepTime> times; // of the steps that were not already there
 };
 
-class Program {
+class MeasuredProgram {
 public:
     /// `file`: the executable. Its records are kept in `cache`, under a hash of the program, Mesa, Valgrind and processor:
     /// the same program is not measured twice. Throws Inconclusive when it cannot be read.
-    Program(const std::filesystem::path& file, const std::filesystem::path& cache);
+    MeasuredProgram(const std::filesystem::path& file, const std::filesystem::path& cache);
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
@@ -46,8 +46,8 @@ public:
     /// Ids, in the order of its catalogue.
     [[nodiscard]] std::vector<std::string> techniques() const;
 
-    /// Runs the steps that have not been run to their end before, on all cores, and reads the records of all of them. A
-    /// killed one is gone on with. Throws Inconclusive when a step fails otherwise than in some of its cells.
+    /// Runs the steps that no earlier call has finished, on all cores, and reads the records of all steps. A
+    /// step that was killed is resumed. Throws Inconclusive when a step fails otherwise than in some of its cells.
     Measured measure(const std::vector<Step>& steps, const Progress& progress) const;
 
     /// Runs one step in `out`, whatever was run before, and returns its exit code: not 0 when some of its cells failed,
@@ -55,13 +55,13 @@ public:
     int run(const Step& step, const std::filesystem::path& out, const Progress& progress) const;
 
 private:
-    struct Known {
+    struct Contents {
         std::vector<std::string> scenes;
         std::vector<std::pair<std::string, std::vector<std::string>>> techniques; // ids, with the names of their parameters
     };
 
     std::filesystem::path file_, cache_, records_;
-    Known known_;
+    Contents contents_;
 };
 
 } // namespace shadowbench::gate

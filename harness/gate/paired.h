@@ -6,7 +6,7 @@
 namespace shadowbench::gate {
 
 /// The largest order statistic of `samples` that is at most their distribution's median with probability 1 − `alpha` at
-/// least, whatever the distribution (the sign test turned round); −infinity when there are too few for that.
+/// least, whatever the distribution (the inverted sign test); −infinity when there are too few for that.
 double medianLowerBound(std::vector<double> samples, double alpha);
 
 struct TimeRule {

@@ -54,7 +54,7 @@ struct TimeJudgement {
 /// and leave nothing unclear, or twice as many are.
 bool enough(const PairedSamples& samples, const PairedOptions& options, int cells);
 
-/// What the rule says of samples that are enough.
+/// The rule's judgement of a cell once its samples are enough.
 TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const PairedOptions& options, int cells);
 
 /// Whether each cell is slower with the program `head` than with `base`, in the order of `cells`. Each restart starts three

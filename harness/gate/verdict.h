@@ -1,4 +1,4 @@
-// What a comparison means for a commit, and how machines and people are told.
+// The verdict on a comparison, as an exit code and as reports for people, CI and JUnit.
 #pragma once
 
 #include "base/error.h"

@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/toml_value.h"
+#include "harness/metrics/table.h"
 #include "harness/studies/sweep/axis.h"
 #include "scene/load/load.h"
-#include "scene/load/scene_file.h"
 #include "techniques/catalog.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ Bound readBound(const TomlValue& entry) {
     entry.only({"scene", "techniques", "except", "reason", "metric", "below", "above"});
     const auto below = entry.find("below"), above = entry.find("above");
     if (below.has_value() == above.has_value()) entry.fail("has either \"below\" or \"above\"");
-    return {readWatch(entry), entry.get("metric").oneOf(boundedMetrics()), (below ? *below : *above).positive(),
+    return {readWatch(entry), entry.get("metric").oneOf(metrics::boundedMetrics()), (below ? *below : *above).positive(),
             below.has_value()};
 }
 
@@ -95,7 +95,7 @@ bool Watch::covers(const std::string& variant) const {
     return anyMatches(techniques, variant) && !anyMatches(except, variant);
 }
 
-std::vector<std::string> Watchlist::strangers(const std::vector<std::string>& known) const {
+std::vector<std::string> Watchlist::unknownScenes(const std::vector<std::string>& known) const {
     const std::vector<std::string> builtin = builtinScenes();
     std::vector<std::string> named;
     for (const Watch& watch : scenes) named.push_back(watch.scene);

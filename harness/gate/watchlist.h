@@ -1,4 +1,4 @@
-// What the gate watches beside the run itself, as data: harness/gate/bounds.toml.
+// What the gate judges beside the comparison with its base, as data: harness/gate/bounds.toml.
 #pragma once
 
 #include "scene/scene.h"
@@ -23,7 +23,7 @@ struct Watch {
 /// A score that a technique must keep on a scene, whatever the base does.
 struct Bound {
     Watch cells;
-    std::string metric; // as `boundedMetric` knows it
+    std::string metric; // its name for bounds
     double value = 0;
     bool below = true; // false: an expected failure, which must lie above
 };
@@ -42,12 +42,12 @@ struct Watchlist {
     std::vector<Watch> counted; // instructions
     std::vector<Watch> timed;   // in pairs
 
-    /// Scenes that are neither built in nor among `known`: misspelt, or of another gate.
-    [[nodiscard]] std::vector<std::string> strangers(const std::vector<std::string>& known) const;
+    /// Scenes that are neither built in nor among `known`: misspelt, or a user's own.
+    [[nodiscard]] std::vector<std::string> unknownScenes(const std::vector<std::string>& known) const;
 };
 
 /// Throws BadInput, with file and line, for what is no such file: unknown keys, metrics, axes or techniques, a missing
-/// reason. A scene may be one that only its user has: `strangers` tells.
+/// reason. A scene may be one that only its user has: see `unknownScenes`.
 Watchlist readWatchlist(const std::filesystem::path& file, Profile profile);
 
 } // namespace shadowbench::gate

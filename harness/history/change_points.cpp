@@ -76,7 +76,7 @@ void shuffle(std::vector<double>& values, Random& random) {
 /// Whether (1 + permutations with as large a statistic) / (1 + permutations) ≤ alpha; permutations end once it cannot be.
 bool isRare(double statistic, std::vector<double> values, const std::vector<std::size_t>& groups, const NoiseRule& rule,
             Random& random) {
-    constexpr double resolution = 10; // alpha is so many times the smallest probability that can be told
+    constexpr double resolution = 10; // alpha is so many times the smallest probability that can be found
     const auto permutations = static_cast<int>(std::ceil(resolution / rule.alpha)) - 1;
     const double most = rule.alpha * (permutations + 1) - 1;
     const double rounding = 1e-9 * std::abs(statistic); // another order of the same sums

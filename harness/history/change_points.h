@@ -28,9 +28,10 @@ double energyStatistic(const std::vector<double>& values, std::size_t split);
 /// has as large a Q with a probability of `alpha` at most; then both parts are searched. Departures from the paper: a part
 /// runs to its end, as in Daly et al., "The use of change point detection to identify software performance regressions in a
 /// continuous integration system", ICPE 2020; and parts are judged each on its own.
-/// `groups[i]` says which commit figure i is of, in rising order: figures of one commit are never split. Any distribution
-/// will do, but figures must be independent: a machine that drifts makes changes, too. As a permutation can be no rarer than
-/// its share, k figures of a new level among n can be told from chance when alpha exceeds about 2 / C(n, k).
+/// `groups[i]` says which commit figure i is of, in rising order: figures of one commit are never split. The
+/// figures may have any distribution but must be independent: a machine that drifts makes changes, too. As a permutation can
+/// be no rarer than its share, k figures of a new level among n can be distinguished from chance when alpha exceeds about 2
+/// / C(n, k).
 std::vector<std::size_t> distributionChanges(const std::vector<double>& values, const std::vector<std::size_t>& groups,
                                              const NoiseRule& rule);
 

@@ -123,9 +123,7 @@ std::string chart(const Findings& findings, const std::string& metric, const std
     const double height = legend.bottom();
     std::string script = report::heading(fmt::format("{}: {} over commits", scene, metric), legend.bottom()) +
                          legend.script() + commitsAxis(findings.history.commits) + axis.script();
-    script += fmt::format(
-        "set lmargin at screen 0.085\nset rmargin at screen 0.98\nset tmargin at screen {}\nset bmargin at screen {}\n",
-        1 - top / height, 1 - (plotHeight - bottomMargin) / height);
+    script += report::plotArea(0.085, 0.98, top, plotHeight - bottomMargin, height);
     std::string plots;
     for (std::size_t k = curves.size(); k > 0; --k) { // the named ones over the others
         const std::string style =

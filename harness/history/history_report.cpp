@@ -43,8 +43,8 @@ TextTable changesTable(const Findings& f) {
     for (const LevelChange& change : f.changes) {
         const Series& series = seriesOf(f, change);
         table.rows.push_back({series.metric, series.variant, series.scene, std::string(name(change.direction)),
-                              shownFigure(series.metric, change.before.value),
-                              shownFigure(series.metric, change.after.value), fmt::format("{:.2g} %", 100 * change.size),
+                              formatFigure(series.metric, change.before.value),
+                              formatFigure(series.metric, change.after.value), fmt::format("{:.2g} %", 100 * change.size),
                               commit(f, change.after.first), commit(f, change.before.last),
                               suspectsText(suspectsOf(f, change))});
     }
@@ -85,7 +85,7 @@ std::string asText(const Findings& f) {
 std::string levelsText(const Findings& f, const Series& series, const std::vector<Level>& levels) {
     std::vector<std::string> texts;
     for (const Level& level : levels) {
-        const std::string value = shownFigure(series.metric, level.value);
+        const std::string value = formatFigure(series.metric, level.value);
         const std::string first = commit(f, level.first), last = commit(f, level.last);
         texts.push_back(fmt::format("{} ({})", value, first == last ? first : fmt::format("{} … {}", first, last)));
     }
@@ -206,13 +206,14 @@ std::string quoted(const Findings& f, const Suspects& suspects, const Word& word
 std::string shortHash(const std::string& commit) { return commit.substr(0, 7); }
 
 Unit unitOf(const std::string& metric) {
-    const std::string last = metric.substr(metric.rfind('.') + 1);
-    if (report::isShare(last) || last == "flip_rate") return {100, " %"};
-    if (last == "instructions") return {1e-6, " M"};
+    const metrics::Metric* line = metrics::metricAt(metric);
+    if (line == nullptr) return {};
+    if (line->unit == "share") return {100, " %"};
+    if (line->unit == "instructions") return {1e-6, " M"};
     return {};
 }
 
-std::string shownFigure(const std::string& metric, double value) {
+std::string formatFigure(const std::string& metric, double value) {
     const Unit unit = unitOf(metric);
     return fmt::format("{:.5g}{}", unit.factor * value, unit.name);
 }
@@ -234,8 +235,8 @@ std::vector<std::pair<std::string, std::string>> chartedMetrics(const Findings& 
         const Series& series = findings.history.series[i];
         const std::pair metric(series.scene, series.metric);
         const bool several = series.points.front().commit != series.points.back().commit;
-        const bool tells = series.metricClass != gate::Class::Status || findings.levels[i].size() > 1;
-        if (several && tells && (metrics.empty() || metrics.back() != metric)) metrics.push_back(metric);
+        const bool shows = series.metricClass != gate::Class::Status || findings.levels[i].size() > 1;
+        if (several && shows && (metrics.empty() || metrics.back() != metric)) metrics.push_back(metric);
     }
     return metrics;
 }

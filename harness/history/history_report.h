@@ -1,4 +1,4 @@
-// How people and machines are told what changed over commits.
+// Reports of what changed over commits.
 #pragma once
 
 #include "harness/history/changes.h"
@@ -9,7 +9,7 @@
 
 namespace shadowbench::history {
 
-/// All that is told.
+/// All that the reports are made from.
 struct Findings {
     History history;
     std::vector<std::string> subjects;   // of the history's commits; "" where no repository knows
@@ -19,7 +19,7 @@ struct Findings {
     std::vector<Suspects> suspects;
 };
 
-/// How figures of a metric are shown: shares in per cent, instructions in millions.
+/// The unit that figures of a metric are written in: shares in per cent, instructions in millions.
 struct Unit {
     double factor = 1;
     std::string name; // " %"
@@ -27,7 +27,7 @@ struct Unit {
 Unit unitOf(const std::string& metric);
 
 /// A figure with its unit.
-std::string shownFigure(const std::string& metric, double value);
+std::string formatFigure(const std::string& metric, double value);
 
 /// The first digits of a commit.
 std::string shortHash(const std::string& commit);

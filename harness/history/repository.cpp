@@ -16,8 +16,8 @@ constexpr std::string_view hexadecimal = "0123456789abcdef";
 
 bool isHash(const std::string& text) { return text.size() >= 7 && text.find_first_not_of(hexadecimal) == std::string::npos; }
 
-/// One line about a commit; git's warnings come first, if any.
-std::string shown(const fs::path& folder, const std::string& commit, const std::string& format) {
+/// What `git log` prints of a commit in `format`; "" if the repository lacks it. git's warnings come first, if any.
+std::string askLog(const fs::path& folder, const std::string& commit, const std::string& format) {
     if (!isHash(commit)) return "";
     const auto lines = git(folder, {"log", "-1", "--no-show-signature", "--format=" + format, commit + "^{commit}", "--"});
     return lines && !lines->empty() ? lines->back() : "";
@@ -33,12 +33,12 @@ std::optional<Repository> Repository::around(const fs::path& folder) {
 }
 
 std::optional<std::string> Repository::date(const std::string& commit) const {
-    const std::string seconds = shown(folder_, commit, "%ct");
+    const std::string seconds = askLog(folder_, commit, "%ct");
     if (seconds.empty()) return {};
     return fmt::format("{:%Y%m%dT%H%M%SZ}", fmt::gmtime(static_cast<std::time_t>(std::stoll(seconds))));
 }
 
-std::string Repository::subject(const std::string& commit) const { return shown(folder_, commit, "%s"); }
+std::string Repository::subject(const std::string& commit) const { return askLog(folder_, commit, "%s"); }
 
 std::optional<std::vector<std::string>> Repository::inOrder(const std::vector<std::string>& commits) const {
     if (!std::ranges::all_of(commits, isHash)) return {};

@@ -1,4 +1,4 @@
-// What git knows of commits, if a repository is at hand.
+// Commits as git knows them, where there is a repository.
 #pragma once
 
 #include <filesystem>

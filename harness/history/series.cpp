@@ -35,7 +35,7 @@ std::string rasteriser(const Environment& e) {
     return fmt::format("{}, {}, {} raster threads, {} bits", e.renderer, e.gl, e.rasterThreads, e.vectorBits);
 }
 
-/// Whatever the record says about its cell.
+/// All figures of a record that have a series.
 std::vector<Figure> figuresOf(const Record& record) {
     using gate::Class;
     const bool scored = record.status == Status::Scored, error = record.status == Status::Error;
@@ -44,19 +44,19 @@ std::vector<Figure> figuresOf(const Record& record) {
     if (!scored) return figures;
     const std::string scoredIn =
         fmt::format("{}; truth {}", rasteriser(record.environment), gate::truthOf(record)); // both decide a score
-    for (const gate::Watched& metric : gate::watchedMetrics()) {
-        const std::optional<double> value = metric.value(record);
+    for (const metrics::Metric& metric : metrics::table) {
+        const std::optional<double> value = gate::comparedValue(metric, record);
         if (!value) continue;
-        const bool counted = metric.watchedClass == Class::Instructions;
-        figures.push_back({metric.metric, metric.watchedClass, false, *value, gate::allowance(metric, record, *value),
+        const bool counted = metric.about == Class::Instructions;
+        figures.push_back({metric.path, *metric.about, false, *value, gate::allowanceOf(metric, record, *value),
                            counted ? gate::countingEnvironment(record.environment) : scoredIn});
     }
-    const auto timed = [&](std::string_view metric, double ratio) {
-        figures.push_back({metric, Class::Time, true, ratio, gate::TimeRule{}.floor * ratio,
+    for (const metrics::Metric& metric : metrics::table) {
+        const std::optional<double>& value = record.values[metric];
+        if (!metric.noisy || !metric.about || !value) continue;
+        figures.push_back({metric.path, *metric.about, true, *value, gate::TimeRule{}.floor * *value,
                            fmt::format("{}, {}", rasteriser(record.environment), record.environment.cpu)});
-    };
-    if (record.cost.time) timed("cost.time.ratio", record.cost.time->ratio);
-    if (record.lod && record.lod->time) timed("lod.time.ratio", record.lod->time->ratio);
+    }
     return figures;
 }
 
@@ -68,7 +68,7 @@ std::string cellText(const Record& record) {
     return text;
 }
 
-/// Collects series and numbers the conditions in the order in which they turn up.
+/// Collects series and numbers the conditions in the order in which they first occur.
 class Collector {
 public:
     explicit Collector(History& history) : history_(history) {}

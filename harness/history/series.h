@@ -24,7 +24,7 @@ struct Point {
 
 struct Series {
     std::string scene, variant, metric;
-    std::string cell; // what else tells it from other series: profile, size, seed, place in a sweep
+    std::string cell; // what else distinguishes it: profile, size, seed, place in a sweep
     gate::Class metricClass;
     bool noisy;             // another run of the same commit gives another figure
     std::size_t conditions; // index in the history's conditions
@@ -40,8 +40,8 @@ struct History {
     std::vector<Series> series; // by scene, metric, variant
 };
 
-/// The series of scored cells: every metric that the gate watches, the cost in frames of sm-uniform, and whether a cell is
-/// in error. Smaller is better throughout.
+/// The series of scored cells: every metric that has an allowance, every cost that is timed and judged, and whether a cell
+/// is in error. Smaller is better throughout.
 History historyOf(const std::vector<Commit>& commits, const Selection& selection);
 
 } // namespace shadowbench::history

@@ -1,7 +1,7 @@
 // The cost of a technique's frame: wall time over interleaved rounds and work counters.
 #pragma once
 
-#include "harness/records/record.h"
+#include "harness/measure/costs.h"
 #include "harness/render/stage.h"
 #include "techniques/contract/entry.h"
 

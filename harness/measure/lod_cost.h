@@ -1,7 +1,7 @@
 // The cost of a level-of-detail technique's frames along the walk.
 #pragma once
 
-#include "harness/records/record.h"
+#include "harness/measure/costs.h"
 #include "harness/render/lod_stage.h"
 
 #include <vector>

@@ -60,8 +60,8 @@ std::optional<double> greatestStretch(glm::dvec2 dx, glm::dvec2 dy) {
 
 } // namespace
 
-std::optional<Aliasing> aliasing(const Camera& camera, const Image<glm::vec3>& positions, const Image<glm::vec3>& normals,
-                                 const Mask& mask, const MapPoint& mapPoint) {
+std::optional<Aliasing> aliasing(const MappedFrame& frame) {
+    const auto& [camera, positions, normals, mask, mapPoint] = frame;
     if (!positions.sameSize(mask.scored) || !normals.sameSize(mask.scored))
         throw InternalError(
             "measuring aliasing on positions, normals and a mask of different sizes; render all at one size");

@@ -1,4 +1,4 @@
-// Displacement of shadow edges; the estimator is described at edgeError() in metrics.h.
+// Displacement of shadow edges; the estimator is described at edgeError() in table.h.
 #include "harness/metrics/pixels.h"
 
 #include <algorithm>
@@ -89,8 +89,9 @@ double displacement(const EdgePoint& p, const EdgePoint& q, const groundtruth::R
 
 } // namespace
 
-std::optional<EdgeError> edgeError(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
-    requireComparable(v, truth, mask);
+std::optional<EdgeError> edgeError(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const auto& [v, truth, mask] = frame;
     const std::vector<EdgePoint> technique = techniqueEdge(v, truth, mask);
     const std::vector<EdgePoint> exact = exactEdge(truth, mask, isHard(v, mask));
     if (technique.empty() || exact.empty()) return {};

@@ -1,5 +1,4 @@
 // Scores of hard labels.
-#include "base/error.h"
 #include "harness/metrics/pixels.h"
 
 namespace shadowbench::metrics {
@@ -22,8 +21,9 @@ struct HardTally {
     Tally all, offEdge, lit, shadowed;
 };
 
-HardTally tally(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
+HardTally tally(const ScoredFrame& frame) {
     constexpr float edgePixel = 0.5F; // this near the exact edge, in pixels
+    const auto& [v, truth, mask] = frame;
     HardTally result;
     for (std::size_t i = 0; i < v.size(); ++i) {
         if (!mask.scored[i]) continue;
@@ -38,24 +38,10 @@ HardTally tally(const Image<float>& v, const groundtruth::Reference& truth, cons
 
 } // namespace
 
-Accuracy hardAccuracy(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
-    requireComparable(v, truth, mask);
-    const HardTally counts = tally(v, truth, mask);
-    Accuracy result;
-    result.mismatch = counts.all.share();
-    result.mismatchOffEdge = counts.offEdge.share();
-    result.falseShadow = counts.lit.share();
-    result.leak = counts.shadowed.share();
-    result.edgeError = edgeError(v, truth, mask);
-    result.primaryMismatch = mask.primaryMismatch;
-    return result;
-}
-
-double mismatch(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
-    requireComparable(v, truth, mask);
-    const std::optional<double> share = tally(v, truth, mask).all.share();
-    if (!share) throw BadInput("scoring a frame in which no pixel shows a receiver; turn the camera or the light");
-    return *share;
+LabelErrors labelErrors(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const HardTally counts = tally(frame);
+    return {counts.all.share(), counts.offEdge.share(), counts.lit.share(), counts.shadowed.share()};
 }
 
 } // namespace shadowbench::metrics

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "harness/metrics/metrics.h"
+#include "harness/metrics/frames.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-// Width of penumbrae; the estimator is described at penumbraWidthError() in metrics.h.
+// Width of penumbrae; the estimator is described at penumbraWidthError() in table.h.
 #include "harness/metrics/pixels.h"
 
 #include <algorithm>
@@ -99,8 +99,9 @@ bool isGraded(const groundtruth::Reference& truth, const Mask& mask) {
 
 } // namespace
 
-std::optional<double> penumbraWidthError(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
-    requireComparable(v, truth, mask);
+std::optional<double> penumbraWidthError(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const auto& [v, truth, mask] = frame;
     if (!isGraded(truth, mask)) return {}; // a hard truth has no penumbra
     const Scored scored{truth, mask};
     std::vector<double> widthErrors;

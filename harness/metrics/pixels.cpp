@@ -8,7 +8,8 @@
 
 namespace shadowbench::metrics {
 
-void requireComparable(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
+void requireComparable(const ScoredFrame& frame) {
+    const auto& [v, truth, mask] = frame;
     const Image<std::uint8_t>& scored = mask.scored;
     if (!v.sameSize(scored) || !truth.visibility.sameSize(scored) || !truth.id.sameSize(scored) ||
         !truth.sigma.sameSize(scored) || !truth.edgeDistance.sameSize(scored))

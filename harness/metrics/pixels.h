@@ -1,7 +1,8 @@
 // What the metrics share: loops over the mask, edge crossings, bilinear reading.
 #pragma once
 
-#include "harness/metrics/metrics.h"
+#include "harness/metrics/frames.h"
+#include "harness/metrics/table.h"
 
 #include <vector>
 
@@ -10,7 +11,7 @@ namespace shadowbench::metrics {
 inline bool isLit(float visibility) { return visibility >= 0.5F; }
 
 /// Throws InternalError unless all images have M's size and V is finite inside M.
-void requireComparable(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask);
+void requireComparable(const ScoredFrame& frame);
 
 /// A pair of neighbouring pixels of M on one surface with different labels.
 struct Crossing {
@@ -34,6 +35,15 @@ struct Bilinear {
     /// Every pixel with a weight lies in M on surface `id`.
     [[nodiscard]] bool within(const Mask& mask, const Image<std::uint32_t>& ids, std::uint32_t id) const;
 };
+
+/// The flicker excess at every pixel of both masks that the frame before shows (see `flicker` in table.h).
+std::vector<double> flickerExcess(const FramePair& pair);
+
+/// Reprojected pixels whose class changed while the truth's did not, and how many were compared (see `flipRate`).
+struct Flips {
+    std::size_t flipped = 0, compared = 0;
+};
+Flips flips(const FramePair& pair);
 
 /// The q-quantile by nearest rank; sorts in place. Not for empty sets.
 double quantile(std::vector<double>& values, double q);

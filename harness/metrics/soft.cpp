@@ -1,5 +1,4 @@
 // Scores of graded visibility.
-#include "base/error.h"
 #include "harness/metrics/pixels.h"
 
 #include <cmath>
@@ -13,7 +12,8 @@ struct Errors {
     double squares = 0, absolutes = 0;
 };
 
-Errors errors(const Image<float>& v, const groundtruth::Reference& truth, const Image<std::uint8_t>& pixels) {
+Errors errors(const ScoredFrame& frame, const Image<std::uint8_t>& pixels) {
+    const auto& [v, truth, mask] = frame;
     Errors sum;
     for (std::size_t i = 0; i < v.size(); ++i) {
         if (!pixels[i]) continue;
@@ -69,25 +69,60 @@ Image<std::uint8_t> eroded(const Image<std::uint8_t>& set) {
     return result;
 }
 
-std::optional<double> penumbraRmse(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
-    const Image<std::uint8_t> penumbra = select(truth, mask, [](float exact) { return exact > 0 && exact < 1; });
-    const Image<std::uint8_t> pixels = dilated(penumbra, mask);
-    const std::size_t n = count(pixels);
-    if (n == 0) return {};
-    return std::sqrt(errors(v, truth, pixels).squares / static_cast<double>(n));
+/// Share of M where abs(V − V*) exceeds `threshold`.
+std::optional<double> shareAbove(const ScoredFrame& frame, double threshold) {
+    requireComparable(frame);
+    const auto& [v, truth, mask] = frame;
+    if (mask.count == 0) return {};
+    std::size_t above = 0;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        if (mask.scored[i] && std::abs(static_cast<double>(v[i]) - truth.visibility[i]) > threshold) ++above;
+    return static_cast<double>(above) / static_cast<double>(mask.count);
 }
 
-std::optional<double> umbraLeak(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
-    const Image<std::uint8_t> pixels = eroded(select(truth, mask, [](float exact) { return exact == 0; }));
+} // namespace
+
+std::optional<VisibilityErrors> visibilityErrors(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const double n = static_cast<double>(frame.mask.count);
+    if (n == 0) return {};
+    const Errors sum = errors(frame, frame.mask.scored);
+    VisibilityErrors result{std::sqrt(sum.squares / n), sum.absolutes / n, {}};
+    if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse); // peak 1
+    return result;
+}
+
+std::optional<double> rmse(const ScoredFrame& frame) {
+    const std::optional<VisibilityErrors> errors = visibilityErrors(frame);
+    return errors ? std::optional(errors->rmse) : std::nullopt;
+}
+
+std::optional<double> bad30(const ScoredFrame& frame) { return shareAbove(frame, 30.0 / 255.0); }
+std::optional<double> bad8(const ScoredFrame& frame) { return shareAbove(frame, 8.0 / 255.0); }
+
+std::optional<double> penumbraRmse(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const Image<std::uint8_t> penumbra = select(frame.truth, frame.mask, [](float exact) { return exact > 0 && exact < 1; });
+    const Image<std::uint8_t> pixels = dilated(penumbra, frame.mask);
+    const std::size_t n = count(pixels);
+    if (n == 0) return {};
+    return std::sqrt(errors(frame, pixels).squares / static_cast<double>(n));
+}
+
+std::optional<double> umbraLeak(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const Image<std::uint8_t> pixels = eroded(select(frame.truth, frame.mask, [](float exact) { return exact == 0; }));
     const std::size_t n = count(pixels);
     if (n == 0) return {};
     double sum = 0;
-    for (std::size_t i = 0; i < v.size(); ++i)
-        if (pixels[i]) sum += v[i];
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        if (pixels[i]) sum += frame.v[i];
     return sum / static_cast<double>(n);
 }
 
-std::optional<double> unresolved(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
+std::optional<double> unresolved(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const auto& [v, truth, mask] = frame;
     std::size_t uncertain = 0, within = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {
         const double sigma = truth.sigma[i];
@@ -97,49 +132,6 @@ std::optional<double> unresolved(const Image<float>& v, const groundtruth::Refer
     }
     if (uncertain == 0) return {};
     return static_cast<double>(within) / static_cast<double>(mask.count);
-}
-
-void requireReceivers(const Mask& mask) {
-    if (mask.count == 0) throw BadInput("scoring a frame in which no pixel shows a receiver; turn the camera or the light");
-}
-
-} // namespace
-
-Accuracy softAccuracy(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
-    requireComparable(v, truth, mask);
-    Accuracy result;
-    result.primaryMismatch = mask.primaryMismatch;
-    if (mask.count == 0) return result;
-
-    const double n = static_cast<double>(mask.count);
-    const Errors sum = errors(v, truth, mask.scored);
-    result.rmse = std::sqrt(sum.squares / n);
-    result.mae = sum.absolutes / n;
-    if (*result.rmse > 0) result.psnr = -20 * std::log10(*result.rmse); // peak 1
-    result.bad30 = shareAbove(v, truth.visibility, mask, 30.0 / 255.0);
-    result.bad8 = shareAbove(v, truth.visibility, mask, 8.0 / 255.0);
-    result.ssim = ssim(v, truth, mask);
-    result.penumbraRmse = penumbraRmse(v, truth, mask);
-    result.penumbraWidthError = penumbraWidthError(v, truth, mask);
-    result.umbraLeak = umbraLeak(v, truth, mask);
-    result.unresolved = unresolved(v, truth, mask);
-    return result;
-}
-
-double shareAbove(const Image<float>& a, const Image<float>& b, const Mask& mask, double threshold) {
-    if (!a.sameSize(mask.scored) || !b.sameSize(mask.scored))
-        throw InternalError("comparing images of different sizes; render both at one size");
-    requireReceivers(mask);
-    std::size_t above = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        if (mask.scored[i] && std::abs(static_cast<double>(a[i]) - b[i]) > threshold) ++above;
-    return static_cast<double>(above) / static_cast<double>(mask.count);
-}
-
-double rmse(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
-    requireComparable(v, truth, mask);
-    requireReceivers(mask);
-    return std::sqrt(errors(v, truth, mask.scored).squares / static_cast<double>(mask.count));
 }
 
 } // namespace shadowbench::metrics

@@ -43,8 +43,9 @@ struct Moments {
 
 } // namespace
 
-std::optional<double> ssim(const Image<float>& v, const groundtruth::Reference& truth, const Mask& mask) {
-    requireComparable(v, truth, mask);
+std::optional<double> ssim(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const auto& [v, truth, mask] = frame;
     if (mask.count == 0) return {};
     const std::array<double, side> weights = gaussian();
     double sum = 0;

@@ -48,31 +48,49 @@ glm::vec2 previousPosition(const glm::dvec3& point, std::uint32_t id, const Came
 
 bool isSomewhere(glm::vec2 position) { return std::isfinite(position.x) && std::isfinite(position.y); }
 
-void requireOneSize(const FrameResult& now, const FrameResult& before, const Image<glm::vec2>& warp) {
-    requireComparable(*now.v, *now.truth, *now.mask);
-    requireComparable(*before.v, *before.truth, *before.mask);
-    if (!warp.sameSize(*now.v) || !now.v->sameSize(*before.v))
+void requireOneSize(const FramePair& pair) {
+    requireComparable(pair.now);
+    requireComparable(pair.before);
+    if (!pair.warp.sameSize(pair.now.v) || !pair.now.v.sameSize(pair.before.v))
         throw InternalError("comparing frames of different sizes; render both at one size");
 }
 
 /// The pixel that contains an image position, if it is in M on surface `id`.
-std::optional<glm::ivec2> nearestPixel(const FrameResult& frame, glm::vec2 position, std::uint32_t id) {
+std::optional<glm::ivec2> nearestPixel(const ScoredFrame& frame, glm::vec2 position, std::uint32_t id) {
     const glm::ivec2 pixel(glm::floor(position));
-    if (!frame.v->contains(pixel.x, pixel.y) || !frame.mask->scored(pixel.x, pixel.y)) return {};
-    if (frame.truth->id(pixel.x, pixel.y) != id) return {};
+    if (!frame.v.contains(pixel.x, pixel.y) || !frame.mask.scored(pixel.x, pixel.y)) return {};
+    if (frame.truth.id(pixel.x, pixel.y) != id) return {};
     return pixel;
 }
 
 /// V and V* of the previous frame at a reprojected position.
-struct Pair {
+struct Looked {
     double v, exact;
 };
-std::optional<Pair> lookUp(const FrameResult& frame, glm::vec2 position, std::uint32_t id) {
+std::optional<Looked> lookUp(const ScoredFrame& frame, glm::vec2 position, std::uint32_t id) {
     const Bilinear around{glm::dvec2(position)};
-    if (around.within(*frame.mask, frame.truth->id, id)) return Pair{around(*frame.v), around(frame.truth->visibility)};
+    if (around.within(frame.mask, frame.truth.id, id)) return Looked{around(frame.v), around(frame.truth.visibility)};
     const std::optional<glm::ivec2> nearest = nearestPixel(frame, position, id);
     if (!nearest) return {};
-    return Pair{(*frame.v)(nearest->x, nearest->y), frame.truth->visibility(nearest->x, nearest->y)};
+    return Looked{frame.v(nearest->x, nearest->y), frame.truth.visibility(nearest->x, nearest->y)};
+}
+
+/// Squares of V − V*, summed over pixels and frames.
+struct SquareSum {
+    double sum = 0;
+    std::size_t count = 0;
+
+    void add(double difference) {
+        sum += difference * difference;
+        ++count;
+    }
+    [[nodiscard]] std::optional<double> root() const { // of the mean; nothing over nothing
+        return count > 0 ? std::optional(std::sqrt(sum / static_cast<double>(count))) : std::nullopt;
+    }
+};
+
+std::optional<double> quotient(std::size_t part, std::size_t all) {
+    return all > 0 ? std::optional(static_cast<double>(part) / static_cast<double>(all)) : std::nullopt;
 }
 
 } // namespace
@@ -94,70 +112,113 @@ Image<glm::vec2> warp(const Snapshot& now, glm::ivec2 size, const groundtruth::R
     return result;
 }
 
-void flickerSamples(const FrameResult& now, const FrameResult& before, const Image<glm::vec2>& warp,
-                    std::vector<float>& samples) {
-    requireOneSize(now, before, warp);
+std::vector<double> flickerExcess(const FramePair& pair) {
+    requireOneSize(pair);
+    const auto& [now, before, warp] = pair;
+    std::vector<double> excess;
     for (std::size_t i = 0; i < warp.size(); ++i) {
-        if (!now.mask->scored[i] || !isSomewhere(warp[i])) continue;
-        const std::optional<Pair> previous = lookUp(before, warp[i], now.truth->id[i]);
+        if (!now.mask.scored[i] || !isSomewhere(warp[i])) continue;
+        const std::optional<Looked> previous = lookUp(before, warp[i], now.truth.id[i]);
         if (!previous) continue;
-        const double change = (*now.v)[i] - previous->v;
-        const double exactChange = now.truth->visibility[i] - previous->exact;
-        samples.push_back(static_cast<float>(std::abs(change - exactChange)));
+        const double change = now.v[i] - previous->v;
+        const double exactChange = now.truth.visibility[i] - previous->exact;
+        excess.push_back(static_cast<float>(std::abs(change - exactChange)));
     }
+    return excess;
 }
 
-std::optional<Flicker> flicker(std::vector<float> samples) {
-    if (samples.empty()) return {};
-    std::vector<double> values(samples.begin(), samples.end());
+Flips flips(const FramePair& pair) {
+    requireOneSize(pair);
+    const auto& [now, before, warp] = pair;
+    Flips result;
+    for (std::size_t i = 0; i < warp.size(); ++i) {
+        if (!now.mask.scored[i] || !isSomewhere(warp[i])) continue;
+        const std::optional<glm::ivec2> previous = nearestPixel(before, warp[i], now.truth.id[i]);
+        if (!previous) continue;
+        ++result.compared;
+        const bool changed = isLit(now.v[i]) != isLit(before.v(previous->x, previous->y));
+        const bool truthChanged = isLit(now.truth.visibility[i]) != isLit(before.truth.visibility(previous->x, previous->y));
+        if (changed && !truthChanged) ++result.flipped;
+    }
+    return result;
+}
+
+std::optional<Flicker> flicker(const MovingFrames& frames) {
+    std::vector<double> values;
+    for (const FramePair& pair : frames.pairs) {
+        const std::vector<double> excess = flickerExcess(pair);
+        values.insert(values.end(), excess.begin(), excess.end());
+    }
+    if (values.empty()) return {};
     Flicker result;
     result.mean = mean(values);
     result.p95 = quantile(values, 0.95);
     return result;
 }
 
-Flips flips(const FrameResult& now, const FrameResult& before, const Image<glm::vec2>& warp) {
-    requireOneSize(now, before, warp);
-    Flips result;
-    for (std::size_t i = 0; i < warp.size(); ++i) {
-        if (!now.mask->scored[i] || !isSomewhere(warp[i])) continue;
-        const std::optional<glm::ivec2> previous = nearestPixel(before, warp[i], now.truth->id[i]);
-        if (!previous) continue;
-        ++result.compared;
-        const bool changed = isLit((*now.v)[i]) != isLit((*before.v)(previous->x, previous->y));
-        const bool truthChanged =
-            isLit(now.truth->visibility[i]) != isLit(before.truth->visibility(previous->x, previous->y));
-        if (changed && !truthChanged) ++result.flipped;
+std::optional<double> flipRate(const MovingFrames& frames) {
+    Flips all;
+    for (const FramePair& pair : frames.pairs) {
+        const Flips here = flips(pair);
+        all.flipped += here.flipped;
+        all.compared += here.compared;
     }
-    return result;
+    return quotient(all.flipped, all.compared);
 }
 
-std::optional<double> SquareSum::root() const {
-    return count > 0 ? std::optional(std::sqrt(sum / static_cast<double>(count))) : std::nullopt;
-}
-
-void addMovingError(const FrameResult& now, const Image<glm::vec2>& warp, MovingError& error) {
-    requireComparable(*now.v, *now.truth, *now.mask);
-    for (std::size_t i = 0; i < warp.size(); ++i) {
-        if (!now.mask->scored[i]) continue;
-        const double difference = (*now.v)[i] - now.truth->visibility[i];
-        const auto add = [&](SquareSum& sum) {
-            sum.sum += difference * difference;
-            ++sum.count;
-        };
-        add(error.all);
-        if (!isSomewhere(warp[i])) add(error.disoccluded);
+MovingErrors movingErrors(const MovingFrames& frames) {
+    SquareSum all, disoccluded;
+    for (const FramePair& pair : frames.pairs) {
+        requireComparable(pair.now);
+        const auto& [v, truth, mask] = pair.now;
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            if (!mask.scored[i]) continue;
+            const double difference = v[i] - truth.visibility[i];
+            all.add(difference);
+            if (!isSomewhere(pair.warp[i])) disoccluded.add(difference);
+        }
     }
+    return {all.root(), disoccluded.root()};
 }
 
-std::optional<int> convergence(const std::vector<double>& errorByFrame) {
-    if (errorByFrame.empty()) return {};
-    const std::size_t last = std::max<std::size_t>(1, errorByFrame.size() / 10);
-    const double steady = mean({errorByFrame.end() - static_cast<std::ptrdiff_t>(last), errorByFrame.end()});
-    std::size_t frame = errorByFrame.size();
-    while (frame > 0 && errorByFrame[frame - 1] <= 1.05 * steady) --frame;
-    if (frame == errorByFrame.size()) return {};
+std::optional<double> reuse(const MovingFrames& frames) {
+    std::size_t surface = 0, seenBefore = 0;
+    for (const FramePair& pair : frames.pairs)
+        for (std::size_t i = 0; i < pair.warp.size(); ++i) {
+            if (pair.now.truth.surface[i] == groundtruth::Surface::Background) continue;
+            ++surface;
+            if (isSomewhere(pair.warp[i])) ++seenBefore;
+        }
+    return quotient(seenBefore, surface);
+}
+
+std::optional<int> convergence(const StillFrames& frames) {
+    const std::vector<double>& errors = frames.errors;
+    if (errors.empty()) return {};
+    const std::size_t last = std::max<std::size_t>(1, errors.size() / 10);
+    const double steady = mean({errors.end() - static_cast<std::ptrdiff_t>(last), errors.end()});
+    std::size_t frame = errors.size();
+    while (frame > 0 && errors[frame - 1] <= 1.05 * steady) --frame;
+    if (frame == errors.size()) return {};
     return static_cast<int>(frame) + 1;
+}
+
+std::vector<double> changedByFrame(const StillFrames& frames) {
+    std::vector<double> shares;
+    for (const Image<std::uint8_t>& picture : frames.pictures) {
+        std::size_t changed = 0;
+        for (std::size_t i = 0; i < picture.size(); ++i)
+            if (frames.mask.scored[i] != 0 && std::abs(picture[i] - frames.pictures.back()[i]) > 30) ++changed;
+        shares.push_back(static_cast<double>(changed) / static_cast<double>(frames.mask.count));
+    }
+    return shares;
+}
+
+Image<std::uint8_t> inBytes(const Image<float>& v) {
+    Image<std::uint8_t> bytes(v.width(), v.height());
+    std::transform(v.begin(), v.end(), bytes.begin(),
+                   [](float x) { return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(x, 0.0F, 1.0F))); });
+    return bytes;
 }
 
 } // namespace shadowbench::metrics

@@ -3,7 +3,6 @@
 #include "base/error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -11,63 +10,8 @@
 namespace shadowbench::gate {
 namespace {
 
-/// Rendering is the same to the bit from run to run, so the only allowance that exact truths need is for what an innocent
-/// change of rounding may do: a pixel or two whose centre lies on an edge.
-constexpr double onePixel = 1, twoPixels = 2;
-constexpr double strayEdge = 0.002; // px: two pixels beside an edge of a thousand, as long as the scenes' are
-
-std::optional<double> lodScore(const Record& record, double Lod::*score) {
-    return record.lod ? std::optional(*record.lod.*score) : std::nullopt;
-}
-
-constexpr std::array watched{
-    Watched{"accuracy.mismatch", Class::Labels, [](const Record& r) { return r.accuracy.mismatch; }, Graded::No, twoPixels},
-    Watched{"accuracy.false_shadow", Class::FalseShadow, [](const Record& r) { return r.accuracy.falseShadow; }, Graded::No,
-            twoPixels},
-    Watched{"accuracy.leak", Class::Leak, [](const Record& r) { return r.accuracy.leak; }, Graded::No, twoPixels},
-    Watched{"accuracy.mismatch_off_edge", Class::Labels, [](const Record& r) { return r.accuracy.mismatchOffEdge; },
-            Graded::No, onePixel},
-    Watched{"accuracy.edge_error.mean", Class::Edge,
-            [](const Record& r) { return r.accuracy.edgeError ? std::optional(r.accuracy.edgeError->mean) : std::nullopt; },
-            Graded::No, 0, 0.01, strayEdge},
-    Watched{"accuracy.edge_error.signed", Class::Edge,
-            [](const Record& r) {
-                return r.accuracy.edgeError ? std::optional(std::abs(r.accuracy.edgeError->signedMean)) : std::nullopt;
-            },
-            Graded::No, 0, 0.01, strayEdge},
-    Watched{"accuracy.rmse", Class::Penumbra, [](const Record& r) { return r.accuracy.rmse; }, Graded::Rms},
-    Watched{"accuracy.penumbra_rmse", Class::Penumbra, [](const Record& r) { return r.accuracy.penumbraRmse; }, Graded::Rms},
-    Watched{"accuracy.umbra_leak", Class::Leak, [](const Record& r) { return r.accuracy.umbraLeak; }, Graded::Mean},
-    Watched{"accuracy.bad30", Class::Penumbra, [](const Record& r) { return r.accuracy.bad30; }, Graded::No, twoPixels},
-    Watched{"stability.flicker.mean", Class::Flicker,
-            [](const Record& r) { return r.stability.flicker ? std::optional(r.stability.flicker->mean) : std::nullopt; },
-            Graded::Mean, 0, 0.01},
-    Watched{"stability.flip_rate", Class::Flicker, [](const Record& r) { return r.stability.flipRate; }, Graded::No,
-            twoPixels, 0.01},
-    Watched{"stability.moving_rmse", Class::Flicker, [](const Record& r) { return r.stability.movingRmse; }, Graded::Rms, 0,
-            0.01},
-    Watched{"stability.convergence", Class::Flicker,
-            [](const Record& r) {
-                return r.stability.convergence ? std::optional<double>(*r.stability.convergence) : std::nullopt;
-            }},
-    Watched{"lod.pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::pop); }, Graded::No, 0, 0.01},
-    Watched{"lod.walk_pop", Class::Flicker, [](const Record& r) { return lodScore(r, &Lod::walkPop); }, Graded::No,
-            twoPixels, 0.01},
-    Watched{"lod.colour_error", Class::Colour, [](const Record& r) { return lodScore(r, &Lod::colourError); }, Graded::No, 0,
-            0.01},
-    Watched{"lod.order_error", Class::Colour, [](const Record& r) { return lodScore(r, &Lod::orderError); }, Graded::No, 0,
-            0.01},
-    Watched{"lod.noise", Class::Colour, [](const Record& r) { return r.lod ? r.lod->noise : std::nullopt; }, Graded::No, 0,
-            0.01},
-    Watched{"cost.instructions", Class::Instructions,
-            [](const Record& r) {
-                return r.cost.instructions ? std::optional(static_cast<double>(*r.cost.instructions)) : std::nullopt;
-            },
-            Graded::No, 0, 0.005},
-};
-
 void requireOneEnvironment(const Record& base, const Record& head) {
-    if (!base.cost.instructions || !head.cost.instructions) return;
+    if (!base.values["cost.instructions"] || !head.values["cost.instructions"]) return;
     const std::string before = countingEnvironment(base.environment), now = countingEnvironment(head.environment);
     if (before == now) return;
     throw Inconclusive(fmt::format("instructions counted in different environments cannot be compared: base \"{}\", head "
@@ -82,8 +26,8 @@ void requireOneTruth(const Record& base, const Record& head) {
                                    head.variant, head.scene));
 }
 
-std::string changed(const Watched& metric, const Record& record, double base, double head) {
-    return fmt::format("{} on {}: {} {} → {}{}", record.variant, record.scene, metric.metric, base, head,
+std::string changed(const metrics::Metric& metric, const Record& record, double base, double head) {
+    return fmt::format("{} on {}: {} {} → {}{}", record.variant, record.scene, metric.path, base, head,
                        base > 0 ? fmt::format(" ({:+.2f} %)", 100 * (head / base - 1)) : "");
 }
 
@@ -156,17 +100,17 @@ void compareCells(const Record& base, const Record& head, std::vector<Change>& c
     if (!scored(base) || !scored(head)) return;
     requireOneTruth(base, head);
     requireOneEnvironment(base, head);
-    for (const Watched& metric : watched) {
-        const auto before = metric.value(base), now = metric.value(head);
+    for (const metrics::Metric& metric : metrics::table) {
+        const auto before = comparedValue(metric, base), now = comparedValue(metric, head);
         if (!before) continue;
-        Change change{head.scene, head.variant, std::string(metric.metric), metric.watchedClass, before, now, 0, {}, {}};
+        Change change{head.scene, head.variant, std::string(metric.path), *metric.about, before, now, 0, {}, {}};
         if (now) {
-            change.allowance = allowance(metric, base, *before);
+            change.allowance = allowanceOf(metric, base, *before);
             change.direction = directionOf(*before, *now, change.allowance);
             change.sentence = changed(metric, head, *before, *now);
         } else {
             change.direction = Direction::Worse;
-            change.sentence = fmt::format("{} on {}: {} is no longer measured", head.variant, head.scene, metric.metric);
+            change.sentence = fmt::format("{} on {}: {} is no longer measured", head.variant, head.scene, metric.path);
         }
         changes.push_back(std::move(change));
     }
@@ -174,47 +118,24 @@ void compareCells(const Record& base, const Record& head, std::vector<Change>& c
 
 } // namespace
 
-std::string_view name(Class c) {
-    switch (c) {
-    case Class::Labels:
-        return "labels";
-    case Class::FalseShadow:
-        return "false shadow";
-    case Class::Leak:
-        return "leak";
-    case Class::Edge:
-        return "edge";
-    case Class::Penumbra:
-        return "penumbra";
-    case Class::Flicker:
-        return "flicker";
-    case Class::Colour:
-        return "colour";
-    case Class::BreakPoint:
-        return "break point";
-    case Class::Instructions:
-        return "instructions";
-    case Class::Time:
-        return "time";
-    case Class::Status:
-        return "status";
-    }
-    return "";
+std::optional<double> comparedValue(const metrics::Metric& metric, const Record& record) {
+    const std::optional<double>& value = record.values[metric];
+    if (!metric.allowance || !value) return {};
+    return metric.allowance->magnitude ? std::abs(*value) : *value;
 }
 
-std::span<const Watched> watchedMetrics() { return watched; }
-
-double allowance(const Watched& metric, const Record& base, double value) {
-    const double pixels = metric.pixels / (static_cast<double>(base.width) * base.height);
+double allowanceOf(const metrics::Metric& metric, const Record& base, double value) {
+    using metrics::TruthError;
+    constexpr double twoPixels = 2; // whose centres lie on an edge: their labels are arbitrary
+    const double all = static_cast<double>(base.width) * base.height;
     const ReferenceInfo none;
     const double sigma = (base.softReference ? base.softReference : base.reference).value_or(none).sigma;
-    // An error e measured against a truth that is off by σ reads √(e² + σ²). An exact truth is off by nothing, but the label
-    // of a pixel whose centre lies on an edge is anyone's.
-    const double stray = twoPixels / (static_cast<double>(base.width) * base.height);
-    const double off = sigma > 0 ? sigma : metric.graded == Graded::Rms ? std::sqrt(stray) : 0;
-    double truth = metric.graded == Graded::No ? 0 : std::hypot(value, off) - value;
-    if (metric.graded == Graded::Mean && sigma == 0) truth = stray;
-    return std::max({pixels, truth, metric.absolute}) + metric.relative * std::abs(value);
+    const metrics::Allowance& allowance = *metric.allowance;
+    // An error e measured against a truth that is off by σ reads √(e² + σ²). An exact truth is off by stray pixels only.
+    const double off = sigma > 0 ? sigma : allowance.truth == TruthError::Rms ? std::sqrt(twoPixels / all) : 0;
+    double truth = allowance.truth == TruthError::None ? 0 : std::hypot(value, off) - value;
+    if (allowance.truth == TruthError::Mean && sigma == 0) truth = twoPixels / all;
+    return std::max({allowance.pixels / all, truth, allowance.absolute}) + allowance.relative * std::abs(value);
 }
 
 Direction directionOf(double base, double head, double allowance) {

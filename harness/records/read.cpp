@@ -16,6 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int schemaVersion = 1;
+constexpr std::uint64_t mostCounted = std::uint64_t{1} << 53U; // doubles hold all whole numbers up to here
 
 [[noreturn]] void refuse(const std::string& key, std::string_view complaint) {
     throw BadInput(
@@ -38,11 +39,15 @@ public:
     void operator()(const char* key, std::optional<T>& value) {
         if (const Json* json = find(key)) read(key, *json, value.emplace());
     }
-    void operator()(const char* key, std::vector<double>& values) {
+    void metric(const char* key, const metrics::Metric& line, metrics::Values& values) {
         const Json* json = find(key);
+        if (json == nullptr && !line.optional) refuse(pathOf(key), "is missing");
         if (json == nullptr) return;
-        if (!json->is_array()) refuse(pathOf(key), "is not a list");
-        for (const Json& item : *json) read(key, item, values.emplace_back());
+        if (!line.list) values[line] = number(key, *json, line.range.whole);
+        if (line.list && !json->is_array()) refuse(pathOf(key), "is not a list");
+        if (line.list)
+            for (const Json& item : *json)
+                values.list(metrics::MetricId(line)).push_back(number(key, item, line.range.whole));
     }
 
     template <typename Inner>
@@ -96,6 +101,18 @@ private:
         known_.insert(key);
         const auto found = object_.find(key);
         return found == object_.end() ? nullptr : &*found;
+    }
+
+    [[nodiscard]] double number(const char* key, const Json& json, bool whole) const {
+        double value = 0;
+        if (!whole) {
+            read(key, json, value);
+            return value;
+        }
+        std::uint64_t count = 0;
+        read(key, json, count);
+        if (count > mostCounted) refuse(pathOf(key), fmt::format("is not within 0 … {}", mostCounted));
+        return static_cast<double>(count);
     }
 
     void read(const char* key, const Json& json, double& value) const {
@@ -161,7 +178,7 @@ Record parseRecord(const std::string& json) {
     Reader reader(object, "");
     records::fields(reader, record);
     reader.refuseUnknown();
-    if (record.lod && !records::wasScored(record.status))
+    if (isLevelOfDetail(record) && !records::wasScored(record.status))
         refuse("lod", "belongs to scored records and expected failures, and to no others");
     if (object.contains("accuracy") != records::hasAccuracy(record))
         refuse("accuracy", "belongs to scored records and expected failures without \"lod\", and to no others");

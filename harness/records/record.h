@@ -1,9 +1,9 @@
 // The record of one cell (scene × technique variant × profile): the only thing that reports and gates read.
-// Written as one JSON object a line in results.jsonl; record.schema.json beside this file describes it to machines.
-// A metric that does not apply is absent, never 0. Rates are fractions, times milliseconds, sizes bytes.
+// Written as one JSON object a line in results.jsonl; `recordSchema` describes it to machines. A metric that does not apply
+// is absent, never 0. Rates are fractions, times milliseconds, sizes bytes.
 #pragma once
 
-#include "harness/metrics/scores.h"
+#include "harness/metrics/values.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,65 +17,6 @@
 namespace shadowbench {
 
 enum class Status { Scored, NotApplicable, ExpectedFailure, Error };
-
-struct Stability {
-    std::optional<Flicker> flicker;          // over the moving frames
-    std::optional<double> flipRate;          // over the moving frames
-    std::optional<double> movingRmse;        // of V − V* over the moving frames: what flicker does not see, a steady trail
-    std::optional<double> disocclusionError; // the same over the pixels in their first frame
-    std::optional<double> reuse;             // share of the moving frames' surface pixels that the frame before saw, too
-    std::optional<int> convergence;          // still frames needed from an empty history
-    std::vector<double> mismatchByFrame;     // over the still frames from an empty history; techniques with history only
-    std::vector<double> rmseByFrame;
-    std::vector<double> bad30ByFrame;
-    std::vector<double> changedByFrame; // share of M differing by > 30/255 from the technique's own last still frame (EGSR
-                                        // paper, Fig. 3: "differing from the fully converged solution")
-};
-
-struct Time {
-    double median = 0, p95 = 0, mad = 0; // ms a frame, G-buffer included
-    double ratio = 1;                    // to sm-uniform in the same interleaved rounds, both with the G-buffer
-    double floorRatio = 0;               // share of the frame that the G-buffer alone takes
-    std::optional<double> baseRatio;     // to the technique's own base (history over its base map)
-    std::vector<double> samples;
-};
-
-struct Work {
-    std::uint64_t fragments = 0, vertices = 0, primitives = 0, draws = 0, passes = 0, bytes = 0;
-};
-
-struct Cost {
-    std::optional<Time> time;
-    std::optional<Work> work;
-    std::optional<std::uint64_t> instructions;
-};
-
-/// Frames of a level-of-detail technique over the scene's walk, each timed beside lod-switch's, without the G-buffer; of a
-/// rasteriser that draws on the calling thread its processor time, which other programs do not disturb.
-struct LodTime {
-    double median = 0; // ms a frame
-    double ratio = 1;  // to lod-switch: median over the frames
-    double spread = 0; // median change from one frame to the next, as a share of the former
-};
-
-/// Scores of a level-of-detail technique over the scene's walk (docs/metrics.md, "Levels of detail"; Scherzer and Wimmer
-/// 2008, 5.2). Colours are in [0, 1]; changes are from one frame to the next.
-struct Lod {
-    // While camera and instances stand and levels alone change, so that lod-full's picture stays as it is:
-    double pop = 0;                  // largest mean change of colour
-    std::uint64_t changedRegion = 0; // pixels of the largest connected region that changes by > 30/255
-    // Along the walk:
-    double walkPop = 0;          // largest mean change of colour beyond lod-full's; coarse levels alias less and change less
-    double colourError = 0;      // rms difference from lod-full
-    std::optional<double> noise; // mean distance from the 3 × 3 median beyond lod-full's, where pixels see a transition
-    double orderError = 0;       // rms difference from the same with all triangles drawn the other way round
-    std::uint64_t transitions = 0; // most instances in transition at once
-    double primitives = 0;         // a frame, mean
-    double primitiveChange = 0;    // largest, as a share of the former frame's
-    std::optional<LodTime> time;
-    std::vector<double> popByFrame, walkPopByFrame; // from frame 1
-    std::vector<double> primitivesByFrame, millisecondsByFrame;
-};
 
 struct Environment {
     std::string renderer, gl, cpu, compiler;
@@ -117,21 +58,20 @@ struct Record {
     std::optional<ReferenceInfo> reference;
     std::optional<ReferenceInfo> softReference; // the second truth of a hard technique on an area-light scene
     std::optional<SweepStep> sweep;             // of `sweep` only
-    std::optional<Lod> lod;                     // of level-of-detail techniques, which have no accuracy or stability
-    Accuracy accuracy;
-    std::optional<Aliasing> aliasing;      // of techniques with a map
-    std::map<std::string, double> figures; // of the scored frame, by names that `list techniques` explains
-    Stability stability;
-    Cost cost;
-    double tolerance = 0;        // the scene's, for the metric below; 0 if it states none
-    std::string toleranceMetric; // "mismatch", "penumbra_rmse" …
+    metrics::Values values;                     // of every metric; a record has either "accuracy" or "lod"
+    std::map<std::string, double> figures;      // of the scored frame, by names that `list techniques` explains
+    double tolerance = 0;                       // the scene's, for the metric below; 0 if it states none
+    std::string toleranceMetric;                // "mismatch", "penumbra_rmse" …
 };
 
 /// One JSON line, keys in schema order, no newline. Numbers are written so that they read back equal; a parameter that is a
 /// number is written as one and reads back in its shortest form. `accuracy` is written for scored records and expected
-/// failures without `lod` only, other groups when something is in them. Throws InternalError naming the key of a number that
-/// is not finite.
+/// failures of shadows only, other groups when something is in them. Throws InternalError naming the key of a number that is
+/// not finite, or of one that such a record must have.
 std::string toJson(const Record& record);
+
+/// The JSON Schema (draft 7) of a record, metrics as the table has them.
+std::string recordSchema();
 
 /// Throws BadInput naming the key when `json` is not a record of this schema version: a key is missing, unknown or of
 /// another type.
@@ -154,12 +94,7 @@ struct Headline {
 };
 std::optional<Headline> headline(const Record& record);
 
-/// A metric of `accuracy` by its name in the record ("mismatch_off_edge"); nothing if it is absent or there is none of that
-/// name.
-std::optional<double> accuracyMetric(const Accuracy& accuracy, std::string_view metric);
-
-/// A metric that a scene or the gate may put a bound on, by its name there: those of `accuracy`, and "edge_error",
-/// "flicker", "flip_rate", "moving_rmse", "disocclusion_error", "convergence", "pop". Nothing where the record lacks it.
-std::optional<double> boundedMetric(const Record& record, std::string_view metric);
+/// Of a level-of-detail technique; such a record has no accuracy.
+bool isLevelOfDetail(const Record& record);
 
 } // namespace shadowbench

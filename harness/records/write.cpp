@@ -4,6 +4,7 @@
 #include "harness/records/fields.h"
 
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -24,11 +25,13 @@ public:
     void operator()(const char* key, const std::optional<T>& value) {
         if (value) (*this)(key, *value);
     }
-    void operator()(const char* key, const std::vector<double>& values) {
-        if (values.empty()) return;
-        Json list = Json::array();
-        for (const double value : values) list.push_back(written(key, value));
-        object_[key] = std::move(list);
+    void metric(const char* key, const metrics::Metric& line, const metrics::Values& values) {
+        const std::vector<double>& list = values.list(metrics::MetricId(line));
+        if (values[line])
+            object_[key] = number(key, *values[line], line.range.whole);
+        else if (!line.optional)
+            throw InternalError(fmt::format("writing a record: \"{}\" is missing", pathOf(key)));
+        for (const double value : list) object_[key].push_back(number(key, value, line.range.whole));
     }
 
     template <typename Inner>
@@ -62,6 +65,10 @@ public:
 private:
     [[nodiscard]] std::string pathOf(const char* key) const { return path_ + key; }
 
+    [[nodiscard]] Json number(const char* key, double value, bool whole) const {
+        const Json json = written(key, value);
+        return whole ? Json(static_cast<std::uint64_t>(value)) : json;
+    }
     [[nodiscard]] Json written(const char* key, double value) const {
         if (!std::isfinite(value))
             throw InternalError(fmt::format("writing a record: \"{}\" is {}; a metric that has no value must be left out",

@@ -1,7 +1,7 @@
 // One scene on the GPU at its image size: shows a frame and lets techniques render it.
 #pragma once
 
-#include "harness/metrics/metrics.h"
+#include "harness/metrics/frames.h"
 #include "scene/scene.h"
 #include "techniques/contract/technique.h"
 

@@ -24,28 +24,31 @@ struct Panel {
 };
 
 std::vector<Curve> curvesOf(const std::vector<Record>& records, const std::vector<std::size_t>& shownRecords,
-                            const std::vector<double> Stability::*member) {
+                            metrics::MetricId list) {
     std::vector<Curve> curves;
     for (std::size_t style = 0; style < shownRecords.size(); ++style) {
         const Record& record = records[shownRecords[style]];
-        if (const std::vector<double>& values = record.stability.*member; !values.empty()) curves.push_back({values, style});
+        if (const std::vector<double>& values = record.values.list(list); !values.empty()) curves.push_back({values, style});
     }
     return curves;
+}
+
+metrics::MetricId errorList(bool soft) {
+    return soft ? metrics::MetricId("stability.by_frame.rmse") : metrics::MetricId("stability.by_frame.mismatch");
 }
 
 std::vector<std::size_t> recordsWithCurves(const std::vector<Record>& records, const std::string& scene, bool soft) {
     std::vector<std::size_t> result;
     for (const std::size_t i : ofScene(records, scene)) {
-        const Stability& s = records[i].stability;
-        const std::vector<double>& error = soft ? s.rmseByFrame : s.mismatchByFrame;
-        if (!error.empty() || !s.changedByFrame.empty()) result.push_back(i);
+        const metrics::Values& values = records[i].values;
+        if (!values.list(errorList(soft)).empty() || !values.list("stability.by_frame.changed").empty()) result.push_back(i);
     }
     return result;
 }
 
 /// Without the last frame, which is compared with itself.
 std::vector<Curve> changeCurves(const std::vector<Record>& records, const std::vector<std::size_t>& shownRecords) {
-    std::vector<Curve> curves = curvesOf(records, shownRecords, &Stability::changedByFrame);
+    std::vector<Curve> curves = curvesOf(records, shownRecords, "stability.by_frame.changed");
     for (Curve& curve : curves) curve.values.pop_back();
     std::erase_if(curves, [](const Curve& curve) { return curve.values.empty(); });
     return curves;
@@ -58,9 +61,7 @@ std::string panelScript(const Panel& panel, std::size_t column, std::size_t colu
     for (const Curve& curve : panel.curves) all.insert(all.end(), curve.values.begin(), curve.values.end());
     const LogAxis axis(all);
 
-    std::string script = fmt::format(
-        "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n",
-        start + 0.085, start + share - 0.02, 1 - top / height, 1 - (plotHeight - bottomMargin) / height);
+    std::string script = plotArea(start + 0.085, start + share - 0.02, top, plotHeight - bottomMargin, height);
     script += fmt::format("set title {} font ',14' offset 0,-0.4\n", literal(panel.title));
     script += "set xlabel 'frame'\nset xrange [1:*]\n" + axis.script("y", panel.share ? 100 : 1, panel.share ? " %%" : "");
     std::string plots;
@@ -82,8 +83,7 @@ std::optional<std::string> convergenceChart(const std::vector<Record>& records, 
     const bool soft = metric == "rmse";
     const std::vector<std::size_t> shownRecords = recordsWithCurves(records, scene, soft);
     std::vector<Panel> panels{
-        {"error against the truth: " + meaning(metric), isShare(metric),
-         curvesOf(records, shownRecords, soft ? &Stability::rmseByFrame : &Stability::mismatchByFrame)},
+        {"error against the truth: " + meaning(metric), isShare(metric), curvesOf(records, shownRecords, errorList(soft))},
         {"pixels > 30/255 off the technique's own last frame", true, changeCurves(records, shownRecords)}};
     std::erase_if(panels, [](const Panel& panel) { return panel.curves.empty(); });
     if (panels.empty()) return {};

@@ -3,6 +3,7 @@
 #include "harness/report/run_report.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <fmt/format.h>
 
 namespace shadowbench::report {
@@ -42,7 +43,11 @@ public:
     void operator()(const char* key, const std::optional<T>& value) {
         optional(key, value ? &*value : nullptr);
     }
-    void operator()(const char*, const std::vector<double>&) {}
+    void metric(const char* key, const metrics::Metric& line, const metrics::Values& values) {
+        if (line.list) return;
+        const std::optional<double>& value = values[line];
+        add(key, !value ? "" : line.range.whole ? written(static_cast<std::uint64_t>(*value)) : written(*value));
+    }
     void operator()(const char*, const std::map<std::string, std::string>&) {}
 
     template <typename Inner>

@@ -88,6 +88,12 @@ std::string heading(const std::string& title, int height) {
     return fmt::format("set label {} at screen 0.085, screen {} left font ',18'\n", literal(title), 1 - 24.0 / height);
 }
 
+std::string plotArea(double left, double right, double top, double bottom, double height) {
+    return fmt::format(
+        "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n", left,
+        right, 1 - top / height, 1 - bottom / height);
+}
+
 int Legend::bottom() const { return top + legendRow * static_cast<int>((names.size() + 1) / 2) + 14; }
 
 std::string Legend::script() const {

@@ -25,6 +25,10 @@ std::string lineStyle(std::size_t i);
 /// A chart's title at its upper left, on a canvas `height` pixels high.
 std::string heading(const std::string& title, int height);
 
+/// The margins of a plot on a canvas `height` pixels high: `left` and `right` as shares of the canvas' width, `top` and
+/// `bottom` in pixels below its upper edge.
+std::string plotArea(double left, double right, double top, double bottom, double height);
+
 /// The names of all curves with their line styles, two a row, below a plot that ends `top` pixels below the canvas' upper
 /// edge.
 struct Legend {

@@ -1,9 +1,10 @@
 #include "harness/report/listing.h"
 
+#include "harness/metrics/table.h"
+#include "harness/records/record.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
 
-#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -66,61 +67,21 @@ Json scenesAsJson() {
     return all;
 }
 
-struct Metric {
-    const char* name;
-    const char* unit;
-    const char* meaning;
-};
-
-// In the order of the records.
-constexpr std::array metrics{
-    Metric{"mismatch", "share", "receiver pixels whose rounded visibility differs from the exact label"},
-    Metric{"mismatch_off_edge", "share", "the same more than half a pixel away from an exact shadow edge"},
-    Metric{"false_shadow", "share", "lit pixels called shadowed (acne, over-shadow)"},
-    Metric{"leak", "share", "shadowed pixels called lit (peter-panning, light leak)"},
-    Metric{"edge_error", "pixels",
-           "distance from the technique's shadow edge to the exact one; signed: − too small, + too large"},
-    Metric{"rmse", "1", "root mean square of V − V*"},
-    Metric{"mae", "1", "mean of abs(V − V*)"},
-    Metric{"psnr", "dB", "peak signal to noise"},
-    Metric{"bad30", "share", "pixels with abs(V − V*) > 30/255 (EGSR 2007)"},
-    Metric{"bad8", "share", "pixels with abs(V − V*) > 8/255"},
-    Metric{"ssim", "1", "structural similarity, 11×11 Gaussian"},
-    Metric{"penumbra_rmse", "1", "rmse over the penumbra dilated by 2 pixels"},
-    Metric{"penumbra_width_error", "relative", "error of the penumbra's width along its edge normals"},
-    Metric{"umbra_leak", "1", "mean visibility over the umbra eroded by 2 pixels"},
-    Metric{"unresolved", "share", "pixels whose error is below three times the truth's own uncertainty"},
-    Metric{"primary_mismatch", "share",
-           "pixels where rasteriser and truth see different surfaces; above 0.1 % nothing is scored"},
-    Metric{"aliasing", "pixels",
-           "that one texel of the technique's map covers where it is stretched most: median and p95 over the receivers, and "
-           "the share of them that lies in a map"},
-    Metric{"figures", "see list techniques", "numbers of the scored frame that only the technique knows"},
-    Metric{"flicker", "1", "change between moving frames beyond the truth's own, after exact reprojection"},
-    Metric{"flip_rate", "share", "reprojected pixels that change class while the truth does not"},
-    Metric{"moving_rmse", "1",
-           "root mean square of V − V* over the moving frames: what flicker does not see, a steady trail"},
-    Metric{"disocclusion_error", "1", "the same over the pixels in their first frame"},
-    Metric{"reuse", "share", "surface pixels of the moving frames that the frame before saw, too"},
-    Metric{"convergence", "frames",
-           "still frames from an empty history until the error stays within 5 % of its steady state"},
-    Metric{"pop", "1", "levels of detail: largest mean change of colour from frame to frame while levels alone change"},
-    Metric{"changed_region", "pixels",
-           "levels of detail: the same, largest connected region that changes by more than 30/255"},
-    Metric{"walk_pop", "1", "levels of detail: largest mean change of colour along the walk beyond lod-full's"},
-    Metric{"colour_error", "1", "levels of detail: rms difference from lod-full over the walk"},
-    Metric{"noise", "1", "levels of detail: mean distance from the 3×3 median beyond lod-full's, over pixels in transition"},
-    Metric{"order_error", "1",
-           "levels of detail: rms difference from the same with all triangles drawn the other way round"},
-    Metric{"primitive_change", "share", "levels of detail: largest change of the primitives drawn from frame to frame"},
-    Metric{"time", "ms, ratio", "wall time of a frame over interleaved rounds, and its ratio to sm-uniform"},
-    Metric{"work", "counts", "fragment invocations, vertices, primitives, draws, passes, bytes"},
-};
-
 Json metricsAsJson() {
     Json all = Json::array();
-    for (const Metric& metric : metrics)
-        all.push_back({{"id", metric.name}, {"unit", metric.unit}, {"meaning", metric.meaning}});
+    for (const metrics::Metric& metric : metrics::table)
+        all.push_back({{"id", metric.path},
+                       {"unit", metric.unit},
+                       {"class", metric.about ? name(*metric.about) : ""},
+                       {"bound", metric.bound},
+                       {"allowance", metric.allowance ? describe(*metric.allowance) : ""},
+                       {"meaning", metric.meaning}});
+    all.push_back({{"id", "figures.*"},
+                   {"unit", ""},
+                   {"class", ""},
+                   {"bound", ""},
+                   {"allowance", ""},
+                   {"meaning", "numbers of the scored frame that only the technique knows: see list techniques"}});
     return all;
 }
 
@@ -142,7 +103,7 @@ std::string asCell(const std::string& key, const Json& value) {
 std::string asText(const Json& entry) {
     std::string text = fmt::format("{}\n", entry["id"].get<std::string>());
     for (const auto& [key, value] : entry.items()) {
-        if (key == "id" || key == "parameters" || key == "figures") continue;
+        if (key == "id" || key == "parameters" || key == "figures" || value == "") continue;
         text += fmt::format("    {}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     }
     if (!entry.contains("parameters")) return text;
@@ -172,6 +133,7 @@ std::string asMarkdown(const Json& all) {
 } // namespace
 
 std::string catalogue(const std::string& what, const std::string& format) {
+    if (what == "schema") return recordSchema();
     const Json all = what == "scenes" ? scenesAsJson() : what == "metrics" ? metricsAsJson() : techniquesAsJson();
     if (format == "json") return all.dump(2) + "\n";
     if (format == "md") return asMarkdown(all);

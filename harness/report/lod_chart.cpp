@@ -14,20 +14,18 @@ constexpr double top = 84, bottomMargin = 62;
 
 struct Panel {
     std::string title;
-    std::vector<double> Lod::*curve;
+    metrics::MetricId curve;
     int firstFrame; // of the curve
     double factor;
 };
 
 std::string script(const Panel& panel, int column, const std::vector<const Record*>& records, double height) {
     const double start = 0.5 * column;
-    std::string text = fmt::format(
-        "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n",
-        start + 0.085, start + 0.48, 1 - top / height, 1 - (plotHeight - bottomMargin) / height);
+    std::string text = plotArea(start + 0.085, start + 0.48, top, plotHeight - bottomMargin, height);
     text += fmt::format("set title {} font ',14' offset 0,-0.4\nset xlabel 'frame'\n", literal(panel.title));
     std::string plots;
     for (std::size_t i = 0; i < records.size(); ++i) {
-        const std::vector<double>& values = (*records[i]->lod).*panel.curve;
+        const std::vector<double>& values = records[i]->values.list(panel.curve);
         if (values.empty()) continue;
         text += fmt::format("$curve{}_{} << EOD\n", column, i);
         for (std::size_t frame = 0; frame < values.size(); ++frame)
@@ -46,7 +44,7 @@ std::optional<std::string> lodChart(const std::vector<Record>& records, const st
     std::vector<std::string> names;
     for (const std::size_t i : ofScene(records, scene)) {
         const Record& record = records[i];
-        if (!record.lod || record.sweep || record.lod->popByFrame.empty()) continue;
+        if (record.sweep || record.values.list("lod.by_frame.pop").empty()) continue;
         shown.push_back(&record);
         names.push_back(record.variant);
     }
@@ -55,8 +53,8 @@ std::optional<std::string> lodChart(const std::vector<Record>& records, const st
     const int height = legend.bottom();
     std::string text =
         "set multiplot\n" + heading(scene + ": along the walk past levels of detail", height) + legend.script();
-    text += script({"pop: mean change of colour, camera standing, 1/1000", &Lod::popByFrame, 1, 1000}, 0, shown, height);
-    text += script({"frame time, ms", &Lod::millisecondsByFrame, 0, 1}, 1, shown, height);
+    text += script({"pop: mean change of colour, camera standing, 1/1000", "lod.by_frame.pop", 1, 1000}, 0, shown, height);
+    text += script({"frame time, ms", "lod.by_frame.milliseconds", 0, 1}, 1, shown, height);
     return svgOf(text + "unset multiplot\n", width, height);
 }
 

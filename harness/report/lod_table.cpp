@@ -30,40 +30,43 @@ using Cell = std::optional<std::string>;
 struct Column {
     const char* title;
     bool pageOnly; // the terminal has no room for it
-    Cell (*cell)(const Record&);
+    metrics::MetricId metric;
+    std::string (*format)(double);
 };
 
-Cell time(const Record& r, double LodTime::*member, int places) {
-    return r.lod->time ? Cell(fmt::format("{:.{}f}", *r.lod->time.*member, places)) : Cell();
+template <int places, int factor = 1>
+std::string decimals(double value) {
+    return fmt::format("{:.{}f}", value / factor, places);
 }
-
-Cell mebibytes(const Record& r) {
-    if (!r.cost.work) return {};
-    return fmt::format("{:.1f}", static_cast<double>(r.cost.work->bytes) / (1024.0 * 1024.0));
-}
+std::string thousandths(double value) { return fmt::format("{:.2f}", 1000 * value); }
 
 std::span<const Column> columns() {
     static constexpr Column all[] = {
-        {"pop", false, [](const Record& r) { return Cell(fmt::format("{:.2f}", 1000 * r.lod->pop)); }},
-        {"region px", false, [](const Record& r) { return Cell(std::to_string(r.lod->changedRegion)); }},
-        {"walk pop", true, [](const Record& r) { return Cell(fmt::format("{:.2f}", 1000 * r.lod->walkPop)); }},
-        {"colour error", false, [](const Record& r) { return Cell(fmt::format("{:.4f}", r.lod->colourError)); }},
-        {"noise", false, [](const Record& r) { return r.lod->noise ? Cell(fmt::format("{:.4f}", *r.lod->noise)) : Cell(); }},
-        {"order error", false, [](const Record& r) { return Cell(fmt::format("{:.4f}", r.lod->orderError)); }},
-        {"primitives", false, [](const Record& r) { return Cell(fmt::format("{:.0f}", r.lod->primitives)); }},
-        {"change", false, [](const Record& r) { return Cell(percent(r.lod->primitiveChange)); }},
-        {"MiB", true, mebibytes},
-        {"ms", true, [](const Record& r) { return time(r, &LodTime::median, 2); }},
-        {"spread", true, [](const Record& r) { return r.lod->time ? Cell(percent(r.lod->time->spread)) : Cell(); }},
-        {"cost", false, [](const Record& r) { return time(r, &LodTime::ratio, 2); }},
+        {"pop", false, "lod.pop", thousandths},
+        {"region px", false, "lod.changed_region", decimals<0>},
+        {"walk pop", true, "lod.walk_pop", thousandths},
+        {"colour error", false, "lod.colour_error", decimals<4>},
+        {"noise", false, "lod.noise", decimals<4>},
+        {"order error", false, "lod.order_error", decimals<4>},
+        {"primitives", false, "lod.primitives", decimals<0>},
+        {"change", false, "lod.primitive_change", percent},
+        {"MiB", true, "cost.work.bytes", decimals<1, 1 << 20>},
+        {"ms", true, "lod.time.median", decimals<2>},
+        {"spread", true, "lod.time.spread", percent},
+        {"cost", false, "lod.time.ratio", decimals<2>},
     };
     return all;
+}
+
+Cell cell(const Column& column, const Record& record) {
+    const std::optional<double>& value = record.values[column.metric];
+    return value ? Cell(column.format(*value)) : Cell();
 }
 
 std::vector<const Record*> lodRecords(const std::vector<Record>& records, const std::string& scene) {
     std::vector<const Record*> result;
     for (const std::size_t i : ofScene(records, scene))
-        if (records[i].lod && !records[i].sweep) result.push_back(&records[i]);
+        if (isLevelOfDetail(records[i]) && !records[i].sweep) result.push_back(&records[i]);
     return result;
 }
 
@@ -72,17 +75,17 @@ TextTable table(const std::vector<const Record*>& scored, bool page) {
     for (const Record* record : scored) result.rows.push_back({record->variant});
     for (const Column& column : columns()) {
         if (column.pageOnly && !page) continue;
-        if (std::ranges::none_of(scored, [&](const Record* r) { return column.cell(*r).has_value(); })) continue;
+        if (std::ranges::none_of(scored, [&](const Record* r) { return cell(column, *r).has_value(); })) continue;
         result.titles.emplace_back(column.title);
         for (std::size_t row = 0; row < scored.size(); ++row)
-            result.rows[row].push_back(column.cell(*scored[row]).value_or("–"));
+            result.rows[row].push_back(cell(column, *scored[row]).value_or("–"));
     }
     return result;
 }
 
 std::string heading(const Record& record) {
-    return fmt::format("{} · {} · {} frames, up to {} instances in transition", record.scene, imageSize(record),
-                       record.frames, record.lod->transitions);
+    return fmt::format("{} · {} · {} frames, up to {:.0f} instances in transition", record.scene, imageSize(record),
+                       record.frames, *record.values["lod.transitions"]);
 }
 
 } // namespace

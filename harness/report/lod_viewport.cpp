@@ -45,10 +45,10 @@ std::string viewportTable(const std::vector<Record>& records) {
     const std::vector<Curve> curves = curvesOf(records);
     return fmt::format(
         "{}\n{}\n{}\n{}",
-        table(curves, "ms a frame", [](const Record& r) { return fmt::format("{:.2f}", r.lod->time->median); }),
-        table(curves, "× lod-switch", [](const Record& r) { return fmt::format("{:.2f}", r.lod->time->ratio); }),
-        table(curves, "primitives", [](const Record& r) { return fmt::format("{:.0f}", r.lod->primitives); }),
-        table(curves, "fragments", [](const Record& r) { return std::to_string(r.cost.work->fragments); }));
+        table(curves, "ms a frame", [](const Record& r) { return fmt::format("{:.2f}", *r.values["lod.time.median"]); }),
+        table(curves, "× lod-switch", [](const Record& r) { return fmt::format("{:.2f}", *r.values["lod.time.ratio"]); }),
+        table(curves, "primitives", [](const Record& r) { return fmt::format("{:.0f}", *r.values["lod.primitives"]); }),
+        table(curves, "fragments", [](const Record& r) { return fmt::format("{:.0f}", *r.values["cost.work.fragments"]); }));
 }
 
 std::string viewportChart(const std::vector<Record>& records) {
@@ -59,7 +59,7 @@ std::string viewportChart(const std::vector<Record>& records) {
         names.push_back(curve.name);
         for (const Record* record : curve.records) {
             sizes.push_back(record->sweep->value);
-            times.push_back(record->lod->time->median);
+            times.push_back(*record->values["lod.time.median"]);
         }
     }
     const Legend legend{names, plotHeight};
@@ -69,14 +69,12 @@ std::string viewportChart(const std::vector<Record>& records) {
                 legend.bottom()) +
         legend.script() + "set xlabel 'side of the viewport [pixels]'\n" + LogAxis(sizes).script("x", 1, "") +
         "set ylabel 'frame time [ms]'\n" + LogAxis(times).script("y", 1, "");
-    script += fmt::format(
-        "set lmargin at screen 0.085\nset rmargin at screen 0.98\nset tmargin at screen {}\nset bmargin at screen {}\n",
-        1 - top / height, 1 - (plotHeight - bottomMargin) / height);
+    script += plotArea(0.085, 0.98, top, plotHeight - bottomMargin, height);
     std::string plots;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         script += fmt::format("$curve{} << EOD\n", i);
         for (const Record* record : curves[i].records)
-            script += fmt::format("{} {}\n", record->sweep->value, record->lod->time->median);
+            script += fmt::format("{} {}\n", record->sweep->value, *record->values["lod.time.median"]);
         script += "EOD\n";
         plots += fmt::format("{}$curve{} with linespoints pt 7 ps 0.4 {} notitle", i == 0 ? "plot " : ", ", i, lineStyle(i));
     }

@@ -113,7 +113,7 @@ std::string lodPictures(const std::vector<Record>& records, const std::string& s
     std::string frame, rows;
     for (const std::size_t i : ofScene(records, scene)) {
         const std::string place = "images/" + fileStem(scene) + "/" + fileName(records[i].variant) + "/";
-        if (!records[i].lod || !std::filesystem::exists(folder / (place + "transition.png"))) continue;
+        if (!isLevelOfDetail(records[i]) || !std::filesystem::exists(folder / (place + "transition.png"))) continue;
         if (frame.empty()) frame = fmt::format("![{}]({}frame.png)\n\n", markdownText(scene), place);
         rows += fmt::format("| {} | ![transition]({}transition.png) |\n", records[i].variant, place);
     }

@@ -31,7 +31,7 @@ std::vector<Point> points(const std::vector<Record>& records, const std::string&
 
     std::vector<Point> result;
     for (const std::size_t i : order) {
-        const std::optional<double> error = limit ? accuracyMetric(records[i].accuracy, limit->metric) : std::nullopt;
+        const std::optional<double> error = limit ? metrics::bounded(records[i].values, limit->metric) : std::nullopt;
         result.push_back(
             {records[i].variant, *place(records[i]), result.size() < front.size(), error && *error <= limit->value});
     }
@@ -153,7 +153,7 @@ std::string key(const std::optional<Tolerance>& limit) {
     script += text("Pareto front", left + 36);
     if (!limit) return script;
     script += point(7, left + 146) +
-              text(fmt::format("within tolerance ({} ≤ {})", limit->metric, shownBound(*limit)), left + 160);
+              text(fmt::format("within tolerance ({} ≤ {})", limit->metric, formatBound(*limit)), left + 160);
     return script + point(6, left + 440) + text("outside", left + 454);
 }
 
@@ -169,14 +169,12 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
     const Canvas area = canvas(all, toleranceLine);
     const bool share = isShare(metric);
 
-    std::string script = fmt::format(
-        "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n",
-        left / width, right / width, 1 - top / height, 1 - bottom / height);
+    std::string script = plotArea(left / width, right / width, top, bottom, height);
     script += fmt::format("set label {} at {} left font ',18'\n", literal(scene), Canvas::screen({left, 26}));
     script += "unset key\n" + key(limit);
     if (toleranceLine)
         script += fmt::format("set label {} at {} right font ',12' textcolor rgb '{}'\n",
-                              literal("tolerance " + shownBound(*limit)),
+                              literal("tolerance " + formatBound(*limit)),
                               Canvas::screen(area.at({*toleranceLine, area.cost().high()}) - glm::dvec2(4, 9)), vermilion);
     script += "set xlabel 'cost: frame time as a multiple of sm-uniform'\n";
     script += fmt::format("set ylabel {}\n", literal("error: " + meaning(metric)));

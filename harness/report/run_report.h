@@ -1,4 +1,5 @@
-// Published forms of records: tables, charts and a page. Rendered from records and from nothing else.
+// Published forms of records: tables, charts and a page. Every figure comes from the records; only the page's command line
+// also asks which scenes and techniques there are, so as not to name them all.
 #pragma once
 
 #include "harness/records/record.h"

@@ -3,7 +3,6 @@
 #include "harness/report/run_report.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <string_view>
 #include <tuple>
@@ -33,8 +32,9 @@ std::vector<std::size_t> ofScene(const std::vector<Record>& records, const std::
 
 std::optional<Place> place(const Record& record) {
     const std::optional<Headline> error = headline(record);
-    if (!error || !record.cost.time) return {};
-    return Place{error->value, record.cost.time->ratio};
+    const std::optional<double>& cost = record.values["cost.time.ratio"];
+    if (!error || !cost) return {};
+    return Place{error->value, *cost};
 }
 
 std::optional<Tolerance> tolerance(const std::vector<Record>& records, const std::string& scene) {
@@ -56,9 +56,8 @@ std::string meaning(const std::string& metric) {
 }
 
 bool isShare(const std::string& metric) {
-    static constexpr std::array<std::string_view, 7> shares{"mismatch", "mismatch_off_edge", "false_shadow", "leak", "bad30",
-                                                            "bad8",     "unresolved"};
-    return std::find(shares.begin(), shares.end(), metric) != shares.end();
+    const metrics::Metric* line = metrics::boundedMetric(metric);
+    return line != nullptr && line->unit == "share";
 }
 
 std::string percent(double share) {
@@ -68,11 +67,11 @@ std::string percent(double share) {
     return value >= 9.995 ? fmt::format("{:.1f} %", value) : fmt::format("{:.2f} %", value);
 }
 
-std::string shown(const std::string& metric, double value) {
+std::string formatValue(const std::string& metric, double value) {
     return isShare(metric) ? percent(value) : fmt::format("{:.4f}", value);
 }
 
-std::string shownBound(const Tolerance& limit) {
+std::string formatBound(const Tolerance& limit) {
     return isShare(limit.metric) ? fmt::format("{:g} %", 100 * limit.value) : fmt::format("{:g}", limit.value);
 }
 
@@ -117,7 +116,7 @@ std::vector<std::size_t> adequate(const std::vector<Record>& records, const std:
     if (!limit) return {};
     std::vector<std::size_t> within = ofScene(records, scene);
     std::erase_if(within, [&](std::size_t i) {
-        const std::optional<double> error = accuracyMetric(records[i].accuracy, limit->metric);
+        const std::optional<double> error = metrics::bounded(records[i].values, limit->metric);
         return !headline(records[i]) || !error || *error > limit->value;
     });
     return within;

@@ -41,10 +41,10 @@ bool isShare(const std::string& metric); // shown in per cent
 std::string percent(double share);
 
 /// A value of `metric` as tables show it: per cent for shares, four decimals for others.
-std::string shown(const std::string& metric, double value);
+std::string formatValue(const std::string& metric, double value);
 
 /// A tolerance as written in a scene: "0.5 %", "0.05".
-std::string shownBound(const Tolerance& limit);
+std::string formatBound(const Tolerance& limit);
 
 /// "256²", "800 × 600".
 std::string imageSize(const Record& record);

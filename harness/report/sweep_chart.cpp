@@ -21,7 +21,7 @@ std::vector<Curve> curvesOf(const std::vector<Record>& records, const std::strin
     std::vector<Curve> curves;
     for (const Record& record : records) {
         if (record.status != Status::Scored) continue;
-        const std::optional<double> error = accuracyMetric(record.accuracy, metric);
+        const std::optional<double> error = metrics::bounded(record.values, metric);
         if (!error) continue;
         auto curve = std::ranges::find(curves, record.sweep->curve, &Curve::name);
         if (curve == curves.end()) curve = curves.insert(curves.end(), {record.sweep->curve, {}});
@@ -45,7 +45,7 @@ std::string toleranceLine(const std::optional<Tolerance>& limit, const LogAxis& 
     if (!limit || limit->value < error.low() || limit->value > error.high()) return "";
     return fmt::format("set arrow from graph 0, first {0} to graph 1, first {0} nohead lw 1 dt 3 lc rgb '{1}'\n"
                        "set label {2} at graph 0.01, first {0} left offset 0,0.5 font ',12' textcolor rgb '{1}'\n",
-                       limit->value, grey, literal("tolerance " + shownBound(*limit)));
+                       limit->value, grey, literal("tolerance " + formatBound(*limit)));
 }
 
 } // namespace
@@ -72,9 +72,7 @@ std::optional<std::string> sweepChart(const std::vector<Record>& records, bool l
                          legend.script() + horizontalAxis(curves, step, logarithmic) +
                          error.script("y", isShare(metric) ? 100 : 1, isShare(metric) ? " %%" : "") +
                          toleranceLine(limit, error);
-    script += fmt::format(
-        "set lmargin at screen 0.085\nset rmargin at screen 0.98\nset tmargin at screen {}\nset bmargin at screen {}\n",
-        1 - top / height, 1 - (plotHeight - bottomMargin) / height);
+    script += plotArea(0.085, 0.98, top, plotHeight - bottomMargin, height);
     std::string plots;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         script += fmt::format("$curve{} << EOD\n", i);

@@ -18,8 +18,8 @@ std::vector<double> valuesOf(const std::vector<Record>& records) {
 std::string cell(const Record& record, const std::string& metric) {
     if (record.status == Status::Error) return "error";
     const std::optional<double> error =
-        record.status == Status::Scored ? accuracyMetric(record.accuracy, metric) : std::nullopt;
-    return error ? shown(metric, *error) : "–";
+        record.status == Status::Scored ? metrics::bounded(record.values, metric) : std::nullopt;
+    return error ? formatValue(metric, *error) : "–";
 }
 
 } // namespace
@@ -37,7 +37,7 @@ std::string sweepTable(const std::vector<Record>& records) {
         rule += "--:|";
     }
     std::string text = fmt::format("{}: {}{}\n\n{} breaks at |\n{}--:|\n", scene, meaning(metric),
-                                   limit ? ", tolerance " + shownBound(*limit) : "", header, rule);
+                                   limit ? ", tolerance " + formatBound(*limit) : "", header, rule);
     std::string curve;
     for (std::size_t i = 0; i < records.size(); ++i) {
         const SweepStep& step = *records[i].sweep;

@@ -16,54 +16,46 @@ using Cell = std::optional<std::string>; // nothing: does not apply
 struct Column {
     const char* title;
     bool pageOnly; // the terminal has no room for it
-    Cell (*cell)(const Record&);
+    metrics::MetricId metric;
+    std::string (*format)(double);
 };
 
-Cell percentOf(const std::optional<double>& share) { return share ? Cell(percent(*share)) : Cell(); }
-
-Cell decimals(const std::optional<double>& value, int places) {
-    return value ? Cell(fmt::format("{:.{}f}", *value, places)) : Cell();
-}
-
-Cell error(const Record& r) {
-    const std::optional<Headline> head = headline(r);
-    return head ? Cell(shown(head->metric, head->value)) : Cell();
-}
-
-Cell edge(const Record& r) { return r.accuracy.edgeError ? decimals(r.accuracy.edgeError->mean, 2) : Cell(); }
-Cell flickerMean(const Record& r) { return r.stability.flicker ? decimals(r.stability.flicker->mean, 3) : Cell(); }
-Cell convergence(const Record& r) {
-    return r.stability.convergence ? Cell(std::to_string(*r.stability.convergence)) : Cell();
-}
-Cell cost(const Record& r) { return r.cost.time ? decimals(r.cost.time->ratio, 2) : Cell(); }
-
-Cell mebibytes(const Record& r) {
-    if (!r.cost.work) return {};
-    return decimals(static_cast<double>(r.cost.work->bytes) / (1024.0 * 1024.0), 1);
+template <int places, int factor = 1>
+std::string decimals(double value) {
+    return fmt::format("{:.{}f}", value / factor, places);
 }
 
 std::span<const Column> columns() {
     static constexpr Column all[] = {
-        {"error", false, error},
-        {"false shadow", false, [](const Record& r) { return percentOf(r.accuracy.falseShadow); }},
-        {"leak", false, [](const Record& r) { return percentOf(r.accuracy.leak); }},
-        {"edge error px", false, edge},
-        {"off-edge error", true, [](const Record& r) { return percentOf(r.accuracy.mismatchOffEdge); }},
-        {"bad30", true, [](const Record& r) { return percentOf(r.accuracy.bad30); }},
-        {"SSIM", true, [](const Record& r) { return decimals(r.accuracy.ssim, 3); }},
-        {"penumbra rmse", true, [](const Record& r) { return decimals(r.accuracy.penumbraRmse, 4); }},
-        {"penumbra width", true, [](const Record& r) { return percentOf(r.accuracy.penumbraWidthError); }},
-        {"umbra leak", true, [](const Record& r) { return decimals(r.accuracy.umbraLeak, 4); }},
-        {"texel px", true, [](const Record& r) { return r.aliasing ? decimals(r.aliasing->median, 2) : Cell(); }},
-        {"texel px p95", true, [](const Record& r) { return r.aliasing ? decimals(r.aliasing->p95, 2) : Cell(); }},
-        {"flicker", false, flickerMean},
-        {"flips", true, [](const Record& r) { return percentOf(r.stability.flipRate); }},
-        {"moving rmse", true, [](const Record& r) { return decimals(r.stability.movingRmse, 4); }},
-        {"converged at", true, convergence},
-        {"MiB", true, mebibytes},
-        {"cost", false, cost},
+        {"false shadow", false, "accuracy.false_shadow", percent},
+        {"leak", false, "accuracy.leak", percent},
+        {"edge error px", false, "accuracy.edge_error.mean", decimals<2>},
+        {"off-edge error", true, "accuracy.mismatch_off_edge", percent},
+        {"bad30", true, "accuracy.bad30", percent},
+        {"SSIM", true, "accuracy.ssim", decimals<3>},
+        {"penumbra rmse", true, "accuracy.penumbra_rmse", decimals<4>},
+        {"penumbra width", true, "accuracy.penumbra_width_error", percent},
+        {"umbra leak", true, "accuracy.umbra_leak", decimals<4>},
+        {"texel px", true, "aliasing.median", decimals<2>},
+        {"texel px p95", true, "aliasing.p95", decimals<2>},
+        {"flicker", false, "stability.flicker.mean", decimals<3>},
+        {"flips", true, "stability.flip_rate", percent},
+        {"moving rmse", true, "stability.moving_rmse", decimals<4>},
+        {"converged at", true, "stability.convergence", decimals<0>},
+        {"MiB", true, "cost.work.bytes", decimals<1, 1 << 20>},
+        {"cost", false, "cost.time.ratio", decimals<2>},
     };
     return all;
+}
+
+std::string error(const Record& record) {
+    const std::optional<Headline> head = headline(record);
+    return formatValue(head->metric, head->value);
+}
+
+Cell cell(const Column& column, const Record& record) {
+    const std::optional<double>& value = record.values[column.metric];
+    return value ? Cell(column.format(*value)) : Cell();
 }
 
 std::string rowName(const Record& record) {
@@ -77,13 +69,14 @@ TextTable table(const std::vector<Record>& records, const std::string& scene, bo
         if (headline(records[i])) scored.push_back(i);
 
     TextTable result{{"technique"}, {}};
-    for (const std::size_t i : scored) result.rows.push_back({rowName(records[i])});
+    if (!scored.empty()) result.titles.emplace_back("error");
+    for (const std::size_t i : scored) result.rows.push_back({rowName(records[i]), error(records[i])});
     for (const Column& column : columns()) {
-        const auto applies = [&](std::size_t i) { return column.cell(records[i]).has_value(); };
+        const auto applies = [&](std::size_t i) { return cell(column, records[i]).has_value(); };
         if ((column.pageOnly && !page) || std::none_of(scored.begin(), scored.end(), applies)) continue;
         result.titles.emplace_back(column.title);
         for (std::size_t row = 0; row < scored.size(); ++row)
-            result.rows[row].push_back(column.cell(records[scored[row]]).value_or("–"));
+            result.rows[row].push_back(cell(column, records[scored[row]]).value_or("–"));
     }
     const std::vector<std::size_t> front = paretoFront(records, scene);
     if (front.empty()) return result;
@@ -98,7 +91,7 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
     if (const std::optional<Tolerance> limit = tolerance(records, scene)) {
         const std::optional<std::size_t> best = cheapestAdequate(records, scene);
         const std::string metric = limit->metric == headlineMetric(records, scene) ? "" : limit->metric + " ";
-        const std::string bound = metric + shownBound(*limit);
+        const std::string bound = metric + formatBound(*limit);
         std::vector<std::string_view> within;
         for (const std::size_t i : adequate(records, scene)) within.push_back(records[i].variant);
         lines.push_back(best ? fmt::format("cheapest within tolerance ({}): {}", bound, records[*best].variant)

@@ -20,7 +20,7 @@ struct TruthNumbers {
 };
 TruthNumbers truthNumbers(const groundtruth::Reference& reference);
 
-/// Grey as the visible fraction on receivers; other pixels in the colours that `surfaceLegend` tells.
+/// Grey as the visible fraction on receivers; other pixels in the colours of `surfaceLegend`.
 Image<glm::vec3> visibilityPicture(const groundtruth::Reference& reference);
 
 /// σ on receivers: black 0, white `largest`.

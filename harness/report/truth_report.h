@@ -16,7 +16,7 @@ struct ShownReference {
     groundtruth::Reference reference;
 };
 
-/// What is told of one scene: the references of one frame, and how oracles agree on it.
+/// What a page says of one scene: the references of one frame, and how oracles agree on it.
 struct TruthOfScene {
     std::string scene, title, shows; // id, title and first comment of the scene file
     std::string profile;

@@ -5,6 +5,7 @@
 #include "harness/cells/instruction_costs.h"
 #include "harness/cells/scene_cells.h"
 #include "harness/measure/callgrind.h"
+#include "harness/metrics/table.h"
 #include "harness/runs/cell_file.h"
 #include "scene/load/load.h"
 #include "techniques/gl/context.h"
@@ -56,7 +57,7 @@ private:
         result_.kept += last - first - open.size();
         if (open.empty()) return;
 
-        const Scene loaded = loadScene(names_[scene], options_.profile);
+        const Scene loaded = loadScene(names_[scene], options_.profile, metrics::boundedMetrics());
         if (!context_) context_ = gl::Context::create();
         SceneCells cells(loaded, cache_, options_.measure);
         ProgressLine line(loaded.id, static_cast<int>(open.size()), options_.quiet);

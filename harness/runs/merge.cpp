@@ -124,11 +124,8 @@ Merged merge(std::vector<fs::path> folders) {
 
 Record withoutTimings(Record record) {
     record.time.clear();
-    record.cost.time.reset();
-    if (record.lod) {
-        record.lod->time.reset();
-        record.lod->millisecondsByFrame.clear();
-    }
+    for (const metrics::Metric& line : metrics::table)
+        if (line.noisy) record.values.clear(line);
     return record;
 }
 

@@ -10,12 +10,14 @@
 
 namespace shadowbench {
 
-/// Loads a built-in scene by id or a file by path. Errors (BadInput) name file, line and key, and near matches for an
-/// unknown id.
-Scene loadScene(const std::string& idOrFile, Profile profile);
+/// Loads a built-in scene by id or a file by path. `metrics` are the names that `[tolerance]` and `[expect]` may put bounds
+/// on; empty: any, for callers that do not read bounds. Errors (BadInput) name file, line and key, and near matches for an
+/// unknown id, key or metric.
+Scene loadScene(const std::string& idOrFile, Profile profile, const std::vector<std::string>& metrics = {});
 
 /// Parses TOML text; `file` is used for the id, for error messages and to resolve mesh files.
-Scene parseScene(std::string_view toml, const std::filesystem::path& file, Profile profile);
+Scene parseScene(std::string_view toml, const std::filesystem::path& file, Profile profile,
+                 const std::vector<std::string>& metrics = {});
 
 /// Ids of the five standard scenes, in the order tables print them: what a run without `--scene` renders.
 std::vector<std::string> standardScenes();

@@ -1,32 +1,10 @@
-// What a scene file says of scores: a viewer's tolerances, and what is expected of techniques.
+// What a scene file demands of scores: a viewer's tolerances, and what is expected of techniques.
 #include "scene/load/scene_file.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
 
 namespace shadowbench {
-const std::vector<std::string>& boundedMetrics() {
-    static const std::vector<std::string> names{"mismatch",
-                                                "mismatch_off_edge",
-                                                "false_shadow",
-                                                "leak",
-                                                "edge_error",
-                                                "bad30",
-                                                "bad8",
-                                                "mae",
-                                                "rmse",
-                                                "penumbra_rmse",
-                                                "penumbra_width_error",
-                                                "umbra_leak",
-                                                "flicker",
-                                                "flip_rate",
-                                                "moving_rmse",
-                                                "disocclusion_error",
-                                                "convergence",
-                                                "pop"};
-    return names;
-}
-
 namespace {
 
 std::string readSentence(const TomlValue& value) {
@@ -35,12 +13,17 @@ std::string readSentence(const TomlValue& value) {
     return text;
 }
 
+std::string readMetric(const TomlValue& value, const std::vector<std::string>& metrics) {
+    return metrics.empty() ? readSentence(value) : value.oneOf(metrics);
+}
+
 /// `bound` is the key of the bound: "above" or "below".
-std::vector<Expectation> readExpectationList(const TomlValue& list, const std::string& bound) {
+std::vector<Expectation> readExpectationList(const TomlValue& list, const std::string& bound,
+                                             const std::vector<std::string>& metrics) {
     std::vector<Expectation> expectations;
     for (const TomlValue& entry : list.list()) {
         entry.only({"technique", "metric", bound, "reason"});
-        expectations.push_back({readSentence(entry.get("technique")), entry.get("metric").oneOf(boundedMetrics()),
+        expectations.push_back({readSentence(entry.get("technique")), readMetric(entry.get("metric"), metrics),
                                 entry.get(bound).positive(), readSentence(entry.get("reason"))});
     }
     return expectations;
@@ -68,17 +51,17 @@ void readBreaks(const TomlValue& list, bool ranged, Scene& scene) {
 
 } // namespace
 
-std::map<std::string, double> readTolerances(const TomlValue& value) {
+std::map<std::string, double> readTolerances(const TomlValue& value, const std::vector<std::string>& metrics) {
+    if (!metrics.empty()) value.only(metrics);
     std::map<std::string, double> tolerance;
-    for (const TomlValue& entry : value.only(boundedMetrics()).members())
-        tolerance[std::string(entry.lastKey())] = entry.positive();
+    for (const TomlValue& entry : value.members()) tolerance[std::string(entry.lastKey())] = entry.positive();
     return tolerance;
 }
 
-void readExpectations(const TomlValue& value, Scene& scene) {
+void readExpectations(const TomlValue& value, const std::vector<std::string>& metrics, Scene& scene) {
     value.only({"fails", "holds", "breaks", "never_breaks"});
-    if (const auto fails = value.find("fails")) scene.fails = readExpectationList(*fails, "above");
-    if (const auto holds = value.find("holds")) scene.holds = readExpectationList(*holds, "below");
+    if (const auto fails = value.find("fails")) scene.fails = readExpectationList(*fails, "above", metrics);
+    if (const auto holds = value.find("holds")) scene.holds = readExpectationList(*holds, "below", metrics);
     if (const auto breaks = value.find("breaks")) readBreaks(*breaks, true, scene);
     if (const auto never = value.find("never_breaks")) readBreaks(*never, false, scene);
 }

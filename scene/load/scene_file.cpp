@@ -173,7 +173,7 @@ void requireNoProblem(const TomlValue& root, const Scene& scene) {
 
 } // namespace
 
-Scene parseScene(std::string_view toml, const fs::path& file, Profile profile) {
+Scene parseScene(std::string_view toml, const fs::path& file, Profile profile, const std::vector<std::string>& metrics) {
     const TomlSource source{file.string(), profileNames(), std::string(name(profile))};
     const toml::table table = parseToml(toml, source.file);
     const TomlValue root(source, "", table);
@@ -196,8 +196,8 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile) {
     readCamera(root.get("camera"), scene);
     readLight(root.get("light"), scene);
     if (const auto timeline = root.find("timeline")) readTimeline(*timeline, scene.timeline);
-    if (const auto tolerance = root.find("tolerance")) scene.tolerance = readTolerances(*tolerance);
-    if (const auto expect = root.find("expect")) readExpectations(*expect, scene);
+    if (const auto tolerance = root.find("tolerance")) scene.tolerance = readTolerances(*tolerance, metrics);
+    if (const auto expect = root.find("expect")) readExpectations(*expect, metrics, scene);
     readObjects(root, scene, file);
     if (const auto lod = root.find("lod")) {
         scene.lod = readLodWalk(*lod, scene.camera);
@@ -207,14 +207,14 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile) {
     return scene;
 }
 
-Scene loadScene(const std::string& idOrFile, Profile profile) {
+Scene loadScene(const std::string& idOrFile, Profile profile, const std::vector<std::string>& metrics) {
     const std::vector<std::string> ids = builtinScenes();
     if (std::find(ids.begin(), ids.end(), idOrFile) != ids.end())
-        return parseScene(builtinSceneText(idOrFile), "scene/library/" + idOrFile + ".toml", profile);
+        return parseScene(builtinSceneText(idOrFile), "scene/library/" + idOrFile + ".toml", profile, metrics);
     const fs::path file(idOrFile);
     std::error_code ignored;
     if (file.extension() == ".toml" || file.has_parent_path() || fs::exists(file, ignored))
-        return parseScene(readFile(file), file, profile);
+        return parseScene(readFile(file), file, profile, metrics);
     throw BadInput(fmt::format("unknown scene \"{}\"{}; known are {}, or the path of a .toml file", idOrFile,
                                didYouMean(idOrFile, ids), fmt::join(ids, ", ")));
 }

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace shadowbench {
 
@@ -36,14 +37,11 @@ Object readObject(const TomlValue& value, int number, const glm::dvec3& eye, Mes
 /// A list of key frames, `[{ frame = 0, <name> = [x, y, z] }, …]`; keys without `name` are left out.
 Track readTrack(const TomlValue& path, const std::string& name);
 
-/// `[tolerance]`: metric name → worst value that a viewer accepts.
-std::map<std::string, double> readTolerances(const TomlValue& value);
-
-/// Metrics that a bound can be put on, by their names in files.
-const std::vector<std::string>& boundedMetrics();
+/// `[tolerance]`: metric name → worst value that a viewer accepts. `metrics`: the names that a bound can have; empty: any.
+std::map<std::string, double> readTolerances(const TomlValue& value, const std::vector<std::string>& metrics);
 
 /// `[expect]`: the techniques that the scene breaks, those that hold, and where they break as a quantity moves.
-void readExpectations(const TomlValue& value, Scene& scene);
+void readExpectations(const TomlValue& value, const std::vector<std::string>& metrics, Scene& scene);
 
 /// Whether an object or scene belongs to `profile`: its `profile` key names it, or it has none.
 bool belongsTo(const TomlValue& value, Profile profile);

@@ -12,14 +12,14 @@ class StandardScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(StandardScene, RasteriserAndTruthSeeTheSameSurfacesAndVolumesAreExactOffEdges) {
     const Record& record = stillScene(GetParam()).scored("volume-zfail");
-    EXPECT_LE(record.accuracy.primaryMismatch, 0.001);
-    EXPECT_LE(*record.accuracy.mismatchOffEdge, 0.0005);
+    EXPECT_LE(*record.values["accuracy.primary_mismatch"], 0.001);
+    EXPECT_LE(*record.values["accuracy.mismatch_off_edge"], 0.0005);
 }
 
 TEST_P(StandardScene, AFinerUniformMapIsAtLeastTwiceAsGood) {
     CellScene& scene = stillScene(GetParam());
-    const double coarse = *scene.scored("sm-uniform:map=512").accuracy.mismatch;
-    const double fine = *scene.scored("sm-uniform:map=2048").accuracy.mismatch;
+    const double coarse = *scene.scored("sm-uniform:map=512").values["accuracy.mismatch"];
+    const double fine = *scene.scored("sm-uniform:map=2048").values["accuracy.mismatch"];
     EXPECT_LE(fine, 0.5 * coarse);
 }
 
@@ -27,17 +27,17 @@ INSTANTIATE_TEST_SUITE_P(Gate, StandardScene, testing::ValuesIn(standardScenes()
 
 TEST(DuelingFrusta, WarpingIsNoBetterThanAUniformMap) {
     CellScene& scene = stillScene("dueling-frusta");
-    const double uniform = *scene.scored("sm-uniform").accuracy.mismatch;
-    const double lispsm = *scene.scored("sm-lispsm").accuracy.mismatch;
+    const double uniform = *scene.scored("sm-uniform").values["accuracy.mismatch"];
+    const double lispsm = *scene.scored("sm-lispsm").values["accuracy.mismatch"];
     EXPECT_LE(lispsm, 2 * uniform);
     EXPECT_GE(lispsm, 0.5 * uniform);
 }
 
 TEST(DuelingFrusta, HistoryLeavesAtMostAQuarterOfItsBasesErrorAfterSixtyStillFrames) {
     CellScene& scene = stillScene("dueling-frusta");
-    const double base = *scene.scored("sm-lispsm").accuracy.mismatch;
+    const double base = *scene.scored("sm-lispsm").values["accuracy.mismatch"];
     const Record& history = scene.scored("sm-history");
-    const auto& curve = history.stability.mismatchByFrame;
+    const auto& curve = history.values.list("stability.by_frame.mismatch");
     ASSERT_EQ(curve.size(), 60U);
     EXPECT_LE(curve[59], 0.25 * base);
     EXPECT_LT(curve[19], curve[9]);
@@ -48,23 +48,23 @@ TEST(DuelingFrusta, HistoryLeavesAtMostAQuarterOfItsBasesErrorAfterSixtyStillFra
 // Not at the default 1,024² (0.013): the sides of bars that the light barely grazes are a texel or two wide there, and what
 // covers such a texel's centre is the bar's top.
 TEST(OverlappingOccluders, TwoHundredAndFiftySixMapsOf2048AreWithinAHundredthOfTheTruth) {
-    EXPECT_LE(*stillScene("overlapping-occluders").scored("sampled-maps:n=256,map=2048").accuracy.rmse, 0.01);
+    EXPECT_LE(*stillScene("overlapping-occluders").scored("sampled-maps:n=256,map=2048").values["accuracy.rmse"], 0.01);
 }
 
 TEST(OverlappingOccluders, MoreMapsAreBetter) {
     CellScene& scene = stillScene("overlapping-occluders");
-    const double sixteen = *scene.scored("sampled-maps:n=16").accuracy.rmse;
-    const double sixtyFour = *scene.scored("sampled-maps:n=64").accuracy.rmse;
-    const double many = *scene.scored("sampled-maps:n=256").accuracy.rmse;
+    const double sixteen = *scene.scored("sampled-maps:n=16").values["accuracy.rmse"];
+    const double sixtyFour = *scene.scored("sampled-maps:n=64").values["accuracy.rmse"];
+    const double many = *scene.scored("sampled-maps:n=256").values["accuracy.rmse"];
     EXPECT_LT(sixtyFour, sixteen);
     EXPECT_LT(many, sixtyFour);
 }
 
 TEST(OverlappingOccluders, SixtyFramesOfTemporalSamplingBeatBothPcss) { // dissertation, Fig. 4.9
     CellScene& scene = stillScene("overlapping-occluders");
-    const double temporal = *scene.scored("temporal-soft").accuracy.rmse;
-    EXPECT_LT(temporal, *scene.scored("pcss").accuracy.rmse);
-    EXPECT_LT(temporal, *scene.scored("pcss:taps=32+32").accuracy.rmse);
+    const double temporal = *scene.scored("temporal-soft").values["accuracy.rmse"];
+    EXPECT_LT(temporal, *scene.scored("pcss").values["accuracy.rmse"]);
+    EXPECT_LT(temporal, *scene.scored("pcss:taps=32+32").values["accuracy.rmse"]);
 }
 
 TEST(Records, TheSameSeedGivesTheSameRecordTwice) {

@@ -10,17 +10,17 @@ TEST(CellRecord, HasTheFiguresAndTheTexelsOfItsTechnique) {
     CellScene& scene = stillScene("dueling-frusta");
     const Record& volumes = scene.scored("volume-zpass");
     EXPECT_GT(volumes.figures.at("stencil_bytes"), volumes.figures.at("stencil_updates"));
-    EXPECT_FALSE(volumes.aliasing);
+    EXPECT_FALSE(volumes.values["aliasing.median"]);
 
     const Record &map = scene.scored("sm-uniform"), &half = scene.scored("sm-uniform:map=512");
     EXPECT_TRUE(map.figures.empty());
-    ASSERT_TRUE(map.aliasing && half.aliasing);
-    EXPECT_EQ(map.aliasing->mapped, 1); // fitted to the whole scene
-    EXPECT_NEAR(half.aliasing->median, 2 * map.aliasing->median, 1e-6 * map.aliasing->median);
-    EXPECT_NEAR(half.aliasing->p95, 2 * map.aliasing->p95, 1e-6 * map.aliasing->p95);
+    ASSERT_TRUE(map.values["aliasing.median"] && half.values["aliasing.median"]);
+    EXPECT_EQ(*map.values["aliasing.mapped"], 1); // fitted to the whole scene
+    EXPECT_NEAR(*half.values["aliasing.median"], 2 * *map.values["aliasing.median"], 1e-6 * *map.values["aliasing.median"]);
+    EXPECT_NEAR(*half.values["aliasing.p95"], 2 * *map.values["aliasing.p95"], 1e-6 * *map.values["aliasing.p95"]);
 
     const Record& silhouette = scene.scored("sm-silhouette");
-    EXPECT_EQ(silhouette.aliasing->median, map.aliasing->median); // the same depth map
+    EXPECT_EQ(*silhouette.values["aliasing.median"], *map.values["aliasing.median"]); // the same depth map
     EXPECT_GT(silhouette.figures.at("silhouette_branch"), 0);
 }
 

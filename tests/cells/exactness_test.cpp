@@ -76,7 +76,7 @@ Comparison compared(CellScene& cells, const std::string& variant) {
     const metrics::Mask mask = metrics::receiverMask(truth, stage.drawn(), stage.shown().camera.eye);
     Comparison result;
     result.compared = mask.count;
-    result.offEdge = *metrics::hardAccuracy(v, truth, mask).mismatchOffEdge;
+    result.offEdge = *metrics::labelErrors({v, truth, mask}).mismatchOffEdge;
     for (int y = 0; y < v.height(); ++y)
         for (int x = 0; x < v.width(); ++x)
             if (mask.scored(x, y) != 0 && (v(x, y) >= 0.5F) != (truth.visibility(x, y) >= 0.5F))

@@ -53,7 +53,7 @@ protected:
             return std::nullopt;
         }
         const Record& record = cells_.scored(expectation.technique);
-        const std::optional<double> value = boundedMetric(record, expectation.metric);
+        const std::optional<double> value = metrics::bounded(record.values, expectation.metric);
         EXPECT_TRUE(value.has_value()) << expectation.technique << " has no " << expectation.metric << " on this scene";
         return value;
     }

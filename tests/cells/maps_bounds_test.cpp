@@ -12,13 +12,13 @@ class MapsOnStandardScene : public testing::TestWithParam<std::string> {};
 
 // Two pixels in ten thousand: primary hits of rasteriser and truth that differ by a rounding, as with stencil volumes.
 TEST_P(MapsOnStandardScene, AliasFreeMapsAreExactOffEdges) {
-    EXPECT_LE(*stillScene(GetParam()).scored("sm-alias-free").accuracy.mismatchOffEdge, 0.0002);
+    EXPECT_LE(*stillScene(GetParam()).scored("sm-alias-free").values["accuracy.mismatch_off_edge"], 0.0002);
 }
 
 TEST_P(MapsOnStandardScene, FocusingIsNoWorseThanAUniformMap) {
     CellScene& scene = stillScene(GetParam());
-    const double uniform = *scene.scored("sm-uniform").accuracy.mismatch;
-    EXPECT_LE(*scene.scored("sm-focused").accuracy.mismatch, uniform);
+    const double uniform = *scene.scored("sm-uniform").values["accuracy.mismatch"];
+    EXPECT_LE(*scene.scored("sm-focused").values["accuracy.mismatch"], uniform);
 }
 
 INSTANTIATE_TEST_SUITE_P(Gate, MapsOnStandardScene, testing::ValuesIn(standardScenes()), nameOfText);
@@ -27,23 +27,23 @@ INSTANTIATE_TEST_SUITE_P(Gate, MapsOnStandardScene, testing::ValuesIn(standardSc
 // than slices can give, 0.55 of the error is left.
 TEST(CascadedMapsOnWindmills, AreBetterThanOneFocusedMapOfEqualTexels) {
     CellScene& scene = stillScene("windmills");
-    const double focused = *scene.scored("sm-focused").accuracy.mismatch;
-    EXPECT_LE(*scene.scored("sm-cascaded").accuracy.mismatch, 0.8 * focused);
-    EXPECT_GE(*scene.scored("sm-focused:map=2048").accuracy.mismatch, 0.5 * focused);
+    const double focused = *scene.scored("sm-focused").values["accuracy.mismatch"];
+    EXPECT_LE(*scene.scored("sm-cascaded").values["accuracy.mismatch"], 0.8 * focused);
+    EXPECT_GE(*scene.scored("sm-focused:map=2048").values["accuracy.mismatch"], 0.5 * focused);
 }
 
 TEST(PerspectiveMapOnDuelingFrusta, IsWithinAFactorTwoOfAUniformMap) { // course: it degenerates to one
     CellScene& scene = stillScene("dueling-frusta");
-    const double uniform = *scene.scored("sm-uniform").accuracy.mismatch;
-    const double perspective = *scene.scored("sm-psm").accuracy.mismatch;
+    const double uniform = *scene.scored("sm-uniform").values["accuracy.mismatch"];
+    const double perspective = *scene.scored("sm-psm").values["accuracy.mismatch"];
     EXPECT_LE(perspective, 2 * uniform);
     EXPECT_GE(perspective, 0.5 * uniform);
 }
 
 TEST(SilhouetteMapOnDuelingFrusta, LeavesAtMostAThirdOfAUniformMapsEdgeError) {
     CellScene& scene = stillScene("dueling-frusta");
-    const double uniform = scene.scored("sm-uniform:map=512").accuracy.edgeError->mean;
-    EXPECT_LE(scene.scored("sm-silhouette:map=512").accuracy.edgeError->mean, uniform / 3);
+    const double uniform = *scene.scored("sm-uniform:map=512").values["accuracy.edge_error.mean"];
+    EXPECT_LE(*scene.scored("sm-silhouette:map=512").values["accuracy.edge_error.mean"], uniform / 3);
 }
 
 } // namespace

@@ -39,7 +39,7 @@ protected:
         record.commit = commit;
         record.dirty = dirty;
         record.time = "2026-02-01T00:00:00Z";
-        record.accuracy.leak = leak;
+        record.values["accuracy.leak"] = leak;
         const std::string file = folder_ / "run/results.jsonl";
         writeRecords(file, {record});
         return file;

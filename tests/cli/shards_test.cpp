@@ -145,9 +145,9 @@ TEST_F(Shards, GetTheirInstructionsCellByCell) {
     choice_ = "--cost instructions --scene " + point_ + " --technique sm-uniform --technique volume-zfail";
     ASSERT_EQ(run("out", "--cell 2").code, 0);
     const auto cell = shards::readCell(folder_ / "out", manifest("out")[1].id);
-    ASSERT_TRUE(cell && cell->record.cost.instructions);
+    ASSERT_TRUE(cell && cell->record.values["cost.instructions"]);
     EXPECT_EQ(cell->record.environment.valgrind->substr(0, 9), "valgrind-");
-    EXPECT_FALSE(cell->record.cost.time);
+    EXPECT_FALSE(cell->record.values["cost.time.median"]);
 }
 
 TEST_F(Shards, AreWorthARetryWhenAToolIsKilled) {

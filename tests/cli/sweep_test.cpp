@@ -28,8 +28,8 @@ TEST_F(Sweep, OfAParameterCurvesAreNamedByTheRestOfTheVariant) {
     EXPECT_EQ(all[0].variant, "sm-uniform:map=512");
     EXPECT_EQ(all[1].variant, "sm-uniform:map=16");
     EXPECT_EQ(all[0].sweep->curve, "sm-uniform");
-    EXPECT_LT(*all[0].accuracy.mismatch, 0.01);
-    EXPECT_GT(*all[1].accuracy.mismatch, 0.01);
+    EXPECT_LT(*all[0].values["accuracy.mismatch"], 0.01);
+    EXPECT_GT(*all[1].values["accuracy.mismatch"], 0.01);
     EXPECT_EQ(all[0].sweep->breakPoint, 16);
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out/sweep.svg"));
     EXPECT_NE(outcome.output.find("| sm-uniform |"), std::string::npos) << outcome.output;
@@ -42,9 +42,9 @@ TEST_F(Sweep, OfASceneMovesTheSceneAndTheTruthWithIt) {
     ASSERT_EQ(all.size(), 4U);
     EXPECT_EQ(all[0].variant, "none");
     // A light beside the eye hides most of its shadows; nearer than the eye, not all of them.
-    EXPECT_LT(*all[0].accuracy.mismatch, 0.5 * *all[1].accuracy.mismatch);
-    EXPECT_EQ(*all[2].accuracy.mismatchOffEdge, 0);
-    EXPECT_EQ(*all[3].accuracy.mismatchOffEdge, 0);
+    EXPECT_LT(*all[0].values["accuracy.mismatch"], 0.5 * *all[1].values["accuracy.mismatch"]);
+    EXPECT_EQ(*all[2].values["accuracy.mismatch_off_edge"], 0);
+    EXPECT_EQ(*all[3].values["accuracy.mismatch_off_edge"], 0);
     EXPECT_NE(all[0].reference->key, all[1].reference->key);
 }
 

@@ -90,7 +90,8 @@ TEST_F(Run, WritesRecordsPageAndCharts) {
     ASSERT_EQ(records().size(), 3U);
     EXPECT_EQ(records()[2].variant, "volume-zfail");
     EXPECT_EQ(records()[2].status, Status::Scored);
-    EXPECT_GT(*records()[0].accuracy.mismatch, *records()[1].accuracy.mismatch); // no shadow is worse than a map
+    EXPECT_GT(*records()[0].values["accuracy.mismatch"],
+              *records()[1].values["accuracy.mismatch"]); // no shadow is worse than a map
     EXPECT_TRUE(fs::exists(folder_ / "out/report.md"));
     EXPECT_TRUE(fs::exists(folder_ / "out/pareto-tiny.svg"));
     EXPECT_TRUE(fs::exists(folder_ / "out/images/tiny/sm-uniform/error.png"));
@@ -155,13 +156,13 @@ TEST_F(Run, KilledAtAnyMomentItLeavesWholeRecordsAndResumes) {
 
 TEST_F(Run, ADamagedCacheEntryIsReplaced) {
     ASSERT_EQ(shell(command("--technique none")).code, 0);
-    const double mismatch = *records()[0].accuracy.mismatch;
+    const double mismatch = *records()[0].values["accuracy.mismatch"];
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / "cache"))
         if (entry.is_regular_file()) fs::resize_file(entry.path(), fs::file_size(entry.path()) / 2);
     const Outcome again = shell(command("--technique none"));
     EXPECT_EQ(again.code, 0);
     EXPECT_NE(again.output.find("damaged"), std::string::npos) << again.output;
-    EXPECT_EQ(*records()[0].accuracy.mismatch, mismatch);
+    EXPECT_EQ(*records()[0].values["accuracy.mismatch"], mismatch);
 }
 
 TEST_F(Run, ReportIsMadeAgainFromRecordsAlone) {

@@ -1,7 +1,8 @@
 // Small synthetic frames with known answers.
 #pragma once
 
-#include "harness/metrics/metrics.h"
+#include "harness/metrics/frames.h"
+#include "harness/metrics/values.h"
 
 #include <cmath>
 #include <limits>
@@ -30,6 +31,13 @@ Image<float> imageOf(int width, int height, const Value& value) {
 
 inline metrics::Mask everything(const groundtruth::Reference& truth) {
     return {Image<std::uint8_t>(truth.id.width(), truth.id.height(), 1), 0, truth.id.size()};
+}
+
+/// The metrics of graded visibility.
+inline metrics::Values visibilityOf(const metrics::ScoredFrame& frame) {
+    metrics::Values values;
+    metrics::compute<metrics::OfVisibility>(frame, values);
+    return values;
 }
 
 /// A straight shadow edge: lit where the signed distance `normal · p − offset` is positive (normal of unit length).

@@ -5,6 +5,29 @@
 
 namespace shadowbench::test {
 
+/// Makes the metrics of an object of the record absent: "accuracy", "cost.time".
+inline void clear(Record& record, std::string_view group) {
+    for (const metrics::Metric& line : metrics::linesOf(group)) record.values.clear(line);
+}
+
+/// Makes the scores absent that a scored record may lack.
+inline void clearAccuracy(Record& record) {
+    clear(record, "accuracy");
+    record.values["accuracy.primary_mismatch"] = 0;
+}
+
+inline void setEdgeError(Record& record, double mean, double p95, double hausdorff, double signedMean) {
+    record.values["accuracy.edge_error.mean"] = mean;
+    record.values["accuracy.edge_error.p95"] = p95;
+    record.values["accuracy.edge_error.hausdorff"] = hausdorff;
+    record.values["accuracy.edge_error.signed"] = signedMean;
+}
+
+inline void setFlicker(Record& record, double mean, double p95) {
+    record.values["stability.flicker.mean"] = mean;
+    record.values["stability.flicker.p95"] = p95;
+}
+
 inline Record hardRecord() {
     Record r;
     r.scene = "dueling-frusta";
@@ -21,23 +44,36 @@ inline Record hardRecord() {
     r.environment = {
         "llvmpipe (LLVM 15.0.6, 256 bits)", "4.5 (Core Profile) Mesa 22.3.6", "some cpu", "GCC 12.2.0", 0, 256, {}};
     r.reference = ReferenceInfo{"polygon", "feed", 0, 0, {{"CGAL", "5.5.1"}}};
-    r.accuracy.mismatch = 0.0009;
-    r.accuracy.mismatchOffEdge = 0.0001;
-    r.accuracy.falseShadow = 0.0005;
-    r.accuracy.leak = 0.0004;
-    r.accuracy.edgeError = EdgeError{0.4, 0.9, 1.7, -0.1};
-    r.accuracy.primaryMismatch = 0.00002;
-    r.aliasing = Aliasing{1.8, 4.2, 0.97};
+    r.values["accuracy.mismatch"] = 0.0009;
+    r.values["accuracy.mismatch_off_edge"] = 0.0001;
+    r.values["accuracy.false_shadow"] = 0.0005;
+    r.values["accuracy.leak"] = 0.0004;
+    setEdgeError(r, 0.4, 0.9, 1.7, -0.1);
+    r.values["accuracy.primary_mismatch"] = 0.00002;
+    r.values["aliasing.median"] = 1.8;
+    r.values["aliasing.p95"] = 4.2;
+    r.values["aliasing.mapped"] = 0.97;
     r.figures = {{"confident", 0.31}, {"tiles", 6}};
-    r.stability.flicker = Flicker{0.001, 0.01};
-    r.stability.flipRate = 0.0003;
-    r.stability.movingRmse = 0.03;
-    r.stability.disocclusionError = 0.07;
-    r.stability.convergence = 31;
-    r.stability.mismatchByFrame = {0.05, 0.01, 0.0009};
-    r.stability.changedByFrame = {0.04, 0.008, 0};
-    r.cost.time = Time{21.4, 23, 0.4, 1.19, 0.31, 1.08, {21.4, 21.2, 23}};
-    r.cost.work = Work{65536, 70490, 140980, 3, 2, 4194304};
+    setFlicker(r, 0.001, 0.01);
+    r.values["stability.flip_rate"] = 0.0003;
+    r.values["stability.moving_rmse"] = 0.03;
+    r.values["stability.disocclusion_error"] = 0.07;
+    r.values["stability.convergence"] = 31;
+    r.values.list("stability.by_frame.mismatch") = {0.05, 0.01, 0.0009};
+    r.values.list("stability.by_frame.changed") = {0.04, 0.008, 0};
+    r.values["cost.time.median"] = 21.4;
+    r.values["cost.time.p95"] = 23;
+    r.values["cost.time.mad"] = 0.4;
+    r.values["cost.time.ratio"] = 1.19;
+    r.values["cost.time.floor_ratio"] = 0.31;
+    r.values["cost.time.base_ratio"] = 1.08;
+    r.values.list("cost.time.samples") = {21.4, 21.2, 23};
+    r.values["cost.work.fragments"] = 65536;
+    r.values["cost.work.vertices"] = 70490;
+    r.values["cost.work.primitives"] = 140980;
+    r.values["cost.work.draws"] = 3;
+    r.values["cost.work.passes"] = 2;
+    r.values["cost.work.bytes"] = 4194304;
     r.tolerance = 0.005;
     r.toleranceMetric = "mismatch";
     return r;
@@ -49,23 +85,23 @@ inline Record softRecord() {
     r.technique = "pcss";
     r.variant = "pcss:taps=32+32";
     r.reference = ReferenceInfo{"povray", "beef", 1024, 0.0006, {{"povray", "3.7.0.10.unofficial"}}};
-    r.aliasing.reset();
+    clear(r, "aliasing");
     r.figures.clear();
-    r.accuracy = {};
-    r.accuracy.rmse = 0.031;
-    r.accuracy.mae = 0.007;
-    r.accuracy.psnr = 30.17;
-    r.accuracy.bad30 = 0.012;
-    r.accuracy.bad8 = 0.031;
-    r.accuracy.ssim = 0.981;
-    r.accuracy.penumbraRmse = 0.09;
-    r.accuracy.penumbraWidthError = 0.21;
-    r.accuracy.umbraLeak = 0.004;
-    r.accuracy.unresolved = 0.02;
-    r.stability.mismatchByFrame.clear();
-    r.stability.rmseByFrame = {0.2, 0.031};
-    r.stability.bad30ByFrame = {0.1, 0.012};
-    r.cost.instructions = 310442871;
+    clearAccuracy(r);
+    r.values["accuracy.rmse"] = 0.031;
+    r.values["accuracy.mae"] = 0.007;
+    r.values["accuracy.psnr"] = 30.17;
+    r.values["accuracy.bad30"] = 0.012;
+    r.values["accuracy.bad8"] = 0.031;
+    r.values["accuracy.ssim"] = 0.981;
+    r.values["accuracy.penumbra_rmse"] = 0.09;
+    r.values["accuracy.penumbra_width_error"] = 0.21;
+    r.values["accuracy.umbra_leak"] = 0.004;
+    r.values["accuracy.unresolved"] = 0.02;
+    r.values.list("stability.by_frame.mismatch").clear();
+    r.values.list("stability.by_frame.rmse") = {0.2, 0.031};
+    r.values.list("stability.by_frame.bad30") = {0.1, 0.012};
+    r.values["cost.instructions"] = 310442871;
     r.environment.valgrind = "3.19.0";
     r.tolerance = 0.05;
     r.toleranceMetric = "penumbra_rmse";
@@ -79,24 +115,23 @@ inline Record lodRecord() {
     r.variant = "lod-frame-sequential:vis=checker";
     r.parameters = {{"vis", "checker"}, {"reproject", "camera"}};
     r.reference.reset();
-    r.accuracy = {};
-    r.stability = {};
-    r.cost.time.reset();
-    Lod lod;
-    lod.pop = 0.0011;
-    lod.changedRegion = 41;
-    lod.walkPop = -0.0002;
-    lod.colourError = 0.064;
-    lod.noise = -0.003;
-    lod.transitions = 19;
-    lod.primitives = 8694.5;
-    lod.primitiveChange = 0.019;
-    lod.time = LodTime{4.5, 1.1, 0.03};
-    lod.popByFrame = {0.0011, 0.0004};
-    lod.walkPopByFrame = {-0.0003, -0.0002};
-    lod.primitivesByFrame = {8700, 8700, 8683.5};
-    lod.millisecondsByFrame = {4.5, 4.6, 4.4};
-    r.lod = lod;
+    for (const char* group : {"accuracy", "stability", "cost.time"}) clear(r, group);
+    r.values["lod.pop"] = 0.0011;
+    r.values["lod.changed_region"] = 41;
+    r.values["lod.walk_pop"] = -0.0002;
+    r.values["lod.colour_error"] = 0.064;
+    r.values["lod.noise"] = -0.003;
+    r.values["lod.order_error"] = 0;
+    r.values["lod.transitions"] = 19;
+    r.values["lod.primitives"] = 8694.5;
+    r.values["lod.primitive_change"] = 0.019;
+    r.values["lod.time.median"] = 4.5;
+    r.values["lod.time.ratio"] = 1.1;
+    r.values["lod.time.spread"] = 0.03;
+    r.values.list("lod.by_frame.pop") = {0.0011, 0.0004};
+    r.values.list("lod.by_frame.walk_pop") = {-0.0003, -0.0002};
+    r.values.list("lod.by_frame.primitives") = {8700, 8700, 8683.5};
+    r.values.list("lod.by_frame.milliseconds") = {4.5, 4.6, 4.4};
     r.toleranceMetric.clear();
     r.tolerance = 0;
     return r;
@@ -107,11 +142,8 @@ inline Record unscored(Status status, const std::string& reason) {
     r.status = status;
     r.reason = reason;
     r.reference.reset();
-    r.accuracy = {};
-    r.aliasing.reset();
+    r.values = {};
     r.figures.clear();
-    r.stability = {};
-    r.cost = {};
     return r;
 }
 

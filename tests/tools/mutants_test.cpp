@@ -138,11 +138,11 @@ TEST(Mutants, OnlyTheExpectedClassCounts) {
     const Record base = test::hardRecord();
     Record head = base;
     EXPECT_FALSE(outcomeOf(mutant, {base}, {head}).caught());
-    head.accuracy.falseShadow = 0.5;
+    head.values["accuracy.false_shadow"] = 0.5;
     const Outcome elsewhere = outcomeOf(mutant, {base}, {head});
     EXPECT_TRUE(elsewhere.caught());
     EXPECT_FALSE(elsewhere.caughtInClass());
-    head.accuracy.leak = 0.01;
+    head.values["accuracy.leak"] = 0.01;
     const Outcome caught = outcomeOf(mutant, {base}, {head});
     EXPECT_TRUE(caught.caughtInClass());
     EXPECT_EQ(strongest(caught)->metric, "accuracy.leak"); // though false shadow grew more
@@ -156,10 +156,10 @@ TEST(Mutants, TheReportCountsSharesAndNamesSurvivorsWithTheirReason) {
     slow.expected = gate::Class::Instructions;
     const Record base = test::hardRecord();
     Record leaking = base;
-    leaking.accuracy.leak = 0.01;
+    leaking.values["accuracy.leak"] = 0.01;
     const Record counted = test::softRecord();
     Record slower = counted;
-    slower.cost.instructions = *counted.cost.instructions * 103 / 100;
+    slower.values["cost.instructions"] = *counted.values["cost.instructions"] * 103 / 100;
     const std::string report = mutantsReport(
         {outcomeOf(leak, {base}, {leaking}), outcomeOf(survivor, {base}, {base}), outcomeOf(slow, {counted}, {slower})},
         "commit c0ffee");

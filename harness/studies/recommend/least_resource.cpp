@@ -109,7 +109,7 @@ std::vector<Least> leastAdequate(const std::vector<Record>& records, const std::
     std::map<std::string, std::vector<Step>> curves;
     for (const std::size_t i : report::ofScene(records, scene)) {
         const Record& record = records[i];
-        const std::optional<double> error = accuracyMetric(record.accuracy, limit->metric);
+        const std::optional<double> error = metrics::bounded(record.values, limit->metric);
         if (record.status != Status::Scored || !error) continue;
         for (const auto& [name, value] : record.parameters)
             if (const auto much = amount(resource, name, value))

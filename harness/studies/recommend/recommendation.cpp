@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "base/progress_line.h"
+#include "harness/metrics/table.h"
 #include "harness/report/run_report.h"
 #include "harness/runs/run.h"
 #include "scene/load/load.h"
@@ -25,7 +26,9 @@ std::vector<std::string> chosenScenes(const RecommendOptions& options) {
     if (!options.scenes.empty()) return options.scenes;
     std::vector<std::string> ids = standardScenes();
     if (options.questions.contains(Question::Casters))
-        std::erase_if(ids, [&](const std::string& id) { return !hasLevels(loadScene(id, options.profile)); });
+        std::erase_if(ids, [&](const std::string& id) {
+            return !hasLevels(loadScene(id, options.profile, metrics::boundedMetrics()));
+        });
     return ids;
 }
 
@@ -91,7 +94,8 @@ std::optional<Cheapest> cheapest(const std::vector<Record>& records, const std::
     const std::optional<std::size_t> best = report::cheapestAdequate(records, scene);
     if (!best) return {};
     const Record& record = records[*best];
-    return Cheapest{record.variant, *accuracyMetric(record.accuracy, record.toleranceMetric), record.cost.time->ratio};
+    return Cheapest{record.variant, *metrics::bounded(record.values, record.toleranceMetric),
+                    *record.values["cost.time.ratio"]};
 }
 
 void answerFromRecords(Question question, const std::vector<Record>& records, Recommendation& result) {
@@ -133,7 +137,7 @@ Recommendations recommend(const RecommendOptions& options) {
     Recommendations all;
     Records records(options);
     for (const std::string& idOrFile : chosenScenes(options)) {
-        const Scene scene = loadScene(idOrFile, options.profile);
+        const Scene scene = loadScene(idOrFile, options.profile, metrics::boundedMetrics());
         Recommendation result{scene.id, options.questions, {}, {}, {}, {}, {}};
         for (const Question question : options.questions)
             if (question == Question::Casters)

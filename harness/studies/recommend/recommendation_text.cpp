@@ -89,7 +89,7 @@ std::string text(const CasterRecommendation& c) {
 /// `unit` is that of the amounts.
 std::string leastTable(const std::string& what, const std::string& unit, const std::vector<Least>& all,
                        const report::Tolerance& tolerance) {
-    const std::string heading = fmt::format(" {} within {} {}", what, tolerance.metric, report::shownBound(tolerance));
+    const std::string heading = fmt::format(" {} within {} {}", what, tolerance.metric, report::formatBound(tolerance));
     if (all.empty()) return heading + ": no technique that was tried has one\n";
     report::TextTable table{{"technique", unit, "error"}, {}};
     for (const Least& least : all)
@@ -99,7 +99,7 @@ std::string leastTable(const std::string& what, const std::string& unit, const s
 
 std::string cheapestLine(const std::optional<Cheapest>& technique, const report::Tolerance& tolerance) {
     const std::string heading =
-        fmt::format(" cheapest technique within {} {}", tolerance.metric, report::shownBound(tolerance));
+        fmt::format(" cheapest technique within {} {}", tolerance.metric, report::formatBound(tolerance));
     if (!technique) return heading + ": none\n";
     return fmt::format("{}: {}, at {} and {:.2f} frames of sm-uniform\n", heading, technique->variant,
                        shown(tolerance.metric, technique->error), technique->cost);

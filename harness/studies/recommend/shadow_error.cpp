@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "harness/metrics/metrics.h"
-#include "harness/records/record.h"
+#include "harness/metrics/frames.h"
+#include "harness/metrics/values.h"
 
 #include <algorithm>
 #include <charconv>
@@ -57,10 +57,12 @@ Errors softErrors(const Shadow& shadow, const Shadow& exact, const Receivers& re
     metrics::Mask mask{exact.labelled, 0, 0};
     for (std::size_t i = 0; i < mask.scored.size(); ++i) mask.scored[i] &= shadow.labelled[i];
     mask.count = static_cast<std::size_t>(std::ranges::count(mask.scored, 1));
-    const Accuracy accuracy = metrics::softAccuracy(shadow.visibility, truthOf(exact, receivers), mask);
+    const groundtruth::Reference truth = truthOf(exact, receivers);
+    metrics::Values values;
+    metrics::compute<metrics::OfVisibility>(metrics::ScoredFrame{shadow.visibility, truth, mask}, values);
     Errors errors;
     for (const std::string& metric : softMetrics)
-        if (const std::optional<double> value = accuracyMetric(accuracy, metric)) errors[metric] = *value;
+        if (const std::optional<double> value = metrics::bounded(values, metric)) errors[metric] = *value;
     return errors;
 }
 

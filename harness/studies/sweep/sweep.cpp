@@ -3,6 +3,7 @@
 #include "base/progress_line.h"
 #include "groundtruth/store/cache.h"
 #include "harness/cells/cell.h"
+#include "harness/metrics/table.h"
 #include "harness/studies/sweep/axis.h"
 #include "harness/studies/sweep/variants.h"
 #include "scene/load/load.h"
@@ -43,7 +44,7 @@ class Sweeper {
 public:
     explicit Sweeper(const SweepOptions& options)
         : options_(options), axis_(axisNamed(options.axis)), variants_(chosenVariants(options, axis_)),
-          scene_(atRest(loadScene(options.scene, options.profile))),
+          scene_(atRest(loadScene(options.scene, options.profile, metrics::boundedMetrics()))),
           values_(options.values.empty() ? axis_.valuesFor(scene_) : options.values),
           cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), curves_(variants_.size()) {
         for (const double value : values_) {
@@ -155,7 +156,7 @@ SweepResult sweep(const SweepOptions& options) { return Sweeper(options).all(); 
 std::optional<double> breakPoint(const std::vector<Record>& curve) {
     for (const Record& record : curve) {
         if (record.status != Status::Scored || record.toleranceMetric.empty()) continue;
-        const std::optional<double> error = accuracyMetric(record.accuracy, record.toleranceMetric);
+        const std::optional<double> error = metrics::bounded(record.values, record.toleranceMetric);
         if (error && *error > record.tolerance) return record.sweep->value;
     }
     return std::nullopt;

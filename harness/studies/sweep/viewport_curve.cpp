@@ -3,6 +3,7 @@
 #include "base/progress_line.h"
 #include "harness/cells/cell.h"
 #include "harness/cells/lod_cell.h"
+#include "harness/metrics/table.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
 #include "techniques/gl/context.h"
@@ -37,7 +38,7 @@ int sideOf(double value) {
 
 SweepResult viewportCurve(const SweepOptions& options, int frames) {
     const std::vector<Variant> variants = chosenVariants(options);
-    Scene scene = loadScene(options.scene, options.profile);
+    Scene scene = loadScene(options.scene, options.profile, metrics::boundedMetrics());
     if (const auto reason = notApplicable(scene)) throw BadInput(*reason);
     scene.lod->frames = std::min(scene.lod->frames, frames);
     const std::vector<double> sizes =

@@ -5,6 +5,8 @@
 #include "harness/gate/bounds.h"
 #include "harness/gate/gate.h"
 #include "harness/gate/judged_cells.h"
+#include "harness/metrics/table.h"
+#include "scene/load/load.h"
 #include "tests/support/records_examples.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +25,7 @@ Record scoredRecord() {
     record.scene = "dueling-frusta";
     record.technique = "sm-uniform";
     record.variant = "sm-uniform";
-    record.accuracy.leak = 0.02;
+    record.values["accuracy.leak"] = 0.02;
     return record;
 }
 
@@ -83,7 +85,7 @@ TEST_F(WatchlistFile, HoldsBoundsSweepsAndCellsOfCost) {
     ASSERT_EQ(list.timed.size(), 1U);
     EXPECT_TRUE(list.timed[0].covers("pcf:kernel=7"));
     EXPECT_FALSE(list.timed[0].covers("lod-blend"));
-    EXPECT_TRUE(list.strangers({}).empty());
+    EXPECT_TRUE(list.unknownScenes({}).empty());
 }
 
 TEST_F(WatchlistFile, NamesWhatIsWrongWithIt) {
@@ -98,21 +100,46 @@ TEST_F(WatchlistFile, NamesWhatIsWrongWithIt) {
 TEST_F(WatchlistFile, TheCommittedOneIsSound) {
     const Watchlist list = readWatchlist(std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml", Profile::Gate);
     EXPECT_FALSE(list.bounds.empty());
-    EXPECT_TRUE(list.strangers({}).empty());
+    EXPECT_TRUE(list.unknownScenes({}).empty());
 }
 
 TEST(GatePlan, TheWatchlistsScenesComeWithTheirTechniquesUnlessTheUserNamesScenes) {
     GateOptions options;
     options.bounds = std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml";
     options.techniques = {"sm-cube", "pcf"};
-    const Plan plan(options);
-    EXPECT_TRUE(plan.chooses("dueling-frusta", "pcf"));
-    EXPECT_TRUE(plan.chooses("colonnade", "sm-cube"));
-    EXPECT_FALSE(plan.chooses("colonnade", "pcf"));
+    const JudgedCells cells(options);
+    EXPECT_TRUE(cells.chooses("dueling-frusta", "pcf"));
+    EXPECT_TRUE(cells.chooses("colonnade", "sm-cube"));
+    EXPECT_FALSE(cells.chooses("colonnade", "pcf"));
     options.scenes = {"trees"};
-    const Plan narrow(options);
+    const JudgedCells narrow(options);
     EXPECT_TRUE(narrow.chooses("trees", "pcf"));
     EXPECT_FALSE(narrow.chooses("colonnade", "sm-cube"));
+}
+
+TEST(GatePlan, ASceneFileWithAMisspeltMetricIsRefusedAtItsLine) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "x.toml";
+    std::string text(builtinSceneText("contact"));
+    text.insert(text.find("[tolerance]\n") + 12, "missmatch = 0.1\n");
+    writeFile(file, text);
+    GateOptions options;
+    options.bounds = std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml";
+    options.scenes = {file.string()};
+    try {
+        const JudgedCells cells(options);
+        FAIL() << "loaded";
+    } catch (const BadInput& error) {
+        EXPECT_NE(std::string(error.what()).find("x.toml:"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("tolerance.missmatch: unknown key (did you mean \"mismatch\"?)"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(BuiltinScenes, PutBoundsOnMetricsOfTheTable) {
+    for (const std::string& id : builtinScenes())
+        EXPECT_NO_THROW(loadScene(id, Profile::Gate, metrics::boundedMetrics())) << id;
 }
 
 TEST(GateCode, ARegressionCountsWhateverElseCouldNotBeJudged) {

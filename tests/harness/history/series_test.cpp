@@ -33,7 +33,7 @@ std::vector<Commit> leaks(const std::vector<double>& values) {
     std::vector<std::vector<Record>> lists;
     for (const double value : values) {
         Record record = hardRecord();
-        record.accuracy.leak = value;
+        record.values["accuracy.leak"] = value;
         lists.push_back({record});
     }
     return commitsOf(lists);
@@ -65,7 +65,7 @@ TEST(Series, HoldsAFigureACommit) {
 
 TEST(Series, ASecondMeasurementOfACommitReplacesTheFirstUnlessItIsNoisy) {
     Record again = hardRecord();
-    again.accuracy.leak = 0.3;
+    again.values["accuracy.leak"] = 0.3;
     const History history = historyOf(commitsOf({{hardRecord(), again}}), {{"accuracy.leak", "cost.time.ratio"}, {}, {}});
     ASSERT_EQ(history.series.size(), 2U);
     ASSERT_EQ(history.series[0].points.size(), 1U);
@@ -141,7 +141,7 @@ TEST(Changes, OfTwoPixelsAreNoneAndOfThreeAreSmall) {
 
 TEST(Changes, LargerOnesComeFirst) {
     std::vector<Commit> commits = leaks({0.1, 0.11});
-    commits[1].records[0].accuracy.falseShadow = 0.5;
+    commits[1].records[0].values["accuracy.false_shadow"] = 0.5;
     const Findings findings = findingsOf(commits);
     ASSERT_EQ(findings.changes.size(), 2U);
     EXPECT_EQ(findings.history.series[findings.changes[0].series].metric, "accuracy.false_shadow");
@@ -161,7 +161,7 @@ std::vector<Commit> costs(double before, double after) {
     std::vector<std::vector<Record>> lists;
     for (std::size_t i = 0; i < 20; ++i) {
         Record record = hardRecord();
-        record.cost.time->ratio = (i < 10 ? before : after) * (1 + 0.01 * (static_cast<double>(i * 3 % 7) - 3) / 3);
+        record.values["cost.time.ratio"] = (i < 10 ? before : after) * (1 + 0.01 * (static_cast<double>(i * 3 % 7) - 3) / 3);
         lists.push_back({record});
     }
     return commitsOf(lists);
@@ -178,9 +178,9 @@ TEST(Changes, OfTimesAreThoseThatNoiseDoesNotMake) {
 
 TEST(Changes, OfTimesBelowTheGatesFloorAreNone) {
     std::vector<Commit> commits = costs(1, 1);
-    for (std::size_t i = 0; i < commits.size(); ++i) commits[i].records[0].cost.time->ratio = i < 10 ? 1 : 1.009;
+    for (std::size_t i = 0; i < commits.size(); ++i) commits[i].records[0].values["cost.time.ratio"] = i < 10 ? 1 : 1.009;
     EXPECT_TRUE(findingsOf(commits, {{"cost.time.ratio"}, {}, {}}).changes.empty());
-    for (std::size_t i = 0; i < commits.size(); ++i) commits[i].records[0].cost.time->ratio = i < 10 ? 1 : 1.011;
+    for (std::size_t i = 0; i < commits.size(); ++i) commits[i].records[0].values["cost.time.ratio"] = i < 10 ? 1 : 1.011;
     EXPECT_EQ(findingsOf(commits, {{"cost.time.ratio"}, {}, {}}).changes.size(), 1U);
 }
 

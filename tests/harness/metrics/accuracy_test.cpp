@@ -53,22 +53,23 @@ TEST(ReceiverMask, CountsBackgroundDrawnOverAsMismatch) {
 
 TEST(HardAccuracy, OfTheTruthItselfHasNoErrorAtAll) {
     const Reference truth = HalfPlane{{0.8, 0.6}, 20.3}.truth(size, size);
-    const Accuracy a = metrics::hardAccuracy(truth.visibility, truth, everything(truth));
+    const metrics::LabelErrors a = metrics::labelErrors({truth.visibility, truth, everything(truth)});
     EXPECT_EQ(a.mismatch, 0.0);
     EXPECT_EQ(a.mismatchOffEdge, 0.0);
     EXPECT_EQ(a.falseShadow, 0.0);
     EXPECT_EQ(a.leak, 0.0);
-    ASSERT_TRUE(a.edgeError);
-    EXPECT_EQ(a.edgeError->mean, 0.0);
-    EXPECT_EQ(a.edgeError->p95, 0.0);
-    EXPECT_EQ(a.edgeError->hausdorff, 0.0);
-    EXPECT_EQ(a.edgeError->signedMean, 0.0);
+    const std::optional<metrics::EdgeError> edge = metrics::edgeError({truth.visibility, truth, everything(truth)});
+    ASSERT_TRUE(edge);
+    EXPECT_EQ(edge->mean, 0.0);
+    EXPECT_EQ(edge->p95, 0.0);
+    EXPECT_EQ(edge->hausdorff, 0.0);
+    EXPECT_EQ(edge->signedMean, 0.0);
 }
 
 TEST(HardAccuracy, OfTheInvertedTruthIsWrongEverywhere) {
     const Reference truth = vertical.truth(size, size);
     const Image<float> inverted = imageOf(size, size, [](glm::dvec2 p) { return 1 - vertical.hard(p); });
-    const Accuracy a = metrics::hardAccuracy(inverted, truth, everything(truth));
+    const metrics::LabelErrors a = metrics::labelErrors({inverted, truth, everything(truth)});
     EXPECT_EQ(a.mismatch, 1.0);
     EXPECT_EQ(a.falseShadow, 1.0);
     EXPECT_EQ(a.leak, 1.0);
@@ -78,7 +79,7 @@ TEST(HardAccuracy, OfOneFlippedPixelIsOneOverTheMask) {
     const Reference truth = vertical.truth(size, size);
     Image<float> v = truth.visibility;
     v(30, 5) = 0; // a lit pixel called shadowed
-    const Accuracy a = metrics::hardAccuracy(v, truth, everything(truth));
+    const metrics::LabelErrors a = metrics::labelErrors({v, truth, everything(truth)});
     EXPECT_DOUBLE_EQ(*a.mismatch, 1.0 / (size * size));
     EXPECT_DOUBLE_EQ(*a.falseShadow, 2.0 / (size * size));
     EXPECT_EQ(a.leak, 0.0);
@@ -88,29 +89,31 @@ TEST(HardAccuracy, LeavesEdgePixelsOutOfTheOffEdgeMismatch) {
     const HalfPlane edge{{1, 0}, 16.3}; // the column of centre 16.5 is 0.2 px from the edge, its neighbours 0.8 and more
     const Reference truth = edge.truth(size, size);
     const Image<float> v = imageOf(size, size, [&](glm::dvec2 p) { return edge.moved(1).hard(p); });
-    const Accuracy a = metrics::hardAccuracy(v, truth, everything(truth));
+    const metrics::LabelErrors a = metrics::labelErrors({v, truth, everything(truth)});
     EXPECT_DOUBLE_EQ(*a.mismatch, 1.0 / size); // exactly that column is wrong
     EXPECT_EQ(a.mismatchOffEdge, 0.0);
 }
 
 TEST(HardAccuracy, CountsAHalfAsLit) {
     const Reference truth = truthOf(4, 4, [](glm::dvec2) { return 1; });
-    EXPECT_EQ(metrics::mismatch(Image<float>(4, 4, 0.5F), truth, everything(truth)), 0);
-    EXPECT_EQ(metrics::mismatch(Image<float>(4, 4, 0.4999F), truth, everything(truth)), 1);
+    EXPECT_EQ(metrics::labelErrors({Image<float>(4, 4, 0.5F), truth, everything(truth)}).mismatch, 0);
+    EXPECT_EQ(metrics::labelErrors({Image<float>(4, 4, 0.4999F), truth, everything(truth)}).mismatch, 1);
 }
 
 TEST(HardAccuracy, LeavesAbsentWhatHasNoPixel) {
     const Reference truth = truthOf(8, 8, [](glm::dvec2) { return 1; });
-    const Accuracy a = metrics::hardAccuracy(truth.visibility, truth, everything(truth));
+    const metrics::LabelErrors a = metrics::labelErrors({truth.visibility, truth, everything(truth)});
     EXPECT_EQ(a.falseShadow, 0.0);
     EXPECT_FALSE(a.leak); // nothing is in shadow
-    EXPECT_FALSE(a.edgeError);
+    EXPECT_FALSE(metrics::edgeError({truth.visibility, truth, everything(truth)}));
 
     const metrics::Mask nothing{Image<std::uint8_t>(8, 8, 0), 0, 0};
-    EXPECT_FALSE(metrics::hardAccuracy(truth.visibility, truth, nothing).mismatch);
-    EXPECT_FALSE(metrics::softAccuracy(truth.visibility, truth, nothing).rmse);
-    EXPECT_THROW(metrics::mismatch(truth.visibility, truth, nothing), BadInput);
-    EXPECT_THROW(metrics::rmse(truth.visibility, truth, nothing), BadInput);
+    EXPECT_FALSE(metrics::labelErrors({truth.visibility, truth, nothing}).mismatch);
+    EXPECT_FALSE(visibilityOf({truth.visibility, truth, nothing})["accuracy.rmse"]);
+    metrics::Values values;
+    const metrics::ScoredFrame frame{truth.visibility, truth, nothing};
+    EXPECT_THROW(metrics::appendFrame<metrics::LabelsByFrame>(frame, values), BadInput);
+    EXPECT_THROW(metrics::appendFrame<metrics::VisibilityByFrame>(frame, values), BadInput);
 }
 
 TEST(Accuracy, RefusesAVisibilityThatIsNotANumberInTheMaskOnly) {
@@ -118,12 +121,12 @@ TEST(Accuracy, RefusesAVisibilityThatIsNotANumberInTheMaskOnly) {
     Image<float> v = truth.visibility;
     v(2, 3) = std::numeric_limits<float>::quiet_NaN();
     metrics::Mask mask = everything(truth);
-    EXPECT_THROW(metrics::hardAccuracy(v, truth, mask), InternalError);
-    EXPECT_THROW(metrics::softAccuracy(v, truth, mask), InternalError);
+    EXPECT_THROW(metrics::labelErrors({v, truth, mask}), InternalError);
+    EXPECT_THROW(visibilityOf({v, truth, mask}), InternalError);
     mask.scored(2, 3) = 0;
     --mask.count;
-    EXPECT_NO_THROW(metrics::hardAccuracy(v, truth, mask));
-    EXPECT_THROW(metrics::hardAccuracy(Image<float>(7, 8), truth, mask), InternalError);
+    EXPECT_NO_THROW(metrics::labelErrors({v, truth, mask}));
+    EXPECT_THROW(metrics::labelErrors({Image<float>(7, 8), truth, mask}), InternalError);
 }
 
 TEST(EdgeError, OfAShiftByOnePixelIsOnePixelWithItsSign) {
@@ -131,7 +134,7 @@ TEST(EdgeError, OfAShiftByOnePixelIsOnePixelWithItsSign) {
         const HalfPlane edge{{1, 0}, 16.3};
         const Reference truth = edge.truth(size, size);
         const Image<float> v = imageOf(size, size, [&](glm::dvec2 p) { return edge.moved(shift).hard(p); });
-        const std::optional<EdgeError> error = metrics::edgeError(v, truth, everything(truth));
+        const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
         ASSERT_TRUE(error);
         EXPECT_NEAR(error->signedMean, shift, 1e-6) << "float distances";
         EXPECT_NEAR(error->mean, 1, 1e-6);
@@ -145,7 +148,7 @@ TEST(EdgeError, OfAShiftWithoutADistanceFieldIsMeasuredBetweenTheLabels) {
     truth.edgeDistance = Image<float>(size, size, std::numeric_limits<float>::infinity());
     for (const double shift : {3.0, -3.0}) {
         const Image<float> v = imageOf(size, size, [&](glm::dvec2 p) { return vertical.moved(shift).hard(p); });
-        const std::optional<EdgeError> error = metrics::edgeError(v, truth, everything(truth));
+        const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
         ASSERT_TRUE(error);
         EXPECT_DOUBLE_EQ(error->signedMean, shift);
         EXPECT_DOUBLE_EQ(error->mean, 3);
@@ -157,7 +160,7 @@ TEST(EdgeError, OfAGradedEdgeResolvesAQuarterOfAPixel) {
         const HalfPlane edge{{0.8, 0.6}, 22.37};
         const Reference truth = edge.truth(size, size);
         const Image<float> v = imageOf(size, size, [&](glm::dvec2 p) { return edge.moved(shift).ramp(p, 6); });
-        const std::optional<EdgeError> error = metrics::edgeError(v, truth, everything(truth));
+        const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
         ASSERT_TRUE(error);
         EXPECT_NEAR(error->signedMean, shift, 1e-5) << "both fields are linear: only float rounding is left";
         EXPECT_NEAR(error->mean, 0.25, 1e-5);
@@ -169,7 +172,7 @@ TEST(EdgeError, OfHardLabelsFindsAQuarterOfAPixelOnAverage) {
                          140.37}; // slanted: every phase of the pixel grid occurs
     const Reference truth = edge.truth(256, 256);
     const Image<float> v = imageOf(256, 256, [&](glm::dvec2 p) { return edge.moved(0.25).hard(p); });
-    const std::optional<EdgeError> error = metrics::edgeError(v, truth, everything(truth));
+    const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
     ASSERT_TRUE(error);
     // About 290 labels, of which a share of 1/4 sees the shift: standard error √(¼ ¾ / 290) = 0.025 px were they
     // independent.
@@ -179,8 +182,8 @@ TEST(EdgeError, OfHardLabelsFindsAQuarterOfAPixelOnAverage) {
 TEST(EdgeError, CountsAShadowThatIsMissingFarAwayInTheHausdorffDistanceOnly) {
     const auto withPatch = [](glm::dvec2 p) { return p.x > 16 && !(p.x > 26 && p.y < 3) ? 1 : 0; };
     const Reference truth = truthOf(size, size, withPatch);
-    const std::optional<EdgeError> error =
-        metrics::edgeError(vertical.truth(size, size).visibility, truth, everything(truth));
+    const std::optional<metrics::EdgeError> error =
+        metrics::edgeError({vertical.truth(size, size).visibility, truth, everything(truth)});
     ASSERT_TRUE(error);
     EXPECT_EQ(error->mean, 0);
     EXPECT_NEAR(error->hausdorff, std::hypot(15.5, 0.5),
@@ -191,33 +194,33 @@ TEST(EdgeError, IgnoresBordersBetweenSurfaces) {
     Reference truth = vertical.truth(size, size);
     for (int y = 0; y < size; ++y)
         for (int x = 16; x < size; ++x) truth.id(x, y) = 2; // the labels differ only where the surface ends
-    EXPECT_FALSE(metrics::edgeError(truth.visibility, truth, everything(truth)));
+    EXPECT_FALSE(metrics::edgeError({truth.visibility, truth, everything(truth)}));
 }
 
 TEST(SoftAccuracy, OfTheTruthItselfIsPerfect) {
     const Reference truth = truthOf(size, size, [](glm::dvec2 p) { return vertical.ramp(p, 8); });
-    const Accuracy a = metrics::softAccuracy(truth.visibility, truth, everything(truth));
-    EXPECT_EQ(a.rmse, 0.0);
-    EXPECT_EQ(a.mae, 0.0);
-    EXPECT_FALSE(a.psnr); // infinite
-    EXPECT_EQ(a.bad30, 0.0);
-    EXPECT_EQ(a.bad8, 0.0);
-    EXPECT_NEAR(*a.ssim, 1, 1e-12);
-    EXPECT_EQ(a.penumbraRmse, 0.0);
-    EXPECT_EQ(a.penumbraWidthError, 0.0);
-    EXPECT_EQ(a.umbraLeak, 0.0);
-    EXPECT_FALSE(a.unresolved); // exact truth
+    const metrics::Values a = visibilityOf({truth.visibility, truth, everything(truth)});
+    EXPECT_EQ(a["accuracy.rmse"], 0.0);
+    EXPECT_EQ(a["accuracy.mae"], 0.0);
+    EXPECT_FALSE(a["accuracy.psnr"]); // infinite
+    EXPECT_EQ(a["accuracy.bad30"], 0.0);
+    EXPECT_EQ(a["accuracy.bad8"], 0.0);
+    EXPECT_NEAR(*a["accuracy.ssim"], 1, 1e-12);
+    EXPECT_EQ(a["accuracy.penumbra_rmse"], 0.0);
+    EXPECT_EQ(a["accuracy.penumbra_width_error"], 0.0);
+    EXPECT_EQ(a["accuracy.umbra_leak"], 0.0);
+    EXPECT_FALSE(a["accuracy.unresolved"]); // exact truth
 }
 
 TEST(SoftAccuracy, OfAConstantErrorHasClosedForms) {
     const Reference truth = truthOf(size, size, [](glm::dvec2) { return 0.5; });
-    const Accuracy a = metrics::softAccuracy(Image<float>(size, size, 0.75F), truth, everything(truth));
-    EXPECT_DOUBLE_EQ(*a.rmse, 0.25);
-    EXPECT_DOUBLE_EQ(*a.mae, 0.25);
-    EXPECT_DOUBLE_EQ(*a.psnr, 20 * std::log10(4.0));
-    EXPECT_EQ(a.bad30, 1.0);
+    const metrics::Values a = visibilityOf({Image<float>(size, size, 0.75F), truth, everything(truth)});
+    EXPECT_DOUBLE_EQ(*a["accuracy.rmse"], 0.25);
+    EXPECT_DOUBLE_EQ(*a["accuracy.mae"], 0.25);
+    EXPECT_DOUBLE_EQ(*a["accuracy.psnr"], 20 * std::log10(4.0));
+    EXPECT_EQ(a["accuracy.bad30"], 1.0);
     const double c1 = 1e-4; // (0.01)²; without variance only the luminance term is left
-    EXPECT_NEAR(*a.ssim, (2 * 0.5 * 0.75 + c1) / (0.25 + 0.5625 + c1), 1e-12);
+    EXPECT_NEAR(*a["accuracy.ssim"], (2 * 0.5 * 0.75 + c1) / (0.25 + 0.5625 + c1), 1e-12);
 }
 
 TEST(SoftAccuracy, CountsBadPixelsAboveTheirThresholdsOnly) {
@@ -226,9 +229,9 @@ TEST(SoftAccuracy, CountsBadPixelsAboveTheirThresholdsOnly) {
     v(0, 0) = 31 / 255.0F;
     v(1, 0) = 29 / 255.0F;
     v(2, 0) = 7 / 255.0F;
-    const Accuracy a = metrics::softAccuracy(v, truth, everything(truth));
-    EXPECT_DOUBLE_EQ(*a.bad30, 0.01);
-    EXPECT_DOUBLE_EQ(*a.bad8, 0.02);
+    const metrics::Values a = visibilityOf({v, truth, everything(truth)});
+    EXPECT_DOUBLE_EQ(*a["accuracy.bad30"], 0.01);
+    EXPECT_DOUBLE_EQ(*a["accuracy.bad8"], 0.02);
 }
 
 TEST(SoftAccuracy, MeasuresInsideTheMaskOnly) {
@@ -240,9 +243,9 @@ TEST(SoftAccuracy, MeasuresInsideTheMaskOnly) {
         mask.scored(x, 7) = 0;
         --mask.count;
     }
-    const Accuracy a = metrics::softAccuracy(v, truth, mask);
-    EXPECT_EQ(a.rmse, 0.0);
-    EXPECT_NEAR(*a.ssim, 1, 1e-12);
+    const metrics::Values a = visibilityOf({v, truth, mask});
+    EXPECT_EQ(a["accuracy.rmse"], 0.0);
+    EXPECT_NEAR(*a["accuracy.ssim"], 1, 1e-12);
 }
 
 TEST(Ssim, FallsWithNoise) {
@@ -250,7 +253,7 @@ TEST(Ssim, FallsWithNoise) {
     const auto noisy = [&](float amplitude) {
         Image<float> v = truth.visibility;
         for (std::size_t i = 0; i < v.size(); ++i) v[i] += (i * 7919 % 13 < 6 ? amplitude : -amplitude);
-        return *metrics::ssim(v, truth, everything(truth));
+        return *metrics::ssim({v, truth, everything(truth)});
     };
     EXPECT_LT(noisy(0.02F), 1.0);
     EXPECT_LT(noisy(0.1F), noisy(0.02F));
@@ -265,14 +268,14 @@ TEST(PenumbraRmse, IsMeasuredOnThePenumbraDilatedByTwoPixels) {
         v(12, y) += 0.5F; // inside
         v(11, y) += 0.5F; // outside
     }
-    EXPECT_NEAR(*metrics::softAccuracy(v, truth, everything(truth)).penumbraRmse, std::sqrt(0.25 / 8), 1e-7);
+    EXPECT_NEAR(*visibilityOf({v, truth, everything(truth)})["accuracy.penumbra_rmse"], std::sqrt(0.25 / 8), 1e-7);
 }
 
 TEST(PenumbraRmse, IsAbsentForAHardTruth) {
     const Reference truth = vertical.truth(size, size);
-    const Accuracy a = metrics::softAccuracy(truth.visibility, truth, everything(truth));
-    EXPECT_FALSE(a.penumbraRmse);
-    EXPECT_FALSE(a.penumbraWidthError);
+    const metrics::Values a = visibilityOf({truth.visibility, truth, everything(truth)});
+    EXPECT_FALSE(a["accuracy.penumbra_rmse"]);
+    EXPECT_FALSE(a["accuracy.penumbra_width_error"]);
 }
 
 TEST(PenumbraWidth, OfARampTwiceAsWideHasError1InAnyDirection) {
@@ -283,17 +286,17 @@ TEST(PenumbraWidth, OfARampTwiceAsWideHasError1InAnyDirection) {
         const Image<float> wide = imageOf(128, 128, [&](glm::dvec2 p) { return edge.ramp(p, 24); });
         const Image<float> narrow = imageOf(128, 128, [&](glm::dvec2 p) { return edge.ramp(p, 6); });
         // Bilinear reading rounds the ramp's corners, which 0.1 and 0.9 lie 1.2 px (0.6 px for the narrow one) away from.
-        EXPECT_NEAR(*metrics::penumbraWidthError(wide, truth, everything(truth)), 1.0, 0.01) << angle;
-        EXPECT_NEAR(*metrics::penumbraWidthError(narrow, truth, everything(truth)), 0.5, 0.02) << angle;
+        EXPECT_NEAR(*metrics::penumbraWidthError({wide, truth, everything(truth)}), 1.0, 0.01) << angle;
+        EXPECT_NEAR(*metrics::penumbraWidthError({narrow, truth, everything(truth)}), 0.5, 0.02) << angle;
     }
 }
 
 TEST(PenumbraWidth, OfAMissingShadowHasError1AndOfADisplacedOneNone) {
     const HalfPlane edge{{1, 0}, 64};
     const Reference truth = truthOf(128, 16, [&](glm::dvec2 p) { return edge.ramp(p, 12); });
-    EXPECT_DOUBLE_EQ(*metrics::penumbraWidthError(Image<float>(128, 16, 1), truth, everything(truth)), 1);
+    EXPECT_DOUBLE_EQ(*metrics::penumbraWidthError({Image<float>(128, 16, 1), truth, everything(truth)}), 1);
     const Image<float> displaced = imageOf(128, 16, [&](glm::dvec2 p) { return edge.moved(3).ramp(p, 12); });
-    EXPECT_NEAR(*metrics::penumbraWidthError(displaced, truth, everything(truth)), 0, 1e-6) << "float pixels";
+    EXPECT_NEAR(*metrics::penumbraWidthError({displaced, truth, everything(truth)}), 0, 1e-6) << "float pixels";
 }
 
 TEST(PenumbraWidth, IsTheLengthFromATenthToNineTenths) {
@@ -305,13 +308,13 @@ TEST(PenumbraWidth, IsTheLengthFromATenthToNineTenths) {
     });
     // 0.1 to 0.8 is as long, 0.8 to 0.9 takes 0.3 instead of 0.1 of 20 px; pixels blunt the bend by less than a tenth of a
     // pixel.
-    EXPECT_NEAR(*metrics::penumbraWidthError(tailed, truth, everything(truth)), 0.2 / 0.8, 0.1 / 16);
+    EXPECT_NEAR(*metrics::penumbraWidthError({tailed, truth, everything(truth)}), 0.2 / 0.8, 0.1 / 16);
 }
 
 TEST(PenumbraWidth, IsAbsentWhereThePenumbraLeavesTheImage) {
     const HalfPlane edge{{1, 0}, 64};
     const Reference truth = truthOf(128, 16, [&](glm::dvec2 p) { return edge.ramp(p, 300); });
-    EXPECT_FALSE(metrics::penumbraWidthError(truth.visibility, truth, everything(truth)));
+    EXPECT_FALSE(metrics::penumbraWidthError({truth.visibility, truth, everything(truth)}));
 }
 
 TEST(UmbraLeak, IsTheMeanInTheUmbraTwoPixelsFromItsBorder) {
@@ -321,7 +324,7 @@ TEST(UmbraLeak, IsTheMeanInTheUmbraTwoPixelsFromItsBorder) {
         v(13, y) = 0.6F;
         v(14, y) = 1; // next to the border: not counted
     }
-    EXPECT_NEAR(*metrics::softAccuracy(v, truth, everything(truth)).umbraLeak, 0.6 / 12, 1e-7);
+    EXPECT_NEAR(*visibilityOf({v, truth, everything(truth)})["accuracy.umbra_leak"], 0.6 / 12, 1e-7);
 }
 
 TEST(Unresolved, IsTheShareOfTheMaskWithinThreeSigma) {
@@ -329,7 +332,7 @@ TEST(Unresolved, IsTheShareOfTheMaskWithinThreeSigma) {
     for (int x = 0; x < 10; ++x) truth.sigma(x, 0) = 0.01F;
     Image<float> v(10, 10, 0.5F);
     for (int x = 0; x < 5; ++x) v(x, 0) = 0.54F; // four sigma off: resolved
-    EXPECT_DOUBLE_EQ(*metrics::softAccuracy(v, truth, everything(truth)).unresolved, 0.05);
+    EXPECT_DOUBLE_EQ(*visibilityOf({v, truth, everything(truth)})["accuracy.unresolved"], 0.05);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // The projected-texel-to-pixel ratio of maps that look at a plane in a known way.
-#include "harness/metrics/metrics.h"
+#include "harness/metrics/frames.h"
+#include "harness/metrics/table.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -42,7 +43,7 @@ struct View {
     }
 
     [[nodiscard]] std::optional<Aliasing> seenBy(const MapPoint& mapPoint) const {
-        return aliasing(camera(), positions, normals, mask, mapPoint);
+        return aliasing({camera(), positions, normals, mask, mapPoint});
     }
 };
 

@@ -1,4 +1,5 @@
 // Reprojection, flicker, flips and convergence on a camera that moves over a plane.
+#include "harness/metrics/pixels.h"
 #include "tests/support/metrics_images.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -54,8 +55,11 @@ struct TwoFrames {
     metrics::Mask maskBefore = everything(truthBefore), maskNow = everything(truthNow);
     Image<glm::vec2> warp = metrics::warp(snapshotOf(now, before), size, truthNow, truthBefore);
 
-    [[nodiscard]] metrics::FrameResult resultNow(const Image<float>& v) const { return {&v, &truthNow, &maskNow}; }
-    [[nodiscard]] metrics::FrameResult resultBefore(const Image<float>& v) const { return {&v, &truthBefore, &maskBefore}; }
+    /// With what a technique drew of them.
+    [[nodiscard]] metrics::FramePair pair(const Image<float>& vNow, const Image<float>& vBefore) const {
+        return {{vNow, truthNow, maskNow}, {vBefore, truthBefore, maskBefore}, warp};
+    }
+    [[nodiscard]] metrics::FramePair pair(const Image<float>& vNow) const { return pair(vNow, truthBefore.visibility); }
 };
 
 TEST(Warp, FollowsTheCamera) {
@@ -101,11 +105,9 @@ TEST(Warp, LeavesOutTheBackground) {
 
 TEST(Flicker, IsZeroForTheTruthUnderCameraMotion) {
     const TwoFrames frames;
-    std::vector<float> samples;
-    metrics::flickerSamples(frames.resultNow(frames.truthNow.visibility), frames.resultBefore(frames.truthBefore.visibility),
-                            frames.warp, samples);
-    EXPECT_EQ(samples.size(), 62U * 64U); // two columns came into view
-    const std::optional<Flicker> flicker = metrics::flicker(samples);
+    const metrics::FramePair pair = frames.pair(frames.truthNow.visibility);
+    EXPECT_EQ(metrics::flickerExcess(pair).size(), 62U * 64U); // two columns came into view
+    const std::optional<metrics::Flicker> flicker = metrics::flicker({{pair}});
     ASSERT_TRUE(flicker);
     EXPECT_EQ(flicker->mean, 0);
     EXPECT_EQ(flicker->p95, 0);
@@ -120,32 +122,23 @@ TEST(Flicker, IsZeroForAConstantErrorAndTheChangeForAChangingOne) {
     };
     const Image<float> now = darker(frames.truthNow.visibility, 0.25F);
     const Image<float> same = darker(frames.truthBefore.visibility, 0.25F);
-    std::vector<float> samples;
-    metrics::flickerSamples(frames.resultNow(now), frames.resultBefore(same), frames.warp, samples);
-    EXPECT_NEAR(metrics::flicker(samples)->p95, 0, 1e-6) << "bilinear weights in float positions";
-
-    samples.clear();
-    metrics::flickerSamples(frames.resultNow(now), frames.resultBefore(frames.truthBefore.visibility), frames.warp, samples);
-    EXPECT_NEAR(metrics::flicker(samples)->mean, 0.25, 1e-6);
+    EXPECT_NEAR(metrics::flicker({{frames.pair(now, same)}})->p95, 0, 1e-6) << "bilinear weights in float positions";
+    EXPECT_NEAR(metrics::flicker({{frames.pair(now)}})->mean, 0.25, 1e-6);
 }
 
 TEST(Flicker, ReadsTheNearestPixelBesideTheMaskAndLeavesOutTheRest) {
     TwoFrames frames;
     frames.maskBefore.scored(32, 30) = 0; // of the four pixels around (30.5 + 1.7, 30.5) this one is the nearest
     frames.maskBefore.scored(40, 40) = 0; // here it is the other one
-    std::vector<float> samples;
-    metrics::flickerSamples(frames.resultNow(frames.truthNow.visibility), frames.resultBefore(frames.truthBefore.visibility),
-                            frames.warp, samples);
-    EXPECT_EQ(samples.size(), 62U * 64U - 2U); // one pixel maps nearest to each of the two
+    EXPECT_EQ(metrics::flickerExcess(frames.pair(frames.truthNow.visibility)).size(),
+              62U * 64U - 2U); // one pixel maps nearest to each of the two
     EXPECT_FALSE(metrics::flicker({}));
 }
 
 TEST(Flips, CountClassesThatChangeWhileTheTruthDoesNot) {
     const TwoFrames frames;
     Image<float> now = frames.truthNow.visibility;
-    const auto compare = [&] {
-        return metrics::flips(frames.resultNow(now), frames.resultBefore(frames.truthBefore.visibility), frames.warp);
-    };
+    const auto compare = [&] { return metrics::flips(frames.pair(now)); };
     EXPECT_EQ(compare().flipped, 0);
     EXPECT_EQ(compare().compared, 62U * 64U);
     now(5, 5) = 1 - now(5, 5);
@@ -159,11 +152,10 @@ TEST(MovingError, SumsSquaresOverFramesAndApartWhereNothingWasSeenBefore) {
     Image<float> v = frames.truthNow.visibility;
     for (int y = 0; y < size.y; ++y) v(63, y) += 0.5F; // of the two columns that came into view
     v(20, 20) += 1;
-    metrics::MovingError error;
-    EXPECT_FALSE(error.all.root());
-    for (int i = 0; i < 2; ++i) metrics::addMovingError(frames.resultNow(v), frames.warp, error);
-    EXPECT_NEAR(*error.all.root(), std::sqrt((64 * 0.25 + 1) / (64.0 * 64)), 1e-9);
-    EXPECT_NEAR(*error.disoccluded.root(), std::sqrt(0.25 / 2), 1e-9);
+    EXPECT_FALSE(metrics::movingErrors({}).all);
+    const metrics::MovingErrors errors = metrics::movingErrors({{frames.pair(v), frames.pair(v)}});
+    EXPECT_NEAR(*errors.all, std::sqrt((64 * 0.25 + 1) / (64.0 * 64)), 1e-9);
+    EXPECT_NEAR(*errors.disoccluded, std::sqrt(0.25 / 2), 1e-9);
 }
 
 TEST(MovingError, CountsPixelsOfTheMaskOnly) {
@@ -171,10 +163,15 @@ TEST(MovingError, CountsPixelsOfTheMaskOnly) {
     frames.maskNow.scored(20, 20) = 0;
     Image<float> v = frames.truthNow.visibility;
     v(20, 20) += 1;
-    metrics::MovingError error;
-    metrics::addMovingError(frames.resultNow(v), frames.warp, error);
-    EXPECT_EQ(error.all.root(), 0.0);
-    EXPECT_EQ(error.all.count, 64U * 64U - 1U);
+    EXPECT_EQ(metrics::movingErrors({{frames.pair(v)}}).all, 0.0);
+    v(21, 20) += 1;
+    EXPECT_NEAR(*metrics::movingErrors({{frames.pair(v)}}).all, std::sqrt(1 / (64.0 * 64 - 1)), 1e-12);
+}
+
+std::optional<int> convergence(const std::vector<double>& errors) {
+    const std::vector<Image<std::uint8_t>> pictures;
+    const metrics::Mask mask;
+    return metrics::convergence({pictures, errors, mask});
 }
 
 TEST(Convergence, IsTheFirstFrameOfTheSteadyState) {
@@ -182,23 +179,23 @@ TEST(Convergence, IsTheFirstFrameOfTheSteadyState) {
     error[0] = 0.8;
     error[1] = 0.4;
     error[2] = 0.2;
-    EXPECT_EQ(metrics::convergence(error), 4);
+    EXPECT_EQ(convergence(error), 4);
     error[10] = 0.106; // a relapse
-    EXPECT_EQ(metrics::convergence(error), 12);
+    EXPECT_EQ(convergence(error), 12);
     error[10] = 0.104; // within 5 %
-    EXPECT_EQ(metrics::convergence(error), 4);
+    EXPECT_EQ(convergence(error), 4);
 }
 
 TEST(Convergence, OfASteadyErrorIsTheFirstFrame) {
-    EXPECT_EQ(metrics::convergence({0.3}), 1);
-    EXPECT_EQ(metrics::convergence({0, 0, 0}), 1);
+    EXPECT_EQ(convergence({0.3}), 1);
+    EXPECT_EQ(convergence({0, 0, 0}), 1);
 }
 
 TEST(Convergence, IsAbsentForNoFramesAndForARestlessEnd) {
-    EXPECT_FALSE(metrics::convergence({}));
+    EXPECT_FALSE(convergence({}));
     std::vector<double> error(20, 0.1);
     error.back() = 0.2; // the mean of the last two is 0.15
-    EXPECT_FALSE(metrics::convergence(error));
+    EXPECT_FALSE(convergence(error));
 }
 
 } // namespace

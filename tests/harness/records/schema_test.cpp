@@ -1,4 +1,4 @@
-// Every record written is valid under record.schema.json, and the schema refuses what is not a record.
+// Every record written is valid under the schema, and the schema refuses what is not a record.
 // GCC 12 warns of overlapping copies where valijson joins strings (GCC bug 105651, a false alarm).
 #ifndef __clang__
 #pragma GCC diagnostic ignored "-Wrestrict"
@@ -6,7 +6,6 @@
 
 #include "tests/support/records_examples.h"
 
-#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
@@ -24,7 +23,7 @@ using Adapter = valijson::adapters::NlohmannJsonAdapter;
 class RecordSchema : public testing::Test {
 protected:
     void SetUp() override {
-        const Json document = Json::parse(std::ifstream(SOURCE_FOLDER "/harness/records/record.schema.json"));
+        const Json document = Json::parse(recordSchema());
         const Adapter adapter(document);
         valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(adapter, schema_);
     }

@@ -51,7 +51,7 @@ TEST(TerminalTable, SaysThatNothingIsWithinToleranceAndNamesErrors) {
 
 TEST(TerminalTable, OfRecordsWithoutTimesNamesAllThatAreWithinTolerance) {
     std::vector<Record> records = {hardCell("a", 0.001, 1), hardCell("b", 0.01, 1), hardCell("c", 0.004, 1)};
-    for (Record& record : records) record.cost.time.reset();
+    for (Record& record : records) clear(record, "cost.time");
     const std::string table = report::terminalTable(records, "dueling-frusta");
     EXPECT_NE(table.find(" within tolerance (0.5 %), none of them timed: a, c\n"), std::string::npos) << table;
 }
@@ -64,11 +64,11 @@ TEST(TerminalTable, TellsATinyErrorFromNone) {
 
 TEST(MarkdownTable, HasARowARecordAndEscapesWhatMarkdownWouldRead) {
     std::vector<Record> records = {hardCell("a_b|c", 0.01, 1)};
-    records[0].cost.work.reset();
-    records[0].accuracy = {};
-    records[0].accuracy.mismatch = 0.01;
-    records[0].stability = {};
-    records[0].aliasing.reset();
+    clear(records[0], "cost.work");
+    clear(records[0], "accuracy");
+    records[0].values["accuracy.mismatch"] = 0.01;
+    clear(records[0], "stability");
+    clear(records[0], "aliasing");
     records[0].figures.clear();
     EXPECT_EQ(report::markdownTable(records, "dueling-frusta"), "| technique | error | cost | front |\n"
                                                                 "|:---|---:|---:|---:|\n"
@@ -101,7 +101,7 @@ TEST(ParetoFront, KeepsEqualRecordsAndDropsOnesBeatenInOneOnly) {
 TEST(ParetoFront, LeavesOutWhatHasNoCostOrNoScoreAndOtherScenes) {
     std::vector<Record> records = hardScene();
     records.push_back(hardCell("untimed", 0, 0.1));
-    records.back().cost.time.reset();
+    clear(records.back(), "cost.time");
     records.push_back(softScene()[1]);
     EXPECT_EQ(variants(records, report::paretoFront(records, "dueling-frusta")),
               (std::vector<std::string>{"none", "sm-uniform", "sm-history:base=lispsm", "volume-zfail"}));
@@ -152,9 +152,9 @@ TEST(Csv, NamesColumnsByTheirPathAndQuotesWhatNeedsIt) {
 
 TEST(Csv, LeavesAbsentMetricsEmpty) {
     Record record = hardRecord();
-    record.accuracy = {};
-    record.accuracy.primaryMismatch = 0.25;
-    record.accuracy.ssim = 0.5;
+    clear(record, "accuracy");
+    record.values["accuracy.primary_mismatch"] = 0.25;
+    record.values["accuracy.ssim"] = 0.5;
     EXPECT_NE(report::csv({record}).find(",,,,0.5,,,,,0.25,"), std::string::npos) << report::csv({record});
 }
 

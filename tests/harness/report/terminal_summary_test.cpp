@@ -24,7 +24,7 @@ TEST(TerminalSummary, TheCheapestWithinATolerancesOwnMetricIsThereThoughItIsNotO
     for (Record& record : records) {
         record.toleranceMetric = "leak";
         record.tolerance = 0.05;
-        record.accuracy.leak = record.variant == "a" ? 0.5 : 0.0;
+        record.values["accuracy.leak"] = record.variant == "a" ? 0.5 : 0.0;
     }
     const std::string text = report::terminalSummary(records, "dueling-frusta", "report.md");
     EXPECT_TRUE(has(text, "cheapest within tolerance (leak 5 %): b")) << text;
@@ -36,7 +36,7 @@ TEST(TerminalSummary, WithoutTimesItShowsTheLeastErrors) {
     std::vector<Record> records;
     for (int i = 0; i < 40; ++i) {
         records.push_back(test::hardCell("t" + std::to_string(i), 0.5 - 0.01 * i, 1));
-        records.back().cost.time.reset();
+        clear(records.back(), "cost.time");
     }
     const std::string text = report::terminalSummary(records, "dueling-frusta", "report.md");
     EXPECT_LT(text.find("t39"), text.find("t35")) << text;

@@ -117,7 +117,7 @@ TEST_F(Merge, OfRepeatedCellsKeepsTheEarlierInEveryOrder) {
     const fs::path a = folder("a", {0, 1, 2}), b = folder("b", {});
     Record again = records_[1];
     again.time = "2026-01-02T03:04:04Z";
-    again.cost.time->median = 99;
+    again.values["cost.time.median"] = 99;
     put(b, 1, again);
     EXPECT_EQ(merge({a, b}).result.records[1].time, again.time);
     EXPECT_EQ(lines(merge({b, a})), lines(merge({a, b})));
@@ -126,7 +126,7 @@ TEST_F(Merge, OfRepeatedCellsKeepsTheEarlierInEveryOrder) {
 TEST_F(Merge, RefusesRepeatedCellsWithOtherScores) {
     const fs::path a = folder("a", {0, 1, 2}), b = folder("b", {});
     Record again = records_[1];
-    again.accuracy.leak = 0.0005;
+    again.values["accuracy.leak"] = 0.0005;
     put(b, 1, again);
     EXPECT_TRUE(names(refusal<Inconclusive>({a, b}),
                       {cellFile(a, manifest_[1].id).string(), cellFile(b, manifest_[1].id).string()}));

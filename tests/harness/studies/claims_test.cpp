@@ -11,7 +11,7 @@ namespace {
 Record with(const std::string& variant, double mismatch) {
     Record record = test::hardRecord();
     record.variant = variant;
-    record.accuracy.mismatch = mismatch;
+    record.values["accuracy.mismatch"] = mismatch;
     return record;
 }
 
@@ -46,7 +46,7 @@ TEST(Claims, AMissingFigureIsNoVerdict) {
     EXPECT_EQ(verdict(claim(holds), {with("a", 0.001)}), Verdict::NotMeasured);
     EXPECT_EQ(verdict(claim(check("a", "at most", "\"bound\": 1")), {}), Verdict::NotMeasured);
     Record unscored = with("a", 0.001);
-    unscored.accuracy.mismatch.reset();
+    unscored.values["accuracy.mismatch"].reset();
     EXPECT_EQ(verdict(claim(holds), {unscored, with("b", 1)}), Verdict::NotMeasured);
 }
 

@@ -15,7 +15,7 @@ Record mapRecord(const std::string& technique, int map, double mismatch) {
     record.technique = technique;
     record.variant = fmt::format("{}:map={}", technique, map);
     record.parameters = {{"map", std::to_string(map)}, {"bias", "slope"}};
-    record.accuracy.mismatch = mismatch;
+    record.values["accuracy.mismatch"] = mismatch;
     record.tolerance = 0.005;
     return record;
 }

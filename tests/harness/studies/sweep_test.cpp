@@ -108,7 +108,7 @@ std::vector<Record> curve(const std::vector<std::pair<double, double>>& points) 
     std::vector<Record> records;
     for (const auto& [value, error] : points) {
         Record record = test::hardRecord(); // tolerates a mismatch of 0.005
-        record.accuracy.mismatch = error;
+        record.values["accuracy.mismatch"] = error;
         record.sweep = SweepStep{"near-plane", "m", "sm-psm", value, {}};
         records.push_back(record);
     }

@@ -1,5 +1,6 @@
 // The texel-to-pixel ratio of every technique with a map.
-#include "harness/metrics/metrics.h"
+#include "harness/metrics/frames.h"
+#include "harness/metrics/table.h"
 #include "techniques/catalog.h"
 #include "techniques/contract/entry.h"
 #include "tests/support/stages.h"
@@ -21,13 +22,15 @@ metrics::Mask everythingDrawn(const metrics::Drawn& drawn) {
     return mask;
 }
 
-std::optional<Aliasing> aliasingOf(Stage& stage, const std::string& name) {
+std::optional<metrics::Aliasing> aliasingOf(Stage& stage, const std::string& name) {
     const techniques::Variant variant = techniques::parseVariant(name);
     const auto technique = variant.entry->make(variant.parameters);
     stage.render(*technique, 0, 1);
     const metrics::Drawn drawn = stage.drawn();
-    return metrics::aliasing(stage.shown().camera, drawn.position, stage.normals(), everythingDrawn(drawn),
-                             [&](const glm::dvec3& world) { return technique->mapPoint(world); });
+    const metrics::Mask mask = everythingDrawn(drawn);
+    const metrics::MapPoint mapPoint = [&](const glm::dvec3& world) { return technique->mapPoint(world); };
+    const auto& normals = stage.normals();
+    return metrics::aliasing({stage.shown().camera, drawn.position, normals, mask, mapPoint});
 }
 
 bool hasShadowMap(const techniques::Entry& entry) {
@@ -45,8 +48,8 @@ TEST_P(EveryMap, HalvingItsSizeDoublesTheRatio) {
     const Scene scene = boxScene();
     Stage stage(scene);
     stage.show(0);
-    const std::optional<Aliasing> whole = aliasingOf(stage, GetParam() + ":map=1024");
-    const std::optional<Aliasing> half = aliasingOf(stage, GetParam() + ":map=512");
+    const std::optional<metrics::Aliasing> whole = aliasingOf(stage, GetParam() + ":map=1024");
+    const std::optional<metrics::Aliasing> half = aliasingOf(stage, GetParam() + ":map=512");
     ASSERT_TRUE(whole && half);
     EXPECT_NEAR(half->median / whole->median, 2, 0.03);
     EXPECT_NEAR(half->p95 / whole->p95, 2, 0.03);
@@ -75,11 +78,11 @@ TEST(TiledMap, HalvingItsSizeDoublesTheRatioOfOneTile) {
     const Scene scene = boxScene();
     Stage stage(scene);
     stage.show(0);
-    const std::optional<Aliasing> whole = aliasingOf(stage, "sm-tiled:tiles=1,discontinuity=0,map=1024");
-    const std::optional<Aliasing> half = aliasingOf(stage, "sm-tiled:tiles=1,discontinuity=0,map=512");
+    const std::optional<metrics::Aliasing> whole = aliasingOf(stage, "sm-tiled:tiles=1,discontinuity=0,map=1024");
+    const std::optional<metrics::Aliasing> half = aliasingOf(stage, "sm-tiled:tiles=1,discontinuity=0,map=512");
     ASSERT_TRUE(whole && half);
     EXPECT_NEAR(half->median / whole->median, 2, 1e-6);
-    const std::optional<Aliasing> tiles = aliasingOf(stage, "sm-tiled");
+    const std::optional<metrics::Aliasing> tiles = aliasingOf(stage, "sm-tiled");
     ASSERT_TRUE(tiles);
     EXPECT_LT(tiles->median, whole->median);
 }
@@ -91,8 +94,8 @@ TEST(AdaptiveMap, HasNoTexelLongerThanAPixel) {
         if (sun) scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(-0.3, -1, 0.4)), {}, {}};
         Stage stage(scene);
         stage.show(0);
-        const std::optional<Aliasing> one = aliasingOf(stage, "sm-adaptive"),
-                                      four = aliasingOf(stage, "sm-adaptive:density=4");
+        const std::optional<metrics::Aliasing> one = aliasingOf(stage, "sm-adaptive"),
+                                               four = aliasingOf(stage, "sm-adaptive:density=4");
         ASSERT_TRUE(one && four);
         EXPECT_LE(one->p95, std::sqrt(2) * 1.001); // normals of 16 bits
         EXPECT_LE(four->p95, std::sqrt(2) / 4 * 1.001);
@@ -116,7 +119,7 @@ TEST(UniformMap, SeesTheGroundAsItsFrustumSays) {
     Stage stage(scene);
     stage.show(0);
     const double metresPerPixel = 2 * 10 * std::tan(glm::radians(22.5)) / 128, metresPerTexel = 12.0 / 512;
-    const std::optional<Aliasing> found = aliasingOf(stage, "sm-uniform:map=512");
+    const std::optional<metrics::Aliasing> found = aliasingOf(stage, "sm-uniform:map=512");
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->median, metresPerTexel / metresPerPixel, 1e-4);
     EXPECT_NEAR(found->p95, metresPerTexel / metresPerPixel, 1e-4);

@@ -1,0 +1,96 @@
+// What metrics are computed from. V is a technique's visibility, V* the truth's, M the receiver mask; all images of one
+// struct have the same size.
+#pragma once
+
+#include "base/image.h"
+#include "groundtruth/contract/reference.h"
+#include "scene/snapshot.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+namespace shadowbench::metrics {
+
+/// What the rasteriser drew at each pixel (read back from the G-buffer).
+struct Drawn {
+    Image<std::uint32_t> id;
+    Image<glm::vec3> position;
+};
+
+/// The receiver mask M: the truth's receivers whose primary hit the rasteriser agrees on.
+struct Mask {
+    Image<std::uint8_t> scored; // 1 in M
+    double primaryMismatch = 0; // share of all pixels whose primary hits disagree
+    std::size_t count = 0;      // pixels in M
+};
+
+/// Primary hits agree when the surface ids are equal and, unless both are background, the distances from `eye` differ by at
+/// most 0.2 % plus 0.1 mm (what 32-bit positions and a grazing view cost).
+Mask receiverMask(const groundtruth::Reference& truth, const Drawn& drawn, const glm::dvec3& eye);
+
+/// A rendered frame with its truth.
+struct ScoredFrame {
+    const Image<float>& v;
+    const groundtruth::Reference& truth;
+    const Mask& mask;
+};
+
+/// Where a world point lies in a technique's map, in texels; nothing if it lies in none.
+using MapPoint = std::function<std::optional<glm::dvec2>(const glm::dvec3&)>;
+
+/// A frame with the technique's map.
+struct MappedFrame {
+    const Camera& camera;
+    const Image<glm::vec3>& positions;
+    const Image<glm::vec3>& normals;
+    const Mask& mask;
+    const MapPoint& mapPoint;
+};
+
+/// All still frames of a technique with history, from an empty one.
+struct StillFrames {
+    const std::vector<Image<std::uint8_t>>& pictures; // V in 1/255
+    const std::vector<double>& errors;                // rmse of each against the technique's own truth
+    const Mask& mask;                                 // of the last
+};
+
+/// V in 1/255.
+Image<std::uint8_t> inBytes(const Image<float>& v);
+
+/// A moving frame with the one before.
+struct FramePair {
+    ScoredFrame now, before;
+    Image<glm::vec2> warp; // from `now` to `before`
+};
+struct MovingFrames {
+    std::vector<FramePair> pairs;
+};
+
+/// Where each pixel of `now` was in the previous frame, by exact reprojection of the truth's primary hits (moving placements
+/// by their own motion): image position in pixels, NaN where it left the image or was disoccluded, that is where none of the
+/// 2 × 2 pixels of `before` around it shows the same surface at the same distance from the eye within 0.5 %.
+Image<glm::vec2> warp(const Snapshot& now, glm::ivec2 size, const groundtruth::Reference& truth,
+                      const groundtruth::Reference& before);
+
+/// What was seen of a level-of-detail technique, frame by frame; never empty. Colours are in [0, 1].
+struct Walk {
+    // While camera and instances stand and levels alone change, so that lod-full's picture stays as it is; from frame 1:
+    std::vector<double> standingChange;      // meanChange from the frame before
+    std::vector<std::size_t> standingRegion; // largestChangedRegion
+    // Along the walk:
+    std::vector<double> change;     // meanChange from the frame before less that of lod-full; from frame 1
+    std::vector<double> square;     // meanSquare of the difference from lod-full
+    std::vector<double> speckle;    // over the pixels that see a transition
+    std::vector<double> primitives; // drawn
+    double referenceSpeckle = 0;    // of lod-full, over all frames
+    std::size_t maskPixels = 0;     // that see a transition, in all frames
+    std::size_t transitions = 0;    // most instances in transition at once
+    double orderSquare = 0;         // meanSquare of what drawing all triangles the other way round changes
+};
+
+} // namespace shadowbench::metrics

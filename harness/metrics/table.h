@@ -1,0 +1,339 @@
+// The metrics: what each is, and the one table that records, their schema, CSV and bounds, comparisons, history and
+// `list metrics` read.
+//
+// Adding a metric is two edits: its function, declared here and defined beside its like (hard.cpp for labels, soft.cpp for
+// graded visibility, stability.cpp for frames over time, walk.cpp for levels of detail), and its line in `table`. The line's
+// place is its place in the record; lines of one object of the record stand together.
+//
+// V is a technique's visibility, V* the truth's, M the receiver mask. Labels are round(V): V ≥ 0.5 is lit. Sums run in
+// double over rows from the top left, so a value is the same on every machine. What has no pixel to be measured on is
+// absent; no function returns NaN. A technique that wrote a V inside M that is not finite, or images of different sizes,
+// throw InternalError.
+#pragma once
+
+#include "harness/metrics/metric.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace shadowbench::metrics {
+
+/// Wrong labels as shares.
+struct LabelErrors {
+    std::optional<double> mismatch;        // of M
+    std::optional<double> mismatchOffEdge; // of the pixels more than ½ px from the exact edge
+    std::optional<double> falseShadow;     // lit pixels called shadowed, of the lit ones
+    std::optional<double> leak;            // shadowed pixels called lit, of the shadowed ones
+};
+LabelErrors labelErrors(const ScoredFrame& frame);
+
+/// Distance in pixels from the technique's shadow edge to the exact one.
+struct EdgeError {
+    double mean = 0, p95 = 0, hausdorff = 0;
+    double signedMean = 0; // − shadow too small, + too large
+};
+
+/// Absent if either shadow has no edge inside M.
+///
+/// An edge is sampled where two pixels of M, side by side or one above the other on the same surface, have different labels.
+/// The technique's point p lies where V, linear between the two centres, is ½: halfway for hard labels. The truth's point
+/// lies where its signed distance field is 0, halfway if the truth states no distance. Where V is hard everywhere the
+/// truth's points are put halfway too, so that an image with the truth's labels has no error. With q the truth's point
+/// nearest to p, the displacement of p is d(p) − d(q), where d is the exact distance to the edge, positive on the lit side,
+/// linear between the two pixels; where the truth states no distance it is |p − q|, positive where V* is lit. `mean`, `p95`
+/// and `signedMean` are over the displacements; `hausdorff` also counts the distance of every q to its nearest p.
+std::optional<EdgeError> edgeError(const ScoredFrame& frame);
+
+/// Sums over M of V − V*; absent where M is empty.
+struct VisibilityErrors {
+    double rmse = 0, mae = 0;
+    std::optional<double> psnr; // peak 1; absent for equal images
+};
+std::optional<VisibilityErrors> visibilityErrors(const ScoredFrame& frame);
+std::optional<double> rmse(const ScoredFrame& frame);
+
+/// Share of M where abs(V − V*) exceeds 30/255 (EGSR 2007) or 8/255.
+std::optional<double> bad30(const ScoredFrame& frame);
+std::optional<double> bad8(const ScoredFrame& frame);
+
+/// Structural similarity (Wang et al. 2004: 11 × 11 Gaussian, σ 1.5 px, K 0.01 and 0.03, range 1), mean over M. Pixels
+/// outside M have weight 0 in every window and the other weights are scaled to sum to 1.
+std::optional<double> ssim(const ScoredFrame& frame);
+
+/// rmse over the penumbra {0 < V* < 1} dilated by 2 pixels (5 × 5 squares); absent for a hard truth.
+std::optional<double> penumbraRmse(const ScoredFrame& frame);
+
+/// Mean of |w − w*| / w* over the points where V* crosses ½ (found as for edgeError). w is the length, along the line
+/// through the point in the direction of V*'s image gradient, on which 0.1 < V < 0.9, in bilinear samples ¼ px apart. The
+/// line runs as far as V* takes to leave (0.1, 0.9) and as much again on each side (4 px at least), so an excess over 2 is
+/// cut off; a line that leaves its surface or M before V* has left (0.1, 0.9) is not measured.
+std::optional<double> penumbraWidthError(const ScoredFrame& frame);
+
+/// Mean V over the umbra {V* = 0} eroded by 2 pixels, from the image's border too.
+std::optional<double> umbraLeak(const ScoredFrame& frame);
+
+/// Share of M where abs(V − V*) < 3σ* though σ* > 0; absent for an exact truth.
+std::optional<double> unresolved(const ScoredFrame& frame);
+
+/// Pixels that one texel of the technique's map covers where it is stretched most.
+struct Aliasing {
+    double median = 0, p95 = 0; // over the receiver pixels that lie in a map
+    double mapped = 0;          // their share of all receiver pixels
+};
+
+/// The projected-texel-to-pixel ratio: perspective and projection aliasing in one number (Scherzer 2.2.2, Fig. 2.9; course,
+/// "Perspective Shadow Maps"). With J the Jacobian from image position to texels along the plane through a receiver pixel's
+/// world position at right angles to its normal, the pixel's ratio is 1 over the smallest singular value of J: the pixels
+/// that one texel covers where it is stretched most. Above 1 the map is undersampled. J is taken over 1/1024 pixel on the
+/// side of the pixel's centre where the map changes less, so that a border between two maps does not count. Pixels of M in
+/// no map, or edge-on to eye or light, are not `mapped`; absent if none is.
+std::optional<Aliasing> aliasing(const MappedFrame& frame);
+
+/// Number of the first frame, counted from 1, from which the error stays ≤ 1.05 × its steady state, the mean of the last
+/// tenth of the frames (at least one). Absent without frames and for an error still restless at the end.
+std::optional<int> convergence(const StillFrames& frames);
+
+/// Share of M that differs by more than 30/255 from the technique's own last still frame, by frame (EGSR paper, Fig. 3:
+/// "differing from the fully converged solution").
+std::vector<double> changedByFrame(const StillFrames& frames);
+
+/// Per-pixel flicker excess abs((V_t − warp V_{t−1}) − (V*_t − warp V*_{t−1})) over every pixel in both masks. The previous
+/// frame is read bilinearly where all four pixels are in its mask on the same surface, else at the nearest pixel if that one
+/// is, else the pixel is left out.
+struct Flicker {
+    double mean = 0, p95 = 0;
+};
+std::optional<Flicker> flicker(const MovingFrames& frames);
+
+/// Share of the reprojected pixels (nearest) whose class, lit or not, changes while the truth's does not.
+std::optional<double> flipRate(const MovingFrames& frames);
+
+/// Root mean square of V − V* over M of all frames but the first, and over those pixels of it that the frame before did not
+/// show.
+struct MovingErrors {
+    std::optional<double> all, disoccluded;
+};
+MovingErrors movingErrors(const MovingFrames& frames);
+
+/// Share of the surface pixels that the frame before showed, too.
+std::optional<double> reuse(const MovingFrames& frames);
+
+// Levels of detail (Scherzer and Wimmer 2008, 5.2).
+std::optional<double> standingPop(const Walk& walk);
+std::optional<double> standingRegion(const Walk& walk);
+std::optional<double> walkPop(const Walk& walk);
+std::optional<double> colourError(const Walk& walk);
+std::optional<double> noise(const Walk& walk); // absent where no pixel sees a transition
+std::optional<double> orderError(const Walk& walk);
+std::optional<double> transitions(const Walk& walk);
+std::optional<double> primitives(const Walk& walk);
+std::optional<double> primitiveChange(const Walk& walk); // but from the first frame, which also fills histories
+
+// Rendering is the same to the bit from run to run, so the only allowance that exact truths need is for what an innocent
+// change of rounding may do: a pixel or two whose centre lies on an edge, or two pixels beside an edge of a thousand.
+inline constexpr double strayEdge = 0.002; // px
+
+// A line states what differs from the columns' defaults in metric.h; clang-format would give each column a line.
+// clang-format off
+inline constexpr auto table = std::to_array<Metric>({
+    {.path = "lod.pop", .unit = "1", .range = range::size, .about = Class::Flicker, .bound = "pop",
+     .allowance = Allowance{.relative = 0.01}, .computed = OfWalk{of<standingPop>},
+     .meaning = "levels of detail: largest mean change of colour from frame to frame while levels alone change"},
+    {.path = "lod.changed_region", .unit = "pixels", .range = range::count, .computed = OfWalk{of<standingRegion>},
+     .meaning = "levels of detail: the same, largest connected region that changes by more than 30/255"},
+    {.path = "lod.walk_pop", .unit = "1", .about = Class::Flicker, .allowance = Allowance{.pixels = 2, .relative = 0.01},
+     .computed = OfWalk{of<walkPop>},
+     .meaning = "levels of detail: largest mean change of colour along the walk beyond lod-full's; coarse levels alias less "
+                "and change less"},
+    {.path = "lod.colour_error", .unit = "1", .range = range::size, .about = Class::Colour,
+     .allowance = Allowance{.relative = 0.01}, .computed = OfWalk{of<colourError>},
+     .meaning = "levels of detail: rms difference from lod-full over the walk"},
+    {.path = "lod.noise", .unit = "1", .optional = true, .about = Class::Colour, .allowance = Allowance{.relative = 0.01},
+     .computed = OfWalk{of<noise>},
+     .meaning = "levels of detail: mean distance from the 3×3 median beyond lod-full's, over pixels in transition"},
+    {.path = "lod.order_error", .unit = "1", .range = range::size, .about = Class::Colour,
+     .allowance = Allowance{.relative = 0.01}, .computed = OfWalk{of<orderError>},
+     .meaning = "levels of detail: rms difference from the same with all triangles drawn the other way round"},
+    {.path = "lod.transitions", .unit = "instances", .range = range::count, .computed = OfWalk{of<transitions>},
+     .meaning = "levels of detail: most instances in transition at once"},
+    {.path = "lod.primitives", .unit = "primitives", .range = range::size, .computed = OfWalk{of<primitives>},
+     .meaning = "levels of detail: primitives drawn in a frame, mean"},
+    {.path = "lod.primitive_change", .unit = "share", .range = range::size, .computed = OfWalk{of<primitiveChange>},
+     .meaning = "levels of detail: largest change of the primitives drawn from frame to frame"},
+    {.path = "lod.time.median", .unit = "ms", .range = range::size, .noisy = true,
+     .meaning = "levels of detail: time of a frame without the G-buffer; processor time where drawing has none of its own"},
+    {.path = "lod.time.ratio", .unit = "ratio", .range = range::size, .noisy = true, .about = Class::Time,
+     .meaning = "levels of detail: time of a frame as a multiple of lod-switch's, median over the frames"},
+    {.path = "lod.time.spread", .unit = "share", .range = range::size, .noisy = true,
+     .meaning = "levels of detail: median change of the time from one frame to the next"},
+    {.path = "lod.by_frame.pop", .unit = "1", .range = range::size, .list = true, .optional = true,
+     .meaning = "lod.pop's change from each frame to the next"},
+    {.path = "lod.by_frame.walk_pop", .unit = "1", .list = true, .optional = true,
+     .meaning = "lod.walk_pop's change from each frame to the next"},
+    {.path = "lod.by_frame.primitives", .unit = "primitives", .range = range::size, .list = true, .optional = true,
+     .meaning = "primitives drawn in each frame of the walk"},
+    {.path = "lod.by_frame.milliseconds", .unit = "ms", .range = range::size, .list = true, .optional = true, .noisy = true,
+     .meaning = "time of each frame of the walk: the least of all rounds"},
+
+    {.path = "accuracy.mismatch", .unit = "share", .range = range::share, .optional = true, .about = Class::Labels,
+     .bound = "mismatch", .allowance = Allowance{.pixels = 2},
+     .computed = OfLabels{part<labelErrors, &LabelErrors::mismatch>},
+     .meaning = "receiver pixels whose rounded visibility differs from the exact label"},
+    {.path = "accuracy.mismatch_off_edge", .unit = "share", .range = range::share, .optional = true, .about = Class::Labels,
+     .bound = "mismatch_off_edge", .allowance = Allowance{.pixels = 1},
+     .computed = OfLabels{part<labelErrors, &LabelErrors::mismatchOffEdge>},
+     .meaning = "the same more than half a pixel away from an exact shadow edge"},
+    {.path = "accuracy.false_shadow", .unit = "share", .range = range::share, .optional = true, .about = Class::FalseShadow,
+     .bound = "false_shadow", .allowance = Allowance{.pixels = 2},
+     .computed = OfLabels{part<labelErrors, &LabelErrors::falseShadow>},
+     .meaning = "lit pixels called shadowed (acne, over-shadow)"},
+    {.path = "accuracy.leak", .unit = "share", .range = range::share, .optional = true, .about = Class::Leak,
+     .bound = "leak", .allowance = Allowance{.pixels = 2}, .computed = OfLabels{part<labelErrors, &LabelErrors::leak>},
+     .meaning = "shadowed pixels called lit (peter-panning, light leak)"},
+    {.path = "accuracy.edge_error.mean", .unit = "pixels", .range = range::size, .about = Class::Edge, .bound = "edge_error",
+     .allowance = Allowance{.relative = 0.01, .absolute = strayEdge},
+     .computed = OfLabels{part<edgeError, &EdgeError::mean>},
+     .meaning = "distance from the technique's shadow edge to the exact one, mean"},
+    {.path = "accuracy.edge_error.p95", .unit = "pixels", .range = range::size,
+     .computed = OfLabels{part<edgeError, &EdgeError::p95>}, .meaning = "the same, 95th percentile"},
+    {.path = "accuracy.edge_error.hausdorff", .unit = "pixels", .range = range::size,
+     .computed = OfLabels{part<edgeError, &EdgeError::hausdorff>}, .meaning = "the same, largest, from either edge"},
+    {.path = "accuracy.edge_error.signed", .unit = "pixels", .about = Class::Edge,
+     .allowance = Allowance{.relative = 0.01, .absolute = strayEdge, .magnitude = true},
+     .computed = OfLabels{part<edgeError, &EdgeError::signedMean>},
+     .meaning = "the same, mean with a sign: − shadow too small, + too large"},
+    {.path = "accuracy.rmse", .unit = "1", .range = range::size, .optional = true, .about = Class::Penumbra, .bound = "rmse",
+     .allowance = Allowance{.truth = TruthError::Rms},
+     .computed = OfVisibility{part<visibilityErrors, &VisibilityErrors::rmse>}, .meaning = "root mean square of V − V*"},
+    {.path = "accuracy.mae", .unit = "1", .range = range::size, .optional = true, .about = Class::Penumbra, .bound = "mae",
+     .computed = OfVisibility{part<visibilityErrors, &VisibilityErrors::mae>}, .meaning = "mean of abs(V − V*)"},
+    {.path = "accuracy.psnr", .unit = "dB", .optional = true,
+     .computed = OfVisibility{part<visibilityErrors, &VisibilityErrors::psnr>}, .meaning = "peak signal to noise"},
+    {.path = "accuracy.bad30", .unit = "share", .range = range::share, .optional = true, .about = Class::Penumbra,
+     .bound = "bad30", .allowance = Allowance{.pixels = 2}, .computed = OfVisibility{of<bad30>},
+     .meaning = "pixels with abs(V − V*) > 30/255 (EGSR 2007)"},
+    {.path = "accuracy.bad8", .unit = "share", .range = range::share, .optional = true, .about = Class::Penumbra,
+     .bound = "bad8", .computed = OfVisibility{of<bad8>}, .meaning = "pixels with abs(V − V*) > 8/255"},
+    {.path = "accuracy.ssim", .unit = "1", .range = range::correlation, .optional = true, .computed = OfVisibility{of<ssim>},
+     .meaning = "structural similarity, 11×11 Gaussian"},
+    {.path = "accuracy.penumbra_rmse", .unit = "1", .range = range::size, .optional = true, .about = Class::Penumbra,
+     .bound = "penumbra_rmse", .allowance = Allowance{.truth = TruthError::Rms}, .computed = OfVisibility{of<penumbraRmse>},
+     .meaning = "rmse over the penumbra dilated by 2 pixels"},
+    {.path = "accuracy.penumbra_width_error", .unit = "relative", .range = range::size, .optional = true,
+     .about = Class::Penumbra, .bound = "penumbra_width_error", .computed = OfVisibility{of<penumbraWidthError>},
+     .meaning = "error of the penumbra's width along its edge normals"},
+    {.path = "accuracy.umbra_leak", .unit = "1", .optional = true, .about = Class::Leak, .bound = "umbra_leak",
+     .allowance = Allowance{.truth = TruthError::Mean}, .computed = OfVisibility{of<umbraLeak>},
+     .meaning = "mean visibility over the umbra eroded by 2 pixels"},
+    {.path = "accuracy.unresolved", .unit = "share", .range = range::share, .optional = true,
+     .computed = OfVisibility{of<unresolved>},
+     .meaning = "pixels whose error is below three times the truth's own uncertainty"},
+    {.path = "accuracy.primary_mismatch", .unit = "share", .range = range::share,
+     .meaning = "pixels where rasteriser and truth see different surfaces; above 0.1 % nothing is scored"},
+
+    {.path = "aliasing.median", .unit = "pixels", .range = range::size, .computed = OfMap{part<aliasing, &Aliasing::median>},
+     .meaning = "that one texel of the technique's map covers where it is stretched most, median over the receivers"},
+    {.path = "aliasing.p95", .unit = "pixels", .range = range::size, .computed = OfMap{part<aliasing, &Aliasing::p95>},
+     .meaning = "the same, 95th percentile"},
+    {.path = "aliasing.mapped", .unit = "share", .range = range::share, .computed = OfMap{part<aliasing, &Aliasing::mapped>},
+     .meaning = "receiver pixels that lie in a map"},
+
+    {.path = "stability.flicker.mean", .unit = "1", .range = range::size, .about = Class::Flicker, .bound = "flicker",
+     .allowance = Allowance{.truth = TruthError::Mean, .relative = 0.01},
+     .computed = OfMovingFrames{part<flicker, &Flicker::mean>},
+     .meaning = "change between moving frames beyond the truth's own, after exact reprojection, mean"},
+    {.path = "stability.flicker.p95", .unit = "1", .range = range::size,
+     .computed = OfMovingFrames{part<flicker, &Flicker::p95>}, .meaning = "the same, 95th percentile"},
+    {.path = "stability.flip_rate", .unit = "share", .range = range::share, .optional = true, .about = Class::Flicker,
+     .bound = "flip_rate", .allowance = Allowance{.pixels = 2, .relative = 0.01}, .computed = OfMovingFrames{of<flipRate>},
+     .meaning = "reprojected pixels that change class while the truth does not"},
+    {.path = "stability.moving_rmse", .unit = "1", .range = range::size, .optional = true, .about = Class::Flicker,
+     .bound = "moving_rmse", .allowance = Allowance{.truth = TruthError::Rms, .relative = 0.01},
+     .computed = OfMovingFrames{part<movingErrors, &MovingErrors::all>},
+     .meaning = "root mean square of V − V* over the moving frames: what flicker does not see, a steady trail"},
+    {.path = "stability.disocclusion_error", .unit = "1", .range = range::size, .optional = true, .about = Class::Flicker,
+     .bound = "disocclusion_error", .computed = OfMovingFrames{part<movingErrors, &MovingErrors::disoccluded>},
+     .meaning = "the same over the pixels in their first frame"},
+    {.path = "stability.reuse", .unit = "share", .range = range::share, .optional = true,
+     .computed = OfMovingFrames{of<reuse>}, .meaning = "surface pixels of the moving frames that the frame before saw, too"},
+    {.path = "stability.convergence", .unit = "frames", .range = range::frameNumber, .optional = true,
+     .about = Class::Flicker, .bound = "convergence", .allowance = Allowance{}, .computed = OfStillFrames{of<convergence>},
+     .meaning = "still frames from an empty history until the error stays within 5 % of its steady state"},
+    {.path = "stability.by_frame.mismatch", .unit = "share", .range = range::size, .list = true, .optional = true,
+     .computed = LabelsByFrame{part<labelErrors, &LabelErrors::mismatch>},
+     .meaning = "accuracy.mismatch of each still frame from an empty history"},
+    {.path = "stability.by_frame.rmse", .unit = "1", .range = range::size, .list = true, .optional = true,
+     .computed = VisibilityByFrame{of<rmse>}, .meaning = "accuracy.rmse of each still frame from an empty history"},
+    {.path = "stability.by_frame.bad30", .unit = "share", .range = range::size, .list = true, .optional = true,
+     .computed = VisibilityByFrame{of<bad30>}, .meaning = "accuracy.bad30 of each still frame from an empty history"},
+    {.path = "stability.by_frame.changed", .unit = "share", .range = range::size, .list = true, .optional = true,
+     .computed = ByStillFrame{changedByFrame},
+     .meaning = "pixels of each still frame from an empty history that are more than 30/255 off the technique's last one"},
+
+    {.path = "cost.time.median", .unit = "ms", .range = range::size, .noisy = true,
+     .meaning = "wall time of a frame, G-buffer included, over interleaved rounds, median"},
+    {.path = "cost.time.p95", .unit = "ms", .range = range::size, .noisy = true, .meaning = "the same, 95th percentile"},
+    {.path = "cost.time.mad", .unit = "ms", .range = range::size, .noisy = true,
+     .meaning = "the same, median absolute deviation"},
+    {.path = "cost.time.ratio", .unit = "ratio", .range = range::size, .noisy = true, .about = Class::Time,
+     .meaning = "time of a frame as a multiple of sm-uniform's in the same rounds, both with the G-buffer"},
+    {.path = "cost.time.floor_ratio", .unit = "share", .range = range::size, .noisy = true,
+     .meaning = "of the frame's time that the G-buffer alone takes"},
+    {.path = "cost.time.base_ratio", .unit = "ratio", .range = range::size, .optional = true, .noisy = true,
+     .meaning = "time of a frame as a multiple of that of the technique's own base (history over its base map)"},
+    {.path = "cost.time.samples", .unit = "ms", .range = range::size, .list = true, .optional = true, .noisy = true,
+     .meaning = "wall time of the frame of each round"},
+    {.path = "cost.instructions", .unit = "instructions", .range = range::count, .optional = true,
+     .about = Class::Instructions, .allowance = Allowance{.relative = 0.005},
+     .meaning = "processor instructions of a frame, counted by Valgrind"},
+    {.path = "cost.work.fragments", .unit = "count", .range = range::count,
+     .meaning = "fragment shader invocations of a frame"},
+    {.path = "cost.work.vertices", .unit = "count", .range = range::count, .meaning = "vertices drawn in a frame"},
+    {.path = "cost.work.primitives", .unit = "count", .range = range::count, .meaning = "primitives drawn in a frame"},
+    {.path = "cost.work.draws", .unit = "count", .range = range::count, .meaning = "draw calls of a frame"},
+    {.path = "cost.work.passes", .unit = "count", .range = range::count, .meaning = "render passes of a frame"},
+    {.path = "cost.work.bytes", .unit = "bytes", .range = range::count,
+     .meaning = "textures and buffers of the technique's own"},
+});
+// clang-format on
+
+/// A line of the table by its path; one that the table lacks does not compile.
+class MetricId {
+public:
+    consteval MetricId(const char* path) : index_(indexOf(path)) {}
+    explicit MetricId(const Metric& line) : index_(static_cast<std::size_t>(&line - table.data())) {}
+
+    [[nodiscard]] constexpr std::size_t index() const { return index_; }
+
+private:
+    static constexpr std::size_t indexOf(std::string_view path) {
+        for (std::size_t i = 0; i < table.size(); ++i)
+            if (table[i].path == path) return i;
+        throw "no metric of the table has this path";
+    }
+
+    std::size_t index_;
+};
+
+/// Lines whose path begins with `group` and a dot.
+constexpr std::span<const Metric> linesOf(std::string_view group) {
+    const auto isIn = [&](const Metric& m) { return m.path.starts_with(group) && m.path[group.size()] == '.'; };
+    std::size_t first = 0;
+    while (first < table.size() && !isIn(table[first])) ++first;
+    std::size_t end = first;
+    while (end < table.size() && isIn(table[end])) ++end;
+    return std::span(table).subspan(first, end - first);
+}
+
+/// The line with a path, or with a name for bounds; null if there is none.
+const Metric* metricAt(std::string_view path);
+const Metric* boundedMetric(std::string_view name);
+
+/// The names that a bound can have, in the table's order.
+const std::vector<std::string>& boundedMetrics();
+
+/// How much of a change means nothing, in words: "2 pixels + 1 %".
+std::string describe(const Allowance& allowance);
+
+} // namespace shadowbench::metrics

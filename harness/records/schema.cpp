@@ -1,0 +1,150 @@
+// The JSON Schema of a record: the parts that are no metrics as they stand here, the metrics from their table.
+#include "harness/records/fields.h"
+
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+namespace shadowbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* withoutMetrics = R"({
+  "$schema": "http://json-schema.org/draft-07/schema#",
+  "title": "shadowbench record",
+  "description": "One line of results.jsonl: accuracy, stability and cost of one cell (scene × technique variant × profile). A metric that does not apply is absent. Rates are fractions, times milliseconds, sizes bytes.",
+  "type": "object",
+  "additionalProperties": false,
+  "required": ["schema_version", "scene", "technique", "variant", "parameters", "profile", "size", "frames", "seed", "status",
+               "commit", "dirty", "time", "environment"],
+  "properties": {
+    "schema_version": {"const": 1},
+    "scene": {"type": "string"},
+    "technique": {"type": "string"},
+    "variant": {"type": "string", "description": "canonical: parameters in declared order, defaults left out"},
+    "parameters": {"type": "object", "additionalProperties": {"type": ["number", "string"]}},
+    "profile": {"enum": ["gate", "standard", "paper"]},
+    "size": {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 2, "maxItems": 2},
+    "frames": {"$ref": "#/definitions/count"},
+    "seed": {"$ref": "#/definitions/count"},
+    "status": {"enum": ["scored", "not-applicable", "expected-failure", "error"]},
+    "reason": {"type": "string", "minLength": 1},
+    "cell": {"type": "string", "description": "hash of the cell's inputs"},
+    "commit": {"type": "string"},
+    "dirty": {"type": "boolean"},
+    "time": {"type": "string", "description": "ISO 8601, UTC"},
+    "environment": {
+      "type": "object",
+      "additionalProperties": false,
+      "required": ["renderer", "gl", "raster_threads", "vector_bits", "cpu", "compiler"],
+      "properties": {
+        "renderer": {"type": "string"},
+        "gl": {"type": "string"},
+        "raster_threads": {"$ref": "#/definitions/count"},
+        "vector_bits": {"$ref": "#/definitions/count"},
+        "cpu": {"type": "string"},
+        "compiler": {"type": "string"},
+        "valgrind": {"type": "string"}
+      }
+    },
+    "reference": {"$ref": "#/definitions/reference"},
+    "soft_reference": {"$ref": "#/definitions/reference"},
+    "sweep": {
+      "type": "object",
+      "description": "place on a curve over one quantity; break_point: first value at which the scene's tolerance is exceeded",
+      "additionalProperties": false,
+      "required": ["axis", "unit", "curve", "value"],
+      "properties": {
+        "axis": {"type": "string", "minLength": 1},
+        "unit": {"type": "string"},
+        "curve": {"type": "string", "minLength": 1},
+        "value": {"type": "number"},
+        "break_point": {"type": "number"}
+      }
+    },
+    "figures": {
+      "type": "object",
+      "description": "numbers of the scored frame that only the technique knows; its entry in the catalogue explains them",
+      "minProperties": 1,
+      "additionalProperties": {"type": "number"}
+    },
+    "tolerance": {
+      "type": "object",
+      "description": "the worst error a viewer of this scene accepts",
+      "additionalProperties": false,
+      "required": ["metric", "value"],
+      "properties": {"metric": {"type": "string", "minLength": 1}, "value": {"$ref": "#/definitions/size"}}
+    }
+  },
+  "allOf": [
+    {
+      "if": {"properties": {"status": {"enum": ["scored", "expected-failure"]}}},
+      "then": {"oneOf": [{"required": ["accuracy", "reference"], "not": {"required": ["lod"]}},
+                         {"required": ["lod"], "not": {"required": ["accuracy"]}}]},
+      "else": {"required": ["reason"], "not": {"anyOf": [{"required": ["accuracy"]}, {"required": ["lod"]}]}}
+    }
+  ],
+  "definitions": {
+    "count": {"type": "integer", "minimum": 0},
+    "size": {"type": "number", "minimum": 0},
+    "reference": {
+      "type": "object",
+      "additionalProperties": false,
+      "required": ["oracle", "key", "samples", "sigma", "tools"],
+      "properties": {
+        "oracle": {"type": "string"},
+        "key": {"type": "string"},
+        "samples": {"$ref": "#/definitions/count"},
+        "sigma": {"$ref": "#/definitions/size"},
+        "tools": {"type": "object", "additionalProperties": {"type": "string"}}
+      }
+    }
+  }
+})";
+
+/// Describes each metric of a group where other visitors write or read it.
+class Describer {
+public:
+    explicit Describer(Json& object) : object_(object) {
+        object_ = {{"type", "object"}, {"additionalProperties", false}, {"minProperties", 1}, {"required", Json::array()}};
+    }
+
+    void metric(const char* key, const metrics::Metric& line, const metrics::Values&) {
+        Json& property = object_["properties"][key];
+        property["description"] = std::string(line.meaning) + " [" + std::string(line.unit) + "]";
+        if (line.list) property.update({{"type", "array"}, {"minItems", 1}});
+        describe(line.range, line.list ? property["items"] : property);
+        if (!line.optional) object_["required"].push_back(key);
+    }
+
+    template <typename Inner>
+    void group(const char* key, bool, const Inner& inner) {
+        Describer describer(object_["properties"][key]);
+        inner(describer);
+    }
+
+private:
+    static void describe(const metrics::Range& range, Json& type) {
+        type["type"] = range.whole ? "integer" : "number";
+        const auto limit = [&](double value) { return range.whole ? Json(static_cast<std::int64_t>(value)) : Json(value); };
+        if (std::isfinite(range.least)) type["minimum"] = limit(range.least);
+        if (std::isfinite(range.most)) type["maximum"] = limit(range.most);
+    }
+
+    Json& object_;
+};
+
+} // namespace
+
+std::string recordSchema() {
+    Json schema = Json::parse(withoutMetrics);
+    for (const char* group : {"lod", "accuracy", "aliasing", "stability", "cost"}) {
+        Describer describer(schema["properties"][group]);
+        const metrics::Values values;
+        records::metricFields(describer, metrics::linesOf(group), std::string_view(group).size() + 1, values);
+    }
+    return schema.dump(2) + "\n";
+}
+
+} // namespace shadowbench
