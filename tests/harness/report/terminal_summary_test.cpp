@@ -36,7 +36,7 @@ TEST(TerminalSummary, WithoutTimesItShowsTheLeastErrors) {
     std::vector<Record> records;
     for (int i = 0; i < 40; ++i) {
         records.push_back(test::hardCell("t" + std::to_string(i), 0.5 - 0.01 * i, 1));
-        clear(records.back(), "cost.time");
+        test::clear(records.back(), "cost.time");
     }
     const std::string text = report::terminalSummary(records, "dueling-frusta", "report.md");
     EXPECT_LT(text.find("t39"), text.find("t35")) << text;
