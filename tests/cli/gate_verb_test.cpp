@@ -37,7 +37,7 @@ protected:
 };
 
 TEST_F(GateVerb, TheSameProgramPasses) {
-    const Outcome outcome = gate(PROGRAM, "--cost instructions --technique sm-uniform --technique volume-zfail");
+    const Outcome outcome = gate(PROGRAM, "--cost instructions --technique sm-uniform");
     EXPECT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("0 worse, 0 better"), std::string::npos) << outcome.output;
     EXPECT_NE(readFile(folder_ / "out/gate.md").find("shadowbench: pass"), std::string::npos);

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <gtest/gtest.h>
+#include <memory>
 #include <random>
 
 namespace shadowbench {
@@ -17,9 +18,11 @@ namespace fs = std::filesystem;
 
 class Shards : public testing::Test {
 protected:
+    static void SetUpTestSuite() { truths_ = std::make_unique<Folder>(); }
+    static void TearDownTestSuite() { truths_.reset(); }
+
     [[nodiscard]] std::string command(const std::string& out, const std::string& more = "") const {
-        return "shadowbench run --quiet " + choice_ + " --cache " + (folder_ / "cache") + " --out " + (folder_ / out) + " " +
-               more;
+        return "shadowbench run --quiet " + choice_ + " --cache " + cache_ + " --out " + (folder_ / out) + " " + more;
     }
     [[nodiscard]] Outcome run(const std::string& out, const std::string& more = "") const {
         return shell(command(out, more));
@@ -50,7 +53,9 @@ protected:
         return cells;
     }
 
+    static std::unique_ptr<Folder> truths_; // what POV-Ray takes seconds for is computed once for all tests
     Folder folder_;
+    std::string cache_ = *truths_ / "cache";
     std::string point_ = folder_.write("point.toml", tinyScene());
     std::string area_ = folder_.write(
         "area.toml", tinyScene("{ kind = \"rectangle\", centre = [1.7, 6.1, -2.3], u = [0.9, 0, 0], v = [0, 0, 0.9] }"));
@@ -58,6 +63,8 @@ protected:
                           " --technique none --technique sm-uniform --technique volume-zfail --technique pcss "
                           "--technique sm-history --technique lod-switch";
 };
+
+std::unique_ptr<Folder> Shards::truths_;
 
 TEST_F(Shards, MergedEqualAWholeRunRecordForRecord) {
     ASSERT_EQ(run("whole").code, 0);
@@ -85,10 +92,11 @@ TEST_F(Shards, OfSeveralFoldersMergeToTheSameBytesInEveryOrder) {
 }
 
 TEST_F(Shards, WriteTheManifestFirstAndMeasureNothingWithItAlone) {
+    cache_ = folder_ / "cache";
     ASSERT_EQ(run("out", "--manifest").code, 0);
     EXPECT_EQ(manifest("out").size(), 12U);
     EXPECT_FALSE(fs::exists(folder_ / "out/cells"));
-    EXPECT_FALSE(fs::exists(folder_ / "cache")); // no truth either
+    EXPECT_FALSE(fs::exists(cache_)); // no truth either
 }
 
 TEST_F(Shards, RefuseOtherOptionsThanTheManifests) {
@@ -109,7 +117,7 @@ TEST_F(Shards, RefuseOtherOptionsThanTheManifests) {
     EXPECT_FALSE(fs::exists(folder_ / "out/cells"));
 }
 
-TEST_F(Shards, ThatAreNoneAreRefusedAndNothingIsWritten) {
+TEST_F(Shards, WithInvalidNumbersAreRefusedAndNothingIsWritten) {
     for (const char* part : {"--shard 3/2", "--shard 0/2", "--shard 1", "--shard ''", "--cell 0", "--cell 13",
                              "--shard 1/2 --cell 3", "--cell 3 --manifest"})
         EXPECT_EQ(run("out", part).code, 2) << part;
@@ -151,6 +159,7 @@ TEST_F(Shards, GetTheirInstructionsCellByCell) {
 }
 
 TEST_F(Shards, AreWorthARetryWhenAToolIsKilled) {
+    cache_ = folder_ / "cache"; // the tool is needed for what no cache has
     ASSERT_EQ(shell("mkdir " + (folder_ / "bin")).code, 0);
     const std::string tool =
         folder_.write("bin/povray", "#!/bin/sh\n"
