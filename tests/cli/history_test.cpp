@@ -40,6 +40,7 @@ protected:
         record.dirty = dirty;
         record.time = "2026-02-01T00:00:00Z";
         record.values["accuracy.leak"] = leak;
+        record.values["accuracy.primary_mismatch"] = 0;
         const std::string file = folder_ / "run/results.jsonl";
         writeRecords(file, {record});
         return file;
