@@ -44,7 +44,11 @@ TEST(ReferenceKey, ChangesWithEverythingThatMattersToTheTruth) {
         {"light kind", [](Request& r) { r.snapshot.light.kind = LightKind::Disk; }},
         {"light side", [](Request& r) { r.snapshot.light.u.x *= 2; }},
         {"vertex", [](Request& r) { ownMesh(r, 1).positions[3].y += 0.001F; }},
-        {"triangle", [](Request& r) { std::swap(ownMesh(r, 1).triangles[0], ownMesh(r, 1).triangles[1]); }},
+        {"triangle",
+         [](Request& r) {
+             Mesh& mesh = ownMesh(r, 1);
+             std::swap(mesh.triangles[0], mesh.triangles[1]);
+         }},
         {"placement", [](Request& r) { r.snapshot.batches[1].placements[1].world[3].z += 0.5; }},
         {"id", [](Request& r) { r.snapshot.batches[1].placements[1].id = 9; }},
         {"a placement less", [](Request& r) { r.snapshot.batches[1].placements.pop_back(); }},
