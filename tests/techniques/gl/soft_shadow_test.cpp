@@ -2,7 +2,7 @@
 #include "techniques/catalog.h"
 #include "techniques/contract/entry.h"
 #include "tests/support/models/temporal_soft.h"
-#include "tests/support/stages.h"
+#include "tests/support/soft_scenes.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -10,32 +10,12 @@
 namespace shadowbench {
 namespace {
 
-double rmsError(const Scene& scene, Stage& stage, const Image<float>& v) {
-    const metrics::Drawn drawn = stage.drawn();
-    double sum = 0;
-    std::size_t count = 0;
-    for (int y = 0; y < scene.size.y; ++y)
-        for (int x = 0; x < scene.size.x; ++x) {
-            if (drawn.id(x, y) != 1 || drawn.position(x, y).y < -0.001F) continue;
-            const double error = v(x, y) - halfPlaneVisibility(drawn.position(x, y));
-            sum += error * error;
-            ++count;
-        }
-    EXPECT_GT(count, 3000U);
-    return std::sqrt(sum / static_cast<double>(count));
+double rmsOf(Stage& stage, const std::string& variant, int frames = 1) {
+    return rmsError(slabPoints(stage, rendered(stage, variant, frames)));
 }
 
-/// Range of x on the slab over which V rises through `low` … `high`, along the picture's middle row.
-double penumbraWidth(const Scene& scene, Stage& stage, const Image<float>& v, float low, float high) {
-    const metrics::Drawn drawn = stage.drawn();
-    double from = 1e9, to = -1e9;
-    for (int y = 0; y < scene.size.y; ++y)
-        for (int x = 0; x < scene.size.x; ++x) {
-            if (drawn.id(x, y) != 1 || v(x, y) <= low || v(x, y) >= high) continue;
-            from = std::min(from, static_cast<double>(drawn.position(x, y).x));
-            to = std::max(to, static_cast<double>(drawn.position(x, y).x));
-        }
-    return to - from;
+double widthOf(Stage& stage, const std::string& variant, double low, double high) {
+    return widthBetween(slabPoints(stage, rendered(stage, variant)), low, high);
 }
 
 TEST(SampledMaps, ThePenumbraUnderAHalfPlaneIsLinear) {
@@ -43,16 +23,16 @@ TEST(SampledMaps, ThePenumbraUnderAHalfPlaneIsLinear) {
     Stage stage(scene);
     stage.show(0);
     // 256 samples step by 0.004; the rest is left to the map's texels.
-    EXPECT_LT(rmsError(scene, stage, rendered(stage, "sampled-maps:n=256")), 0.01);
+    EXPECT_LT(rmsOf(stage, "sampled-maps:n=256"), 0.01);
 }
 
 TEST(SampledMaps, ErrorFallsWithTheNumberOfSamples) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
     stage.show(0);
-    const double four = rmsError(scene, stage, rendered(stage, "sampled-maps:n=4"));
-    const double sixteen = rmsError(scene, stage, rendered(stage, "sampled-maps:n=16"));
-    const double sixtyFour = rmsError(scene, stage, rendered(stage, "sampled-maps:n=64"));
+    const double four = rmsOf(stage, "sampled-maps:n=4");
+    const double sixteen = rmsOf(stage, "sampled-maps:n=16");
+    const double sixtyFour = rmsOf(stage, "sampled-maps:n=64");
     EXPECT_LT(sixteen, 0.4 * four); // regular in x, across the edge: 1/n until the texels' own error shows
     EXPECT_LT(sixtyFour, 0.7 * sixteen);
 }
@@ -70,9 +50,9 @@ TEST(Pcss, PenumbraUnderAParallelBlockerHasTheWidthOfSimilarTriangles) {
     Stage stage(scene);
     stage.show(0);
     const double truth = 1.5 * 2 / 4; // light size · (receiver − blocker) / blocker
-    EXPECT_NEAR(rmsError(scene, stage, rendered(stage, "pcss:taps=32+32")), 0, 0.06);
+    EXPECT_NEAR(rmsOf(stage, "pcss:taps=32+32"), 0, 0.06);
     // 32 taps give steps of 1/32 or more: the inner 60 % of the ramp is known to a tenth.
-    EXPECT_NEAR(penumbraWidth(scene, stage, rendered(stage, "pcss:taps=32+32"), 0.2F, 0.8F), 0.6 * truth, 0.1 * truth);
+    EXPECT_NEAR(widthOf(stage, "pcss:taps=32+32", 0.2, 0.8), 0.6 * truth, 0.1 * truth);
 }
 
 TEST(Pcss, HardensAtContact) {
@@ -82,8 +62,7 @@ TEST(Pcss, HardensAtContact) {
     Stage nearStage(near), farStage(far);
     nearStage.show(0);
     farStage.show(0);
-    EXPECT_LT(penumbraWidth(near, nearStage, rendered(nearStage, "pcss"), 0.05F, 0.95F),
-              0.4 * penumbraWidth(far, farStage, rendered(farStage, "pcss"), 0.05F, 0.95F));
+    EXPECT_LT(widthOf(nearStage, "pcss", 0.05, 0.95), 0.4 * widthOf(farStage, "pcss", 0.05, 0.95));
 }
 
 TEST(TemporalSoft, ConvergesToTheTruthWhileTheCameraStandsStill) {
@@ -91,9 +70,9 @@ TEST(TemporalSoft, ConvergesToTheTruthWhileTheCameraStandsStill) {
     Stage stage(scene);
     stage.show(0);
     // The display filter is switched off (threshold 1) so that the estimator itself is measured.
-    const double ten = rmsError(scene, stage, rendered(stage, "temporal-soft:threshold=1", 10));
-    const double sixty = rmsError(scene, stage, rendered(stage, "temporal-soft:threshold=1", 60));
-    const double many = rmsError(scene, stage, rendered(stage, "temporal-soft:threshold=1", 250));
+    const double ten = rmsOf(stage, "temporal-soft:threshold=1", 10);
+    const double sixty = rmsOf(stage, "temporal-soft:threshold=1", 60);
+    const double many = rmsOf(stage, "temporal-soft:threshold=1", 250);
     EXPECT_LT(sixty, 0.5 * ten);
     EXPECT_LT(many, sixty);
     EXPECT_LT(many, 0.015);
@@ -123,16 +102,14 @@ TEST(TemporalSoft, StartsFromPcss) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
     stage.show(0);
-    EXPECT_LT(rmsError(scene, stage, rendered(stage, "temporal-soft", 1)),
-              0.6 * rmsError(scene, stage, rendered(stage, "temporal-soft:start=0,threshold=1", 1)));
+    EXPECT_LT(rmsOf(stage, "temporal-soft", 1), 0.6 * rmsOf(stage, "temporal-soft:start=0,threshold=1"));
 }
 
 TEST(TemporalSoft, TheDisplayFilterSmoothsTheFirstFramesOnly) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
     stage.show(0);
-    EXPECT_LT(rmsError(scene, stage, rendered(stage, "temporal-soft:start=0", 3)),
-              rmsError(scene, stage, rendered(stage, "temporal-soft:start=0,threshold=1", 3)));
+    EXPECT_LT(rmsOf(stage, "temporal-soft:start=0", 3), rmsOf(stage, "temporal-soft:start=0,threshold=1", 3));
 }
 
 TEST(TemporalSoft, AMovingCastersShadowIsTakenAnewEachFrame) {
