@@ -97,9 +97,10 @@ void writeFile(const fs::path& file, std::string_view content) {
 }
 
 void writeFileWith(const fs::path& file, const std::function<void(const fs::path&)>& write) {
-    std::error_code failure;
-    // Renaming would replace a device or a pipe by a file of the same name.
-    if (fs::exists(file, failure) && !fs::is_regular_file(file, failure))
+    std::error_code failure, ignored;
+    // Renaming would replace a device or a pipe by a file of the same name. Asked once: another process may remove it.
+    const fs::file_status there = fs::status(file, ignored);
+    if (fs::exists(there) && !fs::is_regular_file(there))
         failToWrite(file, "it exists and is not a regular file", Failure::Lasting);
     if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
     if (failure) failToWrite(file, failure.value());

@@ -17,8 +17,7 @@ namespace shadowbench {
 struct Placement {
     glm::dmat4 world;    // affine, world from object
     glm::dmat4 previous; // the same one frame earlier (equal to `world` in frame 0)
-    std::uint32_t
-        id; // surface id: the instance's number in the scene, from 1; 0 is background. Stable over frames and levels
+    std::uint32_t id; // of the surface: the instance's number in the scene, from 1, whatever frame and level; 0: background
 };
 
 /// All placements of one mesh.

@@ -1,10 +1,14 @@
 #include "base/error.h"
 #include "base/files.h"
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <gtest/gtest.h>
+#include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace shadowbench {
 namespace fs = std::filesystem;
@@ -72,6 +76,22 @@ TEST_F(Files, DoNotReplaceFoldersOrDevices) {
     EXPECT_TRUE(fs::is_directory(folder_));
     EXPECT_THROW(writeFile("/dev/full", "x"), InternalError);
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(Files, ThatOthersWriteAndRemoveAtTheSameTimeAreWritten) {
+    const fs::path file = folder_ / "shared";
+    std::atomic<bool> done = false;
+    std::thread remover([&] {
+        while (!done) fs::remove(file);
+    });
+    const auto writeOften = [&] {
+        for (int i = 0; i < 150; ++i) writeFile(file, "content"); // throws if it asks twice whether the file is there
+    };
+    std::vector<std::future<void>> writers;
+    for (int i = 0; i < 12; ++i) writers.push_back(std::async(std::launch::async, writeOften));
+    for (std::future<void>& writer : writers) EXPECT_NO_THROW(writer.get());
+    done = true;
+    remover.join();
 }
 
 TEST_F(Files, ThatCannotBeReadAreNamed) {
