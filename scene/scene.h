@@ -21,7 +21,8 @@ Profile profileNamed(std::string_view name); // throws BadInput naming the valid
 const std::vector<std::string>& profileNames();
 
 /// Key frames of a vector quantity: linear between them, constant outside; empty means "the rest value". Frames count from
-/// the last still frame of the timeline: everything is at rest before.
+/// the last still frame of the timeline: everything is at rest before, but for a camera that approaches
+/// (Timeline::approach), whose frames before the first still one are negative.
 struct Track {
     struct Key {
         double frame;
@@ -64,10 +65,12 @@ struct Object {
 };
 
 /// The frames a cell renders: `still` ones with everything at rest (history techniques converge over them; the last is the
-/// one that accuracy is scored on), then `moving` ones along the tracks (stability is scored on them).
+/// one that accuracy is scored on), then `moving` ones along the tracks (stability is scored on them). The still frames
+/// begin with an empty history, or with that of `approach` frames along the camera's track before them: −approach … −1.
 struct Timeline {
     int still = 60;
     int moving = 8;
+    int approach = 0;
     [[nodiscard]] int frames() const { return still + moving; }
 };
 
@@ -120,7 +123,7 @@ struct Scene {
 /// World from object of an instance after `frames` frames of its object's motion.
 glm::dmat4 placeAt(const Object& object, const Instance& instance, double frames);
 
-/// The scene at `frame`; levels of detail chosen by distance from the eye.
+/// The scene at `frame`, from −Timeline::approach; levels of detail chosen by distance from the eye.
 Snapshot snapshot(const Scene& scene, int frame);
 
 } // namespace shadowbench

@@ -7,8 +7,10 @@
 namespace shadowbench {
 namespace {
 
-/// Tracks and motion run on the moving frames only: everything is at rest up to the last still frame.
-double motionFrame(const Scene& scene, int frame) { return std::max(0, frame - (scene.timeline.still - 1)); }
+/// Tracks and motion run on the moving frames only, and before the still frames: everything is at rest on these.
+double motionFrame(const Scene& scene, int frame) {
+    return frame < 0 ? frame : std::max(0, frame - (scene.timeline.still - 1));
+}
 
 Camera cameraAt(const Scene& scene, double frame) {
     Camera camera = scene.camera;
@@ -67,7 +69,7 @@ glm::dmat4 placeAt(const Object& object, const Instance& instance, double frames
 
 Snapshot snapshot(const Scene& scene, int frame) {
     const double now = motionFrame(scene, frame);
-    const double before = motionFrame(scene, frame > 0 ? frame - 1 : 0);
+    const double before = motionFrame(scene, std::max(frame - 1, -scene.timeline.approach));
     Snapshot result{frame, cameraAt(scene, now), cameraAt(scene, before), lightAt(scene, now), {}};
 
     std::uint32_t id = 0;

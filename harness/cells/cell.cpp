@@ -161,6 +161,7 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed) {
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
                                      scene.timeline.still, scene.timeline.moving);
+    if (scene.timeline.approach > 0) inputs += fmt::format("approach {}\n", scene.timeline.approach);
     for (const int frame : truths.scoredFrames()) inputs += truths.key(mainTruth(variant), frame) + "\n";
     return hash128(inputs).text();
 }
@@ -178,7 +179,8 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     const Truth kind = mainTruth(variant);
     const int scored = scene.timeline.still - 1;
     const bool temporal = variant.entry->temporal;
-    stage.show(temporal ? 0 : scored); // the scene's own buffers, made for the first cell, are not the technique's
+    stage.show(temporal ? -scene.timeline.approach
+                        : scored); // the scene's own buffers, made for the first cell, are not the technique's
     const std::uint64_t bytesBefore = gl::Context::current().tally().bytes;
     const auto technique = variant.entry->make(variant.parameters);
 
@@ -186,9 +188,11 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     StillFrameScores still(truths.at(kind, scored), graded, kind == Truth::Hard);
     MovingFrameScores moving;
     std::uint64_t bytes = 0;
-    for (int frame = temporal ? 0 : scored; frame < scene.timeline.frames(); ++frame) {
-        if (frame == 0 || frame >= scored) stage.show(frame); // the still frames between are all the same
-        stage.render(*technique, frame, options.seed);
+    const int first = -scene.timeline.approach;
+    for (int frame = temporal ? first : scored; frame < scene.timeline.frames(); ++frame) {
+        if (frame <= 1 || frame >= scored) stage.show(frame); // the still frames between are all the same
+        stage.render(*technique, frame - first, options.seed);
+        if (frame < 0) continue;
         Image<float> v = stage.visibility();
         const Reference& truth = truths.at(kind, std::max(frame, scored));
         Mask mask = metrics::receiverMask(truth, stage.drawn(), stage.shown().camera.eye);
@@ -201,7 +205,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
             scoreStillFrame(scene, truths, variant, v, stage.drawn(), stage.shown().camera.eye, record);
             requireSamePrimaryHits(*record.values["accuracy.primary_mismatch"], scene, frame);
             record.figures =
-                techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame, options.seed)));
+                techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame - first, options.seed)));
             measureAliasing(*technique, stage, mask, record);
             images = {v, scene.light.isArea() ? &truths.at(Truth::Soft, frame) : &truth};
             bytes = gl::Context::current().tally().bytes - bytesBefore;
@@ -211,7 +215,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     moving.finish(record.values);
 
     stage.show(scored);
-    const int next = scene.timeline.frames(); // of the technique's sequence
+    const int next = scene.timeline.frames() - first; // of the technique's sequence
     setWork(record, timing::measureWork(stage, *technique, bytes, next, options.seed));
     if (options.time) setTime(record, timing::measureTime(stage, variant, *technique, next + 1, options.seed));
     record.status = Status::Scored;

@@ -22,6 +22,7 @@ void addReference(CLI::App& app, Action& action);
 void addSweep(CLI::App& app, Action& action);
 void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
+void addPapers(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addHistory(CLI::App& app, Action& action);

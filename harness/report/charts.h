@@ -16,6 +16,16 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
 /// without curves.
 std::optional<std::string> convergenceChart(const std::vector<Record>& records, const std::string& scene);
 
+/// A technique's error by frame; one number alone is a level over all frames.
+struct FramesCurve {
+    std::string name;
+    std::vector<double> values;
+};
+
+/// Errors over the frames, both logarithmic; nothing without curves. `error` is what the upright axis shows.
+std::optional<std::string> framesChart(const std::string& title, const std::string& error,
+                                       const std::vector<FramesCurve>& curves);
+
 /// Error of every technique over the quantity that a sweep moved, in the scene's tolerance metric (its headline metric if it
 /// states none), with the tolerance as a line. `records` are those of one sweep; nothing if none was scored. `logarithmic`:
 /// the quantity's axis is.

@@ -170,12 +170,14 @@ Object readObject(const TomlValue& value, int number, const glm::dvec3& eye, Mes
     return object;
 }
 
-Track readTrack(const TomlValue& path, const std::string& name) {
+Track readTrack(const TomlValue& path, const std::string& name, int first) {
     Track track;
-    double last = -1;
+    double last = first - 1;
     for (const TomlValue& key : path.list()) {
         const double frame = key.get("frame").number();
-        if (frame < 0 || frame <= last) key.get("frame").fail("frames must grow, from 0 (the last still frame)");
+        if (frame < first || frame <= last)
+            key.get("frame").fail(first < 0 ? fmt::format("frames must grow, from {} (the first of the approach)", first)
+                                            : "frames must grow, from 0 (the last still frame)");
         last = frame;
         if (const auto value = key.find(name)) track.keys.push_back({frame, value->vector()});
     }

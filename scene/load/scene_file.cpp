@@ -28,16 +28,17 @@ Track shifted(const Track& shift, const glm::dvec3& rest) {
     return track;
 }
 
-void readCameraPath(const TomlValue& path, const Camera& camera, Track& eye, Track& target) {
+/// Of keys from frame `first`.
+void readCameraPath(const TomlValue& path, const Camera& camera, int first, Track& eye, Track& target) {
     for (const TomlValue& key : path.list()) {
         key.only({"frame", "eye", "target", "shift"});
         if (key.find("shift").has_value() != path.list().front().find("shift").has_value())
             key.fail("give shift (of eye and target) in every key or in none");
         if (key.find("shift") && (key.find("eye") || key.find("target"))) key.fail("give either shift or eye and target");
     }
-    const Track shift = readTrack(path, "shift");
-    eye = shift.keys.empty() ? readTrack(path, "eye") : shifted(shift, camera.eye);
-    target = shift.keys.empty() ? readTrack(path, "target") : shifted(shift, camera.target);
+    const Track shift = readTrack(path, "shift", first);
+    eye = shift.keys.empty() ? readTrack(path, "eye", first) : shifted(shift, camera.eye);
+    target = shift.keys.empty() ? readTrack(path, "target", first) : shifted(shift, camera.target);
 }
 
 void readCamera(const TomlValue& value, Scene& scene) {
@@ -51,7 +52,8 @@ void readCamera(const TomlValue& value, Scene& scene) {
     camera.near = value.get("near").positive();
     camera.far = value.get("far").positive();
     if (!(camera.near < camera.far)) value.get("far").fail("expected more than near");
-    if (const auto path = value.find("path")) readCameraPath(*path, camera, scene.eye, scene.target);
+    if (const auto path = value.find("path"))
+        readCameraPath(*path, camera, -scene.timeline.approach, scene.eye, scene.target);
 }
 
 LightKind readKind(const TomlValue& value) {
@@ -111,9 +113,10 @@ glm::ivec2 usualSize(Profile profile) {
 }
 
 void readTimeline(const TomlValue& value, Timeline& timeline) {
-    value.only({"still", "moving"});
+    value.only({"still", "moving", "approach"});
     if (const auto still = value.find("still")) timeline.still = still->integer(1, kMostFrames);
     if (const auto moving = value.find("moving")) timeline.moving = moving->integer(0, kMostFrames);
+    if (const auto approach = value.find("approach")) timeline.approach = approach->integer(0, kMostFrames);
 }
 
 void readObjects(const TomlValue& root, Scene& scene, const fs::path& file) {
@@ -144,7 +147,7 @@ LodWalk readLodWalk(const TomlValue& value, const Camera& camera) {
     walk.frames = value.get("frames").integer(2, kMostFrames);
     walk.band = value.get("band").positive();
     if (walk.band > 1) value.get("band").fail("expected a share of the distance, at most 1");
-    if (const auto path = value.find("path")) readCameraPath(*path, camera, walk.eye, walk.target);
+    if (const auto path = value.find("path")) readCameraPath(*path, camera, 0, walk.eye, walk.target);
     return walk;
 }
 
@@ -193,9 +196,9 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile, c
     if (const auto samples = root.find("reference_samples")) scene.referenceSamples = samples->integer(1, kMostSamples);
     if (const auto samples = root.find("moving_reference_samples"))
         scene.movingReferenceSamples = samples->integer(1, kMostSamples);
+    if (const auto timeline = root.find("timeline")) readTimeline(*timeline, scene.timeline);
     readCamera(root.get("camera"), scene);
     readLight(root.get("light"), scene);
-    if (const auto timeline = root.find("timeline")) readTimeline(*timeline, scene.timeline);
     if (const auto tolerance = root.find("tolerance")) scene.tolerance = readTolerances(*tolerance, metrics);
     if (const auto expect = root.find("expect")) readExpectations(*expect, metrics, scene);
     readObjects(root, scene, file);

@@ -34,8 +34,8 @@ private:
 /// One `[[object]]`; `eye` is where scattered instances keep clear of. `number` counts from 1.
 Object readObject(const TomlValue& value, int number, const glm::dvec3& eye, MeshStore& meshes);
 
-/// A list of key frames, `[{ frame = 0, <name> = [x, y, z] }, …]`; keys without `name` are left out.
-Track readTrack(const TomlValue& path, const std::string& name);
+/// A list of key frames, `[{ frame = 0, <name> = [x, y, z] }, …]`, none before `first`; keys without `name` are left out.
+Track readTrack(const TomlValue& path, const std::string& name, int first = 0);
 
 /// `[tolerance]`: metric name → worst value that a viewer accepts. `metrics`: the names that a bound can have; empty: any.
 std::map<std::string, double> readTolerances(const TomlValue& value, const std::vector<std::string>& metrics);

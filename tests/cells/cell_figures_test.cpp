@@ -24,5 +24,19 @@ TEST(CellRecord, HasTheFiguresAndTheTexelsOfItsTechnique) {
     EXPECT_GT(silhouette.figures.at("silhouette_branch"), 0);
 }
 
+TEST(CellRecord, AnApproachFillsTheHistory) {
+    CellScene& approached = stillScene("turned-camera");
+    EXPECT_EQ(approached.scene().timeline.approach, 0); // the test's timeline
+    Scene scene = loadScene("turned-camera", Profile::Gate);
+    scene.timeline.still = 60;
+    CellScene turned(scene);
+    const std::vector<double> empty = approached.scored("sm-history").values.list("stability.by_frame.bad30");
+    const std::vector<double> filled = turned.scored("sm-history").values.list("stability.by_frame.bad30");
+    ASSERT_EQ(empty.size(), 60U);
+    ASSERT_EQ(filled.size(), 60U); // the approach is not scored
+    EXPECT_LT(filled.front(), 0.7 * empty.front());
+    EXPECT_NEAR(filled.back(), empty.back(), 0.2 * empty.back()); // sixty frames later it is forgotten
+}
+
 } // namespace
 } // namespace shadowbench

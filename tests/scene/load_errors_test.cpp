@@ -89,6 +89,10 @@ const std::vector<Mistake>& mistakes() {
          withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60, path = [{ frame = 3, eye = "
                     "[0, 2, 6] }, { frame = 3, eye = [0, 2, 7] }]"),
          "scenes/x.toml:2: camera.path[2].frame: frames must grow"},
+        {"PathBeforeTheStillFrames",
+         withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60, path = [{ frame = -1, eye = "
+                    "[0, 2, 6] }, { frame = 0, eye = [0, 2, 7] }]"),
+         "scenes/x.toml:2: camera.path[1].frame: frames must grow, from 0 (the last still frame)"},
         {"ShiftAndEyeInAPath",
          withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = 60, path = [{ frame = 3, eye = "
                     "[0, 2, 6], shift = [1, 0, 0] }]"),

@@ -119,6 +119,22 @@ std::set<std::uint32_t> idsOf(const Snapshot& frame) {
     return ids;
 }
 
+TEST(SceneSnapshot, TheApproachLeadsToTheStillFrames) {
+    std::string text = kMoving;
+    text.replace(text.find("still = 5"), 9, "approach = 4\nstill = 5");
+    text.replace(text.find("{ frame = 0, eye = [0, 2, 30] }"), 31,
+                 "{ frame = -4, eye = [0, 2, 46] }, { frame = 0, eye = [0, 2, 30] }");
+    const Scene scene = parseScene(text, "moving.toml", Profile::Gate);
+    EXPECT_EQ(snapshot(scene, -4).camera.eye, glm::dvec3(0, 2, 46));
+    EXPECT_EQ(snapshot(scene, -4).previousCamera.eye, glm::dvec3(0, 2, 46)); // there is none before
+    EXPECT_EQ(snapshot(scene, -1).camera.eye, glm::dvec3(0, 2, 34));
+    EXPECT_EQ(snapshot(scene, 0).camera.eye, glm::dvec3(0, 2, 30));
+    EXPECT_EQ(snapshot(scene, 0).previousCamera.eye, glm::dvec3(0, 2, 34));
+    EXPECT_EQ(snapshot(scene, 1).previousCamera.eye, glm::dvec3(0, 2, 30));
+    EXPECT_EQ(snapshot(scene, 4).camera.eye, glm::dvec3(0, 2, 30)); // the last still frame
+    EXPECT_EQ(snapshot(scene, 8).camera.eye, glm::dvec3(0, 2, 6));
+}
+
 const Placement& placementOf(const Snapshot& frame, std::uint32_t id) {
     for (const Batch& batch : frame.batches)
         for (const Placement& placement : batch.placements)

@@ -1,11 +1,10 @@
+// Verdicts on claims, from records.
 #include "harness/studies/claims/claims.h"
 
-#include "base/error.h"
-#include "embedded_claims.h"
-
 #include <algorithm>
-#include <fmt/format.h>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace shadowbench {
@@ -13,104 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-[[noreturn]] void refuse(const std::string& claim, const std::string& complaint) {
-    throw BadInput(fmt::format("reading claims: {}: {}", claim.empty() ? "a claim without id" : claim, complaint));
-}
-
-/// The members of one object; unknown and missing keys are errors.
-class Members {
-public:
-    Members(const Json& object, std::string claim, std::vector<std::string> known)
-        : object_(object), claim_(std::move(claim)) {
-        if (!object.is_object()) refuse(claim_, "an object is expected, not " + object.dump());
-        for (const auto& [key, value] : object.items())
-            if (std::ranges::find(known, key) == known.end()) refuse(claim_, fmt::format("\"{}\" is no key", key));
-    }
-
-    [[nodiscard]] std::string text(const char* key) const {
-        const Json& value = get(key);
-        if (!value.is_string()) refuse(claim_, fmt::format("\"{}\" must be text", key));
-        return value.get<std::string>();
-    }
-    [[nodiscard]] double number(const char* key) const {
-        const Json& value = get(key);
-        if (!value.is_number()) refuse(claim_, fmt::format("\"{}\" must be a number", key));
-        return value.get<double>();
-    }
-    [[nodiscard]] bool has(const char* key) const { return object_.contains(key); }
-    [[nodiscard]] const Json& get(const char* key) const {
-        if (!has(key)) refuse(claim_, fmt::format("\"{}\" is missing", key));
-        return object_[key];
-    }
-
-private:
-    const Json& object_;
-    std::string claim_;
-};
-
-/// Scene, variant and metric; no place on an axis.
-Figure parseFigureAnywhere(const Members& members, const std::string& claim) {
-    Figure figure{members.text("scene"), members.text("variant"), members.text("metric"), "", {}, {}};
-    if (!members.has("over")) return figure;
-    const Members over(members.get("over"), claim, {"variant", "metric"});
-    figure.over = Figure::Divisor{over.text("variant"), over.text("metric")};
-    return figure;
-}
-
-Figure parseFigure(const Json& json, const std::string& claim) {
-    const Members members(json, claim, {"scene", "variant", "metric", "over", "axis", "value"});
-    Figure figure = parseFigureAnywhere(members, claim);
-    if (members.has("axis")) {
-        figure.axis = members.text("axis");
-        figure.value = members.number("value");
-    }
-    return figure;
-}
-
-/// A check that a figure grows over an axis.
-Check parseGrowth(const Json& json, const std::string& claim) {
-    const Members members(json, claim, {"says", "left", "grows over"});
-    const Members left(members.get("left"), claim, {"scene", "variant", "metric", "over", "axis"});
-    Check check{members.text("says"), parseFigureAnywhere(left, claim), true, 1, {}, {}};
-    check.left.axis = left.text("axis");
-    const Json& places = members.get("grows over");
-    if (!places.is_array() || places.size() < 2) refuse(claim, "\"grows over\" must list two values of the axis or more");
-    for (const Json& place : places) {
-        if (!place.is_number()) refuse(claim, "\"grows over\" must list numbers");
-        check.growsOver.push_back(place.get<double>());
-    }
-    return check;
-}
-
-Check parseCheck(const Json& json, const std::string& claim) {
-    if (json.is_object() && json.contains("grows over")) return parseGrowth(json, claim);
-    const Members members(json, claim, {"says", "left", "is", "times", "right", "bound"});
-    Check check{members.text("says"), parseFigure(members.get("left"), claim), true, 1, {}, {}};
-    const std::string is = members.text("is");
-    if (is != "at most" && is != "at least")
-        refuse(claim, fmt::format("\"is\" must be \"at most\" or \"at least\", not \"{}\"", is));
-    check.atMost = is == "at most";
-    if (members.has("bound") == members.has("right")) refuse(claim, "a check has either \"right\" or \"bound\"");
-    if (members.has("right")) check.right = parseFigure(members.get("right"), claim);
-    if (members.has("bound"))
-        check.factor = members.number("bound");
-    else if (members.has("times"))
-        check.factor = members.number("times");
-    return check;
-}
-
-Claim parseClaim(const Json& json) {
-    const std::string id =
-        json.is_object() && json.contains("id") && json["id"].is_string() ? json["id"].get<std::string>() : "";
-    const Members members(json, id, {"id", "says", "where", "checks", "untestable"});
-    Claim claim{members.text("id"), members.text("says"), members.text("where"), {}, ""};
-    if (members.has("untestable") == members.has("checks")) refuse(id, "a claim has either \"checks\" or \"untestable\"");
-    if (members.has("untestable")) claim.untestable = members.text("untestable");
-    if (members.has("checks"))
-        for (const Json& check : members.get("checks")) claim.checks.push_back(parseCheck(check, id));
-    if (claim.checks.empty() && claim.untestable.empty()) refuse(id, "\"checks\" is empty");
-    return claim;
-}
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool matches(const Record& record, const Figure& figure) {
     if (record.scene != figure.scene || record.sweep.has_value() != figure.value.has_value()) return false;
@@ -119,26 +21,44 @@ bool matches(const Record& record, const Figure& figure) {
            record.sweep->curve == figure.variant;
 }
 
-std::optional<double> numberAt(const Record& record, const std::string& path) {
+/// The number in brackets that a path ends with; 0 if it ends with none.
+std::size_t frameOf(const std::string& path) {
+    const std::size_t bracket = path.find('[');
+    return bracket == std::string::npos ? 0 : std::stoul(path.substr(bracket + 1));
+}
+
+/// What stands at a path of the record, whose keys are joined by dots; null if nothing does.
+Json valueAt(const Record& record, const std::string& path) {
     Json json = Json::parse(toJson(record));
-    for (std::size_t start = 0; start <= path.size();) {
-        const std::size_t end = std::min(path.find('.', start), path.size());
-        const std::string key = path.substr(start, end - start);
-        if (!json.is_object() || !json.contains(key)) return std::nullopt;
+    const std::string keys = path.substr(0, path.find('['));
+    for (std::size_t start = 0; start <= keys.size();) {
+        const std::size_t end = std::min(keys.find('.', start), keys.size());
+        const std::string key = keys.substr(start, end - start);
+        if (!json.is_object() || !json.contains(key)) return {};
         Json inner = std::move(json[key]);
         json = std::move(inner);
         start = end + 1;
     }
+    const std::size_t frame = frameOf(path);
+    if (frame == 0) return json;
+    return json.is_array() && frame <= json.size() ? json[frame - 1] : Json();
+}
+
+std::optional<double> numberIn(const Json& json) {
     return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
 }
 
-std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& records) {
-    const auto record = std::ranges::find_if(records, [&](const Record& r) { return matches(r, figure); });
-    const std::optional<double> number = record == records.end() ? std::nullopt : numberAt(*record, figure.metric);
-    if (!number || !figure.over) return number;
-    const Figure divisor{figure.scene, figure.over->variant, figure.over->metric, figure.axis, figure.value, {}};
-    const std::optional<double> divided = lookUp(divisor, records);
-    return divided && *divided != 0 ? std::optional(*number / *divided) : std::nullopt;
+/// The frame, counted from 1, from which on all numbers are at most `bound`.
+std::optional<double> settledFrom(const Json& list, double bound) {
+    if (!list.is_array() || list.empty()) return std::nullopt;
+    std::size_t restless = list.size(); // frames up to the last that exceeds the bound
+    while (restless > 0 && list[restless - 1].get<double>() <= bound) --restless;
+    return restless == list.size() ? infinity : static_cast<double>(restless + 1);
+}
+
+std::optional<double> numberOf(const Figure& figure, const Record& record) {
+    const Json value = valueAt(record, figure.metric);
+    return figure.settles ? settledFrom(value, *figure.settles) : numberIn(value);
 }
 
 Finding examineGrowth(const Check& check, const std::vector<Record>& records) {
@@ -153,8 +73,26 @@ Finding examineGrowth(const Check& check, const std::vector<Record>& records) {
     return finding;
 }
 
+Finding examineOrder(const Check& check, const std::vector<Record>& records) {
+    Finding finding;
+    std::vector<double> ours, theirs;
+    for (const Published& row : check.published) {
+        Figure figure = check.left;
+        figure.variant = row.variant;
+        finding.places.push_back(lookUp(figure, records));
+        if (!finding.places.back()) continue;
+        ours.push_back(*finding.places.back());
+        theirs.push_back(row.number);
+    }
+    if (ours.size() < check.published.size()) return finding;
+    finding.left = rankCorrelation(ours, theirs);
+    if (finding.left) finding.holds = *finding.left >= check.factor;
+    return finding;
+}
+
 Finding examine(const Check& check, const std::vector<Record>& records) {
     if (!check.growsOver.empty()) return examineGrowth(check, records);
+    if (!check.published.empty()) return examineOrder(check, records);
     Finding finding{lookUp(check.left, records), {}, {}};
     if (check.right) finding.right = lookUp(*check.right, records);
     if (!finding.left || (check.right && !finding.right)) return finding;
@@ -170,7 +108,30 @@ Verdict verdictOf(const std::vector<Finding>& findings) {
     return held == std::ssize(findings) ? Verdict::Reproduced : Verdict::Partly;
 }
 
+/// The place of each number among all, from 1; equal ones have the mean of their places.
+std::vector<double> meanRanks(const std::vector<double>& numbers) {
+    std::vector<double> ranks;
+    for (const double number : numbers) {
+        const auto below = std::ranges::count_if(numbers, [&](double other) { return other < number; });
+        const auto equal = std::ranges::count(numbers, number);
+        ranks.push_back(static_cast<double>(below) + 0.5 * static_cast<double>(equal + 1));
+    }
+    return ranks;
+}
+
 } // namespace
+
+std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& records) {
+    const auto record = std::ranges::find_if(records, [&](const Record& r) { return matches(r, figure); });
+    const std::optional<double> number = record == records.end() ? std::nullopt : numberOf(figure, *record);
+    if (!number || !figure.over) return number;
+    Figure divisor = figure;
+    divisor.variant = figure.over->variant;
+    divisor.metric = figure.over->metric;
+    divisor.over.reset();
+    const std::optional<double> divided = lookUp(divisor, records);
+    return divided && *divided != 0 ? std::optional(*number / *divided) : std::nullopt;
+}
 
 std::string_view name(Verdict verdict) {
     switch (verdict) {
@@ -188,17 +149,16 @@ std::string_view name(Verdict verdict) {
     return "";
 }
 
-const std::vector<Claim>& claims() {
-    static const std::vector<Claim> all = parseClaims(embedded::claims().front().text);
-    return all;
-}
-
-std::vector<Claim> parseClaims(std::string_view json) {
-    const Json list = Json::parse(json, nullptr, false);
-    if (!list.is_array()) throw BadInput("reading claims: not a JSON list");
-    std::vector<Claim> result;
-    for (const Json& claim : list) result.push_back(parseClaim(claim));
-    return result;
+std::optional<double> rankCorrelation(const std::vector<double>& ours, const std::vector<double>& theirs) {
+    const std::vector<double> a = meanRanks(ours), b = meanRanks(theirs);
+    const double middle = 0.5 * static_cast<double>(a.size() + 1);
+    double ab = 0, aa = 0, bb = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ab += (a[i] - middle) * (b[i] - middle);
+        aa += (a[i] - middle) * (a[i] - middle);
+        bb += (b[i] - middle) * (b[i] - middle);
+    }
+    return aa > 0 && bb > 0 ? std::optional(ab / std::sqrt(aa * bb)) : std::nullopt;
 }
 
 Judgement judge(const Claim& claim, const std::vector<Record>& records) {

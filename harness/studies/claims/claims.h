@@ -16,14 +16,24 @@ struct Figure {
         std::string variant, metric;
     };
     std::string scene, variant;
-    std::string metric;          // path in the record: "accuracy.mismatch", "cost.time.ratio", "figures.overshoot"
+    // Path in the record: "accuracy.mismatch", "cost.time.ratio", "figures.overshoot"; of a list, which has a number for
+    // each frame, one of them, counted from 1 ("stability.by_frame.rmse[20]"), or with `settles` all.
+    std::string metric;
     std::string axis;            // of a sweep's record, else empty …
     std::optional<double> value; // … and the place on it
     std::optional<Divisor> over;
+    std::optional<double> settles; // of a list: the frame from which on it is at most this; infinite if the last is not
+};
+
+/// A variant and the number that the document gives for it.
+struct Published {
+    std::string variant;
+    double number;
 };
 
 /// left ≤ factor × right, or left ≥ factor × right; without `right`, `factor` alone is the bound. With `growsOver` instead:
-/// left is larger at each of these places on its axis than at the one before.
+/// left is larger at each of these places on its axis than at the one before. With `published` instead: Spearman's rank
+/// correlation (ties at their mean rank) between these numbers and ours of left's scene and metric is at least `factor`.
 struct Check {
     std::string says; // in words
     Figure left;
@@ -31,6 +41,7 @@ struct Check {
     double factor = 1;
     std::optional<Figure> right;
     std::vector<double> growsOver;
+    std::vector<Published> published;
 };
 
 struct Claim {
@@ -45,7 +56,7 @@ struct Claim {
 struct Finding {
     std::optional<double> left, right;
     std::optional<bool> holds;
-    std::vector<std::optional<double>> places = {}; // left at the places of `Check::growsOver`
+    std::vector<std::optional<double>> places = {}; // left at the places of `Check::growsOver`, or of `Check::published`
 };
 
 enum class Verdict { Reproduced, Partly, NotReproduced, NotTestable, NotMeasured };
@@ -62,6 +73,13 @@ const std::vector<Claim>& claims();
 
 /// Throws BadInput naming claim and key for what is no list of claims.
 std::vector<Claim> parseClaims(std::string_view json);
+
+/// Spearman's rank correlation: Pearson's of the ranks, equal numbers having the mean of their ranks. Nothing for fewer than
+/// two pairs, and where all numbers of one side are equal. The two are equally long.
+std::optional<double> rankCorrelation(const std::vector<double>& ours, const std::vector<double>& theirs);
+
+/// The number that a figure names; nothing where the record is missing or has none.
+std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& records);
 
 Judgement judge(const Claim& claim, const std::vector<Record>& records);
 

@@ -2,6 +2,7 @@
 #include "harness/report/summary.h"
 #include "harness/studies/claims/claims.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -12,13 +13,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string described(const Figure& figure) {
-    const std::string at = figure.value ? fmt::format(" at {} {:g}", figure.axis, *figure.value) : "";
+    std::string at = figure.value ? fmt::format(" at {} {:g}", figure.axis, *figure.value) : "";
+    if (figure.settles) at += fmt::format(", frame from which it stays ≤ {:g}", *figure.settles);
     const std::string over = figure.over ? fmt::format(" over {} of {}", figure.over->metric, figure.over->variant) : "";
     return fmt::format("{} of {}{} on {}{}", figure.metric, figure.variant, over, figure.scene, at);
 }
 
 std::string valued(const Figure& figure, const std::optional<double>& value) {
-    return described(figure) + (value ? fmt::format(" = {:.4g}", *value) : " is missing");
+    if (!value) return described(figure) + " is missing";
+    return described(figure) + (std::isinf(*value) ? " = none" : fmt::format(" = {:.4g}", *value));
 }
 
 std::string outcome(const Finding& finding) { return !finding.holds ? "not measured" : *finding.holds ? "yes" : "no"; }
@@ -32,9 +35,21 @@ std::string describedGrowth(const Check& check, const Finding& finding) {
                        fmt::join(check.growsOver, ", "), fmt::join(values, ", "), outcome(finding));
 }
 
+/// "accuracy.rmse on s, theirs and ours: a 57.2, 55.1; b 88.1, 87: rank correlation 1 ≥ 0.9: yes".
+std::string describedOrder(const Check& check, const Finding& finding) {
+    std::vector<std::string> rows;
+    for (std::size_t i = 0; i < check.published.size(); ++i)
+        rows.push_back(fmt::format("{} {:g}, {}", check.published[i].variant, check.published[i].number,
+                                   finding.places[i] ? fmt::format("{:.4g}", *finding.places[i]) : "missing"));
+    const std::string correlation = finding.left ? fmt::format(" {:.3f} ≥ {:g}", *finding.left, check.factor) : "";
+    return fmt::format("{} on {}, theirs and ours: {}: rank correlation{}: {}", check.left.metric, check.left.scene,
+                       fmt::join(rows, "; "), correlation, outcome(finding));
+}
+
 /// "accuracy.mismatch of a on s = 0.0147 ≤ 0.5 × accuracy.mismatch of b on s = 0.0169: no".
 std::string described(const Check& check, const Finding& finding) {
     if (!check.growsOver.empty()) return describedGrowth(check, finding);
+    if (!check.published.empty()) return describedOrder(check, finding);
     const std::string sign = check.atMost ? "≤" : "≥";
     const std::string right = check.right ? fmt::format("{:g} × {}", check.factor, valued(*check.right, finding.right))
                                           : fmt::format("{:g}", check.factor);
@@ -66,8 +81,8 @@ Json asJson(const Judgement& judgement) {
     for (std::size_t i = 0; i < claim.checks.size(); ++i) {
         const Finding& finding = judgement.findings[i];
         Json check{{"says", claim.checks[i].says}, {"test", described(claim.checks[i], finding)}};
-        if (finding.left) check["left"] = *finding.left;
-        if (finding.right) check["right"] = *finding.right;
+        if (finding.left) check["left"] = std::isinf(*finding.left) ? Json("none") : Json(*finding.left);
+        if (finding.right) check["right"] = std::isinf(*finding.right) ? Json("none") : Json(*finding.right);
         for (const std::optional<double>& value : finding.places) check["places"].push_back(value ? Json(*value) : Json());
         if (finding.holds) check["holds"] = *finding.holds;
         checks.push_back(std::move(check));

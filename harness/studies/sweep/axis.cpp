@@ -105,6 +105,11 @@ void setCasters(Scene& scene, double count) {
     std::erase_if(scene.objects, [](const Object& object) { return object.instances.empty(); });
 }
 
+void setStillFrames(Scene& scene, double frames) {
+    if (!(frames >= 1)) throw BadInput(fmt::format("{:g} still frames were asked for; one at least is scored", frames));
+    scene.timeline.still = static_cast<int>(frames);
+}
+
 /// Shapes stay the same, so the truth does.
 void setTessellation(Scene& scene, double times) {
     if (times < 0 || times > 6) throw BadInput(fmt::format("triangles can be quartered 0 to 6 times, not {:g}", times));
@@ -158,6 +163,13 @@ const std::array allAxes{
          false,
          true,
          setTessellation},
+    Axis{"still-frames",
+         "frames",
+         "still frames, of which the last is scored: techniques that keep a history converge over them",
+         {1, 2, 4, 8, 15, 30, 60, 120, 240},
+         true,
+         true,
+         setStillFrames},
     Axis{"map", "texels", "side of the shadow map", {4096, 2048, 1024, 512, 256, 128, 64}, true, true, {}},
     Axis{"units",
          "",

@@ -60,6 +60,11 @@ public:
         std::swap(history_->read, history_->write);
     }
 
+    [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
+        const double pixels = static_cast<double>(frame.size.x) * frame.size.y;
+        return {{"history_bytes", static_cast<double>(history_->read.bytes() + history_->write.bytes()) / pixels}};
+    }
+
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(light_, world, glm::dvec2(map_.side()));
     }
@@ -108,6 +113,7 @@ Entry smHistory() {
             .answer = Answer::Hard,
             .temporal = true,
             .parameters = std::move(parameters),
+            .figures = {{"history_bytes", "bytes of history and depth for a pixel of the image, both buffers"}},
             .variants = {"", "m=15,step=0", "base=uniform", "filter=pcf"},
             .costBase = [](const Parameters& p) { return "sm-" + p.text("base") + ":map=" + p.text("map"); },
             .make = [](const Parameters& p) { return std::make_unique<History>(p); }};

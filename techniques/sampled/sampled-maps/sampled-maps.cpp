@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <optional>
+#include <set>
 
 namespace shadowbench::techniques {
 namespace {
@@ -31,6 +32,14 @@ public:
         }
         mean_.set("sum", *sum_).set("count", static_cast<float>(count_));
         resolve(frame, {&visibility}, mean_);
+    }
+
+    [[nodiscard]] std::map<std::string, double> figures(const Frame&) const override {
+        const Image<float> sum = gl::RenderTarget({&*sum_}).readFloat(0);
+        std::set<float> levels(sum.begin(), sum.end());
+        levels.erase(0);
+        levels.erase(static_cast<float>(count_));
+        return {{"levels", static_cast<double>(levels.size())}};
     }
 
 private:
@@ -79,6 +88,7 @@ Entry sampledMaps() {
             .source = {Document::Dissertation, "2.3.5, eq. 4.2"},
             .answer = Answer::Soft,
             .parameters = std::move(parameters),
+            .figures = {{"levels", "different visibilities in the image between umbra and light"}},
             .variants = {"", "n=256"},
             .make = [](const Parameters& p) { return std::make_unique<SampledMaps>(p); }};
 }

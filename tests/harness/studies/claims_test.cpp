@@ -3,6 +3,7 @@
 #include "harness/studies/claims/claims.h"
 #include "tests/support/records_examples.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace shadowbench {
@@ -105,6 +106,48 @@ TEST(Claims, GrowthIsStrictAndNeedsEveryPlace) {
               std::string::npos);
 }
 
+TEST(Claims, AListIsReadAtAFrameOrWhereItSettles) {
+    Record record = with("a", 0.1);
+    record.values.list("stability.by_frame.rmse") = {0.5, 0.1, 0.3, 0.2, 0.1};
+    const auto judged = [&](const std::string& rest, const std::string& is, double bound) {
+        return verdict(claim(fmt::format(R"({{"says": "s", "left": {{"scene": "dueling-frusta", "variant": "a", "metric": )"
+                                         R"("stability.by_frame.rmse{}}}, "is": "{}", "bound": {}}})",
+                                         rest, is, bound)),
+                       {record});
+    };
+    EXPECT_EQ(judged("[3]\"", "at least", 0.3), Verdict::Reproduced);
+    EXPECT_EQ(judged("[3]\"", "at most", 0.29), Verdict::NotReproduced);
+    EXPECT_EQ(judged("[6]\"", "at most", 1), Verdict::NotMeasured);
+    EXPECT_EQ(judged("\"", "at most", 1), Verdict::NotMeasured);                  // a list is no number
+    EXPECT_EQ(judged("\", \"settles\": 0.2", "at most", 4), Verdict::Reproduced); // frame 2 was there before, and left again
+    EXPECT_EQ(judged("\", \"settles\": 0.2", "at most", 3), Verdict::NotReproduced);
+    EXPECT_EQ(judged("\", \"settles\": 0.6", "at most", 1), Verdict::Reproduced);
+    EXPECT_EQ(judged("\", \"settles\": 0.05", "at most", 1000), Verdict::NotReproduced); // never
+    EXPECT_EQ(judged("\", \"settles\": 0.05", "at least", 1000), Verdict::Reproduced);
+}
+
+TEST(Claims, RankCorrelationIsSpearmansWithMeanRanks) {
+    EXPECT_NEAR(*rankCorrelation({1, 2, 3, 4}, {10, 20, 30, 40}), 1, 1e-12);
+    EXPECT_NEAR(*rankCorrelation({1, 2, 3, 4}, {4, 3, 2, 1}), -1, 1e-12);
+    EXPECT_NEAR(*rankCorrelation({1, 2, 3}, {1, 3, 2}), 0.5, 1e-12);     // 1 − 6 Σd² / (n (n² − 1))
+    EXPECT_NEAR(*rankCorrelation({5, 5, 9}, {1, 2, 3}), 0.866025, 1e-6); // ranks 1½, 1½, 3
+    EXPECT_FALSE(rankCorrelation({5, 5}, {1, 2}));
+    EXPECT_FALSE(rankCorrelation({5}, {1}));
+}
+
+TEST(Claims, AnOrderIsComparedWithThePublishedOne) {
+    const std::string order = claim(R"({"says": "s", "scene": "dueling-frusta", "metric": "accuracy.mismatch", )"
+                                    R"("published": {"a": 90, "b": 80, "c": 70}, "rank correlation at least": 0.9})");
+    EXPECT_EQ(verdict(order, {with("a", 0.9), with("b", 0.5), with("c", 0.1)}), Verdict::Reproduced);
+    EXPECT_EQ(verdict(order, {with("a", 0.5), with("b", 0.9), with("c", 0.1)}), Verdict::NotReproduced); // 0.5
+    EXPECT_EQ(verdict(order, {with("a", 0.5), with("b", 0.9)}), Verdict::NotMeasured);
+    const std::vector<Claim> parsed = parseClaims(order);
+    const std::string text = claimsReport({judge(parsed.front(), {with("a", 0.5), with("b", 0.9), with("c", 0.1)})}, "text");
+    EXPECT_NE(text.find("theirs and ours: a 90, 0.5; b 80, 0.9; c 70, 0.1: rank correlation 0.500 ≥ 0.9: no"),
+              std::string::npos)
+        << text;
+}
+
 TEST(Claims, MistakesNameClaimAndKey) {
     const auto message = [](const std::string& json) -> std::string {
         try {
@@ -122,6 +165,9 @@ TEST(Claims, MistakesNameClaimAndKey) {
     EXPECT_EQ(message("{}"), "reading claims: not a JSON list");
     EXPECT_EQ(message(claim(R"({"says": "s", )" + bytesOverCasters + R"(}, "grows over": [1]})")),
               "reading claims: K0: \"grows over\" must list two values of the axis or more");
+    EXPECT_EQ(message(claim(R"({"says": "s", "scene": "x", "metric": "m", "published": {"a": 1}, )"
+                            R"("rank correlation at least": 1})")),
+              "reading claims: K0: \"published\" must give the document's numbers of two variants or more");
 }
 
 TEST(Claims, TheReportNamesTheFigures) {

@@ -43,6 +43,7 @@ TEST(SampledMaps, NSamplesGiveNPlusOneValues) {
     stage.show(0);
     const Image<float> v = rendered(stage, "sampled-maps:n=5");
     for (const float x : v) EXPECT_NEAR(5 * x, std::round(5 * x), 1e-5);
+    EXPECT_EQ(figuresOf(stage, "sampled-maps:n=5").at("levels"), 4); // N − 1 between umbra and light
 }
 
 TEST(Pcss, PenumbraUnderAParallelBlockerHasTheWidthOfSimilarTriangles) {
