@@ -1,7 +1,9 @@
 // Scores of graded visibility.
 #include "harness/metrics/pixels.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace shadowbench::metrics {
 namespace {
@@ -80,6 +82,13 @@ std::optional<double> shareAbove(const ScoredFrame& frame, double threshold) {
     return static_cast<double>(above) / static_cast<double>(mask.count);
 }
 
+Image<std::uint8_t> penumbraOf(const ScoredFrame& frame) {
+    return select(frame.truth, frame.mask, [](float exact) { return exact > 0 && exact < 1; });
+}
+
+/// The grey of a picture in which 0.3 of full light is ambient.
+long grey(double visibility) { return std::lround(255 * (0.3 + 0.7 * visibility)); }
+
 } // namespace
 
 std::optional<VisibilityErrors> visibilityErrors(const ScoredFrame& frame) {
@@ -102,8 +111,7 @@ std::optional<double> bad8(const ScoredFrame& frame) { return shareAbove(frame, 
 
 std::optional<double> penumbraRmse(const ScoredFrame& frame) {
     requireComparable(frame);
-    const Image<std::uint8_t> penumbra = select(frame.truth, frame.mask, [](float exact) { return exact > 0 && exact < 1; });
-    const Image<std::uint8_t> pixels = dilated(penumbra, frame.mask);
+    const Image<std::uint8_t> pixels = dilated(penumbraOf(frame), frame.mask);
     const std::size_t n = count(pixels);
     if (n == 0) return {};
     return std::sqrt(errors(frame, pixels).squares / static_cast<double>(n));
@@ -132,6 +140,20 @@ std::optional<double> unresolved(const ScoredFrame& frame) {
     }
     if (uncertain == 0) return {};
     return static_cast<double>(within) / static_cast<double>(mask.count);
+}
+
+std::optional<PictureCorrectness> pictureCorrectness(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const auto& [v, truth, mask] = frame;
+    if (count(penumbraOf(frame)) == 0) return {};
+    std::vector<long> differences;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        differences.push_back(mask.scored[i] ? std::abs(grey(v[i]) - grey(truth.visibility[i])) : 0);
+    const auto shareWithin = [&](long steps) {
+        const auto within = std::ranges::count_if(differences, [&](long difference) { return difference <= steps; });
+        return static_cast<double>(within) / static_cast<double>(differences.size());
+    };
+    return PictureCorrectness{shareWithin(2), shareWithin(8), shareWithin(16), shareWithin(30)};
 }
 
 } // namespace shadowbench::metrics

@@ -76,6 +76,16 @@ std::optional<double> umbraLeak(const ScoredFrame& frame);
 /// Share of M where abs(V − V*) < 3σ* though σ* > 0; absent for an exact truth.
 std::optional<double> unresolved(const ScoredFrame& frame);
 
+/// Shares of the whole frame whose grey, round(255 (0.3 + 0.7 V)) of 255, differs from the truth's by at most so many steps;
+/// pixels outside M have the truth's grey. Zápotocký's score of Table 5.4, a comparison of pictures pixel by pixel (A.3),
+/// which allows "a small difference" and names none.
+struct PictureCorrectness {
+    double within2 = 0, within8 = 0, within16 = 0, within30 = 0;
+};
+
+/// Absent where there is no penumbra, as in a hard truth.
+std::optional<PictureCorrectness> pictureCorrectness(const ScoredFrame& frame);
+
 /// Pixels that one texel of the technique's map covers where it is stretched most.
 struct Aliasing {
     double median = 0, p95 = 0; // over the receiver pixels that lie in a map
@@ -229,6 +239,15 @@ inline constexpr auto table = std::to_array<Metric>({
     {.path = "accuracy.unresolved", .unit = "share", .range = range::share, .optional = true,
      .computed = OfVisibility{of<unresolved>},
      .meaning = "pixels whose error is below three times the truth's own uncertainty"},
+    {.path = "accuracy.z_correctness", .unit = "share", .range = range::share, .optional = true,
+     .computed = OfVisibility{part<pictureCorrectness, &PictureCorrectness::within8>},
+     .meaning = "pixels of the frame whose grey is at most 8 of 255 off the truth's (Zápotocký's Table 5.4)"},
+    {.path = "accuracy.z_correctness_2", .unit = "share", .range = range::share, .optional = true,
+     .computed = OfVisibility{part<pictureCorrectness, &PictureCorrectness::within2>}, .meaning = "the same, at most 2"},
+    {.path = "accuracy.z_correctness_16", .unit = "share", .range = range::share, .optional = true,
+     .computed = OfVisibility{part<pictureCorrectness, &PictureCorrectness::within16>}, .meaning = "the same, at most 16"},
+    {.path = "accuracy.z_correctness_30", .unit = "share", .range = range::share, .optional = true,
+     .computed = OfVisibility{part<pictureCorrectness, &PictureCorrectness::within30>}, .meaning = "the same, at most 30"},
     {.path = "accuracy.primary_mismatch", .unit = "share", .range = range::share,
      .meaning = "pixels where rasteriser and truth see different surfaces; above 0.1 % nothing is scored"},
 

@@ -82,7 +82,7 @@ std::string caseName(const testing::TestParamInfo<Case>& tested) {
 
 INSTANTIATE_TEST_SUITE_P(Gate, ExpectedBreaks, testing::ValuesIn(everyExpectedSweep()), caseName);
 
-TEST(ExpectedBreaks, AreStatedOfTechniquesThatBehaveDifferentlyOnEveryAxisOfHardShadows) {
+TEST(ExpectedBreaks, AreStatedOfTechniquesThatBehaveDifferentlyOnEveryAxis) {
     std::map<std::string, std::set<std::string>> techniques, outcomes;
     for (const std::string& id : builtinScenes())
         for (const BreakExpectation& expected : loadScene(id, Profile::Gate).breaks) {
@@ -90,7 +90,6 @@ TEST(ExpectedBreaks, AreStatedOfTechniquesThatBehaveDifferentlyOnEveryAxisOfHard
             outcomes[expected.axis].insert(expected.between ? fmt::format("{}", expected.between->x) : "never");
         }
     for (const Axis& axis : axes()) {
-        if (axis.id == "light-size") continue; // of soft shadows
         EXPECT_GE(techniques[axis.id].size(), 2U) << axis.id;
         EXPECT_GE(outcomes[axis.id].size(), 2U) << axis.id;
     }

@@ -98,6 +98,10 @@ inline Record softRecord() {
     r.values["accuracy.penumbra_width_error"] = 0.21;
     r.values["accuracy.umbra_leak"] = 0.004;
     r.values["accuracy.unresolved"] = 0.02;
+    r.values["accuracy.z_correctness"] = 0.93;
+    r.values["accuracy.z_correctness_2"] = 0.81;
+    r.values["accuracy.z_correctness_16"] = 0.96;
+    r.values["accuracy.z_correctness_30"] = 0.98;
     r.values.list("stability.by_frame.mismatch").clear();
     r.values.list("stability.by_frame.rmse") = {0.2, 0.031};
     r.values.list("stability.by_frame.bad30") = {0.1, 0.012};

@@ -188,5 +188,12 @@ TEST(Compare, AnEdgeMovedByLessThanTwoPixelsInAThousandStays) {
     EXPECT_EQ(onlyWorseClass(base, head), Class::Edge);
 }
 
+TEST(Compare, AScoreThatTheBaseWasMadeWithoutIsNoChange) {
+    Record base = softRecord();
+    base.values["accuracy.z_correctness"].reset(); // a score, and a judged one, that are younger than the record
+    base.values["accuracy.bad30"].reset();
+    EXPECT_TRUE(worse(base, softRecord()).empty());
+}
+
 } // namespace
 } // namespace shadowbench::gate

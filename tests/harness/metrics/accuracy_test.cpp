@@ -335,5 +335,43 @@ TEST(Unresolved, IsTheShareOfTheMaskWithinThreeSigma) {
     EXPECT_DOUBLE_EQ(*visibilityOf({v, truth, everything(truth)})["accuracy.unresolved"], 0.05);
 }
 
+/// The visibility that a picture shows as this grey (Zápotocký's, of which 0.3 is ambient).
+float shownAs(double grey) { return static_cast<float>((grey / 255 - 0.3) / 0.7); }
+
+TEST(PictureCorrectness, CountsPixelsOfTheWholeFrameWhoseGreyIsNear) {
+    Reference truth = truthOf(10, 10, [](glm::dvec2) { return shownAs(150); });
+    Image<float> v = truth.visibility;
+    int x = 0;
+    for (const double steps : {2, 3, 8, 9, 16, 17, 30, 31}) v(x++, 0) = shownAs(150 + steps);
+    v(0, 1) = shownAs(150 - 31);
+    metrics::Mask mask = everything(truth);
+    for (int y = 5; y < 10; ++y) // not scored, and yet of the frame: counted as equal
+        for (int column = 0; column < 10; ++column) {
+            v(column, y) = 1;
+            mask.scored(column, y) = 0;
+            --mask.count;
+        }
+    const metrics::Values a = visibilityOf({v, truth, mask});
+    EXPECT_DOUBLE_EQ(*a["accuracy.z_correctness_2"], 0.92);
+    EXPECT_DOUBLE_EQ(*a["accuracy.z_correctness"], 0.94);
+    EXPECT_DOUBLE_EQ(*a["accuracy.z_correctness_16"], 0.96);
+    EXPECT_DOUBLE_EQ(*a["accuracy.z_correctness_30"], 0.98);
+}
+
+TEST(PictureCorrectness, OfAMissingShadowIsTheShareThatHasNone) {
+    // Umbra: columns 0 … 13. Penumbra: 14 … 17 (V* = 1/8, 3/8, 5/8, 7/8), the last of them 22 of 255 darker than light.
+    const Reference truth = truthOf(size, size, [](glm::dvec2 p) { return vertical.ramp(p, 4); });
+    const metrics::Values a = visibilityOf({Image<float>(size, size, 1), truth, everything(truth)});
+    EXPECT_DOUBLE_EQ(*a["accuracy.z_correctness"], 14.0 / size);
+    EXPECT_DOUBLE_EQ(*a["accuracy.z_correctness_30"], 15.0 / size);
+}
+
+TEST(PictureCorrectness, OfTheTruthIsWholeAndOfAHardTruthAbsent) {
+    const Reference soft = truthOf(size, size, [](glm::dvec2 p) { return vertical.ramp(p, 4); });
+    EXPECT_EQ(visibilityOf({soft.visibility, soft, everything(soft)})["accuracy.z_correctness_2"], 1.0);
+    const Reference hard = vertical.truth(size, size);
+    EXPECT_FALSE(visibilityOf({hard.visibility, hard, everything(hard)})["accuracy.z_correctness"]);
+}
+
 } // namespace
 } // namespace shadowbench

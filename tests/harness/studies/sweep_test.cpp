@@ -73,6 +73,16 @@ TEST(Axes, AnElevationTurnsTheLightInItsOwnBearingAndAnAreaLightKeepsItsShape) {
     EXPECT_NEAR(glm::dot(faceNow, is) / glm::length(is), glm::dot(faceBefore, was) / glm::length(was), 1e-9);
 }
 
+TEST(Axes, ALightSizeScalesBothSidesOfTheScenesLightAboutItsCentre) {
+    Scene scene = loadScene("large-light", Profile::Gate);
+    const Light before = scene.light;
+    axisNamed("light-size").move(scene, 0.5);
+    EXPECT_EQ(scene.light.centre, before.centre);
+    EXPECT_EQ(scene.light.u, 0.5 * before.u);
+    EXPECT_EQ(scene.light.v, 0.5 * before.v);
+    EXPECT_THROW(axisNamed("light-size").move(scene, 0), BadInput);
+}
+
 TEST(Axes, CastersAreCountedWithoutTheGround) {
     Scene scene = loadScene("dueling-frusta", Profile::Gate);
     axisNamed("casters").move(scene, 5);
