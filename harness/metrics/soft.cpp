@@ -128,6 +128,22 @@ std::optional<double> umbraLeak(const ScoredFrame& frame) {
     return sum / static_cast<double>(n);
 }
 
+std::optional<Umbra> umbra(const ScoredFrame& frame) {
+    requireComparable(frame);
+    constexpr float firstGrey = 0.5F / 255; // from here on a byte would hold 1
+    std::size_t drawn = 0, exact = 0, penumbra = 0;
+    for (std::size_t i = 0; i < frame.v.size(); ++i) {
+        if (!frame.mask.scored[i]) continue;
+        const float truth = frame.truth.visibility[i];
+        if (frame.v[i] < firstGrey) ++drawn;
+        if (truth < firstGrey) ++exact;
+        if (truth > 0 && truth < 1) ++penumbra;
+    }
+    if (penumbra == 0) return {};
+    const auto all = static_cast<double>(frame.mask.count);
+    return Umbra{static_cast<double>(drawn) / all, static_cast<double>(exact) / all};
+}
+
 std::optional<double> unresolved(const ScoredFrame& frame) {
     requireComparable(frame);
     const auto& [v, truth, mask] = frame;

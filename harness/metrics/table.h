@@ -73,6 +73,13 @@ std::optional<double> penumbraWidthError(const ScoredFrame& frame);
 /// Mean V over the umbra {V* = 0} eroded by 2 pixels, from the image's border too.
 std::optional<double> umbraLeak(const ScoredFrame& frame);
 
+/// Shares of M without light, which would be stored as 0 of 255: the technique's and the truth's. Absent where there is no
+/// penumbra, as in a hard truth.
+struct Umbra {
+    double drawn = 0, exact = 0;
+};
+std::optional<Umbra> umbra(const ScoredFrame& frame);
+
 /// Share of M where abs(V − V*) < 3σ* though σ* > 0; absent for an exact truth.
 std::optional<double> unresolved(const ScoredFrame& frame);
 
@@ -236,6 +243,10 @@ inline constexpr auto table = std::to_array<Metric>({
     {.path = "accuracy.umbra_leak", .unit = "1", .optional = true, .about = Class::Leak, .bound = "umbra_leak",
      .allowance = Allowance{.truth = TruthError::Mean}, .computed = OfVisibility{of<umbraLeak>},
      .meaning = "mean visibility over the umbra eroded by 2 pixels"},
+    {.path = "accuracy.umbra", .unit = "share", .range = range::share, .optional = true,
+     .computed = OfVisibility{part<umbra, &Umbra::drawn>}, .meaning = "receiver pixels without light"},
+    {.path = "accuracy.true_umbra", .unit = "share", .range = range::share, .optional = true,
+     .computed = OfVisibility{part<umbra, &Umbra::exact>}, .meaning = "the same of the truth"},
     {.path = "accuracy.unresolved", .unit = "share", .range = range::share, .optional = true,
      .computed = OfVisibility{of<unresolved>},
      .meaning = "pixels whose error is below three times the truth's own uncertainty"},

@@ -327,6 +327,20 @@ TEST(UmbraLeak, IsTheMeanInTheUmbraTwoPixelsFromItsBorder) {
     EXPECT_NEAR(*visibilityOf({v, truth, everything(truth)})["accuracy.umbra_leak"], 0.6 / 12, 1e-7);
 }
 
+TEST(Umbra, IsTheShareOfTheMaskWithoutLight) {
+    const Reference truth = truthOf(size, size, [](glm::dvec2 p) { return p.x < 16 ? 0.0 : p.x < 20 ? 0.5 : 1.0; });
+    Image<float> v = truth.visibility;
+    for (int y = 0; y < size; ++y) {
+        v(0, y) = 0.0019F; // less than half of 1/255: shown as 0
+        v(1, y) = 0.0021F; // more
+    }
+    const metrics::Values a = visibilityOf({v, truth, everything(truth)});
+    EXPECT_DOUBLE_EQ(*a["accuracy.umbra"], 15.0 / size);
+    EXPECT_DOUBLE_EQ(*a["accuracy.true_umbra"], 16.0 / size);
+    const Reference hard = truthOf(size, size, [](glm::dvec2 p) { return p.x < 8 ? 0.0 : 1.0; });
+    EXPECT_FALSE(visibilityOf({hard.visibility, hard, everything(hard)})["accuracy.umbra"]);
+}
+
 TEST(Unresolved, IsTheShareOfTheMaskWithinThreeSigma) {
     Reference truth = truthOf(10, 10, [](glm::dvec2) { return 0.5; });
     for (int x = 0; x < 10; ++x) truth.sigma(x, 0) = 0.01F;
