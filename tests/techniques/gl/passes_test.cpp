@@ -113,7 +113,8 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"vsm", {"G-buffer", "depth map", "basis", "blur", "resolve"}},
         {"deep-sm", {"G-buffer", "depth map", "deep texture", "resolve"}},
         {"sampled-maps", {"G-buffer", "depth map", "shadow test", "resolve"}},
-        {"temporal-soft", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}}};
+        {"temporal-soft", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}},
+        {"temporal-sampling", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}}};
     for (const auto& [variant, names] : expected) EXPECT_EQ(namesOf(passesOf(stage, variant)), names) << variant;
 }
 
