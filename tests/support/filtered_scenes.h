@@ -5,7 +5,10 @@
 #include "tests/support/stages.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
+#include <string>
 #include <vector>
 
 namespace shadowbench {
@@ -84,6 +87,21 @@ inline double fromRamp(const std::vector<GroundPoint>& points, double width) {
     for (const GroundPoint& point : points)
         worst = std::max(worst, std::abs(point.visibility - std::clamp(0.5 - (point.at.x - middle) / width, 0.0, 1.0)));
     return worst;
+}
+
+/// The edge of the map's own shadow, which lies on a texel's border up to half a texel from the plate's: where the
+/// unfiltered test changes.
+inline double mapEdge(Stage& stage, int map) {
+    double low = 1e30;
+    for (const GroundPoint& point : groundPoints(stage, rendered(stage, "sm-uniform:map=" + std::to_string(map))))
+        if (point.visibility < 0.5) low = std::min(low, point.at.x);
+    return low;
+}
+
+/// Share of a disk of radius 1 on the side of smaller x of a line at x = t.
+inline double diskShare(double t) {
+    t = std::clamp(t, -1.0, 1.0);
+    return 1 - (std::acos(t) - t * std::sqrt(1 - t * t)) / glm::pi<double>();
 }
 
 inline double brightest(const std::vector<GroundPoint>& points) {

@@ -1,8 +1,9 @@
-// The uniforms of shared/filters/pcss.glsl, set in one place.
+// The uniforms of shared/filters/light_receiver.glsl and shared/filters/pcss.glsl, set in one place.
 #pragma once
 
 #include "techniques/gl/program.h"
 #include "techniques/shared/maps/linear_depth_map.h"
+#include "techniques/shared/sampling/sampling.h"
 
 #include <glm/vec2.hpp>
 #include <string>
@@ -19,7 +20,14 @@ struct PcssTaps {
     [[nodiscard]] gl::Defines defines() const;
 };
 
-/// Light size, map geometry and tap positions: Poisson taps over the light's own shape, or grids.
+/// The region that a light's taps fill.
+Region tapRegion(const Light& light);
+
+/// Light size and map geometry.
+void setLightReceiver(gl::Program& program, const Light& light, const LightView& view, const LinearDepthMap& map,
+                      bool followPlane);
+
+/// The same and tap positions: Poisson taps over the light's own shape, or grids.
 void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view,
              const LinearDepthMap& map, bool followPlane);
 

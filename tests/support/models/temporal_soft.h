@@ -1,4 +1,4 @@
-// What sampled/temporal-soft/estimators.glsl computes (Scherzer 4.1). ψ is the occluded fraction.
+// What sampled/estimators.glsl computes (Scherzer 4.1). ψ is the occluded fraction.
 #pragma once
 
 namespace shadowbench::models {

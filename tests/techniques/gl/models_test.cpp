@@ -62,7 +62,7 @@ std::vector<glm::vec4> samplings() {
     return inputs;
 }
 
-const std::string estimators = "sampled/temporal-soft/estimators.glsl";
+const std::string estimators = "sampled/estimators.glsl";
 
 TEST(TemporalSoftShader, EstimatesTheOccludedFraction) { // eq. 4.2
     const auto inputs = samplings();

@@ -111,9 +111,11 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"volume-zfail", {"G-buffer", "silhouette volumes", "stencil count", "resolve"}},
         {"volume-zfail:far=infinity", {"G-buffer", "depth prepass", "silhouette volumes", "stencil count", "resolve"}},
         {"vsm", {"G-buffer", "depth map", "basis", "blur", "resolve"}},
+        {"pcf-blur", {"G-buffer", "depth map", "resolve", "blur"}}, // the blur twice
         {"deep-sm", {"G-buffer", "depth map", "deep texture", "resolve"}},
         {"sampled-maps", {"G-buffer", "depth map", "shadow test", "resolve"}},
-        {"temporal-soft", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}}};
+        {"temporal-soft", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}},
+        {"temporal-sampling", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}}};
     for (const auto& [variant, names] : expected) EXPECT_EQ(namesOf(passesOf(stage, variant)), names) << variant;
 }
 

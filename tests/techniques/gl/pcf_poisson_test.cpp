@@ -2,7 +2,6 @@
 #include "tests/support/filtered_scenes.h"
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
 namespace shadowbench {
@@ -14,21 +13,6 @@ std::string variant(int taps, const std::string& rotate) {
     return "pcf-poisson:map=256,radius=6,taps=" + std::to_string(taps) + ",rotate=" + rotate;
 }
 
-/// Share of a disk of radius 1 on the side of smaller x of a line at x = t.
-double diskShare(double t) {
-    t = std::clamp(t, -1.0, 1.0);
-    return 1 - (std::acos(t) - t * std::sqrt(1 - t * t)) / glm::pi<double>();
-}
-
-/// The edge of the map's own shadow, which lies on a texel's border up to half a texel from the plate's: where the
-/// unfiltered test changes.
-double mapEdge(Stage& stage) {
-    double low = 1e30;
-    for (const GroundPoint& point : groundPoints(stage, rendered(stage, "sm-uniform:map=256")))
-        if (point.visibility < 0.5) low = std::min(low, point.at.x);
-    return low;
-}
-
 /// Root of the mean squared difference from the ramp of a full disk, and its mean, over the penumbra.
 struct Deviation {
     double rms = 0, mean = 0;
@@ -36,7 +20,7 @@ struct Deviation {
 
 Deviation fromFullDisk(const Scene& scene, Stage& stage, const std::vector<GroundPoint>& points) {
     const double reach = radius * texelOf(scene, 256);
-    const double edge = mapEdge(stage);
+    const double edge = mapEdge(stage, 256);
     double squares = 0, sum = 0, count = 0;
     for (const GroundPoint& point : points) {
         const double t = (edge - point.at.x) / reach; // taps at smaller x than the edge are lit

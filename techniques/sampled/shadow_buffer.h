@@ -1,0 +1,58 @@
+// The shadow buffer of soft shadows that are sampled over time (Scherzer 4.1.2): what each frame's sample of the light adds
+// to what the frames before have left, reprojected from frame to frame. Its shader side is sampled/shadow_buffer.glsl.
+#pragma once
+
+#include "techniques/contract/parameters.h"
+#include "techniques/contract/technique.h"
+#include "techniques/gl/gbuffer.h"
+#include "techniques/gl/program.h"
+#include "techniques/gl/texture.h"
+#include "techniques/shared/light_views/light_view.h"
+
+#include <optional>
+#include <vector>
+
+namespace shadowbench::techniques {
+
+/// `epsilon` and `overscan`.
+std::vector<Parameter> shadowBufferParameters();
+
+/// The view of the frame's own Halton point of the light.
+LightView lightSampleView(const Frame& frame);
+
+/// RGBA16F, double-buffered, with overscan.
+class ShadowBuffer {
+public:
+    /// `parameters` hold shadowBufferParameters.
+    explicit ShadowBuffer(const Parameters& parameters);
+
+    void reset() { images_.reset(); }
+
+    /// Draws the frame's G-buffer with overscan, as a pass "overscan G-buffer".
+    void begin(const Frame& frame);
+
+    /// Of the frame that has begun.
+    [[nodiscard]] const gl::GBuffer& gbuffer() const { return images_->gbuffer; }
+
+    /// Runs `resolve`, a program over sampled/shadow_buffer.glsl with its own uniforms set, on every pixel of the buffer (a
+    /// pass "temporal resolve"), and copies what it shows of the image into `visibility` (a pass "crop").
+    void update(const Frame& frame, gl::Program& resolve, const gl::Texture& visibility);
+
+private:
+    struct Images {
+        Images(glm::ivec2 size, int border);
+        glm::ivec2 inner; // size of the image
+        bool fresh = true;
+        gl::GBuffer gbuffer;
+        gl::Texture read, write, shown;
+    };
+
+    void setReprojection(const Frame& frame, gl::Program& resolve) const;
+
+    float epsilon_;
+    double overscan_;
+    gl::Program copy_;
+    std::optional<Images> images_;
+};
+
+} // namespace shadowbench::techniques

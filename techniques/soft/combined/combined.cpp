@@ -1,0 +1,82 @@
+// Combined shadow map method (Zápotocký 4.4.3): percentage-closer soft shadows with jittered taps.
+// 1. blocker search with 16 jittered taps  2. penumbra width from similar triangles (eq. 3.3)  3. the share of 32 jittered
+// taps over that width that pass: the 8 of the outermost ring first, and where they disagree all others.
+// Departures: as for `pcss`, the search window is the light's own projection on the map's near plane, where the thesis
+// scales an empirical offset; hence the search has taps of its own over all of the window, where the thesis takes the
+// innermost 16 of the filter's. A rectangular light has its own width along each side and taps that fill a rectangle, where
+// the thesis stretches a disk by a ratio that it interpolates over an angle (4.4.1). With bias=slope every tap is compared
+// with the receiver's plane. As the source admits for `pcss`, blockers of different depths are fused into one of their mean.
+#include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
+#include "techniques/shared/filters/jitter_table.h"
+#include "techniques/shared/filters/pcss_program.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace shadowbench::techniques {
+namespace {
+
+constexpr JitterGrid searchGrid{4, 4}, filterGrid{8, 4};
+
+gl::Defines tapDefines() {
+    gl::Defines defines = JitterTable::defines();
+    defines.emplace_back("SEARCH_TAPS", std::to_string(searchGrid.taps()));
+    defines.emplace_back("FIRST_TAPS", std::to_string(filterGrid.sectors));
+    defines.emplace_back("FILTER_TAPS", std::to_string(filterGrid.taps()));
+    return defines;
+}
+
+class Combined final : public Technique {
+public:
+    explicit Combined(const Parameters& p)
+        : followPlane_(p.text("bias") == "slope"), map_(p.integer("map"), biasFrom(p)),
+          resolve_(gl::Program::screen("soft/combined/combined.frag", tapDefines())) {}
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        const Light& light = frame.snapshot.light;
+        if (!tables_ || tables_->region != tapRegion(light)) tables_.emplace(tapRegion(light));
+        view_ = fitToScene(light, frame.snapshot);
+        map_.draw(view_, frame);
+        setLightReceiver(resolve_, light, view_, map_, followPlane_);
+        resolve_.set("positions", frame.gbuffer.position())
+            .set("normals", frame.gbuffer.normal())
+            .set("searchJitter", tables_->search.texture())
+            .set("filterJitter", tables_->filter.texture())
+            .set("jitterOrigin", JitterTable::origin(frame.seed));
+        resolve(frame, {&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(view_, world, glm::dvec2(map_.side()));
+    }
+
+private:
+    struct Tables {
+        explicit Tables(Region lightRegion)
+            : region(lightRegion), filter(filterGrid, region), search(searchGrid, region, jitterBlock * jitterBlock) {}
+        Region region;
+        JitterTable filter, search;
+    };
+
+    bool followPlane_;
+    LightView view_;
+    LinearDepthMap map_;
+    gl::Program resolve_;
+    std::optional<Tables> tables_;
+};
+
+} // namespace
+
+Entry combined() {
+    return {.id = "combined",
+            .title = "Percentage-closer soft shadows with jittered taps",
+            .source = {Document::Zapotocky, "4.4.3, 4.4.1"},
+            .answer = Answer::Soft,
+            .parameters = depthMapParameters(),
+            .variants = {""},
+            .make = [](const Parameters& p) { return std::make_unique<Combined>(p); }};
+}
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,151 @@
+// The combined shadow map method under a half-plane: PCSS's widths, without its bands.
+#include "tests/support/soft_scenes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace shadowbench {
+namespace {
+
+std::vector<SlabPoint> pointsOf(Stage& stage, const std::string& variant) {
+    return slabPoints(stage, rendered(stage, variant));
+}
+
+TEST(Combined, PenumbraUnderAParallelBlockerIsTheRectanglesRamp) {
+    const Scene scene = halfPlaneScene();
+    Stage stage(scene);
+    stage.show(0);
+    const auto points = pointsOf(stage, "combined");
+    EXPECT_LT(rmsError(points), 0.06);
+    // The mean of the noise: taps that fill a rectangle leave a linear ramp. Taps that fill a disk would be off by 0.055
+    // halfway between the middle and either end.
+    for (const double share : {0.25, 0.5, 0.75}) {
+        const double x = umbraFrom + share * (litUntil - umbraFrom);
+        EXPECT_NEAR(visibilityAt(points, x), share, 0.025) << x; // 40 points and more, with a noise of 0.06 each
+    }
+}
+
+/// Points of one column of ground, parallel to the edge: how many, and their mean visibility and error.
+struct Column {
+    int count = 0;
+    double visibility = 0, error = 0;
+};
+
+/// Columns `width` metres wide: noise moves single points.
+std::vector<Column> columnsOf(const std::vector<SlabPoint>& points, double width) {
+    std::map<int, Column> sums;
+    for (const SlabPoint& point : points) {
+        Column& column = sums[static_cast<int>(std::floor(point.at.x / width))];
+        ++column.count;
+        column.visibility += point.visibility;
+        column.error += point.visibility - point.truth;
+    }
+    std::vector<Column> columns;
+    for (const auto& [index, sum] : sums) columns.push_back({sum.count, sum.visibility / sum.count, sum.error / sum.count});
+    return columns;
+}
+
+/// The width in metres in which 20 % to 80 % of a rectangle of the sides u and v are visible.
+double widthUnder(const glm::dvec3& u, const glm::dvec3& v) {
+    Scene scene = halfPlaneScene();
+    scene.light.u = u;
+    scene.light.v = v;
+    Stage stage(scene);
+    stage.show(0);
+    double width = 0;
+    for (const Column& column : columnsOf(pointsOf(stage, "combined:map=2048"), 0.02))
+        if (column.visibility > 0.2 && column.visibility < 0.8) width += 0.02;
+    return width;
+}
+
+TEST(Combined, ARectangleHasAWidthOfItsOwnAlongEachSide) { // Zápotocký 4.4.1
+    // Six tenths of (receiver − blocker) / blocker.
+    constexpr double perMetre = 0.6 * 2 / 4;
+    const glm::dvec3 across(1, 0, 0), along(0, 0, 1);
+    for (const auto& [ofAcross, ofAlong] : {std::pair(1.5, 0.5), std::pair(0.5, 1.5)}) {
+        const double width = ofAcross * perMetre;
+        EXPECT_NEAR(widthUnder(ofAcross * across, ofAlong * along), width, 0.1 * width + 0.02);
+        EXPECT_NEAR(widthUnder(ofAlong * along, ofAcross * across), width, 0.1 * width + 0.02);
+    }
+}
+
+TEST(Combined, HardensAtContact) {
+    Scene near = halfPlaneScene();
+    near.objects[1] = object(box({20, 0.002, 40}), {10.3, 0.501, 0});
+    const Scene far = halfPlaneScene();
+    Stage nearStage(near), farStage(far);
+    nearStage.show(0);
+    farStage.show(0);
+    EXPECT_LT(widthBetween(pointsOf(nearStage, "combined"), 0.1, 0.9),
+              0.4 * widthBetween(pointsOf(farStage, "combined"), 0.1, 0.9));
+}
+
+/// Root mean square over the true penumbra of the error's mean in a column: what repeats along the edge.
+double bandsOf(std::vector<SlabPoint> points) {
+    std::erase_if(points, [](const SlabPoint& point) { return point.truth <= 0 || point.truth >= 1; });
+    double squares = 0;
+    for (const Column& column : columnsOf(points, 0.01)) squares += column.count * column.error * column.error;
+    return std::sqrt(squares / static_cast<double>(points.size()));
+}
+
+TEST(Combined, HasFewerBandsThanPcss) { // with as many taps over the penumbra
+    const Scene scene = halfPlaneScene(192);
+    Stage stage(scene);
+    stage.show(0);
+    EXPECT_LT(bandsOf(pointsOf(stage, "combined")), 0.3 * bandsOf(pointsOf(stage, "pcss:taps=32+32")));
+}
+
+TEST(Combined, FusesBlockersOfDifferentDepths) { // what PCSS's source admits, inherited
+    // A second plate a metre above the slab whose edge, as seen from the light's centre, is the first one's: the two
+    // penumbrae lie over each other, 0.75 m and 0.3 m wide, and the receiver takes one of between.
+    Scene scene = halfPlaneScene();
+    const double lower = 0.1 + (0.3 - 0.1) * 5 / 4; // x of the ray from the centre through (0.3, 2) at height 1
+    scene.objects.push_back(object(box({20, 0.002, 40}), {lower + 10, 1.001, 0}));
+    Stage stage(scene);
+    stage.show(0);
+    double squares = 0;
+    int count = 0;
+    for (const SlabPoint& point : pointsOf(stage, "combined")) {
+        const double limit = point.at.x + (lower - point.at.x) * 6; // light x whose segment grazes the lower edge
+        const double lowerVisibility = std::clamp((limit - (0.1 - 0.75)) / 1.5, 0.0, 1.0);
+        const double truth = std::min(point.truth, lowerVisibility); // both plates hide the side of larger x
+        if (truth <= 0 || truth >= 1) continue;
+        squares += (point.visibility - truth) * (point.visibility - truth);
+        ++count;
+    }
+    ASSERT_GT(count, 500);
+    EXPECT_GT(std::sqrt(squares / count), 0.05);
+}
+
+TEST(Combined, ASmallCasterThatTheOutermostRingMissesHasNoShadow) {
+    // Under a plate of a quarter of the penumbra's width: the light's rim is seen all around it.
+    Scene scene = halfPlaneScene();
+    scene.camera = {{-1.3, 1.6, 2.4}, {0.1, 0, 0.2}, {0, 1, 0}, 40, 0.5, 40};
+    scene.objects[1] = object(box({0.25, 0.002, 0.25}), {0.1, 2.001, 0.2});
+    Stage stage(scene);
+    stage.show(0);
+    double least = 1;
+    int count = 0;
+    for (const SlabPoint& point : pointsOf(stage, "combined"))
+        if (std::hypot(point.at.x - 0.1, point.at.z - 0.2) < 0.05) {
+            least = std::min(least, point.visibility);
+            ++count;
+        }
+    ASSERT_GT(count, 5);
+    EXPECT_EQ(least, 1);
+    EXPECT_LT(visibilityAt(pointsOf(stage, "sampled-maps:n=64"), 0.1, 0.02), 1); // a fifth of the light is hidden there
+}
+
+TEST(Combined, ASeedIsAnImage) {
+    const Scene scene = halfPlaneScene();
+    Stage stage(scene);
+    stage.show(0);
+    EXPECT_EQ(rendered(stage, "combined", 1, 3), rendered(stage, "combined", 1, 3));
+    EXPECT_NE(rendered(stage, "combined", 1, 3), rendered(stage, "combined", 1, 4));
+}
+
+} // namespace
+} // namespace shadowbench
