@@ -1,5 +1,6 @@
 #include "techniques/shared/filters/pcss_program.h"
 
+#include "techniques/shared/maps/light_receiver.h"
 #include "techniques/shared/sampling/sampling.h"
 
 #include <cmath>
@@ -24,13 +25,11 @@ void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, con
     };
     const std::vector<glm::vec2> search = points(taps.search);
     const std::vector<glm::vec2> filter = points(taps.filter);
-    program.set("mapFromWorld", mapFromWorld(view))
-        .set("depthFromWorld", glm::vec4(view.depthFromWorld))
-        .set("linearDepth", map.texture())
+    setLightReceiver(program, view, followPlane);
+    program.set("linearDepth", map.texture())
         .set("lightHalfSize", 0.5F * glm::vec2(glm::length(light.u), glm::length(light.v)))
         .set("mapSpan", glm::vec2(view.span))
         .set("nearDepth", static_cast<float>(view.near))
-        .set("followPlane", followPlane ? 1.0F : 0.0F)
         .set("searchTaps", search)
         .set("filterTaps", filter);
 }
