@@ -11,4 +11,7 @@ namespace shadowbench::techniques {
 /// The light must be somewhere: not a directional one.
 std::optional<std::string> lightWithoutPosition(const Scene& scene);
 
+/// The light must have a width and a height: not a linear one.
+std::optional<std::string> lightWithoutArea(const Scene& scene);
+
 } // namespace shadowbench::techniques

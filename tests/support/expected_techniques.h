@@ -11,10 +11,9 @@
 namespace shadowbench {
 
 /// Shadow techniques of the documents that are still to be built. A row that is built leaves this list.
-inline constexpr std::array<std::string_view, 18> techniquesToCome{
+inline constexpr std::array<std::string_view, 13> techniquesToCome{
     // soft shadows from one light sample
-    "single-sample", "shadow-width-map", "penumbra-map", "smoothie", "skirt", "backprojection", "bitmask",
-    "backprojection-peeled", "convolution", "occlusion-texture",
+    "penumbra-map", "smoothie", "backprojection", "bitmask", "backprojection-peeled",
     // soft shadows from many light samples
     "sampled-volumes", "linear-visibility", "layered-attenuation", "soft-alias-free", "depth-complexity",
     // shadow volumes

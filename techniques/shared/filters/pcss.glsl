@@ -1,6 +1,6 @@
 // Percentage-closer soft shadows over a map of linear depth: blocker search, penumbra width, filter. Shared by the techniques that
 // start from it.
-#include "shared/filters/light_receiver.glsl"
+#include "shared/filters/blocker_search.glsl"
 
 uniform vec2 searchTaps[SEARCH_TAPS];  // in [−1, 1]²
 uniform vec2 filterTaps[FILTER_TAPS];

@@ -1,5 +1,7 @@
 #include "techniques/shared/filters/pcss_program.h"
 
+#include "techniques/shared/maps/light_receiver.h"
+
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -16,15 +18,13 @@ gl::Defines PcssTaps::defines() const {
 
 Region tapRegion(const Light& light) { return light.kind == LightKind::Disk ? Region::Disk : Region::Square; }
 
-void setLightReceiver(gl::Program& program, const Light& light, const LightView& view, const LinearDepthMap& map,
+void setBlockerSearch(gl::Program& program, const Light& light, const LightView& view, const LinearDepthMap& map,
                       bool followPlane) {
-    program.set("mapFromWorld", mapFromWorld(view))
-        .set("depthFromWorld", glm::vec4(view.depthFromWorld))
-        .set("linearDepth", map.texture())
+    setLightReceiver(program, view, followPlane);
+    program.set("linearDepth", map.texture())
         .set("lightHalfSize", 0.5F * glm::vec2(glm::length(light.u), glm::length(light.v)))
         .set("mapSpan", glm::vec2(view.span))
-        .set("nearDepth", static_cast<float>(view.near))
-        .set("followPlane", followPlane ? 1.0F : 0.0F);
+        .set("nearDepth", static_cast<float>(view.near));
 }
 
 void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view,
@@ -34,7 +34,7 @@ void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, con
     };
     const std::vector<glm::vec2> search = points(taps.search);
     const std::vector<glm::vec2> filter = points(taps.filter);
-    setLightReceiver(program, light, view, map, followPlane);
+    setBlockerSearch(program, light, view, map, followPlane);
     program.set("searchTaps", search).set("filterTaps", filter);
 }
 

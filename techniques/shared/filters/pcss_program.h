@@ -1,4 +1,4 @@
-// The uniforms of shared/filters/light_receiver.glsl and shared/filters/pcss.glsl, set in one place.
+// The uniforms of shared/filters/blocker_search.glsl and shared/filters/pcss.glsl, set in one place.
 #pragma once
 
 #include "techniques/gl/program.h"
@@ -24,7 +24,7 @@ struct PcssTaps {
 Region tapRegion(const Light& light);
 
 /// Light size and map geometry.
-void setLightReceiver(gl::Program& program, const Light& light, const LightView& view, const LinearDepthMap& map,
+void setBlockerSearch(gl::Program& program, const Light& light, const LightView& view, const LinearDepthMap& map,
                       bool followPlane);
 
 /// The same and tap positions: Poisson taps over the light's own shape, or grids.

@@ -39,7 +39,7 @@ public:
         if (!tables_ || tables_->region != tapRegion(light)) tables_.emplace(tapRegion(light));
         view_ = fitToScene(light, frame.snapshot);
         map_.draw(view_, frame);
-        setLightReceiver(resolve_, light, view_, map_, followPlane_);
+        setBlockerSearch(resolve_, light, view_, map_, followPlane_);
         resolve_.set("positions", frame.gbuffer.position())
             .set("normals", frame.gbuffer.normal())
             .set("searchJitter", tables_->search.texture())

@@ -1,6 +1,6 @@
 #include "gl/receiver.glsl"
 #include "shared/filters/jitter_table.glsl"
-#include "shared/filters/light_receiver.glsl"
+#include "shared/filters/blocker_search.glsl"
 
 uniform sampler2D normals;
 uniform sampler2D searchJitter;

@@ -1,14 +1,9 @@
-// A receiver before a map of linear depth: what blocks it, and how far blocker search and filter of percentage-closer soft shadows
-// reach. Shared by what searches such a map.
+// Where a receiver lies in a map of linear depth, and how deep its plane is beside it.
 #include "gl/tangents.glsl"
 
 uniform mat4 mapFromWorld;
 uniform vec4 depthFromWorld;
-uniform sampler2D linearDepth;   // negative: moving caster
-uniform vec2 lightHalfSize;      // half the light's sides along map x and y, metres
-uniform vec2 mapSpan;            // width and height of the map at unit depth
-uniform float nearDepth;         // no caster is nearer to the light
-uniform float followPlane;       // 1: taps are compared with the receiver's plane, 0: with the receiver's depth
+uniform float followPlane;  // 1: texels beside the receiver's own are compared with its plane, 0: with its depth
 
 struct LightReceiver {
     vec2 at;              // position in the map
@@ -38,18 +33,4 @@ LightReceiver lightReceiver(vec3 world, vec3 normal) {
 float planeDepth(LightReceiver r, vec2 offset) {
     float inverse = 1.0 / r.depth + dot(r.inverseSlope, offset);
     return inverse > 0.0 ? 1.0 / inverse : 1e30;
-}
-
-bool blocks(float mapDepth, LightReceiver r, vec2 offset) {
-    return abs(mapDepth) < planeDepth(r, offset);
-}
-
-/// Half the sides of the light's projection from the receiver onto the near plane of the map, in map x and y: blockers lie in it.
-vec2 searchWindow(LightReceiver r) {
-    return lightHalfSize * max(r.depth - nearDepth, 0.0) / (r.depth * nearDepth) / mapSpan;
-}
-
-/// Half the penumbra's widths by similar triangles (Zápotocký eq. 3.3), in map x and y.
-vec2 halfPenumbra(LightReceiver r, float blockerDepth) {
-    return lightHalfSize * max(r.depth - blockerDepth, 0.0) / blockerDepth / (r.depth * mapSpan);
 }

@@ -1,0 +1,16 @@
+#include "gl/instance.glsl"
+
+uniform mat4 clipFromWorld;
+uniform vec4 lightPlane;
+uniform vec4 depthFromWorld;
+
+out float linearDepth;
+flat out uint surface;
+
+void main() {
+    vec4 world = vec4(worldPosition(objectPosition), 1.0);
+    linearDepth = dot(depthFromWorld, world);
+    surface = idAndMoving.x;
+    gl_ClipDistance[0] = dot(lightPlane, world);
+    gl_Position = clipFromWorld * world;
+}

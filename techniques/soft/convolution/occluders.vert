@@ -1,0 +1,13 @@
+#include "gl/instance.glsl"
+
+uniform mat4 clipFromWorld;
+uniform vec4 lightPlane;
+
+flat out uint surface;
+
+void main() {
+    vec4 world = vec4(worldPosition(objectPosition), 1.0);
+    surface = idAndMoving.x;
+    gl_ClipDistance[0] = dot(lightPlane, world);
+    gl_Position = clipFromWorld * world;
+}

@@ -1,0 +1,5 @@
+out float width;
+
+void main() {
+    width = 0.5;
+}

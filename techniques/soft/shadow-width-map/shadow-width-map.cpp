@@ -1,0 +1,109 @@
+// Shadow width maps (Kirsch and Döllner 2003), after Scherzer 2.3.1, Fig. 2.15 and 2.16:
+// 1. a depth map from the light's centre;
+// 2. a binary map of the occluders, which pass after pass makes a shadow width map: how far inside its occluder's outline a
+//    texel lies;
+// 3. a receiver in hard shadow reads the width at its texel and divides it by the reach of the inner penumbra there.
+// Only the inner penumbra is made: shadows are smaller than they should be. Departures: the paper's blockers and receivers
+// are told apart by hand, here by their bounding boxes (shared/casters/blockers.h); a pass takes the smallest of a box of
+// texels, not the mean, so that the width is the distance itself, by which it is divided; its box follows the
+// light's sides, so that umbra begins where the light's own shape fits into the occluder.
+#include "techniques/contract/applicability.h"
+#include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
+#include "techniques/gl/api.h"
+#include "techniques/shared/casters/blockers.h"
+#include "techniques/shared/filters/nearest_texel.h"
+#include "techniques/shared/maps/linear_depth_map.h"
+#include "techniques/soft/shadow-width-map/width_passes.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace shadowbench::techniques {
+namespace {
+
+class ShadowWidthMap final : public Technique {
+public:
+    explicit ShadowWidthMap(const Parameters& p)
+        : map_(p.integer("map"), biasFrom(p)), widths_{gl::Texture(gl::Format::R32F, glm::ivec2(map_.side()),
+                                                                   gl::Filter::Linear),
+                                                       gl::Texture(gl::Format::R32F, glm::ivec2(map_.side()),
+                                                                   gl::Filter::Linear)} {}
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        const Light& light = frame.snapshot.light;
+        view_ = fitToScene(frame.snapshot.light, frame.snapshot);
+        map_.draw(view_, frame);
+        passes_ = widthPasses(texelReach(light, view_, map_.side()), 1 / view_.near - 1 / view_.far);
+        drawOccluders(frame);
+        growWidths(frame);
+
+        resolve_.set("positions", frame.gbuffer.position())
+            .set("mapFromWorld", mapFromWorld(view_))
+            .set("depthFromWorld", glm::vec4(view_.depthFromWorld))
+            .set("linearDepth", map_.texture())
+            .set("widthMap", widths_[0])
+            .set("reachPerPass", static_cast<float>(passes_.reachPerPass));
+        resolve(frame, {&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
+        const std::vector<bool> shown = blockers(frame.snapshot);
+        return {{"passes", static_cast<double>(passes_.steps.size())},
+                {"occluders", static_cast<double>(std::ranges::count(shown, true))}};
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(view_, world, glm::dvec2(map_.side()));
+    }
+
+private:
+    /// The width of an occluder's texel that lies at its outline: half a texel.
+    void drawOccluders(const Frame& frame) {
+        const auto pass = frame.pass("occluder map");
+        const gl::RenderTarget target({&widths_[0]});
+        target.clearColour(0, glm::vec4(0));
+        target.bind();
+        const CasterPass casters(occluders_, view_, Bias{});
+        glDisable(GL_DEPTH_TEST);
+        frame.scene.draw(blockers(frame.snapshot));
+    }
+
+    void growWidths(const Frame& frame) {
+        const auto pass = frame.pass("shadow width map");
+        int done = 0;
+        for (const glm::ivec2& step : passes_.steps) {
+            grow_.set("widths", widths_[0]).set("stepX", step.x).set("stepY", step.y).set("done", done++);
+            const gl::RenderTarget target({&widths_[1]});
+            target.bind();
+            grow_.drawScreen();
+            std::swap(widths_[0], widths_[1]);
+        }
+    }
+
+    LightView view_;
+    LinearDepthMap map_;
+    WidthPasses passes_;
+    std::array<gl::Texture, 2> widths_;
+    gl::Program occluders_{"shared/maps/depth_map.vert", "soft/shadow-width-map/occluder.frag"};
+    gl::Program grow_ = gl::Program::screen("soft/shadow-width-map/grow.frag");
+    gl::Program resolve_ = gl::Program::screen("soft/shadow-width-map/shadow-width-map.frag");
+};
+
+} // namespace
+
+Entry shadowWidthMap() {
+    return {.id = "shadow-width-map",
+            .title = "Shadow width map",
+            .source = {Document::Dissertation, "2.3.1, Fig. 2.15"},
+            .answer = Answer::Soft,
+            .notApplicable = lightWithoutArea,
+            .parameters = depthMapParameters(256),
+            .figures = {{"passes", "passes over the width map: texels of the widest inner penumbra"},
+                        {"occluders", "placements in the occluder map"}},
+            .variants = {""},
+            .make = [](const Parameters& p) { return std::make_unique<ShadowWidthMap>(p); }};
+}
+
+} // namespace shadowbench::techniques

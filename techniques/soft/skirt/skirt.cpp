@@ -1,0 +1,120 @@
+// Skirts (de Boer 2006), after Scherzer 2.3.2, Fig. 2.19:
+// 1. a depth map from the light's centre;
+// 2. an edge filter finds the texels at the outlines of casters; in the skirt buffer they have attenuation 1 and their own
+//    depth, all others 0;
+// 3. n passes from one buffer to the other let the attenuation fall off around the edges and take the least depth of the
+//    neighbours: a skirt of n texels, n in proportion to the light's radius;
+// 4. a lit receiver reads the skirt at its texel, by the depths of occluder, light and receiver as a share of the outer
+//    penumbra; one in hard shadow searches for the nearest lit texel, for the inner penumbra.
+// No penumbra is wider than the skirt to either side. Departures: what a pass takes is the greatest attenuation of the
+// neighbours less the way to them, which falls linearly to 0 after n passes, where repeated means would leave a bell that
+// grows with √n. Where skirts meet, that of the edge nearer to the light covers the other: attenuation and least depth, each
+// taken for itself, would be those of two edges, and surfaces would darken along their own outlines. Ways are shares of a
+// rectangle's own width and height (the paper's light is a disk).
+#include "techniques/contract/applicability.h"
+#include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
+#include "techniques/shared/filters/nearest_texel.h"
+#include "techniques/shared/maps/linear_depth_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace shadowbench::techniques {
+namespace {
+
+constexpr double radiusOfPasses = 0.1; // of the light, in its distance from the nearest caster: what `passes` are meant for
+
+class Skirt final : public Technique {
+public:
+    explicit Skirt(const Parameters& p)
+        : passes_(p.integer("passes")), edge_(static_cast<float>(p.real("edge"))), followPlane_(p.text("bias") == "slope"),
+          map_(p.integer("map"), biasFrom(p)), skirts_{gl::Texture(gl::Format::RG32F, glm::ivec2(map_.side()),
+                                                                   gl::Filter::Linear),
+                                                       gl::Texture(gl::Format::RG32F, glm::ivec2(map_.side()),
+                                                                   gl::Filter::Linear)} {}
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        const Light& light = frame.snapshot.light;
+        view_ = fitToScene(frame.snapshot.light, frame.snapshot);
+        map_.draw(view_, frame);
+        edges_.set("linearDepth", map_.texture()).set("leastStep", edge_);
+        resolve(frame, {&skirts_[0]}, edges_, "edge filter");
+        grow(frame);
+
+        setNearestTexel(resolve_, light, view_, map_.side(), widestSearch, followPlane_);
+        resolve_.set("positions", frame.gbuffer.position())
+            .set("normals", frame.gbuffer.normal())
+            .set("linearDepth", map_.texture())
+            .set("skirt", skirts_[0])
+            .set("skirtReach", static_cast<float>(count_) * texel(light));
+        resolve(frame, {&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::map<std::string, double> figures(const Frame&) const override {
+        return {{"passes", static_cast<double>(count_)}};
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(view_, world, glm::dvec2(map_.side()));
+    }
+
+private:
+    /// The finer of the map's two distances between texels.
+    [[nodiscard]] float texel(const Light& light) const {
+        const glm::vec2 reach(texelReach(light, view_, map_.side()));
+        return std::min(reach.x, reach.y);
+    }
+
+    void grow(const Frame& frame) {
+        const auto pass = frame.pass("skirt");
+        const Light& light = frame.snapshot.light;
+        const double radius = 0.25 * (glm::length(light.u) + glm::length(light.v));
+        count_ = std::max(1, static_cast<int>(std::lround(passes_ * radius / (radiusOfPasses * view_.near))));
+        const glm::vec2 way = glm::vec2(texelReach(light, view_, map_.side())) / texel(light);
+        for (int i = 0; i < count_; ++i) {
+            grow_.set("skirt", skirts_[0]).set("leastStep", edge_).set("falloff", way / static_cast<float>(count_));
+            const gl::RenderTarget target({&skirts_[1]});
+            target.bind();
+            grow_.drawScreen();
+            std::swap(skirts_[0], skirts_[1]);
+        }
+    }
+
+    int passes_, count_ = 0;
+    float edge_;
+    bool followPlane_;
+    LightView view_;
+    LinearDepthMap map_;
+    std::array<gl::Texture, 2> skirts_; // attenuation, 1 / depth of its edge
+    gl::Program edges_ = gl::Program::screen("soft/skirt/edges.frag");
+    gl::Program grow_ = gl::Program::screen("soft/skirt/grow.frag");
+    gl::Program resolve_ = gl::Program::screen("soft/skirt/skirt.frag");
+};
+
+} // namespace
+
+Entry skirt() {
+    std::vector<Parameter> parameters = depthMapParameters(256);
+    parameters.push_back(
+        {"passes", "16", IntegerRange{1, 256},
+         "over the skirt buffer, for a light whose radius is a tenth of its distance from the nearest caster; "
+         "others in proportion",
+         ""});
+    parameters.push_back(
+        {"edge", "0.01", RealRange{1e-5, 1}, "least step of depth at an outline, as a share of the depth behind it", ""});
+    return {.id = "skirt",
+            .title = "Skirts around the edges of a shadow map",
+            .source = {Document::Dissertation, "2.3.2, Fig. 2.19"},
+            .answer = Answer::Soft,
+            .notApplicable = lightWithoutArea,
+            .parameters = std::move(parameters),
+            .figures = {{"passes", "over the skirt buffer: texels of the widest penumbra to each side of a hard edge"}},
+            .variants = {""},
+            .make = [](const Parameters& p) { return std::make_unique<Skirt>(p); }};
+}
+
+} // namespace shadowbench::techniques

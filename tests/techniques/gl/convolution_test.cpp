@@ -1,0 +1,110 @@
+// Convolution against its closed forms: exact for parallel planes, wrong for what spreads in depth.
+#include "base/error.h"
+#include "tests/support/plate_scenes.h"
+
+#include <glm/gtc/constants.hpp>
+
+namespace shadowbench {
+namespace {
+
+const std::string convolution = "convolution:map=1024";
+
+std::vector<SlabPoint> pointsOf(const Scene& scene, const std::string& variant = convolution) {
+    Stage stage(scene);
+    stage.show(0);
+    return slabPoints(stage, rendered(stage, variant));
+}
+
+double clustersOf(const Scene& scene, const std::string& variant = convolution) {
+    Stage stage(scene);
+    stage.show(0);
+    return figuresOf(stage, variant).at("clusters");
+}
+
+TEST(Convolution, IsExactForParallelPlanes) {
+    EXPECT_LT(penumbraRmsError(pointsOf(halfPlaneScene())), 0.01); // the texels of the blocker's image
+}
+
+TEST(Convolution, ASquareHidesItsShareOfTheLight) {
+    Scene scene = halfPlaneScene();
+    scene.objects[1] = object(box({0.25, 0.002, 0.25}), {0.1, 2.001, 0.2});
+    // From below its middle it covers half the light's sides, a quarter of its area.
+    EXPECT_NEAR(visibilityAround(pointsOf(scene), 0.1, 0.2), 0.75, 0.01);
+}
+
+/// A plate of 4 × 4 m whose lower end, the line x = 0.3 at height 1.5 m, is parallel to the light's sides and which rises
+/// from there at 45°.
+Scene slantedScene() {
+    Scene scene = halfPlaneScene();
+    Object plate = object(box({4, 0.002, 4}), {0, 0, 0});
+    const double middle = 2 * std::sqrt(0.5);
+    const glm::dmat4 place = glm::translate(glm::dmat4(1), glm::dvec3(0.3 + middle, 1.5 + middle, 0.2));
+    plate.instances[0].place = glm::rotate(place, glm::quarter_pi<double>(), glm::dvec3(0, 0, 1));
+    scene.objects[1] = plate;
+    return scene;
+}
+
+/// Whether that plate stands between two points, its thickness of 2 mm left out.
+bool meetsSlanted(const glm::dvec3& a, const glm::dvec3& b) {
+    const auto above = [](const glm::dvec3& p) { return (p.y - 1.5) - (p.x - 0.3); }; // the plate's plane
+    if (above(a) * above(b) >= 0) return false;
+    const glm::dvec3 p = a + above(a) / (above(a) - above(b)) * (b - a);
+    return p.x > 0.3 && p.x < 0.3 + 4 * std::sqrt(0.5) && std::abs(p.z - 0.2) < 2;
+}
+
+double truthUnderSlanted(const glm::dvec3& p, const Light& light) {
+    constexpr int side = 40;
+    int visible = 0;
+    for (int i = 0; i < side * side; ++i)
+        if (!meetsSlanted(p, light.sample({(i % side + 0.5) / side, (i / side + 0.5) / side}))) ++visible;
+    return static_cast<double>(visible) / (side * side);
+}
+
+TEST(Convolution, ASlantedPlateHasThePenumbraOfItsMiddleAllAlong) { // what the dissertation admits
+    const Scene scene = slantedScene();
+    double squares = 0, count = 0;
+    for (const SlabPoint& point : pointsOf(scene)) {
+        const double truth = truthUnderSlanted(point.at, scene.light);
+        if (truth <= 0 || truth >= 1) continue;
+        squares += (point.visibility - truth) * (point.visibility - truth);
+        ++count;
+    }
+    EXPECT_GT(count, 300);
+    EXPECT_GT(std::sqrt(squares / count), 0.05);
+}
+
+TEST(Convolution, BlockersOfOneDepthAreOneImage) {
+    EXPECT_EQ(clustersOf(halfPlaneScene()), 1);
+    Scene scene = halfPlaneScene();
+    for (const double height : {1.0, 3.0, 4.0}) scene.objects.push_back(plate(height, 2));
+    scene.objects.push_back(object(box({0.5, 0.1, 0.5}), {-3, 3, 0})); // beside the third
+    EXPECT_EQ(clustersOf(scene), 4);
+    EXPECT_EQ(clustersOf(scene, "convolution:map=256,clusters=3"), 3);
+    EXPECT_EQ(clustersOf(scene, "convolution:map=256,tolerance=1"), 1);
+}
+
+TEST(Convolution, NoShadowFallsWithinACluster) { // what the subdivision is for
+    Scene scene = halfPlaneScene();
+    scene.objects.push_back(plate(0.3, -6)); // under all of the slab's pixels' light
+    scene.objects[0] = object(box({12, 0.2, 12}), {0, -0.1, 0});
+    Stage stage(scene);
+    stage.show(0);
+    const metrics::Drawn drawn = stage.drawn();
+    const auto darkest = [&](const std::string& variant) { // of the lower plate
+        const Image<float> v = rendered(stage, variant);
+        float least = 1;
+        for (std::size_t i = 0; i < v.size(); ++i)
+            if (drawn.id[i] == 3 && drawn.position[i].y > 0.3) least = std::min(least, v[i]);
+        return least;
+    };
+    EXPECT_LT(darkest("convolution:map=256"), 0.01);
+    EXPECT_EQ(darkest("convolution:map=256,clusters=1"), 1);
+}
+
+TEST(Convolution, RefusesBadInput) {
+    EXPECT_THROW(techniques::parseVariant("convolution:clusters=33"), BadInput); // more than a texel has bits
+    EXPECT_THROW(techniques::parseVariant("convolution:map=4096"), BadInput);    // more than the sums have room for
+}
+
+} // namespace
+} // namespace shadowbench

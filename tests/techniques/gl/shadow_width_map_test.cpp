@@ -1,0 +1,92 @@
+// Shadow width maps against their closed form: the inner half of the penumbra alone.
+#include "base/error.h"
+#include "techniques/soft/shadow-width-map/width_passes.h"
+#include "tests/support/plate_scenes.h"
+
+namespace shadowbench {
+namespace {
+
+const std::string widthMap = "shadow-width-map:map=1024";
+
+std::vector<SlabPoint> pointsOf(const Scene& scene, const std::string& variant = widthMap) {
+    Stage stage(scene);
+    stage.show(0);
+    return slabPoints(stage, rendered(stage, variant));
+}
+
+TEST(ShadowWidthMap, TheInnerHalfOfThePenumbraIsARamp) {
+    const std::vector<SlabPoint> points = pointsOf(halfPlaneScene());
+    EXPECT_GE(visibilityAt(points, hardEdge), 0.95);
+    EXPECT_NEAR(visibilityAt(points, 0.5 * (hardEdge + umbraFrom)), 0.5, 0.05); // a texel is a tenth of the ramp
+    EXPECT_LE(visibilityAt(points, umbraFrom), 0.05);
+}
+
+TEST(ShadowWidthMap, TheRampIsAsWideAsItsOwnOccludersPenumbra) {
+    const auto points = pointsOf(withHigherPlate(halfPlaneScene()), "shadow-width-map:map=512");
+    EXPECT_NEAR(visibilityAt(points, 0.5 * (hardEdge + umbraFrom)), 0.5, 0.1); // a texel is a fifth of the ramp
+}
+
+TEST(ShadowWidthMap, TheOuterHalfIsMissing) { // what the dissertation admits: shadows are too small
+    const std::vector<SlabPoint> points = pointsOf(halfPlaneScene());
+    for (const SlabPoint& point : points) {
+        if (point.at.x < hardEdge - halfPlaneTexel(1024)) {
+            EXPECT_EQ(point.visibility, 1) << point.at.x;
+        }
+    }
+    EXPECT_NEAR(penumbraRmsError(points), 0.29, 0.03); // that of any ramp over one half alone
+}
+
+TEST(ShadowWidthMap, AStripIsNotWiderThanItself) {
+    // From its middle to its edge is a fifth of the penumbra's half.
+    EXPECT_NEAR(visibilityAt(pointsOf(stripScene(), "shadow-width-map:map=512"), stripShadowMiddle), 0.8, 0.05);
+}
+
+TEST(ShadowWidthMap, UmbraBeginsWhereTheLightsOwnShapeFits) {
+    // The edge runs through the plate's old one at 45° to the light's sides: along its normal a square reaches √2 as far.
+    Scene scene = halfPlaneScene();
+    const double s = std::sqrt(0.5);
+    scene.objects[1] = object(box({8, 0.002, 8}), {0.3 + 4 * s, 2.001, 0.2 - 4 * s}, 45);
+    const std::vector<SlabPoint> points = pointsOf(scene);
+    const auto inside = [&](double distance) { // along the normal from the hard edge
+        return visibilityAround(points, hardEdge + distance * s, 0.2 - distance * s, 0.04);
+    };
+    const double reach = 0.375 * std::sqrt(2.0);
+    EXPECT_NEAR(inside(0.5 * reach), 0.5, 0.08);
+    EXPECT_NEAR(inside(0.85 * reach), 0.15, 0.08);
+}
+
+TEST(ShadowWidthMap, AnOccluderBehindAnotherOneLosesItsShadow) { // Fig. 2.16: one depth a texel
+    Scene scene = halfPlaneScene();
+    scene.objects.push_back(plate(0.5, edgeFor(0.5, 0.3))); // its penumbra ends 7 cm from its hard edge, at x = 0.37
+    const std::vector<SlabPoint> points = pointsOf(scene);
+    EXPECT_LT(visibilityAt(points, hardEdge - 0.03), 0.1);
+    // Behind the upper plate's edge the width, 0.1 m, is divided by the upper plate's reach of 0.375 m; in truth it is dark.
+    EXPECT_GT(visibilityAt(points, hardEdge + 0.03), 0.5);
+}
+
+TEST(ShadowWidthMap, HasAPassForEveryTexelOfTheWidestPenumbra) {
+    const Scene scene = halfPlaneScene();
+    Stage stage(scene);
+    stage.show(0);
+    const auto figures = figuresOf(stage, widthMap);
+    EXPECT_EQ(figures.at("occluders"), 1);                  // the slab stands before nothing
+    const double widest = 0.75 * (1 / 3.998 - 1 / 6.2) * 6; // metres on the slab: from the plate to the slab's lower side
+    EXPECT_NEAR(figures.at("passes"), widest / halfPlaneTexel(1024), 1);
+}
+
+TEST(ShadowWidthMap, PassesGoAsFarAlongBothAxes) {
+    const auto passes = techniques::widthPasses({0.01, 0.025}, 0.2);
+    EXPECT_EQ(passes.steps.size(), 20U);
+    glm::ivec2 texels(0);
+    for (const glm::ivec2& step : passes.steps) texels += step;
+    EXPECT_EQ(texels, glm::ivec2(20, 8));
+    EXPECT_EQ(passes.reachPerPass, 0.01);
+}
+
+TEST(ShadowWidthMap, RefusesBadInput) {
+    EXPECT_THROW(techniques::parseVariant("shadow-width-map:map=8"), BadInput);
+    expectNoAnswerForALine("shadow-width-map");
+}
+
+} // namespace
+} // namespace shadowbench
