@@ -52,10 +52,10 @@ StencilVolumes::StencilVolumes(VolumeTest test)
     : test_(test), volume_("volumes/volume.vert", "gl/depth_only.frag"),
       shadowed_(gl::Program::screen("volumes/shadowed.frag")) {}
 
-void StencilVolumes::render(const Frame& frame, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,
-                            const gl::Texture& visibility) {
-    buildVolumes(frame);
-    volume_.set("clipFromWorld", clipFromWorld).set("light", glm::vec4(frame.hardLight.homogeneous()));
+void StencilVolumes::render(const Frame& frame, const glm::dvec4& light, const glm::mat4& clipFromWorld,
+                            const gl::Texture& depthStencil, const gl::Texture& visibility) {
+    buildVolumes(frame, light);
+    volume_.set("clipFromWorld", clipFromWorld).set("light", glm::vec4(light));
 
     const gl::RenderTarget target({&visibility, &depthStencil});
     target.clearColour(0, glm::vec4(1));
@@ -83,9 +83,8 @@ const StencilVolumes::VolumeMesh& StencilVolumes::volumeMesh(const std::shared_p
 }
 
 /// The volumes of all placements, each with its own light position in object space.
-void StencilVolumes::buildVolumes(const Frame& frame) {
+void StencilVolumes::buildVolumes(const Frame& frame, const glm::dvec4& light) {
     const auto pass = frame.pass("silhouette volumes");
-    const glm::dvec4 light = frame.hardLight.homogeneous();
     const Caps caps = test_ == VolumeTest::DepthFail ? Caps::Both : Caps::None;
     draws_.clear();
     corners_.clear();

@@ -28,9 +28,9 @@ class StencilVolumes {
 public:
     explicit StencilVolumes(VolumeTest test);
 
-    /// Writes 0 where the pixel's surface lies in the shadow volume of a placement, else 1. `depthStencil` holds the depth
-    /// of what `clipFromWorld` shows; its stencil is overwritten.
-    void render(const Frame& frame, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,
+    /// Writes 0 where the pixel's surface lies in the shadow volume of a placement, else 1. `light` is homogeneous.
+    /// `depthStencil` holds the depth of what `clipFromWorld` shows; its stencil is overwritten.
+    void render(const Frame& frame, const glm::dvec4& light, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,
                 const gl::Texture& visibility);
 
     /// `volumeFigures` of the frame rendered last, against the same depth: its volumes are drawn again, and change nothing.
@@ -53,7 +53,7 @@ private:
     };
 
     const VolumeMesh& volumeMesh(const std::shared_ptr<const Mesh>& mesh, const gl::SceneBuffers& scene);
-    void buildVolumes(const Frame& frame);
+    void buildVolumes(const Frame& frame, const glm::dvec4& light);
     void count(const Frame& frame, std::size_t first, std::size_t last) const;
     void drawVolumes(std::size_t first, std::size_t last) const;
     [[nodiscard]] std::uint64_t fragmentsPassing(unsigned depthFunction, const gl::Texture& depthStencil) const;

@@ -11,15 +11,15 @@
 namespace shadowbench {
 
 /// Shadow techniques of the documents that are still to be built. A row that is built leaves this list.
-inline constexpr std::array<std::string_view, 13> techniquesToCome{
-    // soft shadows from one light sample
-    "penumbra-map", "smoothie", "backprojection", "bitmask", "backprojection-peeled",
-    // soft shadows from many light samples
-    "sampled-volumes", "linear-visibility", "layered-attenuation", "soft-alias-free", "depth-complexity",
-    // shadow volumes
-    "penumbra-wedge",
-    // environment light
-    "prt-sh", "prt-haar"};
+inline constexpr auto techniquesToCome =
+    std::to_array<std::string_view>({// soft shadows from one light sample
+                                     "backprojection", "bitmask", "backprojection-peeled",
+                                     // soft shadows from many light samples
+                                     "linear-visibility", "layered-attenuation", "soft-alias-free", "depth-complexity",
+                                     // shadow volumes
+                                     "penumbra-wedge",
+                                     // environment light
+                                     "prt-sh", "prt-haar"});
 
 inline std::string idOf(const std::string& variant) { return variant.substr(0, variant.find(':')); }
 

@@ -7,7 +7,9 @@
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
 #include "techniques/gl/counters.h"
-#include "techniques/maps/sm-silhouette/outline.h"
+#include "techniques/maps/sm-silhouette/dual_edge.h"
+#include "techniques/shared/casters/edge_meshes.h"
+#include "techniques/shared/casters/outline.h"
 #include "techniques/shared/maps/depth_map.h"
 #include "techniques/shared/maps/single_map.h"
 
@@ -16,7 +18,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 
 namespace shadowbench::techniques {
 namespace {
@@ -68,18 +69,6 @@ public:
     }
 
 private:
-    struct Caster {
-        explicit Caster(std::shared_ptr<const Mesh> mesh) : source(std::move(mesh)), edges(*source) {}
-        std::shared_ptr<const Mesh> source;
-        EdgeMesh edges;
-    };
-
-    const EdgeMesh& edgesOf(const std::shared_ptr<const Mesh>& mesh) {
-        auto& entry = casters_[mesh.get()];
-        if (!entry) entry = std::make_unique<Caster>(mesh);
-        return entry->edges;
-    }
-
     /// Finds the outlines of all placements, in the map drawn last, for `drawOutlines`.
     void uploadOutlines(const Frame& frame) {
         const auto pass = frame.pass("silhouette edges");
@@ -92,13 +81,13 @@ private:
         const glm::dvec4 light = frame.hardLight.homogeneous();
         std::vector<DualEdge> result;
         for (const Batch& batch : frame.snapshot.batches) {
-            const EdgeMesh& mesh = edgesOf(batch.mesh);
+            const EdgeMesh& mesh = meshes_.of(batch.mesh);
             for (const Placement& placement : batch.placements) {
                 const auto world = [&](std::uint32_t vertex) {
                     return glm::dvec3(placement.world * glm::dvec4(batch.mesh->positions[vertex], 1));
                 };
-                for (const auto& [from, to] : outline(mesh, mesh.facing(glm::inverse(placement.world) * light)))
-                    if (const auto edge = onDualGrid(view, world(from), world(to), map_.side())) result.push_back(*edge);
+                for (const OutlineEdge& e : outline(mesh, mesh.facing(glm::inverse(placement.world) * light)))
+                    if (const auto edge = onDualGrid(view, world(e.from), world(e.to), map_.side())) result.push_back(*edge);
             }
         }
         return result;
@@ -156,7 +145,7 @@ private:
     gl::Program edge_, resolve_;
     gl::Buffer buffer_;
     gl::VertexArray layout_;
-    std::unordered_map<const Mesh*, std::unique_ptr<Caster>> casters_;
+    EdgeMeshes meshes_;
 };
 
 } // namespace

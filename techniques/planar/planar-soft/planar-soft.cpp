@@ -5,7 +5,7 @@
 #include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
 #include "techniques/planar/projected_casters.h"
-#include "techniques/shared/sampling/sampling.h"
+#include "techniques/shared/sampling/light_points.h"
 
 #include <optional>
 
@@ -26,17 +26,14 @@ public:
         target.clearColour(0, glm::vec4(static_cast<float>(count_)));
         if (const auto receiver = finder_.find(frame.snapshot, frame.hardLight)) {
             casters_.markReceiver(frame, *receiver, target);
-            for (int i = 0; i < count_; ++i) takeShadow(frame, *receiver, sample(i, frame), target);
+            for (const glm::dvec3& light : lightPoints(frame.snapshot.light, "hammersley", count_, frame.seed))
+                takeShadow(frame, *receiver, light, target);
         }
         mean_.set("sum", *lit_).set("count", static_cast<float>(count_));
         resolve(frame, {&visibility}, mean_);
     }
 
 private:
-    [[nodiscard]] glm::dvec3 sample(int i, const Frame& frame) const {
-        return frame.snapshot.light.sample({(i + 0.5) / count_, halton(haltonIndex(i, frame.seed), 2)});
-    }
-
     /// Takes one from the count of light points at each receiver pixel that the shadow from `light` covers, however often.
     void takeShadow(const Frame& frame, const PlanarReceiver& receiver, const glm::dvec3& light,
                     const gl::RenderTarget& target) {
@@ -71,8 +68,7 @@ Entry planarSoft() {
             .source = {Document::Zapotocky, "2.2 and B.3"},
             .answer = Answer::Soft,
             .notApplicable = noPlanarReceiver,
-            .parameters = {{"n", "64", IntegerRange{1, 4096}, "light samples, one projection each",
-                            "Zápotocký 5.2 (64 and 100)"}},
+            .parameters = {lightCountParameter("light samples, one projection each")},
             .variants = {""},
             .make = [](const Parameters& p) { return std::make_unique<PlanarSoft>(p); }};
 }

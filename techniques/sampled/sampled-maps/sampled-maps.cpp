@@ -4,9 +4,8 @@
 #include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
 #include "techniques/shared/maps/depth_map.h"
-#include "techniques/shared/sampling/sampling.h"
+#include "techniques/shared/sampling/light_points.h"
 
-#include <cmath>
 #include <optional>
 #include <set>
 
@@ -25,8 +24,8 @@ public:
         const gl::RenderTarget sumTarget({&*sum_});
         sumTarget.clearColour(0, glm::vec4(0));
         const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
-        for (int i = 0; i < count_; ++i) {
-            const LightView light = fitFromSample(frame.snapshot.light, sample(i, frame), corners);
+        for (const glm::dvec3& point : lightPoints(frame.snapshot.light, pattern_, count_, frame.seed)) {
+            const LightView light = fitFromSample(frame.snapshot.light, point, corners);
             map_.draw(light, frame);
             addTest(frame, light, sumTarget);
         }
@@ -43,16 +42,6 @@ public:
     }
 
 private:
-    [[nodiscard]] glm::dvec3 sample(int i, const Frame& frame) const {
-        if (pattern_ == "grid") {
-            const int side = std::max(1, static_cast<int>(std::sqrt(count_)));
-            return frame.snapshot.light.sample({(i % side + 0.5) / side, (i / side % side + 0.5) / side});
-        }
-        const std::uint32_t index = haltonIndex(i, frame.seed);
-        if (pattern_ == "halton") return frame.snapshot.light.sample({halton(index, 2), halton(index, 3)});
-        return frame.snapshot.light.sample({(i + 0.5) / count_, halton(index, 2)});
-    }
-
     void addTest(const Frame& frame, const LightView& light, const gl::RenderTarget& sumTarget) {
         const auto pass = frame.pass("shadow test");
         test_.set("positions", frame.gbuffer.position())
@@ -76,12 +65,8 @@ private:
 
 Entry sampledMaps() {
     std::vector<Parameter> parameters = withDepthMapParameters({
-        {"n", "64", IntegerRange{1, 4096},
-         "light samples, one map each: 256 of a scene of 100,000 triangles take some seconds a frame",
-         "Zápotocký 5.2 (64 and 100)"},
-        {"pattern", "hammersley", OneOf{{"hammersley", "halton", "grid"}},
-         "where the samples lie: Hammersley (its first coordinate is regular in n), Halton, or a grid of ⌊√n⌋ a side",
-         "dissertation 4.2"},
+        lightCountParameter("light samples, one map each: 256 of a scene of 100,000 triangles take some seconds a frame"),
+        lightPatternParameter(),
     });
     return {.id = "sampled-maps",
             .title = "Sampled area light, one shadow map a sample",

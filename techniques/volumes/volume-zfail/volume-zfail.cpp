@@ -22,12 +22,13 @@ public:
           depth_("volumes/volume-zfail/depth.vert", "gl/depth_only.frag") {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
+        const glm::dvec4 light = frame.hardLight.homogeneous();
         if (!infinite_) {
-            volumes_.render(frame, glm::mat4(frame.clipFromWorld), frame.gbuffer.depthStencil(), visibility);
+            volumes_.render(frame, light, glm::mat4(frame.clipFromWorld), frame.gbuffer.depthStencil(), visibility);
             return;
         }
         const glm::mat4 clipFromWorld(infiniteClip(frame));
-        volumes_.render(frame, clipFromWorld, drawDepth(frame, clipFromWorld), visibility);
+        volumes_.render(frame, light, clipFromWorld, drawDepth(frame, clipFromWorld), visibility);
     }
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {

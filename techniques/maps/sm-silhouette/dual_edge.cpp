@@ -1,15 +1,8 @@
-#include "techniques/maps/sm-silhouette/outline.h"
+#include "techniques/maps/sm-silhouette/dual_edge.h"
 
 #include <glm/geometric.hpp>
 
 namespace shadowbench::techniques {
-
-std::vector<std::pair<std::uint32_t, std::uint32_t>> outline(const EdgeMesh& mesh, const std::vector<bool>& facing) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-    for (const EdgeMesh::Edge& edge : mesh.edges())
-        if (edge.right == EdgeMesh::none || facing[edge.left] != facing[edge.right]) edges.emplace_back(edge.from, edge.to);
-    return edges;
-}
 
 std::optional<DualEdge> onDualGrid(const LightView& view, glm::dvec3 a, glm::dvec3 b, int side) {
     if (view.perspective) {

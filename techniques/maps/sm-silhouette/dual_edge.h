@@ -1,19 +1,12 @@
-// Silhouette edges as a silhouette map sees them (course, "Shadow Silhouette Maps"; no GL).
+// Outlines as a silhouette map holds them (course, "Shadow Silhouette Maps"; no GL).
 #pragma once
 
-#include "techniques/shared/casters/shadow_volume.h"
 #include "techniques/shared/light_views/light_view.h"
 
-#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <utility>
-#include <vector>
 
 namespace shadowbench::techniques {
-
-/// Edges of a mesh where its outline may run: between a facing and an averted triangle, and all borders of an open mesh.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> outline(const EdgeMesh& mesh, const std::vector<bool>& facing);
 
 /// An edge on the dual grid of a depth map: x and y in texels, offset by half a texel so that the depth samples lie at the
 /// corners of cells, and depth in [0, 1].

@@ -1,0 +1,14 @@
+// The shadow map's depth and the penumbra map's intensity.
+#include "soft/light_receiver.glsl"
+
+uniform sampler2D penumbrae;
+
+out float visibility;
+
+void main() {
+    LightReceiver r = lightReceiver();
+    visibility = 1.0;
+    if (r.unseen) return;
+    if (isForemost(r)) visibility = texture(penumbrae, r.at).r;
+    if (blocked(r)) visibility = 0.0;
+}

@@ -1,0 +1,15 @@
+// The three cases of the course's "Compute Shadows".
+#include "soft/light_receiver.glsl"
+
+uniform sampler2D smoothies;  // depth of the nearest, least alpha
+
+out float visibility;
+
+void main() {
+    LightReceiver r = lightReceiver();
+    vec2 smoothie = texture(smoothies, r.at).rg;
+    visibility = 1.0;
+    if (r.unseen) return;
+    if (isForemost(r) && r.depth > smoothie.x) visibility = min(smoothie.y, 1.0);
+    if (blocked(r)) visibility = 0.0;
+}

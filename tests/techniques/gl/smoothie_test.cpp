@@ -1,0 +1,135 @@
+// Smoothies: the outer penumbra's closed form at edges and corners, and the umbra that never shrinks.
+#include "base/error.h"
+#include "tests/support/plate_scene.h"
+#include "tests/support/soft_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+TEST(Smoothie, ThePenumbraIsALinearRampOutsideTheHardShadow) {
+    const Scene scene = halfPlaneScene();
+    Stage stage(scene);
+    stage.show(0);
+    const auto points = slabPoints(stage, rendered(stage, "smoothie:map=2048"));
+    // α is linear in the light's image, and so is x on a ground parallel to it; a texel is 2 cm long, a twentieth.
+    for (double x = 0.06; x < 0.38; x += 0.04)
+        EXPECT_NEAR(visibilityAt(points, x), (hardEdge - x) / (hardEdge - litUntil), 0.04) << x;
+    for (const SlabPoint& point : points) {
+        const double x = point.at.x;
+        EXPECT_TRUE(x > litUntil - 0.03 || point.visibility == 1) << x;
+        EXPECT_TRUE(x < hardEdge + 0.03 || point.visibility == 0) << x;
+    }
+    // Any ramp over the outer half errs by ½/√3, as a hard edge does.
+    EXPECT_NEAR(penumbraRmsError(points), 0.289, 0.02);
+}
+
+TEST(Smoothie, ItsWidthInTheLightsImageGrowsWithOneMinusTheRatioOfDepths) { // course, "Computing Alpha Values"
+    for (const double lift : {0.0, 2.0, 6.0}) { // light and plate, and with them the eye, above the slab
+        Scene scene = halfPlaneScene();
+        scene.light.centre.y += lift;
+        scene.objects[1] = object(box({20, 0.002, 40}), {10.3, 2.001 + lift, 0});
+        Stage stage(scene);
+        stage.show(0);
+        const double width = widthBetween(slabPoints(stage, rendered(stage, "smoothie:map=2048")), 0.1, 0.9) / 0.8;
+        const double blocker = 4, receiver = 6 + lift, rectangle = 0.75 / 4; // the radius over the plate's depth
+        EXPECT_NEAR(width / receiver, rectangle * (1 - blocker / receiver), 0.1 * rectangle * (1 - blocker / receiver));
+    }
+}
+
+TEST(Smoothie, ACornerIsAQuadBetweenTheRectangles) {
+    const Scene scene = plateScene(1);
+    Stage stage(scene);
+    stage.show(0);
+    const double width = platePenumbra(1);
+    double worst = 0, corner = 0;
+    std::size_t pixels = 0;
+    for (const PlatePoint& p : platePoints(scene, stage, rendered(stage, "smoothie"))) {
+        // Two triangles from the corner to the rectangles' ends and to the tip, as far out on the diagonal.
+        const double alpha = (std::max(p.x, p.z) + (std::sqrt(2.0) - 1) * std::min(p.x, p.z)) / width;
+        const double error = std::abs(p.visibility - std::min(1.0, alpha));
+        worst = std::max(worst, p.x > 0.01 || p.z > 0.01 || p.x + p.z == 0 ? error : 0.0); // but for the edge's texels
+        if (p.x == 0 || p.z == 0 || alpha > 1) continue;
+        corner += error;
+        ++pixels;
+    }
+    EXPECT_GT(pixels, 60U);
+    EXPECT_LT(corner / static_cast<double>(pixels), 0.02); // a texel, 2 cm on the ground, is 0.08
+    EXPECT_LT(worst, 0.15);
+}
+
+TEST(Smoothie, HasARectangleForEachEdgeAndAQuadForEachConvexCorner) {
+    const Scene scene = plateScene(1);
+    Stage stage(scene);
+    stage.show(0);
+    const auto figures = figuresOf(stage, "smoothie");
+    EXPECT_EQ(figures.at("smoothie_edges"), 4 + 4); // the tops of plate and slab
+    EXPECT_EQ(figures.at("smoothie_corners"), 4 + 4);
+}
+
+TEST(Smoothie, TheUmbraKeepsItsSizeAsTheLightGrows) { // course, "Limitations"
+    EXPECT_NEAR(trueLossOfUmbra(), 0.84, 0.02);
+    EXPECT_LE(lossOfUmbra("smoothie"), 0.02);
+}
+
+/// Two plates at one height whose penumbrae overlap, or one of them.
+Scene neighbours(bool left, bool right) {
+    Scene scene = plateScene(1, 96);
+    scene.objects.pop_back();
+    if (left) scene.objects.push_back(object(box({0.8, 0.002, 0.9}), {-0.35, 2.001, 0.2}, 13));
+    if (right) scene.objects.push_back(object(box({0.6, 0.002, 0.7}), {0.55, 2.001, 0.3}, -21));
+    return scene;
+}
+
+Image<float> imageOf(const Scene& scene, const std::string& variant) {
+    Stage stage(scene);
+    stage.show(0);
+    return rendered(stage, variant);
+}
+
+TEST(Smoothie, WhereSmoothiesOverlapTheDarkerOneIsKept) { // minimum blending
+    const Image<float> both = imageOf(neighbours(true, true), "smoothie");
+    const Image<float> left = imageOf(neighbours(true, false), "smoothie");
+    const Image<float> right = imageOf(neighbours(false, true), "smoothie");
+    const Scene scene = neighbours(true, true);
+    Stage stage(scene);
+    stage.show(0);
+    const metrics::Drawn drawn = stage.drawn();
+    std::size_t overlapped = 0;
+    for (std::size_t i = 0; i < both.size(); ++i) {
+        if (drawn.id[i] != 1) continue;
+        EXPECT_EQ(both[i], std::min(left[i], right[i])) << i;
+        overlapped += left[i] > 0 && left[i] < 1 && right[i] > 0 && right[i] < 1 ? 1 : 0;
+    }
+    EXPECT_GT(overlapped, 20U);
+}
+
+TEST(Smoothie, TopsOfCastersAreLitUpToTheirRims) {
+    Scene scene = boxScene(192);
+    scene.light = {LightKind::Rectangle, {1.7, 6.1, -2.3}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> v = rendered(stage, "smoothie");
+    const metrics::Drawn drawn = stage.drawn();
+    std::size_t top = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        if (drawn.id[i] != 2 || drawn.position[i].y < 1.399F) continue;
+        EXPECT_EQ(v[i], 1) << i;
+        ++top;
+    }
+    EXPECT_GT(top, 500U);
+}
+
+TEST(Smoothie, RefusesWhatItCannotAnswer) {
+    EXPECT_THROW(techniques::parseVariant("smoothie:map=8"), BadInput);
+    EXPECT_THROW(techniques::parseVariant("smoothie:width=2"), BadInput);
+    Scene scene = halfPlaneScene();
+    const techniques::Entry& entry = *techniques::parseVariant("smoothie").entry;
+    EXPECT_FALSE(entry.notApplicable(scene));
+    scene.light.kind = LightKind::Line;
+    EXPECT_EQ(entry.notApplicable(scene), "the penumbra is that of a round light, and a line has no extent across");
+}
+
+} // namespace
+} // namespace shadowbench
