@@ -3,6 +3,7 @@
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/sampling/sampling.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -11,10 +12,17 @@ namespace shadowbench::techniques {
 
 std::vector<Parameter> shadowBufferParameters() {
     return {
-        {"epsilon", "0.01", RealRange{1e-5, 1}, "relative depth tolerance of reprojection", "dissertation eq. 4.8"},
+        {"depth-test", "relative", OneOf{{"relative", "absolute"}},
+         "of reprojection: tolerance relative to the depth, or in metres", "dissertation eq. 4.8 and 4.4"},
+        {"epsilon", "0.01", RealRange{1e-5, 1}, "depth tolerance of reprojection", "dissertation eq. 4.8"},
         {"overscan", "0.05", RealRange{0, 0.5}, "share by which the shadow buffer is larger than the image",
          "dissertation 4.2"},
     };
+}
+
+std::vector<Figure> shadowBufferFigures() {
+    return {{"shadow_buffer_bytes", "bytes of both shadow buffers for a pixel of the image"},
+            {"reused", "share of the surface pixels that took over what the frame before had left"}};
 }
 
 LightView lightSampleView(const Frame& frame) {
@@ -28,8 +36,8 @@ ShadowBuffer::Images::Images(glm::ivec2 size, int border)
       write(gl::Format::RGBA16F, gbuffer.size(), gl::Filter::Linear), shown(gl::Format::R32F, gbuffer.size()) {}
 
 ShadowBuffer::ShadowBuffer(const Parameters& parameters)
-    : epsilon_(static_cast<float>(parameters.real("epsilon"))), overscan_(parameters.real("overscan")),
-      copy_(gl::Program::screen("sampled/inner_part.frag")) {}
+    : relative_(parameters.text("depth-test") == "relative"), epsilon_(static_cast<float>(parameters.real("epsilon"))),
+      overscan_(parameters.real("overscan")), copy_(gl::Program::screen("sampled/inner_part.frag")) {}
 
 void ShadowBuffer::begin(const Frame& frame) {
     if (!images_ || images_->inner != frame.size)
@@ -48,6 +56,16 @@ void ShadowBuffer::update(const Frame& frame, gl::Program& program, const gl::Te
     resolve(frame, {&visibility}, copy_, "crop");
 }
 
+std::map<std::string, double> ShadowBuffer::figures(int firstSamples) const {
+    const Image<glm::vec4> buffer = gl::RenderTarget({&images_->read}).readVec4(0);
+    const auto counts = [&](float least) {
+        return static_cast<double>(std::ranges::count_if(buffer, [&](const glm::vec4& pixel) { return pixel.y > least; }));
+    };
+    const double surface = counts(0), pixels = static_cast<double>(images_->inner.x) * images_->inner.y;
+    return {{"shadow_buffer_bytes", static_cast<double>(images_->read.bytes() + images_->write.bytes()) / pixels},
+            {"reused", surface > 0 ? counts(static_cast<float>(firstSamples)) / surface : 0}};
+}
+
 void ShadowBuffer::setReprojection(const Frame& frame, gl::Program& program) const {
     const Camera& camera = frame.snapshot.camera;
     const glm::dvec3 forward = camera.basis().forward;
@@ -61,6 +79,7 @@ void ShadowBuffer::setReprojection(const Frame& frame, gl::Program& program) con
         .set("previousClipFromWorld", glm::mat4(gbuffer().widened(frame.previousClipFromWorld)))
         .set("eyeDepth", plane(forward, camera.eye))
         .set("previousEyeDepth", plane(previousForward, frame.snapshot.previousCamera.eye))
+        .set("relativeDepth", relative_ ? 1 : 0)
         .set("epsilon", epsilon_)
         .set("hasHistory", images_->fresh ? 0 : 1);
 }

@@ -10,13 +10,15 @@ uniform mat4 previousClipFromWorld;
 uniform vec4 eyeDepth;           // dot(·, (p, 1)) = linear depth from the eye
 uniform vec4 previousEyeDepth;
 uniform float epsilon;
+uniform int relativeDepth;       // the tolerance is relative (eq. 4.8) or in metres (eq. 4.4)
 uniform int hasHistory;
 
 layout(location = 0) out float visibility;
 layout(location = 1) out vec4 newShadowBuffer;
 
-bool sameDepth(float now, float before) {  // eq. 4.8
-    return abs(1.0 - now / before) < epsilon;
+bool sameDepth(float now, float before) {
+    float difference = relativeDepth == 1 ? 1.0 - now / before : now - before;
+    return abs(difference) < epsilon;
 }
 
 float depthFromEye(Receiver receiver) {

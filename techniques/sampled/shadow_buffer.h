@@ -2,6 +2,7 @@
 // to what the frames before have left, reprojected from frame to frame. Its shader side is sampled/shadow_buffer.glsl.
 #pragma once
 
+#include "techniques/contract/entry.h"
 #include "techniques/contract/parameters.h"
 #include "techniques/contract/technique.h"
 #include "techniques/gl/gbuffer.h"
@@ -9,13 +10,18 @@
 #include "techniques/gl/texture.h"
 #include "techniques/shared/light_views/light_view.h"
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace shadowbench::techniques {
 
-/// `epsilon` and `overscan`.
+/// `depth-test`, `epsilon` and `overscan`.
 std::vector<Parameter> shadowBufferParameters();
+
+/// What ShadowBuffer::figures reports.
+std::vector<Figure> shadowBufferFigures();
 
 /// The view of the frame's own Halton point of the light.
 LightView lightSampleView(const Frame& frame);
@@ -38,6 +44,9 @@ public:
     /// pass "temporal resolve"), and copies what it shows of the image into `visibility` (a pass "crop").
     void update(const Frame& frame, gl::Program& resolve, const gl::Texture& visibility);
 
+    /// Of the frame that was updated last; a pixel that it began anew counts for `firstSamples`.
+    [[nodiscard]] std::map<std::string, double> figures(int firstSamples) const;
+
 private:
     struct Images {
         Images(glm::ivec2 size, int border);
@@ -49,6 +58,7 @@ private:
 
     void setReprojection(const Frame& frame, gl::Program& resolve) const;
 
+    bool relative_;
     float epsilon_;
     double overscan_;
     gl::Program copy_;

@@ -29,6 +29,8 @@ public:
         buffer_.update(frame, resolve_, visibility);
     }
 
+    [[nodiscard]] std::map<std::string, double> figures(const Frame&) const override { return buffer_.figures(1); }
+
 private:
     ShadowBuffer buffer_;
     DepthMap map_;
@@ -44,6 +46,7 @@ Entry temporalSampling() {
             .answer = Answer::Soft,
             .temporal = true,
             .parameters = withDepthMapParameters(shadowBufferParameters()),
+            .figures = shadowBufferFigures(),
             .variants = {""},
             .make = [](const Parameters& p) { return std::make_unique<TemporalSampling>(p); }};
 }

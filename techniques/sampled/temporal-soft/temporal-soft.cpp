@@ -10,6 +10,7 @@
 #include "techniques/shared/filters/pcss_program.h"
 #include "techniques/shared/sampling/sampling.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -37,6 +38,10 @@ public:
         setPcss(resolve_, startTaps, frame.snapshot.light, view, map_, followPlane_);
         setFilter(frame);
         buffer_.update(frame, resolve_, visibility);
+    }
+
+    [[nodiscard]] std::map<std::string, double> figures(const Frame&) const override {
+        return buffer_.figures(std::max(start_, 1));
     }
 
 private:
@@ -83,6 +88,7 @@ Entry temporalSoft() {
             .answer = Answer::Soft,
             .temporal = true,
             .parameters = withDepthMapParameters(std::move(parameters)),
+            .figures = shadowBufferFigures(),
             .variants = {""},
             .make = [](const Parameters& p) { return std::make_unique<TemporalSoft>(p); }};
 }

@@ -32,6 +32,25 @@ TEST(TemporalSampling, ConvergesToTheTruthWhileTheCameraStandsStill) {
     EXPECT_LT(many, 0.015);
 }
 
+TEST(TemporalSampling, AnAbsoluteDepthTestRejectsWhat16BitsHaveRounded) { // eq. 4.4 against 4.8
+    const Scene scene = halfPlaneScene();
+    Stage stage(scene);
+    stage.show(0);
+    const auto reused = [&](const std::string& parameters) {
+        const techniques::Variant variant = techniques::parseVariant("temporal-sampling:" + parameters);
+        const auto technique = variant.entry->make(variant.parameters);
+        for (int frame = 0; frame < 3; ++frame) stage.render(*technique, frame, 1);
+        return technique->figures(stage.frame(2, 1)).at("reused");
+    };
+    EXPECT_EQ(reused("epsilon=0.002"), 1);                       // the camera stands still: everything was there before
+    EXPECT_LT(reused("depth-test=absolute,epsilon=0.001"), 0.8); // from 4 m on 16-bit depths are 2 to 4 mm apart
+    EXPECT_EQ(reused("depth-test=absolute,epsilon=0.01"), 1);
+    // 16 bytes a pixel of two buffers that are 5 % wider and higher.
+    const double border = std::ceil(0.5 * 0.05 * scene.size.x), wide = scene.size.x + 2 * border;
+    EXPECT_NEAR(figuresOf(stage, "temporal-sampling").at("shadow_buffer_bytes"),
+                16 * wide * wide / (scene.size.x * scene.size.y), 1e-9);
+}
+
 TEST(TemporalSampling, TheSecondFrameHasStepsOfAHalf) { // what the source admits
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
