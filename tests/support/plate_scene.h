@@ -81,4 +81,37 @@ inline double trueLossOfUmbra() {
     return 1 - umbra(2) / umbra(0.5);
 }
 
+/// Two plates at one height whose penumbrae overlap, or one of them.
+inline Scene neighbours(bool left, bool right) {
+    Scene scene = plateScene(1, 96);
+    scene.objects.pop_back();
+    if (left) scene.objects.push_back(object(box({0.8, 0.002, 0.9}), {-0.35, 2.001, 0.2}, 13));
+    if (right) scene.objects.push_back(object(box({0.6, 0.002, 0.7}), {0.55, 2.001, 0.3}, -21));
+    return scene;
+}
+
+inline Image<float> neighboursImage(bool left, bool right, const std::string& variant) {
+    const Scene scene = neighbours(left, right);
+    Stage stage(scene);
+    stage.show(0);
+    return rendered(stage, variant);
+}
+
+/// The visibility of both is the lesser one of either, wherever the slab is seen.
+inline void expectTheDarkerWhereTwoOverlap(const std::string& variant) {
+    const Image<float> left = neighboursImage(true, false, variant), right = neighboursImage(false, true, variant);
+    const Image<float> both = neighboursImage(true, true, variant);
+    const Scene scene = neighbours(true, true);
+    Stage stage(scene);
+    stage.show(0);
+    const metrics::Drawn drawn = stage.drawn();
+    std::size_t overlapped = 0;
+    for (std::size_t i = 0; i < both.size(); ++i) {
+        if (drawn.id[i] != 1) continue;
+        EXPECT_EQ(both[i], std::min(left[i], right[i])) << i;
+        overlapped += left[i] > 0 && left[i] < 1 && right[i] > 0 && right[i] < 1 ? 1 : 0;
+    }
+    EXPECT_GT(overlapped, 20U);
+}
+
 } // namespace shadowbench

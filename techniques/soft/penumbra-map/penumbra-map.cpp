@@ -6,8 +6,8 @@
 // its texel elsewhere. Only the outer penumbra is drawn: the umbra is the hard shadow, and does not shrink as the light
 // grows. By the equation the intensity is linear in depth, hence not across the penumbra.
 // Departures: cones are fans of 32 triangles. The map has no bias, receivers have (outline_geometry.h). A receiver well
-// before what its texel saw is lit: without that the rims of casters, which read the texel beside theirs, would be dark. One
-// end of an edge may lie so near to the light that the cone of the other end lies in its own: there is no sheet.
+// before what its texel saw is lit: without that the rims of casters, which read the texel beside theirs, would be dark. An
+// edge that runs so steeply towards the light that the cone of one end holds that of the other has no sheet.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/soft/outline_geometry.h"
