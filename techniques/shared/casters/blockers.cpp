@@ -27,8 +27,9 @@ Box boxOf(const Bounds& bounds, const glm::dmat4& world) {
         glm::dvec4 low(0, 0, 0, bounds.low[axis]), high(0, 0, 0, -bounds.high[axis]);
         low[axis] = -1;
         high[axis] = 1;
-        box.sides[static_cast<std::size_t>(2 * axis)] = planes * low;
-        box.sides[static_cast<std::size_t>(2 * axis + 1)] = planes * high;
+        const auto pair = static_cast<std::size_t>(axis);
+        box.sides[2 * pair] = planes * low;
+        box.sides[2 * pair + 1] = planes * high;
     }
     return box;
 }

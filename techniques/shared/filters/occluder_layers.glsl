@@ -26,5 +26,5 @@ float occlusion(int layer, vec2 at, float reach) {
     ivec2 from = ivec2(low);
     float texels = texelsUpTo(layer, from, high) - texelsUpTo(layer, from, vec2(low.x, high.y)) -
                    texelsUpTo(layer, from, vec2(high.x, low.y)) + texelsUpTo(layer, from, low);
-    return texels / (4.0 * halfSize.x * halfSize.y);
+    return clamp(texels / (4.0 * halfSize.x * halfSize.y), 0.0, 1.0);
 }

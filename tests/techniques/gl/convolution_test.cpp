@@ -55,8 +55,9 @@ bool meetsSlanted(const glm::dvec3& a, const glm::dvec3& b) {
 double truthUnderSlanted(const glm::dvec3& p, const Light& light) {
     constexpr int side = 40;
     int visible = 0;
-    for (int i = 0; i < side * side; ++i)
-        if (!meetsSlanted(p, light.sample({(i % side + 0.5) / side, (i / side + 0.5) / side}))) ++visible;
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column)
+            if (!meetsSlanted(p, light.sample({(column + 0.5) / side, (row + 0.5) / side}))) ++visible;
     return static_cast<double>(visible) / (side * side);
 }
 

@@ -113,6 +113,11 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"vsm", {"G-buffer", "depth map", "basis", "blur", "resolve"}},
         {"pcf-blur", {"G-buffer", "depth map", "resolve", "blur"}}, // the blur twice
         {"deep-sm", {"G-buffer", "depth map", "deep texture", "resolve"}},
+        {"single-sample", {"G-buffer", "depth map", "tile ids", "neighbourhood search"}},
+        {"shadow-width-map", {"G-buffer", "depth map", "occluder map", "shadow width map", "resolve"}},
+        {"skirt", {"G-buffer", "depth map", "edge filter", "skirt", "resolve"}},
+        {"convolution", {"G-buffer", "blocker images", "summed areas", "convolution"}},
+        {"occlusion-texture", {"G-buffer", "slices", "summed areas", "resolve"}},
         {"sampled-maps", {"G-buffer", "depth map", "shadow test", "resolve"}},
         {"temporal-soft", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}},
         {"temporal-sampling", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}}};

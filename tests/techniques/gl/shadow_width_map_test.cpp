@@ -23,7 +23,8 @@ TEST(ShadowWidthMap, TheInnerHalfOfThePenumbraIsARamp) {
 
 TEST(ShadowWidthMap, TheRampIsAsWideAsItsOwnOccludersPenumbra) {
     const auto points = pointsOf(withHigherPlate(halfPlaneScene()), "shadow-width-map:map=512");
-    EXPECT_NEAR(visibilityAt(points, 0.5 * (hardEdge + umbraFrom)), 0.5, 0.1); // a texel is a fifth of the ramp
+    // A texel is a fifth of the ramp, and the edge may lie anywhere in one.
+    EXPECT_NEAR(visibilityAt(points, 0.5 * (hardEdge + umbraFrom)), 0.5, 0.13);
 }
 
 TEST(ShadowWidthMap, TheOuterHalfIsMissing) { // what the dissertation admits: shadows are too small
