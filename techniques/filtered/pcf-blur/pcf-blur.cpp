@@ -21,24 +21,22 @@ namespace {
 
 constexpr int reach = 7; // pixels to either side of the middle tap
 
-/// Offset in pixels and weight of each tap.
-std::vector<glm::vec2> gaussianTaps(double sigma) {
-    std::vector<glm::vec2> taps;
-    double sum = 0;
-    for (int x = -reach; x <= reach; ++x) {
-        const double weight = std::exp(-0.5 * x * x / (sigma * sigma));
-        taps.emplace_back(x, weight);
-        sum += weight;
-    }
-    for (glm::vec2& tap : taps) tap.y /= static_cast<float>(sum);
-    return taps;
+double gaussian(double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)); }
+
+/// Offset in pixels and weight of the pairs of taps beside the middle one, whose weight is what is left of 1.
+std::vector<glm::vec2> gaussianPairs(double sigma) {
+    double sum = gaussian(0, sigma);
+    for (int x = 1; x <= reach; ++x) sum += 2 * gaussian(x, sigma);
+    std::vector<glm::vec2> pairs;
+    for (int x = 1; x <= reach; ++x) pairs.emplace_back(x, gaussian(x, sigma) / sum);
+    return pairs;
 }
 
 class PcfBlur final : public Technique {
 public:
     explicit PcfBlur(const Parameters& p)
-        : pcf_(makePcf(p)), taps_(gaussianTaps(p.real("sigma"))),
-          gaussian_(gl::Program::screen("filtered/pcf-blur/gaussian.frag", {{"TAPS", std::to_string(2 * reach + 1)}})) {}
+        : pcf_(makePcf(p)), pairs_(gaussianPairs(p.real("sigma"))),
+          gaussian_(gl::Program::screen("filtered/pcf-blur/gaussian.frag", {{"PAIRS", std::to_string(reach)}})) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         if (!images_ || images_->sharp.size() != frame.size) images_.emplace(frame.size);
@@ -58,12 +56,12 @@ private:
     };
 
     void blur(const Frame& frame, const gl::Texture& from, glm::vec2 axis, const gl::Texture& to) {
-        gaussian_.set("image", from).set("axis", axis).set("taps", taps_);
+        gaussian_.set("image", from).set("axis", axis).set("pairs", pairs_);
         resolve(frame, {&to}, gaussian_, "blur");
     }
 
     std::unique_ptr<Technique> pcf_;
-    std::vector<glm::vec2> taps_;
+    std::vector<glm::vec2> pairs_;
     gl::Program gaussian_;
     std::optional<Images> images_;
 };

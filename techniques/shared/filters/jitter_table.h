@@ -17,7 +17,7 @@ inline constexpr int jitterBlock = 32;
 /// are the rows of a 2-D one.
 class JitterTable {
 public:
-    /// Tables of different `first` sets share no set if they lie jitterBlock² apart.
+    /// Of the jitterBlock² sets of taps from number `first` on.
     JitterTable(const JitterGrid& grid, Region region, std::uint32_t first = 0);
 
     /// RGBA32F, two taps a texel: of the pixel (x, y) of the block and taps 2i and 2i + 1 in column x + jitterBlock · y of
