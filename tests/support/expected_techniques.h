@@ -11,10 +11,10 @@
 namespace shadowbench {
 
 /// Shadow techniques of the documents that are still to be built. A row that is built leaves this list.
-inline constexpr std::array<std::string_view, 20> techniquesToCome{
+inline constexpr std::array<std::string_view, 19> techniquesToCome{
     // soft shadows from one light sample
     "pcf-blur", "pcf-jitter", "combined", "single-sample", "shadow-width-map", "penumbra-map", "smoothie", "skirt",
-    "backprojection-peeled", "convolution", "occlusion-texture",
+    "convolution", "occlusion-texture",
     // soft shadows from many light samples
     "sampled-volumes", "linear-visibility", "layered-attenuation", "soft-alias-free", "depth-complexity",
     "temporal-sampling",
