@@ -11,15 +11,12 @@
 namespace shadowbench {
 
 /// Shadow techniques of the documents that are still to be built. A row that is built leaves this list.
-inline constexpr auto techniquesToCome =
-    std::to_array<std::string_view>({// soft shadows from one light sample
-                                     "backprojection", "bitmask", "backprojection-peeled",
-                                     // soft shadows from many light samples
-                                     "linear-visibility", "layered-attenuation", "soft-alias-free", "depth-complexity",
-                                     // shadow volumes
-                                     "penumbra-wedge",
-                                     // environment light
-                                     "prt-sh", "prt-haar"});
+inline constexpr auto techniquesToCome = std::to_array<std::string_view>({
+    "linear-visibility", "layered-attenuation", "soft-alias-free",
+    "depth-complexity",   // soft shadows from many light samples
+    "penumbra-wedge",     // shadow volumes
+    "prt-sh", "prt-haar", // environment light
+});
 
 inline std::string idOf(const std::string& variant) { return variant.substr(0, variant.find(':')); }
 

@@ -2,11 +2,17 @@ in float linearDepth;
 flat in uint moving;
 
 uniform vec2 bias;  // slope factor, constant in metres
+#ifdef PEEL
+uniform sampler2D depthBefore;  // of the layer that is peeled off, the same to the last bit where it is drawn again
+#endif
 
-out float stored;
+out vec4 stored;
 
 void main() {
     float slope = max(abs(dFdx(linearDepth)), abs(dFdy(linearDepth)));
+#ifdef PEEL
+    if (gl_FragCoord.z <= texelFetch(depthBefore, ivec2(gl_FragCoord.xy), 0).r) discard;
+#endif
     float depth = linearDepth + bias.x * slope + bias.y;
-    stored = moving != 0u ? -depth : depth;
+    stored = vec4(moving != 0u ? -depth : depth);
 }
