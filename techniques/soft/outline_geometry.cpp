@@ -88,8 +88,8 @@ std::vector<Parameter> receiverBiasParameters() {
     return parameters;
 }
 
-void bindLightReceiver(gl::Program& program, const Frame& frame, const LightView& view, const LinearDepthMap& map,
-                       Bias bias) {
+void bindOutlineReceiver(gl::Program& program, const Frame& frame, const LightView& view, const LinearDepthMap& map,
+                         Bias bias) {
     const glm::dmat4 toLight = lightFromWorld(frame.snapshot.light, glm::dvec3(view.depthFromWorld));
     program.set("positions", frame.gbuffer.position())
         .set("normals", frame.gbuffer.normal())

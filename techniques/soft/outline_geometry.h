@@ -62,12 +62,12 @@ private:
     bool bound_ = false;
 };
 
-/// `depthMapParameters` of techniques that test receivers as soft/light_receiver.glsl does. The map has no bias: where a
+/// `depthMapParameters` of techniques that test receivers as soft/outline_receiver.glsl does. The map has no bias: where a
 /// caster is seen nearly edge-on, one by its slope would push it behind its own receiver, and no penumbra covers that texel.
 std::vector<Parameter> receiverBiasParameters();
 
-/// Sets the uniforms of soft/light_receiver.glsl.
-void bindLightReceiver(gl::Program& program, const Frame& frame, const LightView& view, const LinearDepthMap& map,
-                       Bias bias);
+/// Sets the uniforms of soft/outline_receiver.glsl.
+void bindOutlineReceiver(gl::Program& program, const Frame& frame, const LightView& view, const LinearDepthMap& map,
+                         Bias bias);
 
 } // namespace shadowbench::techniques

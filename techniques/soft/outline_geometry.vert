@@ -1,16 +1,16 @@
 // A vertex of the triangles that are attached to outlines (soft/outline_geometry.h).
 #include "gl/instance.glsl"
 
-layout(location = 8) in vec3 offset;  // light space
+layout(location = 8) in vec3 offset; // light space
 layout(location = 9) in float value;
 
 uniform mat4 clipFromWorld;
 uniform mat4 worldFromLight;
 uniform vec4 depthFromWorld;
 
-out float depth;  // metres from the light's plane
-out float acrossSurface;                // the value, linear on the triangle in the world
-noperspective out float acrossImage;    // the value, linear in the light's image
+out float depth;                     // metres from the light's plane
+out float acrossSurface;             // the value, linear on the triangle in the world
+noperspective out float acrossImage; // the value, linear in the light's image
 
 void main() {
     vec4 world = vec4(worldPosition(objectPosition), 1.0);

@@ -90,7 +90,7 @@ public:
         attached_ = ConesAndSheets(lightRadius(light));
         geometry_.build(frame, view_, [&](const AttachTo& caster, auto& vertices) { attached_.attach(caster, vertices); });
         drawPenumbrae(frame);
-        bindLightReceiver(resolve_, frame, view_, map_, bias_);
+        bindOutlineReceiver(resolve_, frame, view_, map_, bias_);
         resolve_.set("penumbrae", penumbrae_);
         resolve(frame, {&visibility}, resolve_);
     }

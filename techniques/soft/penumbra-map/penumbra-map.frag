@@ -1,12 +1,12 @@
 // The shadow map's depth and the penumbra map's intensity.
-#include "soft/light_receiver.glsl"
+#include "soft/outline_receiver.glsl"
 
 uniform sampler2D penumbrae;
 
 out float visibility;
 
 void main() {
-    LightReceiver r = lightReceiver();
+    OutlineReceiver r = outlineReceiver();
     visibility = 1.0;
     if (r.unseen) return;
     if (isForemost(r)) visibility = texture(penumbrae, r.at).r;

@@ -74,7 +74,7 @@ public:
         smoothies_ = Smoothies(lightRadius(light));
         geometry_.build(frame, view_, [&](const AttachTo& caster, auto& vertices) { smoothies_.attach(caster, vertices); });
         drawBuffer(frame);
-        bindLightReceiver(resolve_, frame, view_, map_, bias_);
+        bindOutlineReceiver(resolve_, frame, view_, map_, bias_);
         resolve_.set("smoothies", buffer_);
         resolve(frame, {&visibility}, resolve_);
     }

@@ -1,12 +1,12 @@
 // The three cases of the course's "Compute Shadows".
-#include "soft/light_receiver.glsl"
+#include "soft/outline_receiver.glsl"
 
 uniform sampler2D smoothies;  // depth of the nearest, least alpha
 
 out float visibility;
 
 void main() {
-    LightReceiver r = lightReceiver();
+    OutlineReceiver r = outlineReceiver();
     vec2 smoothie = texture(smoothies, r.at).rg;
     visibility = 1.0;
     if (r.unseen) return;
