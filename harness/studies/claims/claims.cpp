@@ -122,8 +122,9 @@ std::vector<double> meanRanks(const std::vector<double>& numbers) {
 } // namespace
 
 std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& records) {
-    const auto record = std::ranges::find_if(records, [&](const Record& r) { return matches(r, figure); });
-    const std::optional<double> number = record == records.end() ? std::nullopt : numberOf(figure, *record);
+    std::optional<double> number;
+    for (const Record& record : records)
+        if (!number && matches(record, figure)) number = numberOf(figure, record);
     if (!number || !figure.over) return number;
     Figure divisor = figure;
     divisor.variant = figure.over->variant;

@@ -78,7 +78,8 @@ std::vector<Claim> parseClaims(std::string_view json);
 /// two pairs, and where all numbers of one side are equal. The two are equally long.
 std::optional<double> rankCorrelation(const std::vector<double>& ours, const std::vector<double>& theirs);
 
-/// The number that a figure names; nothing where the record is missing or has none.
+/// The number that a figure names, of the first record that has it: costs may stand in another file than errors. Nothing
+/// where none has.
 std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& records);
 
 Judgement judge(const Claim& claim, const std::vector<Record>& records);

@@ -51,6 +51,13 @@ TEST(Claims, AMissingFigureIsNoVerdict) {
     EXPECT_EQ(verdict(claim(holds), {unscored, with("b", 1)}), Verdict::NotMeasured);
 }
 
+TEST(Claims, AFigureIsOfTheFirstRecordThatHasIt) {
+    Record uncounted = with("a", 0.001);
+    uncounted.values["accuracy.mismatch"].reset();
+    const std::string small = claim(check("a", "at most", "\"bound\": 0.01"));
+    EXPECT_EQ(verdict(small, {uncounted, with("a", 0.001), with("a", 1)}), Verdict::Reproduced);
+}
+
 TEST(Claims, FiguresOfASweepAreTakenFromItsCurveOnly) {
     Record swept = with("a:map=512", 0.5);
     swept.sweep = SweepStep{"map", "texels", "a", 512, {}};
