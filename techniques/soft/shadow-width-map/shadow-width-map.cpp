@@ -35,7 +35,7 @@ public:
         const Light& light = frame.snapshot.light;
         view_ = fitToScene(frame.snapshot.light, frame.snapshot);
         map_.draw(view_, frame);
-        passes_ = widthPasses(texelReach(light, view_, map_.side()), 1 / view_.near - 1 / view_.far);
+        passes_ = widthPasses(texelReach(light, view_, map_.side()), 1 / view_.near - 1 / view_.far, map_.side());
         drawOccluders(frame);
         growWidths(frame);
 

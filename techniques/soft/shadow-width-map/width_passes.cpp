@@ -5,10 +5,11 @@
 
 namespace shadowbench::techniques {
 
-WidthPasses widthPasses(const glm::dvec2& texelReach, double widest) {
+WidthPasses widthPasses(const glm::dvec2& texelReach, double widest, int most) {
     WidthPasses passes;
     passes.reachPerPass = std::min(texelReach.x, texelReach.y);
-    const int count = std::max(1, static_cast<int>(std::ceil(widest / passes.reachPerPass)));
+    const double needed = std::ceil(widest / passes.reachPerPass);
+    const int count = static_cast<int>(std::clamp(needed, 1.0, static_cast<double>(most)));
     const auto texelsAfter = [&](int pass) {
         return glm::ivec2(std::lround(pass * passes.reachPerPass / texelReach.x),
                           std::lround(pass * passes.reachPerPass / texelReach.y));

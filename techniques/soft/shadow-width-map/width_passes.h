@@ -11,8 +11,9 @@ struct WidthPasses {
     double reachPerPass = 0;       // in the units of texelReach (shared/filters/nearest_texel.h)
 };
 
-/// Passes that together reach at least `widest` along both axes of a map whose texels are `texelReach` apart. A pass goes as
-/// far along either axis, as penumbrae are wide there, so that its box has the light's proportions.
-WidthPasses widthPasses(const glm::dvec2& texelReach, double widest);
+/// Passes that together reach at least `widest` along both axes of a map whose texels are `texelReach` apart, but no more
+/// than `most`. A pass goes as far along either axis, as penumbrae are wide there, so that its box has the light's
+/// proportions.
+WidthPasses widthPasses(const glm::dvec2& texelReach, double widest, int most);
 
 } // namespace shadowbench::techniques

@@ -73,7 +73,8 @@ private:
         const auto pass = frame.pass("skirt");
         const Light& light = frame.snapshot.light;
         const double radius = 0.25 * (glm::length(light.u) + glm::length(light.v));
-        count_ = std::max(1, static_cast<int>(std::lround(passes_ * radius / (radiusOfPasses * view_.near))));
+        const double passes = std::round(passes_ * radius / (radiusOfPasses * view_.near));
+        count_ = static_cast<int>(std::clamp(passes, 1.0, static_cast<double>(map_.side())));
         const glm::vec2 way = glm::vec2(texelReach(light, view_, map_.side())) / texel(light);
         for (int i = 0; i < count_; ++i) {
             grow_.set("skirt", skirts_[0]).set("leastStep", edge_).set("falloff", way / static_cast<float>(count_));
@@ -102,7 +103,7 @@ Entry skirt() {
     parameters.push_back(
         {"passes", "16", IntegerRange{1, 256},
          "over the skirt buffer, for a light whose radius is a tenth of its distance from the nearest caster; "
-         "others in proportion",
+         "others in proportion, up to the map's side",
          ""});
     parameters.push_back(
         {"edge", "0.01", RealRange{1e-5, 1}, "least step of depth at an outline, as a share of the depth behind it", ""});

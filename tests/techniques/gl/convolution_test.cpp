@@ -32,6 +32,27 @@ TEST(Convolution, ASquareHidesItsShareOfTheLight) {
     EXPECT_NEAR(visibilityAround(pointsOf(scene), 0.1, 0.2), 0.75, 0.01);
 }
 
+TEST(Convolution, ADiskCountsAsARectangleOfItsArea) {
+    Scene scene = halfPlaneScene();
+    scene.light.kind = LightKind::Disk;
+    const double share = 0.5 * std::sqrt(glm::pi<double>()); // of the disk's diameter
+    double squares = 0, count = 0;
+    for (const SlabPoint& point : pointsOf(scene)) {
+        const double ramp = std::clamp(0.5 - (point.at.x - hardEdge) / (share * (umbraFrom - litUntil)), 0.0, 1.0);
+        squares += (point.visibility - ramp) * (point.visibility - ramp);
+        ++count;
+    }
+    EXPECT_LT(std::sqrt(squares / count), 0.01); // the texels of the blocker's image
+}
+
+TEST(Convolution, ALineIsConvolvedAlongItself) {
+    Scene scene = halfPlaneScene();
+    scene.light = {LightKind::Line, {0.1, 6, 0.2}, {0, -1, 0}, {1.5, 0, 0}, {}};
+    // Across the edge it is the rectangle. Its map looks at the middle of the scene, past which the plate is a little
+    // slanted.
+    EXPECT_LT(penumbraRmsError(pointsOf(scene)), 0.05);
+}
+
 /// A plate of 4 × 4 m whose lower end, the line x = 0.3 at height 1.5 m, is parallel to the light's sides and which rises
 /// from there at 45°.
 Scene slantedScene() {

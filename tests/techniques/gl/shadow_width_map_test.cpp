@@ -76,12 +76,13 @@ TEST(ShadowWidthMap, HasAPassForEveryTexelOfTheWidestPenumbra) {
 }
 
 TEST(ShadowWidthMap, PassesGoAsFarAlongBothAxes) {
-    const auto passes = techniques::widthPasses({0.01, 0.025}, 0.2);
+    const auto passes = techniques::widthPasses({0.01, 0.025}, 0.2, 256);
     EXPECT_EQ(passes.steps.size(), 20U);
     glm::ivec2 texels(0);
     for (const glm::ivec2& step : passes.steps) texels += step;
     EXPECT_EQ(texels, glm::ivec2(20, 8));
     EXPECT_EQ(passes.reachPerPass, 0.01);
+    EXPECT_EQ(techniques::widthPasses({0.01, 0.025}, 9, 256).steps.size(), 256U); // no occluder is wider than the map
 }
 
 TEST(ShadowWidthMap, RefusesBadInput) {

@@ -62,6 +62,7 @@ TEST(Skirt, PassesGrowWithTheLight) {
     scene.light.u *= 2;
     scene.light.v *= 2;
     EXPECT_EQ(passesOf(scene, "skirt:passes=16"), std::round(16 * 1.5 / 0.3998));
+    EXPECT_EQ(passesOf(scene, "skirt:map=32,passes=16"), 32); // no skirt is wider than the map
 }
 
 TEST(Skirt, SlantedSurfacesHaveNoEdges) {
