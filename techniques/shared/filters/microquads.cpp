@@ -24,12 +24,14 @@ int sampleSide(const std::string& technique, const Parameters& p) {
 } // namespace
 
 std::vector<Parameter> microquadParameters() {
-    return {{"window", "8", OneOf{{"8", "12", "all"}},
-             "microquads per side of the search area, at most, of squares of texels if need be; all: every texel's",
-             "dissertation, Fig. 4.3"},
-            {"samples", "64", OneOf{{"16", "64", "256"}}, "points of the light", "dissertation, 2.3.4"},
-            {"bits", "64", OneOf{{"64", "256"}}, "of the field that holds the samples, one each", "dissertation, 2.3.4"},
-            flatParameter()};
+    return {
+        {"window", "8", OneOf{{"8", "12", "all"}},
+         "microquads per side of the search area, at most, of squares of texels if need be; all: every texel's, of an area "
+         "wider than 192 every second texel's, or every fourth, …",
+         "dissertation, Fig. 4.3"},
+        {"samples", "64", OneOf{{"16", "64", "256"}}, "points of the light", "dissertation, 2.3.4"},
+        {"bits", "64", OneOf{{"64", "256"}}, "of the field that holds the samples, one each", "dissertation, 2.3.4"},
+        flatParameter()};
 }
 
 NodeEnds nodeEnds(const Parameters& p) { return p.text("window") == "all" ? NodeEnds::Shared : NodeEnds::Apart; }

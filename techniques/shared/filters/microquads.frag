@@ -54,17 +54,20 @@ bool isOccluder(Corner a, Corner b, Corner c, Corner d) {
     return a.blocks && b.blocks && c.blocks && d.blocks && (a.fresh || b.fresh || c.fresh || d.fresh);
 }
 
-/// Sets the bits of the samples behind all four edges. A quad that is folded, its corners on different occluders, may have none:
-/// what it would hide is hidden by its neighbours.
+void hideRow(inout Field field, QuadEdges edges, ivec2 rows, int row) {
+    uint run = row > rows.y ? 0u : runOfRow(edges, row) << (row * SAMPLES & 31);
+    for (int i = 0; i < WORDS; ++i) field.bits[i] |= i == row * SAMPLES >> 5 ? run : 0u;
+}
+
+/// Sets the bits of the samples behind all four edges of an occluder. One that is folded, its corners on different occluders, may have
+/// none: what it would hide is hidden by its neighbours.
 void hide(inout Field field, Corner a, Corner b, Corner c, Corner d) {
     QuadEdges edges = edgesOf(a.seenAt, b.seenAt, c.seenAt, d.seenAt);
-    ivec2 rows = rowsOf(edges);
-    for (int row = rows.x; row <= rows.y; ++row) {
-        int place = row * SAMPLES;
-        uint run = runOfRow(edges, row) << (place & 31);
-        for (int i = 0; i < WORDS; ++i) field.bits[i] |= i == place >> 5 ? run : 0u;
-    }
-    field.quads += 1.0;
+    ivec2 rows = isOccluder(a, b, c, d) ? rowsOf(edges) : ivec2(SAMPLES, -1);
+    hideRow(field, edges, rows, rows.x);
+    hideRow(field, edges, rows, rows.x + 1);
+    for (int row = rows.x + 2; row <= rows.y; ++row) hideRow(field, edges, rows, row);
+    field.quads += rows.y < 0 ? 0.0 : 1.0;
 }
 
 bool allHidden(Field field) {
@@ -92,14 +95,17 @@ void addOccluders(inout Field field, SearchArea area, int layer, LightReceiver r
         for (int x = cells.low.x + 1; x <= cells.high.x; ++x) {
             Corner b = cornerAt(ivec2(x, y), level, layer, r);
             Corner c = cornerAt(ivec2(x, y + 1), level, layer, r);
-            int taken = isOccluder(a, b, c, d) ? 1 : 0;
-            for (int i = 0; i < taken; ++i) hide(field, a, b, c, d);
+            hide(field, a, b, c, d);
             a = b;
             d = c;
         }
     }
 }
 #else
+/// Texels per side of the search area, at most. llvmpipe ends all loops of a pixel after 65,535 turns together: (192 / 2)² nodes with four
+/// microquads each, and the nodes above them, stay below.
+const int widest = 192;
+
 void addRoot(inout Field field, ivec2 root, Roots roots, int layer, LightReceiver r) {
     for (Walk walk = walkFrom(root, roots.level); !finished(walk) && !allHidden(field);) {
         int verdict = judged(walk, roots.finest, layer, r);
@@ -111,16 +117,15 @@ void addRoot(inout Field field, ivec2 root, Roots roots, int layer, LightReceive
             Corner b = cornerAt(ivec2(high.x, low.y), 0, layer, r);
             Corner c = cornerAt(high, 0, layer, r);
             Corner d = cornerAt(ivec2(low.x, high.y), 0, layer, r);
-            int taken = isOccluder(a, b, c, d) ? 1 : 0;
-            for (int k = 0; k < taken; ++k) hide(field, a, b, c, d);
+            hide(field, a, b, c, d);
         }
         walk = stepped(walk, verdict == lookInto);
     }
 }
 
-/// All microquads of the search area.
+/// All microquads of the search area; of a very wide one, those between every second texel, or every fourth, …
 void addOccluders(inout Field field, SearchArea area, int layer, LightReceiver r) {
-    Roots roots = rootsOf(area, mapSide);
+    Roots roots = rootsOf(area, widest);
     for (int y = roots.first.y; y <= roots.last.y; ++y)
         for (int x = roots.first.x; x <= roots.last.x; ++x) addRoot(field, ivec2(x, y), roots, layer, r);
 }

@@ -36,7 +36,7 @@ struct Walk {
     uint index;  // Morton code of the node's first texel within the root
 };
 
-const int highestRoot = 8;  // some drivers end a loop after 65,535 turns: a root of 256² texels has fewer nodes of level 1 and more
+const int highestRoot = 8;  // a root has at most 128² nodes of level 1
 
 Walk walkFrom(ivec2 root, int rootLevel) {
     return Walk(root << rootLevel, rootLevel, rootLevel, 0u);

@@ -81,7 +81,7 @@ Entry backprojection() {
     std::vector<Parameter> parameters = withDepthMapParameters(
         {{"gaps", "fill", OneOf{{"fill", "leave"}}, "gaps between the images of neighbouring texels",
           "dissertation, Fig. 2.22"},
-         {"texels", "48", IntegerRange{1, 8192},
+         {"texels", "48", IntegerRange{1, 128},
           "per side of the search area, at most: of a wider one every second texel is taken, or every fourth, …",
           "dissertation, 2.3.4"},
          flatParameter()});

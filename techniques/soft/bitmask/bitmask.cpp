@@ -9,10 +9,10 @@
 // Fig. 4.3 compares search areas of 8 × 8 and 12 × 12: `window` microquads per side at most, between squares of texels of
 // the pyramid's level that allows it, each as deep as what is nearest in it.
 //
-// Departures: `window=all` takes every texel, squares of the pyramid whose depths hardly differ as one quad (`flat`);
-// samples in rows, so that a quad hides runs of bits; texels beside the receiver's own are compared with the receiver's
-// plane, and squares of them with where it is nearest (bias=slope); a rectangle whose sides are not quite at right angles is
-// taken for that of the same sides.
+// Departures: `window=all` takes every texel of areas up to 192 across, squares of the pyramid whose depths hardly differ as
+// one quad (`flat`); samples in rows, so that a quad hides runs of bits; texels beside the receiver's own are compared with
+// the receiver's plane, and squares of them with where it is nearest (bias=slope); a rectangle whose sides are not quite at
+// right angles is taken for that of the same sides.
 //
 // It fails where the papers say so: what the map's one layer does not hold does not occlude; small windows see squares of
 // texels, the larger the light, and near contact nothing smaller than those; and since a microquad needs all its corners,

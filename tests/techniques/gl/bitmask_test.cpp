@@ -189,6 +189,15 @@ TEST(Bitmask, AWindowHasNoMoreMicroquadsThanItSays) {
     EXPECT_NEAR(quadsOf(slanted, "bitmask:map=2048") / quadsOf(slanted, "bitmask"), 1, 0.1);
 }
 
+TEST(Bitmask, AWideAreaIsLookedThroughToItsEnd) {
+    const Scene scene = fallingPlateScene();
+    Stage stage(scene);
+    stage.show(0);
+    const std::string every = all + ",flat=0,map=4096"; // some 240 texels across, none of them merged
+    EXPECT_LT(halfPlaneError(stage, every), 0.02);
+    EXPECT_GT(quadsOf(stage, every), 500);
+}
+
 TEST(Bitmask, ADisksSamplesAreThoseOnTheDisk) {
     Scene scene = halfPlaneScene();
     scene.light.kind = LightKind::Disk;
