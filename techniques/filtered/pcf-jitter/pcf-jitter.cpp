@@ -29,7 +29,7 @@ class PcfJitter final : public Technique {
 public:
     explicit PcfJitter(const Parameters& p)
         : grid_{sectors, p.integer("taps") / sectors}, radius_(static_cast<float>(p.real("radius"))),
-          followPlane_(p.text("bias") == "slope"), table_(grid_, Region::Disk), map_(storedDepthMap(p, Lookup::Compare)),
+          followPlane_(p.text("bias") == "slope"), table_(grid_), map_(storedDepthMap(p, Lookup::Compare)),
           resolve_(gl::Program::screen("filtered/pcf-jitter/pcf-jitter.frag", definesFor(grid_))) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {

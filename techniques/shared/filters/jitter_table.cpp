@@ -13,11 +13,11 @@ constexpr std::uint32_t sets = jitterBlock * jitterBlock;
 
 } // namespace
 
-JitterTable::JitterTable(const JitterGrid& grid, Region region, std::uint32_t first)
+JitterTable::JitterTable(const JitterGrid& grid, std::uint32_t first)
     : table_(gl::Format::RGBA32F, {static_cast<int>(sets), grid.taps() / 2}) {
     std::vector<glm::vec2> texels(sets * static_cast<std::size_t>(grid.taps()));
     for (std::uint32_t set = 0; set < sets; ++set) {
-        const std::vector<glm::vec2> taps = jitteredTaps(grid, region, first + set);
+        const std::vector<glm::vec2> taps = jitteredTaps(grid, first + set);
         for (std::size_t i = 0; i < taps.size(); ++i) texels[2 * (sets * (i / 2) + set) + i % 2] = taps[i];
     }
     glBindTexture(GL_TEXTURE_2D, table_.id());

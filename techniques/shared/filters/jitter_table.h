@@ -18,10 +18,10 @@ inline constexpr int jitterBlock = 32;
 class JitterTable {
 public:
     /// Of the jitterBlock² sets of taps from number `first` on.
-    JitterTable(const JitterGrid& grid, Region region, std::uint32_t first = 0);
+    explicit JitterTable(const JitterGrid& grid, std::uint32_t first = 0);
 
-    /// RGBA32F, two taps a texel: of the pixel (x, y) of the block and taps 2i and 2i + 1 in column x + jitterBlock · y of
-    /// row i.
+    /// RGBA32F, two taps of the unit disk a texel: of the pixel (x, y) of the block and taps 2i and 2i + 1 in column x +
+    /// jitterBlock · y of row i.
     [[nodiscard]] const gl::Texture& texture() const { return table_; }
 
     static gl::Defines defines();

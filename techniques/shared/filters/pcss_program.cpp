@@ -1,6 +1,7 @@
 #include "techniques/shared/filters/pcss_program.h"
 
 #include "techniques/shared/maps/light_receiver.h"
+#include "techniques/shared/sampling/sampling.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -16,8 +17,6 @@ gl::Defines PcssTaps::defines() const {
     return {{"SEARCH_TAPS", std::to_string(search)}, {"FILTER_TAPS", std::to_string(filter)}};
 }
 
-Region tapRegion(const Light& light) { return light.kind == LightKind::Disk ? Region::Disk : Region::Square; }
-
 void setBlockerSearch(gl::Program& program, const Light& light, const LightView& view, const LinearDepthMap& map,
                       bool followPlane) {
     setLightReceiver(program, view, followPlane);
@@ -29,8 +28,9 @@ void setBlockerSearch(gl::Program& program, const Light& light, const LightView&
 
 void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view,
              const LinearDepthMap& map, bool followPlane) {
+    const Region region = light.kind == LightKind::Disk ? Region::Disk : Region::Square;
     const auto points = [&](int count) {
-        return taps.grid ? gridTaps(static_cast<int>(std::lround(std::sqrt(count)))) : poissonTaps(count, tapRegion(light));
+        return taps.grid ? gridTaps(static_cast<int>(std::lround(std::sqrt(count)))) : poissonTaps(count, region);
     };
     const std::vector<glm::vec2> search = points(taps.search);
     const std::vector<glm::vec2> filter = points(taps.filter);

@@ -3,7 +3,6 @@
 
 #include "techniques/gl/program.h"
 #include "techniques/shared/maps/linear_depth_map.h"
-#include "techniques/shared/sampling/sampling.h"
 
 #include <glm/vec2.hpp>
 #include <string>
@@ -19,9 +18,6 @@ struct PcssTaps {
     static PcssTaps parse(const std::string& text);
     [[nodiscard]] gl::Defines defines() const;
 };
-
-/// The region that a light's taps fill.
-Region tapRegion(const Light& light);
 
 /// Light size and map geometry.
 void setBlockerSearch(gl::Program& program, const Light& light, const LightView& view, const LinearDepthMap& map,

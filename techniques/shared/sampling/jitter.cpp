@@ -18,38 +18,21 @@ constexpr std::uint32_t mostDrawn = 4096; // numbers that one set draws
 /// In [0, 1).
 double chance(std::uint32_t value) { return hash(value) / 4294967296.0; }
 
-/// The point at share u of the outline of [−1, 1]².
-glm::dvec2 onSquare(double u) {
-    const double along = 4 * u;
-    const double onSide = 2 * (along - std::floor(along)) - 1;
-    switch (static_cast<int>(along) % 4) {
-    case 0:
-        return {1, onSide};
-    case 1:
-        return {-onSide, 1};
-    case 2:
-        return {-1, -onSide};
-    default:
-        return {onSide, -1};
-    }
-}
-
 } // namespace
 
-glm::dvec2 warped(double u, double v, Region region) {
-    if (region == Region::Square) return std::sqrt(v) * onSquare(u);
+glm::dvec2 warpedToDisk(double u, double v) {
     const double angle = glm::two_pi<double>() * u;
     return {std::sqrt(v) * std::cos(angle), std::sqrt(v) * std::sin(angle)};
 }
 
-std::vector<glm::vec2> jitteredTaps(const JitterGrid& grid, Region region, std::uint32_t set) {
+std::vector<glm::vec2> jitteredTaps(const JitterGrid& grid, std::uint32_t set) {
     std::vector<glm::vec2> taps;
     std::uint32_t drawn = mostDrawn * set;
     for (int ring = grid.rings - 1; ring >= 0; --ring)
         for (int sector = 0; sector < grid.sectors; ++sector) {
             const double u = (sector + chance(drawn++)) / grid.sectors;
             const double v = (ring + chance(drawn++)) / grid.rings;
-            taps.emplace_back(warped(u, v, region));
+            taps.emplace_back(warpedToDisk(u, v));
         }
     return taps;
 }

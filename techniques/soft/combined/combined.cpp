@@ -1,11 +1,12 @@
 // Combined shadow map method (Zápotocký 4.4.3): percentage-closer soft shadows with jittered taps.
 // 1. blocker search with 16 jittered taps  2. penumbra width from similar triangles (eq. 3.3)  3. the share of 32 jittered
 // taps over that width that pass: the 8 of the outermost ring first, and where they disagree all others.
-// Departures: as for `pcss`, the search window is the light's own projection on the map's near plane, where the thesis
-// scales an empirical offset; hence the search has taps of its own over all of the window, where the thesis takes the
-// innermost 16 of the filter's. A rectangular light has its own width along each side and taps that fill a rectangle, where
-// the thesis stretches a disk by a ratio that it interpolates over an angle (4.4.1). With bias=slope every tap is compared
-// with the receiver's plane. As the source admits for `pcss`, blockers of different depths are fused into one of their mean.
+// A rectangular light stretches the disk that the taps fill by its own width along each side (4.4.1, which interpolates
+// between the two by an angle; here map and light are parallel). Departures: as for `pcss`, the search window is the light's
+// own projection on the map's near plane, where the thesis scales an empirical offset; hence the search has taps of its own
+// over all of the window, where the thesis takes the innermost 16 of the filter's; with bias=slope every tap is compared
+// with the receiver's plane. As the source admits for `pcss`, blockers of different depths are fused into one of their mean;
+// and where the outermost ring sees nothing of a small caster, neither does the pixel.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/filters/jitter_table.h"
@@ -31,19 +32,18 @@ gl::Defines tapDefines() {
 class Combined final : public Technique {
 public:
     explicit Combined(const Parameters& p)
-        : followPlane_(p.text("bias") == "slope"), map_(p.integer("map"), biasFrom(p)),
-          resolve_(gl::Program::screen("soft/combined/combined.frag", tapDefines())) {}
+        : followPlane_(p.text("bias") == "slope"), filter_(filterGrid), search_(searchGrid, jitterBlock * jitterBlock),
+          map_(p.integer("map"), biasFrom(p)), resolve_(gl::Program::screen("soft/combined/combined.frag", tapDefines())) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const Light& light = frame.snapshot.light;
-        if (!tables_ || tables_->region != tapRegion(light)) tables_.emplace(tapRegion(light));
         view_ = fitToScene(light, frame.snapshot);
         map_.draw(view_, frame);
         setBlockerSearch(resolve_, light, view_, map_, followPlane_);
         resolve_.set("positions", frame.gbuffer.position())
             .set("normals", frame.gbuffer.normal())
-            .set("searchJitter", tables_->search.texture())
-            .set("filterJitter", tables_->filter.texture())
+            .set("searchJitter", search_.texture())
+            .set("filterJitter", filter_.texture())
             .set("jitterOrigin", JitterTable::origin(frame.seed));
         resolve(frame, {&visibility}, resolve_);
     }
@@ -53,18 +53,11 @@ public:
     }
 
 private:
-    struct Tables {
-        explicit Tables(Region lightRegion)
-            : region(lightRegion), filter(filterGrid, region), search(searchGrid, region, jitterBlock * jitterBlock) {}
-        Region region;
-        JitterTable filter, search;
-    };
-
     bool followPlane_;
+    JitterTable filter_, search_;
     LightView view_;
     LinearDepthMap map_;
     gl::Program resolve_;
-    std::optional<Tables> tables_;
 };
 
 } // namespace

@@ -111,7 +111,7 @@ TEST(PcfJitter, EveryPixelOfABlockHasASetOfItsOwn) {
     testContext();
     using namespace techniques;
     const JitterGrid grid{8, 8};
-    const JitterTable table(grid, Region::Disk);
+    const JitterTable table(grid);
     for (const std::uint32_t seed : {1U, 2U, 3U})
         for (const int pair : {0, 5, 31}) {
             const Image<glm::vec4> read = pairsRead(table, pair, seed);
@@ -119,7 +119,7 @@ TEST(PcfJitter, EveryPixelOfABlockHasASetOfItsOwn) {
             for (int y = 0; y < 40; ++y)
                 for (int x = 0; x < 40; ++x) {
                     const int set = (x + origin.x) % jitterBlock + jitterBlock * ((y + origin.y) % jitterBlock);
-                    const auto taps = jitteredTaps(grid, Region::Disk, static_cast<std::uint32_t>(set));
+                    const auto taps = jitteredTaps(grid, static_cast<std::uint32_t>(set));
                     const auto first = static_cast<std::size_t>(2 * pair);
                     ASSERT_EQ(read(x, 39 - y), glm::vec4(taps[first], taps[first + 1])); // GL's rows are upwards
                 }
