@@ -8,7 +8,7 @@ namespace {
 
 TEST(Clusters, AreSplitAtTheWidestGapUntilTheySpreadLittle) {
     // 1 / depth: 0.5 … 0.49, 0.25, 0.24, 0.1
-    const std::vector<DepthRange> plates{{10, 10}, {4, 4}, {2, 1 / 0.49}, {1 / 0.24, 1 / 0.24}};
+    const std::vector<BlockerDepths> plates{{10, 10}, {4, 4}, {2, 1 / 0.49}, {1 / 0.24, 1 / 0.24}};
     EXPECT_EQ(clustered(plates, 1, 8).ranges.size(), 1U);
     const Clusters three = clustered(plates, 0.02, 8);
     ASSERT_EQ(three.ranges.size(), 3U);
@@ -21,7 +21,7 @@ TEST(Clusters, AreSplitAtTheWidestGapUntilTheySpreadLittle) {
 }
 
 TEST(Clusters, HaveTheirPlaneWherePenumbraeAreHalfwayBetweenThoseOfBothEnds) {
-    const DepthRange range{2, 4};
+    const BlockerDepths range{2, 4};
     EXPECT_DOUBLE_EQ(1 / range.middle(), 0.5 * (0.5 + 0.25));
     EXPECT_DOUBLE_EQ(range.spread(), 0.25);
 }

@@ -10,8 +10,8 @@ namespace {
 /// Blockers by their numbers, ascending by the middles of their depths.
 using Members = std::vector<std::size_t>;
 
-DepthRange rangeOf(const Members& members, const std::vector<DepthRange>& blockers) {
-    DepthRange range = blockers[members.front()];
+BlockerDepths rangeOf(const Members& members, const std::vector<BlockerDepths>& blockers) {
+    BlockerDepths range = blockers[members.front()];
     for (const std::size_t i : members) {
         range.near = std::min(range.near, blockers[i].near);
         range.far = std::max(range.far, blockers[i].far);
@@ -20,7 +20,7 @@ DepthRange rangeOf(const Members& members, const std::vector<DepthRange>& blocke
 }
 
 /// Takes what lies behind the widest gap out of `members`, which are several.
-Members splitOff(Members& members, const std::vector<DepthRange>& blockers) {
+Members splitOff(Members& members, const std::vector<BlockerDepths>& blockers) {
     std::size_t cut = 1;
     double widest = -1;
     for (std::size_t i = 1; i < members.size(); ++i) {
@@ -36,7 +36,7 @@ Members splitOff(Members& members, const std::vector<DepthRange>& blockers) {
 
 } // namespace
 
-Clusters clustered(const std::vector<DepthRange>& blockers, double tolerance, int most) {
+Clusters clustered(const std::vector<BlockerDepths>& blockers, double tolerance, int most) {
     if (blockers.empty()) return {};
     std::vector<Members> clusters(1, Members(blockers.size()));
     std::iota(clusters[0].begin(), clusters[0].end(), std::size_t{0});

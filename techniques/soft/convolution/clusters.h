@@ -7,7 +7,7 @@
 namespace shadowbench::techniques {
 
 /// Nearest and farthest depth of a blocker along the light's axis, both positive, in metres.
-struct DepthRange {
+struct BlockerDepths {
     double near, far;
 
     /// What the widths of the penumbrae that it casts may differ by, in 1/m: its plane may be anywhere in between.
@@ -18,12 +18,12 @@ struct DepthRange {
 };
 
 struct Clusters {
-    std::vector<int> of;            // the cluster of each blocker
-    std::vector<DepthRange> ranges; // of each cluster
+    std::vector<int> of;               // the cluster of each blocker
+    std::vector<BlockerDepths> ranges; // of each cluster
 };
 
 /// Begins with one cluster and splits the one with the widest spread at the widest gap between its blockers' middles, until
 /// none that holds several spreads more than `tolerance` (1/m) or there are `most`. None without blockers.
-Clusters clustered(const std::vector<DepthRange>& blockers, double tolerance, int most);
+Clusters clustered(const std::vector<BlockerDepths>& blockers, double tolerance, int most);
 
 } // namespace shadowbench::techniques

@@ -42,7 +42,7 @@ public:
         layers_.sum(frame, std::max<int>(1, static_cast<int>(clusters_.ranges.size())));
 
         std::vector<glm::vec4> inverseDepths;
-        for (const DepthRange& range : clusters_.ranges) inverseDepths.emplace_back(1 / range.middle(), 0, 0, 0);
+        for (const BlockerDepths& range : clusters_.ranges) inverseDepths.emplace_back(1 / range.middle(), 0, 0, 0);
         inverseDepths.resize(mostLayers);
         layers_.bindTo(resolve_, frame.snapshot.light, view);
         layerOf_.bindStorage(layersBinding);
@@ -62,7 +62,7 @@ public:
 private:
     /// Puts the blockers into clusters and uploads the layer of each surface id.
     void cluster(const Snapshot& snapshot, const LightView& view, const std::vector<bool>& shown) {
-        std::vector<DepthRange> ranges;
+        std::vector<BlockerDepths> ranges;
         const std::vector<glm::dvec3> corners = boundingCorners(snapshot);
         for (std::size_t i = 0; i < shown.size(); ++i)
             if (shown[i]) ranges.push_back(depthsOf(corners, 8 * i, view));
@@ -80,8 +80,8 @@ private:
     }
 
     /// Of the eight corners from `first` on, held in front of the view's near plane.
-    static DepthRange depthsOf(const std::vector<glm::dvec3>& corners, std::size_t first, const LightView& view) {
-        DepthRange range{view.far, view.near};
+    static BlockerDepths depthsOf(const std::vector<glm::dvec3>& corners, std::size_t first, const LightView& view) {
+        BlockerDepths range{view.far, view.near};
         for (std::size_t i = first; i < first + 8; ++i) {
             const double depth = std::max(glm::dot(view.depthFromWorld, glm::dvec4(corners[i], 1)), view.near);
             range.near = std::min(range.near, depth);
