@@ -15,6 +15,7 @@ using Json = nlohmann::ordered_json;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool matches(const Record& record, const Figure& figure) {
+    if (!figure.profile.empty() && record.profile != figure.profile) return false;
     if (record.scene != figure.scene || record.sweep.has_value() != figure.value.has_value()) return false;
     if (!record.sweep) return record.variant == figure.variant;
     return record.sweep->axis == figure.axis && record.sweep->value == *figure.value &&

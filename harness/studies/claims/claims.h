@@ -16,6 +16,7 @@ struct Figure {
         std::string variant, metric;
     };
     std::string scene, variant;
+    std::string profile; // that the record is of; "": any
     // Path in the record: "accuracy.mismatch", "cost.time.ratio", "figures.overshoot"; of a list, which has a number for
     // each frame, one of them, counted from 1 ("stability.by_frame.rmse[20]"), or with `settles` all.
     std::string metric;

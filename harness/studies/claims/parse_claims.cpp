@@ -20,12 +20,13 @@ Figure parseFigureAnywhere(const JsonMembers& members) {
         const JsonMembers over(members.get("over"), members.what(), {"variant", "metric"});
         figure.over = Figure::Divisor{over.text("variant"), over.text("metric")};
     }
+    if (members.has("profile")) figure.profile = members.text("profile");
     if (members.has("settles")) figure.settles = members.number("settles");
     return figure;
 }
 
 Figure parseFigure(const Json& json, const std::string& what) {
-    const JsonMembers members(json, what, {"scene", "variant", "metric", "over", "axis", "value", "settles"});
+    const JsonMembers members(json, what, {"scene", "variant", "profile", "metric", "over", "axis", "value", "settles"});
     Figure figure = parseFigureAnywhere(members);
     if (members.has("axis")) {
         figure.axis = members.text("axis");
@@ -37,7 +38,7 @@ Figure parseFigure(const Json& json, const std::string& what) {
 /// A check that a figure grows over an axis.
 Check parseGrowth(const Json& json, const std::string& what) {
     const JsonMembers members(json, what, {"says", "left", "grows over"});
-    const JsonMembers left(members.get("left"), what, {"scene", "variant", "metric", "over", "axis", "settles"});
+    const JsonMembers left(members.get("left"), what, {"scene", "variant", "profile", "metric", "over", "axis", "settles"});
     Check check;
     check.says = members.text("says");
     check.left = parseFigureAnywhere(left);
@@ -53,11 +54,12 @@ Check parseGrowth(const Json& json, const std::string& what) {
 
 /// A check that our numbers stand in the order of those of a published table.
 Check parseOrder(const Json& json, const std::string& what) {
-    const JsonMembers members(json, what, {"says", "scene", "metric", "published", "rank correlation at least"});
+    const JsonMembers members(json, what, {"says", "scene", "profile", "metric", "published", "rank correlation at least"});
     Check check;
     check.says = members.text("says");
     check.left.scene = members.text("scene");
     check.left.metric = members.text("metric");
+    if (members.has("profile")) check.left.profile = members.text("profile");
     check.atMost = false;
     check.factor = members.number("rank correlation at least");
     const Json& published = members.get("published");

@@ -11,8 +11,8 @@ namespace shadowbench {
 namespace {
 
 PaperColumn parseColumn(const Json& json, const std::string& what) {
-    const JsonMembers members(json, what, {"title", "scene", "metric", "per"});
-    return {members.text("title"), members.text("scene"), members.text("metric"),
+    const JsonMembers members(json, what, {"title", "scene", "profile", "metric", "per"});
+    return {members.text("title"), members.text("scene"), members.text("profile"), members.text("metric"),
             members.has("per") ? members.text("per") : ""};
 }
 

@@ -15,8 +15,9 @@ namespace shadowbench {
 /// A column of a published table: what we have measured for it, and the rows' published numbers.
 struct PaperColumn {
     std::string title, scene;
-    std::string metric; // path in the record; of the record of a row's variant
-    std::string per;    // a row's variant: published numbers and ours are also given as multiples of this row's; "": not
+    std::string profile; // of the records
+    std::string metric;  // path in the record; of the record of a row's variant
+    std::string per;     // a row's variant: published numbers and ours are also given as multiples of this row's; "": not
 };
 
 struct PaperRow {

@@ -30,6 +30,7 @@ Compared compare(const PaperTable& table, std::size_t index, const std::vector<R
         Figure figure;
         figure.scene = column.scene;
         figure.variant = row.variant;
+        figure.profile = column.profile;
         figure.metric = column.metric;
         result.ours.push_back(lookUp(figure, records));
     }

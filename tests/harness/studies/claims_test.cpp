@@ -58,6 +58,16 @@ TEST(Claims, AFigureIsOfTheFirstRecordThatHasIt) {
     EXPECT_EQ(verdict(small, {uncounted, with("a", 0.001), with("a", 1)}), Verdict::Reproduced);
 }
 
+TEST(Claims, AProfileIsAsked) {
+    const std::string paper =
+        claim(R"({"says": "s", "left": {"scene": "dueling-frusta", "variant": "a", "profile": "paper", )"
+              R"("metric": "accuracy.mismatch"}, "is": "at most", "bound": 0.01})");
+    Record large = with("a", 0.001);
+    large.profile = "paper";
+    EXPECT_EQ(verdict(paper, {with("a", 0.5)}), Verdict::NotMeasured);
+    EXPECT_EQ(verdict(paper, {with("a", 0.5), large}), Verdict::Reproduced);
+}
+
 TEST(Claims, FiguresOfASweepAreTakenFromItsCurveOnly) {
     Record swept = with("a:map=512", 0.5);
     swept.sweep = SweepStep{"map", "texels", "a", 512, {}};

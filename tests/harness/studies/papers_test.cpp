@@ -24,8 +24,8 @@ Record with(const std::string& variant, double rmse) {
 }
 
 const std::string table = R"([{"id": "t", "title": "T", "where": "W", "says": "S", "table": {
-    "columns": [{"title": "error", "scene": "s", "metric": "accuracy.rmse"},
-                {"title": "ms", "scene": "s", "metric": "accuracy.rmse", "per": "b"}],
+    "columns": [{"title": "error", "scene": "s", "profile": "gate", "metric": "accuracy.rmse"},
+                {"title": "ms", "scene": "s", "profile": "gate", "metric": "accuracy.rmse", "per": "b"}],
     "rows": [{"title": "A", "variant": "a", "published": [1, 30]},
              {"title": "B", "variant": "b", "published": [2, 10]},
              {"title": "C", "variant": "c", "published": [3, null]}]}}])";
