@@ -144,6 +144,46 @@ std::optional<Umbra> umbra(const ScoredFrame& frame) {
     return Umbra{static_cast<double>(drawn) / all, static_cast<double>(exact) / all};
 }
 
+namespace {
+
+/// The values of the side × side pixels from (x, y) on, in order of size, if all are graded, in M and of one surface; else
+/// nothing.
+std::vector<float> gradedSquare(const ScoredFrame& frame, int x, int y, int side) {
+    std::vector<float> values;
+    for (int dy = 0; dy < side; ++dy)
+        for (int dx = 0; dx < side; ++dx) {
+            const bool counts = frame.v.contains(x + dx, y + dy) && frame.mask.scored(x + dx, y + dy) &&
+                                frame.truth.id(x + dx, y + dy) == frame.truth.id(x, y);
+            const float v = counts ? frame.v(x + dx, y + dy) : 0;
+            if (!(v > 0.02F && v < 0.98F)) return {};
+            values.push_back(v);
+        }
+    std::ranges::sort(values);
+    return values;
+}
+
+} // namespace
+
+Grain grain(const ScoredFrame& frame) {
+    requireComparable(frame);
+    double plateaus = 0, squares = 0, distance = 0, medians = 0;
+    for (int y = 0; y < frame.v.height(); ++y)
+        for (int x = 0; x < frame.v.width(); ++x) {
+            if (const std::vector<float> four = gradedSquare(frame, x, y, 2); !four.empty()) {
+                ++squares;
+                if (four.back() - four.front() <= 1.0F / 255) ++plateaus;
+            }
+            if (const std::vector<float> nine = gradedSquare(frame, x, y, 3); !nine.empty()) {
+                ++medians;
+                distance += std::abs(static_cast<double>(frame.v(x + 1, y + 1)) - static_cast<double>(nine[4]));
+            }
+        }
+    Grain result;
+    if (squares > 0) result.plateau = plateaus / squares;
+    if (medians > 0) result.noise = distance / medians;
+    return result;
+}
+
 std::optional<double> unresolved(const ScoredFrame& frame) {
     requireComparable(frame);
     const auto& [v, truth, mask] = frame;

@@ -80,6 +80,14 @@ struct Umbra {
 };
 std::optional<Umbra> umbra(const ScoredFrame& frame);
 
+/// What an eye sees in V alone, wherever it is graded (0.02 < V < 0.98) on one surface in M: bands, as the share of the 2 ×
+/// 2 squares of such pixels whose four values agree within 1/255; and noise, as the mean distance of V from the median of 3
+/// × 3 such pixels. A smooth ramp has little of both. Each is absent where there is no such square.
+struct Grain {
+    std::optional<double> plateau, noise;
+};
+Grain grain(const ScoredFrame& frame);
+
 /// Share of M where abs(V − V*) < 3σ* though σ* > 0; absent for an exact truth.
 std::optional<double> unresolved(const ScoredFrame& frame);
 
@@ -247,6 +255,12 @@ inline constexpr auto table = std::to_array<Metric>({
      .computed = OfVisibility{part<umbra, &Umbra::drawn>}, .meaning = "receiver pixels without light"},
     {.path = "accuracy.true_umbra", .unit = "share", .range = range::share, .optional = true,
      .computed = OfVisibility{part<umbra, &Umbra::exact>}, .meaning = "the same of the truth"},
+    {.path = "accuracy.penumbra_plateau", .unit = "share", .range = range::share, .optional = true,
+     .computed = OfVisibility{part<grain, &Grain::plateau>},
+     .meaning = "bands: 2×2 squares of graded pixels whose values agree within 1/255"},
+    {.path = "accuracy.penumbra_noise", .unit = "1", .range = range::size, .optional = true,
+     .computed = OfVisibility{part<grain, &Grain::noise>},
+     .meaning = "noise: mean distance of graded pixels from the median of their 3×3"},
     {.path = "accuracy.unresolved", .unit = "share", .range = range::share, .optional = true,
      .computed = OfVisibility{of<unresolved>},
      .meaning = "pixels whose error is below three times the truth's own uncertainty"},

@@ -98,6 +98,8 @@ inline Record softRecord() {
     r.values["accuracy.penumbra_width_error"] = 0.21;
     r.values["accuracy.umbra_leak"] = 0.004;
     r.values["accuracy.unresolved"] = 0.02;
+    r.values["accuracy.penumbra_plateau"] = 0.04;
+    r.values["accuracy.penumbra_noise"] = 0.006;
     r.values["accuracy.umbra"] = 0.11;
     r.values["accuracy.true_umbra"] = 0.12;
     r.values["accuracy.z_correctness"] = 0.93;

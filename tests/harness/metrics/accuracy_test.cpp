@@ -341,6 +341,40 @@ TEST(Umbra, IsTheShareOfTheMaskWithoutLight) {
     EXPECT_FALSE(visibilityOf({hard.visibility, hard, everything(hard)})["accuracy.umbra"]);
 }
 
+TEST(Grain, TellsBandsFromNoise) {
+    const Reference truth = truthOf(30, 12, [](glm::dvec2 p) { return std::clamp(p.x / 30, 0.05, 0.95); });
+    const auto grainOf = [&](const auto& value) {
+        const Image<float> v = imageOf(30, 12, value);
+        return metrics::grain({v, truth, everything(truth)});
+    };
+    const auto ramp = [](glm::dvec2 p) { return 0.03 + 0.94 * p.x / 30; };
+    EXPECT_EQ(*grainOf(ramp).plateau, 0);
+    EXPECT_NEAR(*grainOf(ramp).noise, 0, 1e-6); // the middle of nine values of a ramp is its own
+
+    // Bands of 5 pixels: of the 29 squares across the ramp the 5 that lie over a step are no plateau.
+    const auto bands = [&](glm::dvec2 p) { return ramp({5 * std::floor(p.x / 5) + 2.5, 0}); };
+    EXPECT_DOUBLE_EQ(*grainOf(bands).plateau, 24.0 / 29);
+    EXPECT_EQ(*grainOf(bands).noise, 0);
+
+    // Every fifth pixel of every other row is 0.1 off: one in nine of any 3 × 3 at most, so the median is the ramp's.
+    const auto specks = [&](glm::dvec2 p) {
+        return ramp(p) + (static_cast<int>(p.x) % 5 == 2 && static_cast<int>(p.y) % 4 == 1 ? 0.1 : 0.0);
+    };
+    EXPECT_EQ(*grainOf(specks).plateau, 0);
+    EXPECT_GT(*grainOf(specks).noise, 0.002);
+}
+
+TEST(Grain, IsOfGradedPixelsOfOneSurfaceOnly) {
+    Reference truth = truthOf(4, 4, [](glm::dvec2) { return 0.5; });
+    const Image<float> v(4, 4, 0.5F);
+    EXPECT_EQ(*metrics::grain({v, truth, everything(truth)}).plateau, 1);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) truth.id(x, y) = static_cast<std::uint32_t>(1 + x % 2);
+    EXPECT_FALSE(metrics::grain({v, truth, everything(truth)}).plateau);
+    const Image<float> lit(4, 4, 1.0F);
+    EXPECT_FALSE(metrics::grain({lit, truth, everything(truth)}).noise);
+}
+
 TEST(Unresolved, IsTheShareOfTheMaskWithinThreeSigma) {
     Reference truth = truthOf(10, 10, [](glm::dvec2) { return 0.5; });
     for (int x = 0; x < 10; ++x) truth.sigma(x, 0) = 0.01F;
