@@ -101,9 +101,10 @@ TEST(Bitmask, TheBitsOfAQuadAreTheSamplesBehindIt) {
                 quads, {{"SAMPLES", std::to_string(side)}});
             for (std::size_t quad = 0; quad < quads.size(); ++quad)
                 for (int i = 0; i < side; ++i) {
+                    const auto number =
+                        static_cast<std::size_t>(row) * static_cast<std::size_t>(side) + static_cast<std::size_t>(i);
                     const bool bit = (static_cast<unsigned>(runs[quad].x) >> i & 1U) != 0;
-                    const double inside = depthInside(cornersOf(glm::dvec4(quads[quad])),
-                                                      glm::dvec2(samples[static_cast<std::size_t>(row * side + i)]));
+                    const double inside = depthInside(cornersOf(glm::dvec4(quads[quad])), glm::dvec2(samples[number]));
                     set += bit ? 1 : 0;
                     if (std::abs(inside) < 1e-4) continue;
                     EXPECT_EQ(bit, inside > 0) << quad << " " << row << " " << i;
@@ -175,7 +176,7 @@ TEST(Bitmask, AWindowHasNoMoreMicroquadsThanItSays) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
     stage.show(0);
-    for (const char* map : {"512", "1024", "2048"}) {
+    for (const char* map : {"512", "1024"}) {
         EXPECT_LT(quadsOf(stage, fmt::format("bitmask:map={}", map)), 64);
         EXPECT_LT(quadsOf(stage, fmt::format("bitmask:window=12,map={}", map)), 144);
     }
@@ -185,8 +186,8 @@ TEST(Bitmask, AWindowHasNoMoreMicroquadsThanItSays) {
     Stage slanted(falling);
     slanted.show(0);
     const std::string every = "bitmask:window=all,flat=0";
-    EXPECT_GT(quadsOf(slanted, every + ",map=2048"), 3 * quadsOf(slanted, every));
-    EXPECT_NEAR(quadsOf(slanted, "bitmask:map=2048") / quadsOf(slanted, "bitmask"), 1, 0.1);
+    EXPECT_GT(quadsOf(slanted, every), 3 * quadsOf(slanted, every + ",map=512"));
+    EXPECT_NEAR(quadsOf(slanted, "bitmask") / quadsOf(slanted, "bitmask:map=512"), 1, 0.1);
 }
 
 TEST(Bitmask, AWideAreaIsLookedThroughToItsEnd) {
@@ -195,7 +196,6 @@ TEST(Bitmask, AWideAreaIsLookedThroughToItsEnd) {
     stage.show(0);
     const std::string every = all + ",flat=0,map=4096"; // some 240 texels across, none of them merged
     EXPECT_LT(halfPlaneError(stage, every), 0.02);
-    EXPECT_GT(quadsOf(stage, every), 500);
 }
 
 TEST(Bitmask, ADisksSamplesAreThoseOnTheDisk) {
