@@ -104,7 +104,7 @@ std::vector<std::string> Watchlist::unknownScenes(const std::vector<std::string>
     for (const Watch& watch : counted) named.push_back(watch.scene);
     for (const Watch& watch : timed) named.push_back(watch.scene);
     std::ranges::sort(named);
-    named.erase(std::ranges::unique(named).begin(), named.end());
+    named.erase(std::unique(named.begin(), named.end()), named.end());
     std::erase_if(named, [&](const std::string& scene) {
         return std::ranges::find(builtin, scene) != builtin.end() || std::ranges::find(known, scene) != known.end();
     });

@@ -25,9 +25,10 @@ bool isOutside(const Bounds& box, const glm::dmat4& clipFromObject) {
     std::array<int, 6> outside{};
     for (const glm::dvec3& corner : box.corners()) {
         const glm::dvec4 clip = clipFromObject * glm::dvec4(corner, 1);
-        for (int axis = 0; axis < 3; ++axis) {
-            outside[static_cast<std::size_t>(2 * axis)] += clip[axis] < -clip.w ? 1 : 0;
-            outside[static_cast<std::size_t>(2 * axis + 1)] += clip[axis] > clip.w ? 1 : 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double at = clip[static_cast<int>(axis)];
+            outside[2 * axis] += at < -clip.w ? 1 : 0;
+            outside[2 * axis + 1] += at > clip.w ? 1 : 0;
         }
     }
     return std::ranges::any_of(outside, [](int corners) { return corners == 8; });

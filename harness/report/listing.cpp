@@ -103,7 +103,8 @@ std::string asCell(const std::string& key, const Json& value) {
 std::string asText(const Json& entry) {
     std::string text = fmt::format("{}\n", entry["id"].get<std::string>());
     for (const auto& [key, value] : entry.items()) {
-        if (key == "id" || key == "parameters" || key == "figures" || value == "") continue;
+        const bool unsaid = value.is_string() && value.get_ref<const std::string&>().empty();
+        if (key == "id" || key == "parameters" || key == "figures" || unsaid) continue;
         text += fmt::format("    {}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     }
     if (!entry.contains("parameters")) return text;

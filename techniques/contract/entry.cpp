@@ -24,7 +24,7 @@ std::string_view title(Document document) {
 
 std::map<std::string, double> declaredFigures(const Entry& entry, std::map<std::string, double> figures) {
     for (const auto& [name, value] : figures) {
-        const bool declared = std::ranges::any_of(entry.figures, [&](const Figure& f) { return f.name == name; });
+        const bool declared = std::ranges::find(entry.figures, name, &Figure::name) != entry.figures.end();
         if (!declared)
             throw InternalError(fmt::format("technique {} reports a figure \"{}\" that its catalogue entry does not declare",
                                             entry.id, name));

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <functional>
 #include <map>
+#include <tuple>
 
 namespace shadowbench::gl {
 
@@ -12,7 +12,9 @@ namespace shadowbench::gl {
 struct Attachments {
     std::array<unsigned, 8> textures{}; // 0: no more
     int layer = 0;
-    friend auto operator<=>(const Attachments&, const Attachments&) = default;
+    friend bool operator<(const Attachments& a, const Attachments& b) {
+        return std::tie(a.textures, a.layer) < std::tie(b.textures, b.layer);
+    }
 };
 
 /// Made once, so that a frame that draws into the textures of the one before makes no framebuffer.

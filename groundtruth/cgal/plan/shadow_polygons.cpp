@@ -66,8 +66,9 @@ private:
     [[nodiscard]] ExactNumber weightAt(const ExactNumber& height) const { return lightHeight_ - height * lightWeight_; }
 
     [[nodiscard]] Vector<ExactNumber> located(const EdgePoint& point) const {
-        const Vector<ExactNumber> a = vector<ExactNumber>(point.a), b = vector<ExactNumber>(point.b);
+        Vector<ExactNumber> a = vector<ExactNumber>(point.a); // not const, so that it is moved
         if (point.kind == EdgePointKind::Vertex) return a;
+        const Vector<ExactNumber> b = vector<ExactNumber>(point.b);
         ExactNumber atA = heightOf(a), atB = heightOf(b);
         if (point.kind == EdgePointKind::LightContact) {
             atA = weightAt(atA);

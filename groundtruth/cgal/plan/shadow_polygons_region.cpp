@@ -24,9 +24,6 @@ namespace {
 struct EdgeData {
     Covers more;
     bool fence;
-    friend bool operator==(const EdgeData& a, const EdgeData& b) {
-        return a.more.first == b.more.first && a.more.second == b.more.second && a.fence == b.fence;
-    }
 };
 
 struct Sum {
