@@ -143,7 +143,8 @@ std::map<std::string, double> StencilVolumes::figures(const gl::Texture& depthSt
     const std::uint64_t fragments = fragmentsPassing(GL_ALWAYS, depthStencil);
     const std::uint64_t passing = fragmentsPassing(GL_LESS, depthStencil);
     const std::uint64_t updates = test_ == VolumeTest::DepthFail ? fragments - passing : passing;
-    return {{"volume_triangles", static_cast<double>(corners_.size() / 3)},
+    const std::size_t triangles = corners_.size() / 3;
+    return {{"volume_triangles", static_cast<double>(triangles)},
             {"volume_fragments", static_cast<double>(fragments)},
             {"stencil_updates", static_cast<double>(updates)},
             {"stencil_bytes", 4.0 * static_cast<double>(fragments + updates)}};

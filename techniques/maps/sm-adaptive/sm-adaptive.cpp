@@ -36,9 +36,9 @@ public:
     }
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame& /*frame*/) const override {
-        const std::size_t pages = maps_.tiles().size();
+        const std::size_t pages = maps_.tiles().size(), fillings = (pages + slots() - 1) / slots();
         return {{"pages", static_cast<double>(pages)},
-                {"fillings", static_cast<double>((pages + slots() - 1) / slots())},
+                {"fillings", static_cast<double>(fillings)},
                 {"effective_resolution", maps_.effectiveResolution()}};
     }
 

@@ -30,7 +30,8 @@ gl::Defines JitterTable::defines() { return {{"JITTER_BLOCK", std::to_string(jit
 glm::vec2 JitterTable::origin(std::uint32_t seed) {
     constexpr std::uint32_t stride = 397; // odd: every shift comes once before one comes again
     const std::uint32_t shift = stride * (seed - 1) % sets;
-    return {static_cast<float>(shift % jitterBlock), static_cast<float>(shift / jitterBlock)};
+    const std::uint32_t column = shift % jitterBlock, row = shift / jitterBlock;
+    return {static_cast<float>(column), static_cast<float>(row)};
 }
 
 } // namespace shadowbench::techniques
