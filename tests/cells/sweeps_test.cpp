@@ -12,13 +12,15 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
+#include <tuple>
 
 namespace shadowbench {
 namespace {
 
 struct Case {
     std::string scene, axis;
-    friend auto operator<=>(const Case&, const Case&) = default;
+    friend bool operator<(const Case& a, const Case& b) { return std::tie(a.scene, a.axis) < std::tie(b.scene, b.axis); }
+    friend bool operator==(const Case&, const Case&) = default;
 };
 
 /// How a failing case is printed.
@@ -52,7 +54,7 @@ std::vector<Record> swept(const std::string& scene, const std::string& axis, std
 class ExpectedBreaks : public testing::TestWithParam<Case> {};
 
 TEST_P(ExpectedBreaks, LieWhereTheSceneSays) {
-    const auto& [id, axis] = GetParam();
+    const std::string id = GetParam().scene, axis = GetParam().axis;
     std::vector<BreakExpectation> expectations = expectationsOf(id);
     std::erase_if(expectations, [&](const BreakExpectation& e) { return e.axis != axis; });
     std::vector<std::string> techniques;

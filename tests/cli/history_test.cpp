@@ -41,7 +41,7 @@ protected:
         record.time = "2026-02-01T00:00:00Z";
         record.values["accuracy.leak"] = leak;
         record.values["accuracy.primary_mismatch"] = 0;
-        const std::string file = folder_ / "run/results.jsonl";
+        std::string file = folder_ / "run/results.jsonl"; // not const, so that it is moved
         writeRecords(file, {record});
         return file;
     }

@@ -15,9 +15,9 @@ class PairedTime : public ::testing::Test {
 protected:
     /// A program that runs `answer` in a shell for each line it is asked; $count frames, $turn numbers the lines from 1.
     [[nodiscard]] std::string program(const std::string& name, const std::string& answer) const {
-        const std::string file = folder_.write(name, "#!/bin/sh\nturn=0\nwhile read count variant; do\n"
-                                                     "turn=$((turn + 1))\n" +
-                                                         answer + "\ndone\n");
+        std::string file = folder_.write(name, "#!/bin/sh\nturn=0\nwhile read count variant; do\n"
+                                               "turn=$((turn + 1))\n" +
+                                                   answer + "\ndone\n");
         std::filesystem::permissions(file, std::filesystem::perms::owner_all);
         return file;
     }

@@ -18,7 +18,7 @@ TEST(CubeViews, HoldEveryDirectionOnTheSideThatItLeavesBy) {
         const glm::dvec3 d(std::sin(1.7 * i), std::sin(2.9 * i + 1), std::sin(4.3 * i + 2));
         const glm::dvec3 size = glm::abs(d);
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const auto side = static_cast<std::size_t>(2 * axis + (d[axis] < 0 ? 1 : 0));
+        const std::size_t side = 2 * static_cast<std::size_t>(axis) + (d[axis] < 0 ? 1 : 0);
         const glm::dvec4 h = views[side].clipFromWorld * glm::dvec4(light + 2.0 * d / size[axis], 1);
         EXPECT_NEAR(h.w, 2, 1e-9);
         EXPECT_LE(std::max(std::abs(h.x), std::abs(h.y)), h.w * (1 + 1e-9));

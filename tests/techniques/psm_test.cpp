@@ -104,7 +104,8 @@ TEST(Psm, HoldsEveryVisiblePointWhereTheLightIsJustBehindThePostPerspectiveScene
     scene.camera = {{0.3, 2.1, 3.4}, {-0.2, 0.3, -2.1}, {0, 1, 0}, 48, 0.3, 15};
     const LightView view = fitPsm(light, scene, scene.camera, 1, {});
     for (int i = 0; i < 400; ++i) {
-        const glm::dvec2 pixel(5.0 * (i % 20) + 2.5, 5.0 * (i / 20) + 2.5);
+        const glm::ivec2 cell(i % 20, i / 20);
+        const glm::dvec2 pixel = 5.0 * glm::dvec2(cell) + 2.5;
         const glm::dvec3 ray = scene.camera.ray(pixel, {100, 100}), p = scene.camera.eye - scene.camera.eye.y / ray.y * ray;
         if (ray.y >= 0 || scene.camera.project(p, {100, 100}).z > scene.camera.far) continue;
         const glm::dvec3 q = mapped(view, p);

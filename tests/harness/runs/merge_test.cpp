@@ -36,7 +36,7 @@ protected:
     }
 
     fs::path folder(const std::string& name, const std::vector<std::size_t>& cells) const {
-        const fs::path folder = folder_.path() / name;
+        fs::path folder = folder_.path() / name;
         writeManifest(folder, manifest_);
         for (const std::size_t i : cells) put(folder, i, records_[i]);
         return folder;

@@ -13,29 +13,38 @@ namespace {
 constexpr int reach = 7; // pixels
 
 /// Weights of pixels −7 … 7.
-std::array<double, 2 * reach + 1> gaussian(double sigma) {
-    std::array<double, 2 * reach + 1> weights{};
-    double sum = 0;
-    for (int i = -reach; i <= reach; ++i)
-        sum += weights.at(static_cast<std::size_t>(i + reach)) = std::exp(-0.5 * i * i / (sigma * sigma));
-    for (double& weight : weights) weight /= sum;
-    return weights;
-}
+class Gaussian {
+public:
+    explicit Gaussian(double sigma) {
+        double sum = 0;
+        for (int i = -reach; i <= reach; ++i) sum += weights_.at(placeOf(i)) = std::exp(-0.5 * i * i / (sigma * sigma));
+        for (double& weight : weights_) weight /= sum;
+    }
+
+    [[nodiscard]] double operator()(int i) const { return weights_.at(placeOf(i)); }
+
+private:
+    static std::size_t placeOf(int i) {
+        const int place = i + reach;
+        return static_cast<std::size_t>(place);
+    }
+
+    std::array<double, 2 * reach + 1> weights_{};
+};
 
 TEST(PcfBlur, IsPcfUnderASeparableGaussianOfFifteenTaps) {
     const Scene scene = boxScene(64);
     Stage stage(scene);
     stage.show(0);
     const Image<float> sharp = rendered(stage, "pcf:map=256"), blurred = rendered(stage, "pcf-blur:map=256,sigma=3");
-    const auto weights = gaussian(3);
+    const Gaussian weights(3);
     double worst = 0, change = 0;
     for (int y = 0; y < sharp.height(); ++y)
         for (int x = 0; x < sharp.width(); ++x) {
             double sum = 0;
             for (int j = -reach; j <= reach; ++j)
                 for (int i = -reach; i <= reach; ++i)
-                    sum += weights.at(static_cast<std::size_t>(i + reach)) *
-                           weights.at(static_cast<std::size_t>(j + reach)) *
+                    sum += weights(i) * weights(j) *
                            static_cast<double>(
                                sharp(std::clamp(x + i, 0, sharp.width() - 1), std::clamp(y + j, 0, sharp.height() - 1)));
             worst = std::max(worst, std::abs(sum - static_cast<double>(blurred(x, y))));
@@ -139,7 +148,7 @@ TEST_F(Halo, OfLitPostsLiesOverTheShadowBehindThem) { // Fig. 3.4
 
 TEST_F(Halo, AloneSpoilsMoreThanATenthOfTheReceivers) { // hence the scene's expectation of bad30
     const Image<float> blurred = rendered(stage_, "pcf-blur");
-    const auto weights = gaussian(2.5);
+    const Gaussian weights(2.5);
     int spoilt = 0, receivers = 0;
     for (int y = 0; y < sharp_.height(); ++y)
         for (int x = 0; x < sharp_.width(); ++x) {
@@ -148,8 +157,7 @@ TEST_F(Halo, AloneSpoilsMoreThanATenthOfTheReceivers) { // hence the scene's exp
             double sum = 0, weight = 0;
             visitAround(x, y, [&](int i, int j) {
                 if (drawn_.id(i, j) != drawn_.id(x, y)) return;
-                const double share = weights.at(static_cast<std::size_t>(i - x + reach)) *
-                                     weights.at(static_cast<std::size_t>(j - y + reach));
+                const double share = weights(i - x) * weights(j - y);
                 sum += share * static_cast<double>(sharp_(i, j));
                 weight += share;
             });

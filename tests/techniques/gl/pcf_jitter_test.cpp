@@ -120,7 +120,7 @@ TEST(PcfJitter, EveryPixelOfABlockHasASetOfItsOwn) {
                 for (int x = 0; x < 40; ++x) {
                     const int set = (x + origin.x) % jitterBlock + jitterBlock * ((y + origin.y) % jitterBlock);
                     const auto taps = jitteredTaps(grid, static_cast<std::uint32_t>(set));
-                    const auto first = static_cast<std::size_t>(2 * pair);
+                    const std::size_t first = 2 * static_cast<std::size_t>(pair);
                     ASSERT_EQ(read(x, 39 - y), glm::vec4(taps[first], taps[first + 1])); // GL's rows are upwards
                 }
         }
