@@ -20,7 +20,6 @@ namespace {
 struct Case {
     std::string scene, axis;
     friend bool operator<(const Case& a, const Case& b) { return std::tie(a.scene, a.axis) < std::tie(b.scene, b.axis); }
-    friend bool operator==(const Case&, const Case&) = default;
 };
 
 /// How a failing case is printed.
