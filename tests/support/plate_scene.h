@@ -114,4 +114,21 @@ inline void expectTheDarkerWhereTwoOverlap(const std::string& variant) {
     EXPECT_GT(overlapped, 20U);
 }
 
+/// What hangs on a caster's outline does not darken its own top.
+inline void expectTopsLitUpToTheirRims(const std::string& variant) {
+    Scene scene = boxScene(192);
+    scene.light = {LightKind::Rectangle, {1.7, 6.1, -2.3}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> v = rendered(stage, variant);
+    const metrics::Drawn drawn = stage.drawn();
+    std::size_t top = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        if (drawn.id[i] != 2 || drawn.position[i].y < 1.399F) continue;
+        EXPECT_EQ(v[i], 1) << i;
+        ++top;
+    }
+    EXPECT_GT(top, 500U);
+}
+
 } // namespace shadowbench

@@ -1,5 +1,6 @@
 // Parameters and variant strings: what is accepted, what is said of the rest.
 #include "base/error.h"
+#include "base/files.h"
 #include "techniques/catalog.h"
 
 #include <cmath>
@@ -23,6 +24,12 @@ TEST(Variant, DefaultsAreLeftOutAndOrderIsTheDeclaredOne) {
     EXPECT_EQ(parseVariant("pcss:map=2048,taps=32+32").name, "pcss:taps=32+32,map=2048");
     EXPECT_EQ(parseVariant("pcss:map=1024,taps=16+16").name, "pcss");
     EXPECT_EQ(parseVariant("pcss:map=01024").name, "pcss");
+}
+
+TEST(Catalogue, TheFrontPageCountsItsTechniques) {
+    const std::string page = readFile(std::string(SOURCE_FOLDER) + "/README.md");
+    EXPECT_NE(page.find("runs " + std::to_string(catalog().size()) + " shadow and level-of-detail techniques"),
+              std::string::npos);
 }
 
 TEST(Variant, UnknownTechniqueNamesTheNearMatch) {

@@ -2,8 +2,8 @@
 // frame draws one shadow map from one Halton point of the light and adds its hard test to a reprojected shadow buffer (ρ, n
 // and linear depth; RGBA16F, double-buffered, with overscan). What is shown is eq. 4.5 alone: no PCSS start, no smoothing,
 // no regard to what moves (4.1.3 and 4.1.4; those are `temporal-soft`). On a still scene n frames are the mean of n maps.
-// Departure: equal depths are those of eq. 4.8, which is relative, instead of eq. 4.4's. As the source admits, what is new
-// has large errors: the first two frames differ by half the light.
+// Departure: equal depths are those of eq. 4.8, which is relative; depth-test=absolute has eq. 4.4's. As the source admits,
+// what is new has large errors: the first two frames differ by half the light.
 #include "techniques/contract/entry.h"
 #include "techniques/sampled/shadow_buffer.h"
 #include "techniques/shared/maps/depth_map.h"

@@ -4,14 +4,17 @@
 
 namespace shadowbench::techniques {
 
-LinearDepthMap::LinearDepthMap(int side, Bias bias)
-    : linear_(gl::Format::R32F, {side, side}, gl::Filter::Nearest, gl::Wrap::BorderFar),
+LinearDepthMap::LinearDepthMap(int side, Bias bias, Texel texel)
+    : linear_(texel == Texel::Depth ? gl::Format::R32F : gl::Format::RG32F, {side, side}, gl::Filter::Nearest,
+              gl::Wrap::BorderFar),
       depth_(gl::Format::Depth32F, {side, side}), target_{&linear_, &depth_},
-      program_("shared/maps/linear_depth_map.vert", "shared/maps/linear_depth_map.frag"), bias_(bias) {}
+      program_("shared/maps/linear_depth_map.vert", "shared/maps/linear_depth_map.frag",
+               texel == Texel::Depth ? gl::Defines{} : gl::Defines{{"SURFACE", "1"}}),
+      bias_(bias) {}
 
 void LinearDepthMap::draw(const LightView& light, const Frame& frame) {
     const auto pass = frame.pass("depth map");
-    target_.clearColour(0, glm::vec4(gl::nothingInTheWay));
+    target_.clearColour(0, glm::vec4(gl::nothingInTheWay, 0, 0, 0));
     target_.clearDepth(1);
     target_.bind();
     const double constant = bias_.units * depthStep * light.far;

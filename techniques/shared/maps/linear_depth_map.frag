@@ -1,9 +1,12 @@
 in float linearDepth;
 flat in uint moving;
+#ifdef SURFACE
+flat in uint surface;
+#endif
 
-uniform vec2 bias;  // slope factor, constant in metres
+uniform vec2 bias; // slope factor, constant in metres
 #ifdef PEEL
-uniform sampler2D depthBefore;  // of the layer that is peeled off, the same to the last bit where it is drawn again
+uniform sampler2D depthBefore; // of the layer that is peeled off, the same to the last bit where it is drawn again
 #endif
 
 out vec4 stored;
@@ -14,5 +17,9 @@ void main() {
     if (gl_FragCoord.z <= texelFetch(depthBefore, ivec2(gl_FragCoord.xy), 0).r) discard;
 #endif
     float depth = linearDepth + bias.x * slope + bias.y;
+#ifdef SURFACE
+    stored = vec4(depth, float(surface), 0.0, 0.0);
+#else
     stored = vec4(moving != 0u ? -depth : depth);
+#endif
 }

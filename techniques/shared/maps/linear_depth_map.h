@@ -1,14 +1,18 @@
-// Shadow map of linear depth in 32-bit floats (Scherzer 4.2): metres along the light's axis, negative where the caster moves
-// (4.1.4).
+// Shadow map of linear depth in 32-bit floats (Scherzer 4.2): metres along the light's axis, `gl::nothingInTheWay` where
+// there is nothing.
 #pragma once
 
 #include "techniques/shared/maps/depth_map.h"
 
 namespace shadowbench::techniques {
 
+/// What a texel holds: the depth, negative where the caster moves (Scherzer 4.1.4; R32F), or the depth and the id of the
+/// surface that it sees, 0 for none (Hourcade and Nicolas 1985; RG32F).
+enum class Texel { Depth, DepthAndSurface };
+
 class LinearDepthMap {
 public:
-    LinearDepthMap(int side, Bias bias);
+    LinearDepthMap(int side, Bias bias, Texel texel = Texel::Depth);
     void draw(const LightView& light, const Frame& frame);
 
     [[nodiscard]] const gl::Texture& texture() const { return linear_; }

@@ -6,11 +6,17 @@ uniform vec4 depthFromWorld;
 
 out float linearDepth;
 flat out uint moving;
+#ifdef SURFACE
+flat out uint surface;
+#endif
 
 void main() {
     vec4 world = vec4(worldPosition(objectPosition), 1.0);
     linearDepth = dot(depthFromWorld, world);
     moving = idAndMoving.y;
+#ifdef SURFACE
+    surface = idAndMoving.x;
+#endif
     gl_ClipDistance[0] = dot(lightPlane, world);
     gl_Position = clipFromWorld * world;
 }

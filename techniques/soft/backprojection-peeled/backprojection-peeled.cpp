@@ -12,38 +12,12 @@
 //
 // It fails behind more occluders than layers, and each layer costs its pass and its search.
 #include "techniques/contract/entry.h"
-#include "techniques/shared/filters/microquads.h"
 #include "techniques/shared/maps/peeled_map.h"
+#include "techniques/soft/microquad_technique.h"
+
+#include <memory>
 
 namespace shadowbench::techniques {
-namespace {
-
-class BackProjectionPeeled final : public Technique {
-public:
-    explicit BackProjectionPeeled(const Parameters& p)
-        : microquads_("backprojection-peeled", p, p.integer("layers")),
-          map_(p.integer("map"), p.integer("layers"), biasFrom(p)),
-          pyramid_(p.integer("map"), nodeEnds(p), p.integer("layers")) {}
-
-    void render(const Frame& frame, const gl::Texture& visibility) override {
-        view_ = fitToScene(frame.snapshot.light, frame.snapshot);
-        map_.draw(view_, frame);
-        pyramid_.draw(map_.texture(), frame);
-        microquads_.resolve(frame, view_, map_.texture(), pyramid_, visibility);
-    }
-
-    [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
-        return {{"quads", microquads_.quadsOf(frame, view_, map_.texture(), pyramid_)}};
-    }
-
-private:
-    Microquads microquads_;
-    LightView view_; // of the frame rendered last
-    PeeledMap map_;
-    MinMaxPyramid pyramid_;
-};
-
-} // namespace
 
 Entry backprojectionPeeled() {
     std::vector<Parameter> own = microquadParameters();
@@ -57,7 +31,11 @@ Entry backprojectionPeeled() {
             .parameters = withDepthMapParameters(std::move(own)),
             .figures = {{"quads", "microquads that a receiver's pixel projects onto the light, of all layers, in the mean"}},
             .variants = {"", "window=12,samples=256,bits=256"},
-            .make = [](const Parameters& p) { return std::make_unique<BackProjectionPeeled>(p); }};
+            .make = [](const Parameters& p) {
+                const int layers = p.integer("layers");
+                return std::make_unique<MicroquadTechnique<PeeledMap>>("backprojection-peeled", p, layers,
+                                                                       PeeledMap(p.integer("map"), layers, biasFrom(p)));
+            }};
 }
 
 } // namespace shadowbench::techniques

@@ -18,36 +18,12 @@
 // texels, the larger the light, and near contact nothing smaller than those; and since a microquad needs all its corners,
 // edges lie half a texel inside the occluder.
 #include "techniques/contract/entry.h"
-#include "techniques/shared/filters/microquads.h"
 #include "techniques/shared/maps/linear_depth_map.h"
+#include "techniques/soft/microquad_technique.h"
+
+#include <memory>
 
 namespace shadowbench::techniques {
-namespace {
-
-class Bitmask final : public Technique {
-public:
-    explicit Bitmask(const Parameters& p)
-        : microquads_("bitmask", p, 1), map_(p.integer("map"), biasFrom(p)), pyramid_(p.integer("map"), nodeEnds(p)) {}
-
-    void render(const Frame& frame, const gl::Texture& visibility) override {
-        view_ = fitToScene(frame.snapshot.light, frame.snapshot);
-        map_.draw(view_, frame);
-        pyramid_.draw(map_.texture(), frame);
-        microquads_.resolve(frame, view_, map_.texture(), pyramid_, visibility);
-    }
-
-    [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
-        return {{"quads", microquads_.quadsOf(frame, view_, map_.texture(), pyramid_)}};
-    }
-
-private:
-    Microquads microquads_;
-    LightView view_; // of the frame rendered last
-    LinearDepthMap map_;
-    MinMaxPyramid pyramid_;
-};
-
-} // namespace
 
 Entry bitmask() {
     return {.id = "bitmask",
@@ -58,7 +34,10 @@ Entry bitmask() {
             .parameters = withDepthMapParameters(microquadParameters()),
             .figures = {{"quads", "microquads that a receiver's pixel projects onto the light, in the mean"}},
             .variants = {"", "window=12,samples=256,bits=256"},
-            .make = [](const Parameters& p) { return std::make_unique<Bitmask>(p); }};
+            .make = [](const Parameters& p) {
+                return std::make_unique<MicroquadTechnique<LinearDepthMap>>("bitmask", p, 1,
+                                                                            LinearDepthMap(p.integer("map"), biasFrom(p)));
+            }};
 }
 
 } // namespace shadowbench::techniques

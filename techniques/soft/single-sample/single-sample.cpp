@@ -1,8 +1,7 @@
 // Single sample soft shadows (Brabec and Seidel 2002), after Scherzer 2.3.1, eq. 2.1:
 // 1. a map from the light's centre holds depths and surface ids;
 // 2. a receiver that the centre lights searches the map for the nearest texel in which another surface is nearer to the
-// light;
-//    one in hard shadow searches for the nearest texel in which there is none;
+//    light, one in hard shadow for the nearest texel in which there is none;
 // 3. r_max is the penumbra's reach to each side of the hard edge by similar triangles, from the depths of receiver and
 //    occluder; visibility is ½ (1 + r / r_max) outside and ½ (1 − r / r_max) inside the hard shadow.
 // A surface's own id never blocks it beside its texel: what it casts on itself stays hard. Departures: distances are shares
@@ -12,7 +11,7 @@
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/filters/nearest_texel.h"
-#include "techniques/shared/maps/id_map.h"
+#include "techniques/shared/maps/linear_depth_map.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -24,7 +23,8 @@ gl::Defines tileDefines() { return {{"TILE_SIDE", std::to_string(tileSide)}}; }
 class SingleSample final : public Technique {
 public:
     explicit SingleSample(const Parameters& p)
-        : radius_(p.integer("radius")), followPlane_(p.text("bias") == "slope"), map_(p.integer("map"), biasFrom(p)),
+        : radius_(p.integer("radius")), followPlane_(p.text("bias") == "slope"),
+          map_(p.integer("map"), biasFrom(p), Texel::DepthAndSurface),
           tiles_(gl::Format::RG32F, glm::ivec2((map_.side() + tileSide - 1) / tileSide)),
           tile_(gl::Program::screen("soft/single-sample/tile.frag", tileDefines())),
           resolve_(gl::Program::screen("soft/single-sample/single-sample.frag", tileDefines())) {}
@@ -53,7 +53,7 @@ private:
     int radius_;
     bool followPlane_;
     LightView view_;
-    IdMap map_;
+    LinearDepthMap map_;
     gl::Texture tiles_;
     gl::Program tile_, resolve_;
 };

@@ -77,21 +77,7 @@ TEST(Smoothie, WhereSmoothiesOverlapTheDarkerOneIsKept) { // minimum blending
     expectTheDarkerWhereTwoOverlap("smoothie");
 }
 
-TEST(Smoothie, TopsOfCastersAreLitUpToTheirRims) {
-    Scene scene = boxScene(192);
-    scene.light = {LightKind::Rectangle, {1.7, 6.1, -2.3}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
-    Stage stage(scene);
-    stage.show(0);
-    const Image<float> v = rendered(stage, "smoothie");
-    const metrics::Drawn drawn = stage.drawn();
-    std::size_t top = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-        if (drawn.id[i] != 2 || drawn.position[i].y < 1.399F) continue;
-        EXPECT_EQ(v[i], 1) << i;
-        ++top;
-    }
-    EXPECT_GT(top, 500U);
-}
+TEST(Smoothie, TopsOfCastersAreLitUpToTheirRims) { expectTopsLitUpToTheirRims("smoothie"); }
 
 TEST(Smoothie, RefusesWhatItCannotAnswer) {
     EXPECT_THROW(techniques::parseVariant("smoothie:map=8"), BadInput);
