@@ -25,6 +25,10 @@ std::vector<Figure> shadowBufferFigures() {
             {"reused", "share of the surface pixels that took over what the frame before had left"}};
 }
 
+gl::Defines shadowBufferDefines(const Parameters& parameters) {
+    return {{"RELATIVE_DEPTH", parameters.text("depth-test") == "relative" ? "1" : "0"}};
+}
+
 LightView lightSampleView(const Frame& frame) {
     const Light& light = frame.snapshot.light;
     const std::uint32_t i = haltonIndex(frame.index, frame.seed);
@@ -36,8 +40,8 @@ ShadowBuffer::Images::Images(glm::ivec2 size, int border)
       write(gl::Format::RGBA16F, gbuffer.size(), gl::Filter::Linear), shown(gl::Format::R32F, gbuffer.size()) {}
 
 ShadowBuffer::ShadowBuffer(const Parameters& parameters)
-    : relative_(parameters.text("depth-test") == "relative"), epsilon_(static_cast<float>(parameters.real("epsilon"))),
-      overscan_(parameters.real("overscan")), copy_(gl::Program::screen("sampled/inner_part.frag")) {}
+    : epsilon_(static_cast<float>(parameters.real("epsilon"))), overscan_(parameters.real("overscan")),
+      copy_(gl::Program::screen("sampled/inner_part.frag")) {}
 
 void ShadowBuffer::begin(const Frame& frame) {
     if (!images_ || images_->inner != frame.size)
@@ -79,7 +83,6 @@ void ShadowBuffer::setReprojection(const Frame& frame, gl::Program& program) con
         .set("previousClipFromWorld", glm::mat4(gbuffer().widened(frame.previousClipFromWorld)))
         .set("eyeDepth", plane(forward, camera.eye))
         .set("previousEyeDepth", plane(previousForward, frame.snapshot.previousCamera.eye))
-        .set("relativeDepth", relative_ ? 1 : 0)
         .set("epsilon", epsilon_)
         .set("hasHistory", images_->fresh ? 0 : 1);
 }

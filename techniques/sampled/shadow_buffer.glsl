@@ -1,5 +1,5 @@
 // A pixel's place in the shadow buffer, and what the last frame left there (Scherzer 4.1.2). ψ is the occluded fraction; what is
-// shown is 1 − ψ.
+// shown is 1 − ψ. RELATIVE_DEPTH: 1 if the tolerance of depths is relative (eq. 4.8), 0 if it is in metres (eq. 4.4).
 #include "gl/half.glsl"
 #include "gl/receiver.glsl"
 #include "sampled/estimators.glsl"
@@ -10,15 +10,17 @@ uniform mat4 previousClipFromWorld;
 uniform vec4 eyeDepth;           // dot(·, (p, 1)) = linear depth from the eye
 uniform vec4 previousEyeDepth;
 uniform float epsilon;
-uniform int relativeDepth;       // the tolerance is relative (eq. 4.8) or in metres (eq. 4.4)
 uniform int hasHistory;
 
 layout(location = 0) out float visibility;
 layout(location = 1) out vec4 newShadowBuffer;
 
 bool sameDepth(float now, float before) {
-    float difference = relativeDepth == 1 ? 1.0 - now / before : now - before;
-    return abs(difference) < epsilon;
+#if RELATIVE_DEPTH
+    return abs(1.0 - now / before) < epsilon;
+#else
+    return abs(now - before) < epsilon;
+#endif
 }
 
 float depthFromEye(Receiver receiver) {

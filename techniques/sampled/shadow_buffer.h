@@ -23,6 +23,9 @@ std::vector<Parameter> shadowBufferParameters();
 /// What ShadowBuffer::figures reports.
 std::vector<Figure> shadowBufferFigures();
 
+/// What sampled/shadow_buffer.glsl has to be compiled with.
+gl::Defines shadowBufferDefines(const Parameters& parameters);
+
 /// The view of the frame's own Halton point of the light.
 LightView lightSampleView(const Frame& frame);
 
@@ -58,7 +61,6 @@ private:
 
     void setReprojection(const Frame& frame, gl::Program& resolve) const;
 
-    bool relative_;
     float epsilon_;
     double overscan_;
     gl::Program copy_;

@@ -17,7 +17,7 @@ class TemporalSampling final : public Technique {
 public:
     explicit TemporalSampling(const Parameters& p)
         : buffer_(p), map_(p.integer("map"), biasFrom(p), Lookup::Compare),
-          resolve_(gl::Program::screen("sampled/temporal-sampling/temporal-sampling.frag")) {}
+          resolve_(gl::Program::screen("sampled/temporal-sampling/temporal-sampling.frag", shadowBufferDefines(p))) {}
 
     void reset() override { buffer_.reset(); }
 

@@ -27,7 +27,7 @@ public:
     explicit TemporalSoft(const Parameters& p)
         : start_(p.integer("start")), threshold_(static_cast<float>(p.real("threshold"))),
           followPlane_(p.text("bias") == "slope"), buffer_(p), map_(p.integer("map"), biasFrom(p)),
-          resolve_(gl::Program::screen("sampled/temporal-soft/temporal-soft.frag", defines())) {}
+          resolve_(gl::Program::screen("sampled/temporal-soft/temporal-soft.frag", defines(p))) {}
 
     void reset() override { buffer_.reset(); }
 
@@ -45,8 +45,9 @@ public:
     }
 
 private:
-    static gl::Defines defines() {
-        gl::Defines result = startTaps.defines();
+    static gl::Defines defines(const Parameters& p) {
+        gl::Defines result = shadowBufferDefines(p);
+        for (auto& define : startTaps.defines()) result.push_back(std::move(define));
         result.emplace_back("NEIGHBOUR_TAPS", std::to_string(filterTaps));
         return result;
     }
