@@ -1,10 +1,12 @@
 #include "harness/cli/command.h"
 #include "harness/report/listing.h"
+#include "harness/studies/behaviour/behaviour.h"
 
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
@@ -19,6 +21,8 @@ struct ListOptions {
     std::string what = "techniques";
     std::string format = "text";
     bool standard = false;
+    bool table = false;
+    std::vector<std::filesystem::path> records;
 };
 
 /// One id a line. Scenes are not loaded for it: shells ask for it while a person types.
@@ -32,7 +36,27 @@ std::string idsOf(const std::string& what, bool standard) {
     return fmt::format("{}\n", fmt::join(all, "\n"));
 }
 
+/// Where the published records are, in a clone.
+std::vector<std::filesystem::path> publishedRecords() {
+    std::vector<std::filesystem::path> files;
+    for (const char* file : {"results/published/results.jsonl", "results/failures/results.jsonl"})
+        if (std::filesystem::exists(file)) files.emplace_back(file);
+    return files;
+}
+
+std::string tableOfBehaviours(const ListOptions& options) {
+    if (options.what != "techniques") throw BadInput("--table is of techniques: list techniques --table");
+    if (options.format == "json" || options.format == "ids") throw BadInput("--table is printed as md or latex");
+    std::vector<Record> records;
+    for (const std::filesystem::path& file : options.records.empty() ? publishedRecords() : options.records)
+        for (Record& record : readRecords(file)) records.push_back(std::move(record));
+    return behaviourTable(behaviours(), records, options.format == "latex" ? Markup::Latex : Markup::Markdown);
+}
+
 std::string listing(const ListOptions& options) {
+    if (options.table) return tableOfBehaviours(options);
+    if (options.format == "latex" || !options.records.empty())
+        throw BadInput("--format latex and --records belong to list techniques --table");
     if (options.standard && (options.what != "scenes" || options.format != "ids"))
         throw BadInput("--standard chooses among scenes: list scenes --standard --format ids");
     return options.format == "ids" ? idsOf(options.what, options.standard) : catalogue(options.what, options.format);
@@ -44,13 +68,22 @@ void addList(CLI::App& app, Action& action) {
     const auto options = std::make_shared<ListOptions>();
     CLI::App* verb = app.add_subcommand(
         "list", "Lists techniques with their parameters, scenes or metrics, or prints the JSON Schema of records");
-    verb->footer("Example:\n  shadowbench list techniques --format md");
+    verb->footer("Examples:\n  shadowbench list techniques --format md\n"
+                 "  shadowbench list techniques --table                    what each is good at, where it fails, which test "
+                 "says so\n"
+                 "  shadowbench list techniques --table --format latex --records results/published/results.jsonl");
     verb->add_option("what", options->what, "techniques, scenes, metrics or schema")
         ->check(CLI::IsMember({"techniques", "scenes", "metrics", "schema"}));
-    verb->add_option("--format", options->format, "text, md or json; ids: one a line")
-        ->check(CLI::IsMember({"text", "md", "json", "ids"}))
+    verb->add_option("--format", options->format, "text, md or json; ids: one a line; latex: of --table")
+        ->check(CLI::IsMember({"text", "md", "json", "ids", "latex"}))
         ->capture_default_str();
     verb->add_flag("--standard", options->standard, "With `scenes --format ids`: only those that a run takes by default");
+    verb->add_flag(
+        "--table", options->table,
+        "Of techniques: source, strength and failure, each with the test that asserts it and a figure, as md or latex");
+    verb->add_option(
+        "--records", options->records,
+        "Record files that the figures are read from (default: those of results/published and results/failures)");
     verb->callback([&action, options] {
         action = [options] {
             fmt::print("{}", listing(*options));

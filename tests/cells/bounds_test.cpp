@@ -25,6 +25,15 @@ TEST_P(StandardScene, AFinerUniformMapIsAtLeastTwiceAsGood) {
 
 INSTANTIATE_TEST_SUITE_P(Gate, StandardScene, testing::ValuesIn(standardScenes()), nameOfText);
 
+TEST(NoShadow, DrawsTheLeastAndMissesEveryShadow) {
+    CellScene& scene = stillScene("dueling-frusta");
+    const Record& none = scene.scored("none");
+    EXPECT_EQ(*none.values["accuracy.leak"], 1);
+    EXPECT_EQ(*none.values["accuracy.false_shadow"], 0);
+    for (const char* variant : {"planar-hard", "volume-xor", "sm-dual-paraboloid", "sm-uniform"}) // the cheapest others
+        EXPECT_LT(*none.values["cost.work.draws"], *scene.scored(variant).values["cost.work.draws"]) << variant;
+}
+
 TEST(DuelingFrusta, WarpingIsNoBetterThanAUniformMap) {
     CellScene& scene = stillScene("dueling-frusta");
     const double uniform = *scene.scored("sm-uniform").values["accuracy.mismatch"];
