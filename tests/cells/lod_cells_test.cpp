@@ -1,9 +1,12 @@
 // What level-of-detail techniques must show on the dissertation's three scenes, in the gate profile.
 #include "harness/cells/lod_cell.h"
+#include "harness/render/walk.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
 #include "tests/support/test_context.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <map>
 
@@ -49,6 +52,48 @@ TEST_P(LodScenes, TheFinestLevelIsItsOwnReference) {
     EXPECT_EQ(*full["lod.changed_region"], 0U);
     EXPECT_EQ(*full["lod.colour_error"], 0);
     EXPECT_EQ(*full["lod.noise"], 0);
+}
+
+/// K19, replayed without drawing: triangles of the levels that instances show, those in transition at one of their two
+/// levels, in turn. An instance that begins its transition shows the level that is wholly visible then (dissertation 5.1.2).
+std::vector<double> trianglesOfFrameSequentialWalk(const Scene& scene) {
+    std::map<std::uint32_t, std::pair<int, bool>>
+        shown; // by instance in transition: the finer level; whether the coarser was drawn
+    std::vector<double> triangles;
+    const double aspect = static_cast<double>(scene.size.x) / scene.size.y;
+    for (int frame = 0; frame < scene.lod->frames; ++frame) {
+        std::map<std::uint32_t, std::pair<int, bool>> now;
+        double sum = 0;
+        for (const techniques::LodInstance& instance : lod::walkFrame(scene, frame, aspect).instances) {
+            const std::vector<Level>& levels = scene.objects[instance.chain].levels;
+            auto [level, progress] = instance.selection;
+            if (progress > 0) {
+                const auto before = shown.find(instance.id);
+                const bool goesOn = before != shown.end() && before->second.first == level;
+                // The first frame fills both buffers, one with each level; the second one goes on from the other level.
+                const bool coarser = goesOn ? !before->second.second : (progress >= 0.5) != (frame == 0);
+                now[instance.id] = {level, coarser};
+                if (coarser) ++level;
+            }
+            sum += static_cast<double>(levels[static_cast<std::size_t>(level)].mesh->triangles.size());
+        }
+        shown = std::move(now);
+        triangles.push_back(sum);
+    }
+    return triangles;
+}
+
+TEST_P(LodScenes, PrimitivesOfAFrameSequentialWalkChangeAsItsLevelsDo) {
+    const std::vector<double> triangles = trianglesOfFrameSequentialWalk(loadScene(GetParam(), Profile::Gate));
+    const Record& record = lodCell(GetParam(), "lod-frame-sequential");
+    const std::vector<double>& drawn = record.values.list("lod.by_frame.primitives");
+    ASSERT_EQ(drawn.size(), triangles.size());
+    double largest = 0;
+    for (std::size_t i = 2; i < triangles.size(); ++i) { // the first frame fills both buffers
+        EXPECT_NEAR(drawn[i], triangles[i], 0.01 * triangles[i]) << i;
+        largest = std::max(largest, std::abs(triangles[i] - triangles[i - 1]) / triangles[i - 1]);
+    }
+    EXPECT_NEAR(*record.values["lod.primitive_change"], largest, 0.05 * largest);
 }
 
 TEST_P(LodScenes, SeveralInstancesAreInTransitionAtOnceAndLevelsSaveTriangles) {

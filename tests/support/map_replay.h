@@ -1,0 +1,111 @@
+// A depth map replayed in double precision on the CPU, with no rasteriser: what it holds at a texel's centre is found by
+// intersecting that texel's line with every triangle. For checking figures in which the program contradicts a paper.
+#pragma once
+
+#include "scene/snapshot.h"
+#include "techniques/shared/light_views/light_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <vector>
+
+namespace shadowbench::test {
+
+/// World-space triangles of a snapshot.
+inline std::vector<std::array<glm::dvec3, 3>> worldTriangles(const Snapshot& snapshot) {
+    std::vector<std::array<glm::dvec3, 3>> triangles;
+    for (const Batch& batch : snapshot.batches)
+        for (const Placement& placement : batch.placements)
+            for (const glm::uvec3& t : batch.mesh->triangles) {
+                const auto at = [&](std::uint32_t i) {
+                    return glm::dvec3(placement.world * glm::dvec4(glm::dvec3(batch.mesh->positions[i]), 1));
+                };
+                triangles.push_back({at(t.x), at(t.y), at(t.z)});
+            }
+    return triangles;
+}
+
+/// A square map of `side` texels over `view`, with the slope bias that techniques have by default (factor 1, 64 units of
+/// 2⁻²⁴).
+class MapReplay {
+public:
+    MapReplay(const std::vector<std::array<glm::dvec3, 3>>& triangles, const techniques::LightView& view, int side)
+        : clip_(view.clipFromWorld), side_(side) {
+        const glm::dmat4 worldFromClip = glm::inverse(clip_);
+        for (const auto& corners : triangles) {
+            const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+            const glm::dvec4 plane =
+                glm::dvec4(normal, -glm::dot(normal, corners[0])) * worldFromClip; // of clip space: dot(plane, h) = 0
+            if (plane.z == 0) continue;                                            // seen edge-on
+            add(corners, plane);
+        }
+    }
+
+    /// Texels; x and y as texelAt gives them.
+    [[nodiscard]] double nearestDepth(glm::dvec2 texel) const {
+        const glm::dvec2 at = 2.0 * (glm::floor(texel) + 0.5) / static_cast<double>(side_) - 1.0; // the texel's centre, NDC
+        double nearest = 1;
+        for (const Mapped& t : mapped_) {
+            if (at.x < t.low.x || at.y < t.low.y || at.x > t.high.x || at.y > t.high.y) continue;
+            const glm::dvec3 point(at, 1);
+            const glm::dvec3 e(glm::dot(t.edge[0], point), glm::dot(t.edge[1], point), glm::dot(t.edge[2], point));
+            const bool inside = (e.x >= 0 && e.y >= 0 && e.z >= 0) || (e.x <= 0 && e.y <= 0 && e.z <= 0);
+            if (!inside || (e.x + e.y + e.z) * t.determinant <= 0) continue; // beside it, or behind the light
+            const double depth = 0.5 - 0.5 * glm::dot(t.depth, point) + t.bias;
+            nearest = std::min(nearest, std::clamp(depth, 0.0, 1.0));
+        }
+        return nearest;
+    }
+
+    /// The shadow test of Williams.
+    [[nodiscard]] bool isLit(const glm::dvec3& world) const {
+        const glm::dvec4 h = clip_ * glm::dvec4(world, 1);
+        if (h.w <= 0) return true;
+        const glm::dvec3 ndc = glm::dvec3(h) / h.w;
+        return std::min(0.5 * ndc.z + 0.5, 1.0) <= nearestDepth((0.5 * glm::dvec2(ndc) + 0.5) * static_cast<double>(side_));
+    }
+
+private:
+    struct Mapped {
+        std::array<glm::dvec3, 3> edge; // dot(edge, (x, y, 1)) has one sign inside: homogeneous edge functions
+        double determinant;             // of the corners; its sign with the edges' tells what is behind the light
+        glm::dvec3 depth;               // dot(depth, (x, y, 1)) = −z of the plane, NDC
+        double bias;
+        glm::dvec2 low, high; // NDC
+    };
+
+    void add(const std::array<glm::dvec3, 3>& corners, const glm::dvec4& plane) {
+        std::array<glm::dvec3, 3> h; // x, y, w
+        Mapped t{};
+        t.low = glm::dvec2(std::numeric_limits<double>::infinity());
+        t.high = -t.low;
+        bool before = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec4 clip = clip_ * glm::dvec4(corners[i], 1);
+            h[i] = {clip.x, clip.y, clip.w};
+            before = before && clip.w > 0;
+            t.low = glm::min(t.low, glm::dvec2(clip) / clip.w);
+            t.high = glm::max(t.high, glm::dvec2(clip) / clip.w);
+        }
+        if (!before) { // it crosses the light's plane: no box bounds its image
+            t.low = glm::dvec2(-std::numeric_limits<double>::infinity());
+            t.high = -t.low;
+        }
+        for (std::size_t i = 0; i < 3; ++i) t.edge[i] = glm::cross(h[(i + 1) % 3], h[(i + 2) % 3]);
+        t.determinant = glm::dot(h[0], t.edge[0]);
+        t.depth = glm::dvec3(plane.x, plane.y, plane.w) / plane.z;
+        const double perTexel = 2.0 / side_; // NDC; window depth is half of NDC's
+        t.bias = 0.5 * perTexel * std::max(std::abs(t.depth.x), std::abs(t.depth.y)) + 64.0 / (1 << 24);
+        mapped_.push_back(t);
+    }
+
+    glm::dmat4 clip_;
+    int side_;
+    std::vector<Mapped> mapped_;
+};
+
+} // namespace shadowbench::test
