@@ -1,13 +1,16 @@
 // Figures with which the program contradicts a paper, computed again in double precision on the CPU: without rasteriser,
 // shader or 16-bit buffers, from the papers' equations and the exact primary hits. The same figure within a twentieth means
 // that the contradiction is the method's on this scene, and no slip of the shaders.
+#include "groundtruth/cgal/hard/exact.h"
 #include "techniques/shared/light_views/lispsm_view.h"
 #include "techniques/shared/sampling/sampling.h"
 #include "tests/support/cell_stage.h"
 #include "tests/support/map_replay.h"
 #include "tests/support/models/sm_history.h"
+#include "tests/support/models/temporal_soft.h"
 
 #include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
 namespace shadowbench {
@@ -82,6 +85,223 @@ TEST(HistoryReplay, ErrsAsTheRecordSays) {
     for (const std::size_t frame : {0U, 9U, 19U, 39U, 59U}) {
         EXPECT_NEAR(replay.mismatch[frame], mismatch[frame], 0.05 * mismatch[frame]) << frame;
         EXPECT_NEAR(replay.bad30[frame], bad30[frame], 0.05 * bad30[frame]) << frame;
+    }
+}
+
+/// Soft shadows over time (dissertation chapter 4, listing 6.2) of a scene at rest, with the defaults of `temporal-soft`:
+/// maps of 1,024² from Halton points of the light, PCSS 16+16 in the first frame, 5 % overscan, the display filter of
+/// eq. 4.6.
+class TemporalReplay {
+public:
+    TemporalReplay(const Snapshot& frame, glm::ivec2 size)
+        : frame_(frame), triangles_(test::worldTriangles(frame)), size_(size),
+          border_(static_cast<int>(std::ceil(0.025 * size.x))), wide_(size + 2 * border_) {
+        Snapshot wider = frame;
+        const double half = std::tan(0.5 * glm::radians(frame.camera.fovy)) * wide_.y / size.y;
+        wider.camera.fovy = glm::degrees(2 * std::atan(half));
+        const groundtruth::PrimaryHits hits = groundtruth::hard::primaryHits(wider, wide_);
+        normals_ = normalsOf(hits);
+        const Camera::Basis basis = frame.camera.basis();
+        for (int y = 0; y < wide_.y; ++y)
+            for (int x = 0; x < wide_.x; ++x) {
+                Pixel pixel;
+                pixel.seen = hits.surface(x, y) != Surface::Background;
+                pixel.position = glm::dvec3(hits.position(x, y));
+                pixel.depth = glm::dot(basis.forward, pixel.position - frame.camera.eye);
+                pixels_.push_back(pixel);
+            }
+    }
+
+    /// Shows the next frame.
+    void next() {
+        const Light& light = frame_.light;
+        const std::uint32_t i = techniques::haltonIndex(frames_, 1);
+        const techniques::LightView view = techniques::fitFromSample(
+            light, light.sample({techniques::halton(i, 2), techniques::halton(i, 3)}), techniques::boundingCorners(frame_));
+        const test::MapReplay map(triangles_, view, side);
+        const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
+        const std::vector<Pixel> before = pixels_;
+        for (std::size_t p = 0; p < pixels_.size(); ++p)
+            if (pixels_[p].seen) update(p, view, worldFromClip, map, before);
+        ++frames_;
+    }
+
+    /// At a pixel of the image.
+    [[nodiscard]] double visibility(int x, int y) const { return at(x + border_, y + border_).shown; }
+
+private:
+    static constexpr int side = 1024;
+    static constexpr int taps = 16;
+
+    struct Pixel {
+        glm::dvec3 position{0};
+        double depth = 0; // from the eye
+        bool seen = false;
+        double shadowed = 0, n = 0, blocker = -1; // of the shadow buffer
+        double shown = 1;
+    };
+
+    /// A receiver before a map of linear depth: what techniques/shared/maps/light_receiver.glsl computes.
+    struct LightReceiver {
+        glm::dvec2 at; // map, [0, 1]
+        double depth;
+        glm::dvec2 inverseSlope; // of 1 / depth along the receiver's plane
+    };
+
+    [[nodiscard]] const Pixel& at(int x, int y) const {
+        return pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(wide_.x) + static_cast<std::size_t>(x)];
+    }
+
+    [[nodiscard]] std::vector<glm::dvec3> normalsOf(const groundtruth::PrimaryHits& hits) const {
+        std::map<std::uint32_t, std::pair<const Mesh*, glm::dmat4>> placements;
+        for (const Batch& batch : frame_.batches)
+            for (const Placement& placement : batch.placements)
+                placements[placement.id] = {batch.mesh.get(), placement.world};
+        std::vector<glm::dvec3> normals;
+        for (int y = 0; y < wide_.y; ++y)
+            for (int x = 0; x < wide_.x; ++x) {
+                glm::dvec3 normal(0);
+                if (hits.surface(x, y) != Surface::Background) {
+                    const auto& [mesh, world] = placements.at(hits.id(x, y));
+                    const glm::uvec3 t = mesh->triangles[hits.triangle(x, y)];
+                    const auto corner = [&, m = mesh, w = world](std::uint32_t i) {
+                        return glm::dvec3(w * glm::dvec4(glm::dvec3(m->positions[i]), 1));
+                    };
+                    normal = glm::normalize(glm::cross(corner(t.y) - corner(t.x), corner(t.z) - corner(t.x)));
+                }
+                normals.push_back(normal);
+            }
+        return normals;
+    }
+
+    [[nodiscard]] LightReceiver receiverBefore(const techniques::LightView& view, const glm::dmat4& worldFromClip,
+                                               std::size_t p) const {
+        const glm::dvec4 h = view.clipFromWorld * glm::dvec4(pixels_[p].position, 1);
+        const glm::dvec4 plane = glm::dvec4(normals_[p], -glm::dot(normals_[p], pixels_[p].position)) * worldFromClip;
+        const glm::dvec4 inverseW(worldFromClip[0].w, worldFromClip[1].w, worldFromClip[2].w, worldFromClip[3].w);
+        const glm::dvec2 slope = glm::dvec2(inverseW) - inverseW.z * glm::dvec2(plane) / plane.z; // in NDC
+        return {0.5 * glm::dvec2(h) / h.w + 0.5, glm::dot(view.depthFromWorld, glm::dvec4(pixels_[p].position, 1)),
+                2.0 * slope};
+    }
+
+    static bool blocks(double mapDepth, const LightReceiver& r, glm::dvec2 offset) {
+        const double inverse = 1 / r.depth + glm::dot(r.inverseSlope, offset);
+        return inverse <= 0 || mapDepth < 1 / inverse;
+    }
+
+    /// Percentage-closer soft shadows 16+16: occluded fraction, and the mean blocker depth or −1.
+    [[nodiscard]] std::pair<double, double> pcss(const LightReceiver& r, const techniques::LightView& view,
+                                                 const test::MapReplay& map) const {
+        static const std::vector<glm::vec2> points = techniques::poissonTaps(taps, techniques::Region::Square);
+        const glm::dvec2 halfLight = 0.5 * glm::dvec2(glm::length(frame_.light.u), glm::length(frame_.light.v));
+        const auto depthAt = [&](glm::dvec2 offset) {
+            return map.nearestLinearDepth((r.at + offset) * static_cast<double>(side), view.far);
+        };
+        const glm::dvec2 window = halfLight * (r.depth - view.near) / (r.depth * view.near) / view.span;
+        double sum = 0, found = 0;
+        for (const glm::vec2& tap : points) {
+            const glm::dvec2 offset = glm::dvec2(tap) * window;
+            const double depth = depthAt(offset);
+            if (!blocks(depth, r, offset)) continue;
+            sum += depth;
+            ++found;
+        }
+        if (found == 0) return {0, -1};
+        const double blocker = sum / found;
+        const glm::dvec2 reach = halfLight * std::max(r.depth - blocker, 0.0) / blocker / (r.depth * view.span);
+        double shadowed = 0;
+        for (const glm::vec2& tap : points) {
+            const glm::dvec2 offset = glm::dvec2(tap) * reach;
+            if (blocks(depthAt(offset), r, offset)) ++shadowed;
+        }
+        return {shadowed / taps, blocker};
+    }
+
+    /// ψ over the projected penumbra (eq. 4.6) of the buffer of the frame before.
+    [[nodiscard]] double filtered(std::size_t p, double own, const LightReceiver& r,
+                                  const std::vector<Pixel>& before) const {
+        static const std::vector<glm::vec2> points = techniques::poissonTaps(taps, techniques::Region::Disk);
+        const double lightSize = 0.5 * (glm::length(frame_.light.u) + glm::length(frame_.light.v));
+        const double perMetre = 0.5 * size_.y / std::tan(0.5 * glm::radians(frame_.camera.fovy));
+        const Pixel& pixel = pixels_[p];
+        const double radius = 0.5 * lightSize * perMetre / pixel.depth * (r.depth - pixel.blocker) / pixel.blocker;
+        const auto row = static_cast<std::size_t>(wide_.x);
+        const glm::dvec2 centre(static_cast<double>(p % row), static_cast<double>(p / row));
+        double sum = own, taken = 1;
+        for (const glm::vec2& tap : points) {
+            // Row 0 is the top here and the bottom there.
+            const glm::dvec2 place =
+                glm::clamp(centre + glm::dvec2(tap.x, -tap.y) * radius, glm::dvec2(0), glm::dvec2(wide_ - 1));
+            double shadowed = 0, n = 0, depth = 0;
+            for (const int dy : {0, 1})
+                for (const int dx : {0, 1}) {
+                    const glm::dvec2 low = glm::floor(place), part = place - low;
+                    const double weight = (dx == 1 ? part.x : 1 - part.x) * (dy == 1 ? part.y : 1 - part.y);
+                    const auto x = static_cast<std::size_t>(std::min(low.x + dx, wide_.x - 1.0));
+                    const auto y = static_cast<std::size_t>(std::min(low.y + dy, wide_.y - 1.0));
+                    const Pixel& neighbour = before[y * row + x];
+                    shadowed += weight * neighbour.shadowed;
+                    n += weight * neighbour.n;
+                    depth += weight * (neighbour.seen ? neighbour.depth : 0);
+                }
+            if (n < 0.5 || std::abs(1 - pixel.depth / depth) >= 0.01) continue;
+            sum += shadowed / n;
+            ++taken;
+        }
+        return sum / taken;
+    }
+
+    void update(std::size_t p, const techniques::LightView& view, const glm::dmat4& worldFromClip,
+                const test::MapReplay& map, const std::vector<Pixel>& before) {
+        Pixel& pixel = pixels_[p];
+        const LightReceiver r = receiverBefore(view, worldFromClip, p);
+        if (frames_ == 0) {
+            const auto [psi, blocker] = pcss(r, view, map);
+            pixel.shadowed = psi;
+            pixel.n = 1;
+            pixel.blocker = blocker;
+            pixel.shown = 1 - psi;
+            return;
+        }
+        const double depth = map.nearestLinearDepth(r.at * static_cast<double>(side), view.far);
+        const bool shadowed = depth < r.depth;
+        pixel.shadowed += shadowed ? 1 : 0;
+        pixel.n += 1;
+        if (shadowed) pixel.blocker = pixel.blocker > 0 ? models::blockerUpdate(pixel.blocker, depth, pixel.n, taps) : depth;
+        double psi = pixel.shadowed / pixel.n;
+        const double standardError = std::sqrt(psi * (1 - psi) / std::max(pixel.n - 1, 1.0)); // eq. 4.3
+        if (standardError >= 0.02 && pixel.blocker > 0) psi = filtered(p, psi, r, before);
+        pixel.shown = 1 - psi;
+    }
+
+    Snapshot frame_;
+    std::vector<std::array<glm::dvec3, 3>> triangles_;
+    glm::ivec2 size_;
+    int border_;
+    glm::ivec2 wide_;
+    std::vector<glm::dvec3> normals_;
+    std::vector<Pixel> pixels_;
+    int frames_ = 0;
+};
+
+// K11 and K12: half of PCSS' error, and converged within 30 frames.
+TEST(TemporalReplay, ErrsAsTheRecordSays) {
+    CellScene& cells = stillScene("overlapping-occluders");
+    const auto& recorded = cells.scored("temporal-soft").values.list("stability.by_frame.rmse");
+    const Reference& truth = cells.truths().at(Truth::Soft, 59);
+    TemporalReplay replay(snapshot(cells.scene(), 59), cells.scene().size);
+    for (std::size_t frame = 1; frame <= 60; ++frame) {
+        replay.next();
+        if (frame != 1 && frame != 3 && frame != 10 && frame != 30 && frame != 60) continue;
+        double square = 0, receivers = 0;
+        for (int y = 0; y < truth.surface.height(); ++y)
+            for (int x = 0; x < truth.surface.width(); ++x) {
+                if (truth.surface(x, y) != Surface::Receiver) continue;
+                const double error = replay.visibility(x, y) - truth.visibility(x, y);
+                square += error * error;
+                ++receivers;
+            }
+        EXPECT_NEAR(std::sqrt(square / receivers), recorded[frame - 1], 0.05 * recorded[frame - 1]) << frame;
     }
 }
 

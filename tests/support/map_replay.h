@@ -49,16 +49,30 @@ public:
     [[nodiscard]] double nearestDepth(glm::dvec2 texel) const {
         const glm::dvec2 at = 2.0 * (glm::floor(texel) + 0.5) / static_cast<double>(side_) - 1.0; // the texel's centre, NDC
         double nearest = 1;
-        for (const Mapped& t : mapped_) {
-            if (at.x < t.low.x || at.y < t.low.y || at.x > t.high.x || at.y > t.high.y) continue;
+        for (const std::size_t i : cellAt(at)) {
+            const Mapped& t = mapped_[i];
             const glm::dvec3 point(at, 1);
-            const glm::dvec3 e(glm::dot(t.edge[0], point), glm::dot(t.edge[1], point), glm::dot(t.edge[2], point));
-            const bool inside = (e.x >= 0 && e.y >= 0 && e.z >= 0) || (e.x <= 0 && e.y <= 0 && e.z <= 0);
-            if (!inside || (e.x + e.y + e.z) * t.determinant <= 0) continue; // beside it, or behind the light
+            if (inverseDepth(t, point) <= 0) continue;
             const double depth = 0.5 - 0.5 * glm::dot(t.depth, point) + t.bias;
             nearest = std::min(nearest, std::clamp(depth, 0.0, 1.0));
         }
         return nearest;
+    }
+
+    /// The same in metres from the light's plane, as maps of linear depth hold it; infinity where nothing is in the way. For
+    /// views whose clip w is that depth.
+    [[nodiscard]] double nearestLinearDepth(glm::dvec2 texel, double far) const {
+        const glm::dvec2 at = 2.0 * (glm::floor(texel) + 0.5) / static_cast<double>(side_) - 1.0;
+        const glm::dvec3 point(at, 1);
+        double greatest = 0, slope = 0; // of 1 / depth
+        for (const std::size_t i : cellAt(at)) {
+            const Mapped& t = mapped_[i];
+            const double inverse = inverseDepth(t, point);
+            if (inverse <= greatest) continue;
+            greatest = inverse;
+            slope = 2.0 / side_ * std::max(std::abs(t.inverse.x), std::abs(t.inverse.y)) / (inverse * inverse);
+        }
+        return greatest > 0 ? 1 / greatest + slope + 64.0 / (1 << 24) * far : std::numeric_limits<double>::infinity();
     }
 
     /// The shadow test of Williams.
@@ -72,11 +86,19 @@ public:
 private:
     struct Mapped {
         std::array<glm::dvec3, 3> edge; // dot(edge, (x, y, 1)) has one sign inside: homogeneous edge functions
-        double determinant;             // of the corners; its sign with the edges' tells what is behind the light
+        glm::dvec3 inverse;             // dot(inverse, (x, y, 1)) = 1 / w of the plane: negative behind the light
         glm::dvec3 depth;               // dot(depth, (x, y, 1)) = −z of the plane, NDC
         double bias;
         glm::dvec2 low, high; // NDC
     };
+
+    /// 1 / w of the triangle at a point (x, y, 1); 0 beside it, not positive behind the light.
+    static double inverseDepth(const Mapped& t, const glm::dvec3& point) {
+        if (point.x < t.low.x || point.y < t.low.y || point.x > t.high.x || point.y > t.high.y) return 0;
+        const glm::dvec3 e(glm::dot(t.edge[0], point), glm::dot(t.edge[1], point), glm::dot(t.edge[2], point));
+        const bool inside = (e.x >= 0 && e.y >= 0 && e.z >= 0) || (e.x <= 0 && e.y <= 0 && e.z <= 0);
+        return inside ? glm::dot(t.inverse, point) : 0;
+    }
 
     void add(const std::array<glm::dvec3, 3>& corners, const glm::dvec4& plane) {
         std::array<glm::dvec3, 3> h; // x, y, w
@@ -96,16 +118,29 @@ private:
             t.high = -t.low;
         }
         for (std::size_t i = 0; i < 3; ++i) t.edge[i] = glm::cross(h[(i + 1) % 3], h[(i + 2) % 3]);
-        t.determinant = glm::dot(h[0], t.edge[0]);
+        t.inverse = (t.edge[0] + t.edge[1] + t.edge[2]) / glm::dot(h[0], t.edge[0]);
         t.depth = glm::dvec3(plane.x, plane.y, plane.w) / plane.z;
         const double perTexel = 2.0 / side_; // NDC; window depth is half of NDC's
         t.bias = 0.5 * perTexel * std::max(std::abs(t.depth.x), std::abs(t.depth.y)) + 64.0 / (1 << 24);
+        for (int y = cellOf(t.low.y); y <= cellOf(t.high.y); ++y)
+            for (int x = cellOf(t.low.x); x <= cellOf(t.high.x); ++x)
+                cells_[static_cast<std::size_t>(y * across + x)].push_back(mapped_.size());
         mapped_.push_back(t);
     }
+
+    static int cellOf(double ndc) { return static_cast<int>(std::clamp((0.5 * ndc + 0.5) * across, 0.0, across - 1.0)); }
+
+    /// The triangles whose boxes meet the cell of a grid that a point lies in.
+    [[nodiscard]] const std::vector<std::size_t>& cellAt(glm::dvec2 ndc) const {
+        return cells_[static_cast<std::size_t>(cellOf(ndc.y) * across + cellOf(ndc.x))];
+    }
+
+    static constexpr int across = 32; // cells of the grid
 
     glm::dmat4 clip_;
     int side_;
     std::vector<Mapped> mapped_;
+    std::vector<std::vector<std::size_t>> cells_{across * across};
 };
 
 } // namespace shadowbench::test
