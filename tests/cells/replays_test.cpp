@@ -100,7 +100,7 @@ public:
         const double half = std::tan(0.5 * glm::radians(frame.camera.fovy)) * wide_.y / size.y;
         wider.camera.fovy = glm::degrees(2 * std::atan(half));
         const groundtruth::PrimaryHits hits = groundtruth::hard::primaryHits(wider, wide_);
-        normals_ = normalsOf(hits);
+        normals_ = test::geometricNormals(frame, hits);
         const Camera::Basis basis = frame.camera.basis();
         for (int y = 0; y < wide_.y; ++y)
             for (int x = 0; x < wide_.x; ++x) {
@@ -150,28 +150,6 @@ private:
 
     [[nodiscard]] const Pixel& at(int x, int y) const {
         return pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(wide_.x) + static_cast<std::size_t>(x)];
-    }
-
-    [[nodiscard]] std::vector<glm::dvec3> normalsOf(const groundtruth::PrimaryHits& hits) const {
-        std::map<std::uint32_t, std::pair<const Mesh*, glm::dmat4>> placements;
-        for (const Batch& batch : frame_.batches)
-            for (const Placement& placement : batch.placements)
-                placements[placement.id] = {batch.mesh.get(), placement.world};
-        std::vector<glm::dvec3> normals;
-        for (int y = 0; y < wide_.y; ++y)
-            for (int x = 0; x < wide_.x; ++x) {
-                glm::dvec3 normal(0);
-                if (hits.surface(x, y) != Surface::Background) {
-                    const auto& [mesh, world] = placements.at(hits.id(x, y));
-                    const glm::uvec3 t = mesh->triangles[hits.triangle(x, y)];
-                    const auto corner = [&, m = mesh, w = world](std::uint32_t i) {
-                        return glm::dvec3(w * glm::dvec4(glm::dvec3(m->positions[i]), 1));
-                    };
-                    normal = glm::normalize(glm::cross(corner(t.y) - corner(t.x), corner(t.z) - corner(t.x)));
-                }
-                normals.push_back(normal);
-            }
-        return normals;
     }
 
     [[nodiscard]] LightReceiver receiverBefore(const techniques::LightView& view, const glm::dmat4& worldFromClip,
@@ -303,6 +281,59 @@ TEST(TemporalReplay, ErrsAsTheRecordSays) {
             }
         EXPECT_NEAR(std::sqrt(square / receivers), recorded[frame - 1], 0.05 * recorded[frame - 1]) << frame;
     }
+}
+
+/// PCF k × k over a map of 1,024² that is fitted to the scene (dissertation 2.2.1), taps compared with the receiver's plane.
+double percentageCloser(const test::MapReplay& map, const techniques::LightView& view, const glm::dvec3& position,
+                        const glm::dvec3& normal, int kernel) {
+    const double texels = 1024;
+    const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
+    const glm::dvec4 h = view.clipFromWorld * glm::dvec4(position, 1);
+    const glm::dvec3 at = 0.5 * glm::dvec3(h) / h.w + 0.5; // in [0, 1], depth too
+    const glm::dvec4 plane = glm::dvec4(normal, -glm::dot(normal, position)) * worldFromClip;
+    const glm::dvec2 slope = -glm::dvec2(plane) / plane.z;
+    double passed = 0;
+    for (int y = 0; y < kernel; ++y)
+        for (int x = 0; x < kernel; ++x) {
+            const glm::dvec2 offset = (glm::dvec2(x, y) - 0.5 * (kernel - 1)) / texels;
+            const double depth = std::min(at.z + glm::dot(slope, offset), 1.0);
+            passed += depth <= map.nearestDepth((glm::dvec2(at) + offset) * texels) ? 1 : 0;
+        }
+    return passed / (kernel * kernel);
+}
+
+// K34: wide filters of one width score no better than hard shadows in the picture of Table 5.4, where the thesis has them
+// above.
+TEST(PictureReplay, HardAndFilteredShadowsAreAsCorrectAsTheRecordSays) {
+    CellScene& cells = stillScene("basic", 1);
+    const Snapshot frame = snapshot(cells.scene(), 0);
+    const glm::ivec2 size = cells.scene().size;
+    const Reference& hard = cells.truths().at(Truth::Hard, 0);
+    const Reference& soft = cells.truths().at(Truth::Soft, 0);
+    const groundtruth::PrimaryHits hits = groundtruth::hard::primaryHits(frame, size);
+    const std::vector<glm::dvec3> normals = test::geometricNormals(frame, hits);
+    const techniques::LightView view = techniques::fitToScene(frame.light.centreOnly(), frame);
+    const test::MapReplay map(test::worldTriangles(frame), view, 1024);
+
+    const auto grey = [](double visibility) { return std::lround(255 * (0.3 + 0.7 * visibility)); };
+    double hardRight = 0, filteredRight = 0;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const bool scored = soft.surface(x, y) == Surface::Receiver;
+            const glm::dvec3 normal = normals[static_cast<std::size_t>(y * size.x + x)];
+            const long truth = grey(soft.visibility(x, y));
+            const double filtered =
+                scored ? percentageCloser(map, view, glm::dvec3(soft.position(x, y)), normal, 7) : soft.visibility(x, y);
+            hardRight += !scored || std::abs(grey(hard.visibility(x, y)) - truth) <= 8 ? 1 : 0;
+            filteredRight += std::abs(grey(filtered) - truth) <= 8 ? 1 : 0;
+        }
+    const double pixels = static_cast<double>(size.x) * size.y;
+    // A twentieth of what is wrong: of what is right it would be no test.
+    const double hardRecorded = *cells.scored("volume-zfail").values["accuracy.z_correctness"];
+    const double filteredRecorded = *cells.scored("pcf:kernel=7").values["accuracy.z_correctness"];
+    EXPECT_NEAR(hardRight / pixels, hardRecorded, 0.05 * (1 - hardRecorded));
+    EXPECT_NEAR(filteredRight / pixels, filteredRecorded, 0.05 * (1 - filteredRecorded));
+    EXPECT_LT(filteredRight, hardRight);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // intersecting that texel's line with every triangle. For checking figures in which the program contradicts a paper.
 #pragma once
 
+#include "groundtruth/contract/reference.h"
 #include "scene/snapshot.h"
 #include "techniques/shared/light_views/light_view.h"
 
@@ -11,6 +12,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace shadowbench::test {
@@ -27,6 +30,26 @@ inline std::vector<std::array<glm::dvec3, 3>> worldTriangles(const Snapshot& sna
                 triangles.push_back({at(t.x), at(t.y), at(t.z)});
             }
     return triangles;
+}
+
+/// Of unit length, by pixel, row 0 at the top; zero where nothing is seen.
+inline std::vector<glm::dvec3> geometricNormals(const Snapshot& snapshot, const groundtruth::PrimaryHits& hits) {
+    std::map<std::uint32_t, std::pair<const Mesh*, glm::dmat4>> placements;
+    for (const Batch& batch : snapshot.batches)
+        for (const Placement& placement : batch.placements) placements[placement.id] = {batch.mesh.get(), placement.world};
+    std::vector<glm::dvec3> normals;
+    for (int y = 0; y < hits.surface.height(); ++y)
+        for (int x = 0; x < hits.surface.width(); ++x) {
+            normals.emplace_back(0);
+            if (hits.surface(x, y) == groundtruth::Surface::Background) continue;
+            const auto& [mesh, world] = placements.at(hits.id(x, y));
+            const glm::uvec3 t = mesh->triangles[hits.triangle(x, y)];
+            const auto corner = [&, m = mesh, w = world](std::uint32_t i) {
+                return glm::dvec3(w * glm::dvec4(glm::dvec3(m->positions[i]), 1));
+            };
+            normals.back() = glm::normalize(glm::cross(corner(t.y) - corner(t.x), corner(t.z) - corner(t.x)));
+        }
+    return normals;
 }
 
 /// A square map of `side` texels over `view`, with the slope bias that techniques have by default (factor 1, 64 units of
