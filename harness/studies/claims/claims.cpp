@@ -1,8 +1,11 @@
 // Verdicts on claims, from records.
 #include "harness/studies/claims/claims.h"
 
+#include "harness/report/summary.h"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -62,25 +65,28 @@ std::optional<double> numberOf(const Figure& figure, const Record& record) {
     return figure.settles ? settledFrom(value, *figure.settles) : numberIn(value);
 }
 
-Finding examineGrowth(const Check& check, const std::vector<Record>& records) {
+/// What a figure is in the records.
+using LookUp = std::function<std::optional<double>(const Figure&)>;
+
+Finding examineGrowth(const Check& check, const LookUp& number) {
     Finding finding;
     for (const double place : check.growsOver) {
         Figure there = check.left;
         there.value = place;
-        finding.places.push_back(lookUp(there, records));
+        finding.places.push_back(number(there));
     }
     if (std::ranges::any_of(finding.places, [](const auto& value) { return !value; })) return finding;
     finding.holds = std::ranges::adjacent_find(finding.places, std::greater_equal<>()) == finding.places.end();
     return finding;
 }
 
-Finding examineOrder(const Check& check, const std::vector<Record>& records) {
+Finding examineOrder(const Check& check, const LookUp& number) {
     Finding finding;
     std::vector<double> ours, theirs;
     for (const Published& row : check.published) {
         Figure figure = check.left;
         figure.variant = row.variant;
-        finding.places.push_back(lookUp(figure, records));
+        finding.places.push_back(number(figure));
         if (!finding.places.back()) continue;
         ours.push_back(*finding.places.back());
         theirs.push_back(row.number);
@@ -91,11 +97,11 @@ Finding examineOrder(const Check& check, const std::vector<Record>& records) {
     return finding;
 }
 
-Finding examine(const Check& check, const std::vector<Record>& records) {
-    if (!check.growsOver.empty()) return examineGrowth(check, records);
-    if (!check.published.empty()) return examineOrder(check, records);
-    Finding finding{lookUp(check.left, records), {}, {}};
-    if (check.right) finding.right = lookUp(*check.right, records);
+Finding examine(const Check& check, const LookUp& number) {
+    if (!check.growsOver.empty()) return examineGrowth(check, number);
+    if (!check.published.empty()) return examineOrder(check, number);
+    Finding finding{number(check.left), {}, {}};
+    if (check.right) finding.right = number(*check.right);
     if (!finding.left || (check.right && !finding.right)) return finding;
     const double bound = check.factor * finding.right.value_or(1);
     finding.holds = check.atMost ? *finding.left <= bound : *finding.left >= bound;
@@ -122,16 +128,20 @@ std::vector<double> meanRanks(const std::vector<double>& numbers) {
 
 } // namespace
 
-std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& records) {
+std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& records,
+                             const std::function<void(const Record&)>& found) {
     std::optional<double> number;
-    for (const Record& record : records)
-        if (!number && matches(record, figure)) number = numberOf(figure, record);
+    for (const Record& record : records) {
+        if (number || !matches(record, figure)) continue;
+        number = numberOf(figure, record);
+        if (number && found) found(record);
+    }
     if (!number || !figure.over) return number;
     Figure divisor = figure;
     divisor.variant = figure.over->variant;
     divisor.metric = figure.over->metric;
     divisor.over.reset();
-    const std::optional<double> divided = lookUp(divisor, records);
+    const std::optional<double> divided = lookUp(divisor, records, found);
     return divided && *divided != 0 ? std::optional(*number / *divided) : std::nullopt;
 }
 
@@ -164,11 +174,17 @@ std::optional<double> rankCorrelation(const std::vector<double>& ours, const std
 }
 
 Judgement judge(const Claim& claim, const std::vector<Record>& records) {
-    if (!claim.untestable.empty()) return {&claim, Verdict::NotTestable, {}};
+    if (!claim.untestable.empty()) return {&claim, Verdict::NotTestable, {}, {}};
+    std::vector<std::string> basis;
+    const auto found = [&](const Record& record) {
+        const std::string name = fmt::format("{}, {}, {}", record.scene, record.profile, report::imageSize(record));
+        if (std::ranges::find(basis, name) == basis.end()) basis.push_back(name);
+    };
+    const auto number = [&](const Figure& figure) { return lookUp(figure, records, found); };
     std::vector<Finding> findings;
-    for (const Check& check : claim.checks) findings.push_back(examine(check, records));
+    for (const Check& check : claim.checks) findings.push_back(examine(check, number));
     const Verdict verdict = verdictOf(findings);
-    return {&claim, verdict, std::move(findings)};
+    return {&claim, verdict, std::move(findings), std::move(basis)};
 }
 
 } // namespace shadowbench

@@ -3,6 +3,7 @@
 
 #include "harness/records/record.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,6 +52,9 @@ struct Claim {
     std::string where; // "P Fig. 4"
     std::vector<Check> checks;
     std::string untestable; // why it cannot be tested here; then there are no checks
+    // "Suite.Name" of the test that computes a figure which contradicts the claim again, in double precision on the CPU;
+    // empty where nothing does or the figure is a cost.
+    std::string replay;
 };
 
 /// What a check found; nothing where a record is missing or has no such metric.
@@ -65,8 +69,9 @@ std::string_view name(Verdict verdict);
 
 struct Judgement {
     const Claim* claim;
-    Verdict verdict;               // NotMeasured if a figure of any check is missing
-    std::vector<Finding> findings; // as Claim::checks
+    Verdict verdict;                // NotMeasured if a figure of any check is missing
+    std::vector<Finding> findings;  // as Claim::checks
+    std::vector<std::string> basis; // the records that the figures are of: "basic, paper, 700²", each once
 };
 
 /// The claims that come with the program, by number.
@@ -80,8 +85,9 @@ std::vector<Claim> parseClaims(std::string_view json);
 std::optional<double> rankCorrelation(const std::vector<double>& ours, const std::vector<double>& theirs);
 
 /// The number that a figure names, of the first record that has it: costs may stand in another file than errors. Nothing
-/// where none has.
-std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& records);
+/// where none has. `found`: learns of the records that were read.
+std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& records,
+                             const std::function<void(const Record&)>& found = {});
 
 Judgement judge(const Claim& claim, const std::vector<Record>& records);
 

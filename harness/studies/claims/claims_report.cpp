@@ -56,12 +56,22 @@ std::string described(const Check& check, const Finding& finding) {
     return fmt::format("{} {} {}: {}", valued(check.left, finding.left), sign, right, outcome(finding));
 }
 
+/// "measured on basic, paper, 700²; computed again in double precision by Suite.Name"
+std::string basisOf(const Judgement& judgement) {
+    std::string text;
+    if (!judgement.basis.empty()) text = fmt::format("measured on {}", fmt::join(judgement.basis, "; "));
+    if (!judgement.claim->replay.empty())
+        text += fmt::format("{}computed again in double precision by {}", text.empty() ? "" : "; ", judgement.claim->replay);
+    return text;
+}
+
 std::string asText(const Judgement& judgement) {
     const Claim& claim = *judgement.claim;
     std::string text = fmt::format("{}: {}\n    {} ({})\n", claim.id, name(judgement.verdict), claim.says, claim.where);
     if (!claim.untestable.empty()) text += fmt::format("    {}\n", claim.untestable);
     for (std::size_t i = 0; i < claim.checks.size(); ++i)
         text += fmt::format("    - {}\n      {}\n", claim.checks[i].says, described(claim.checks[i], judgement.findings[i]));
+    if (const std::string basis = basisOf(judgement); !basis.empty()) text += fmt::format("    {}\n", basis);
     return text;
 }
 
@@ -71,6 +81,7 @@ std::string asMarkdown(const Judgement& judgement) {
     for (std::size_t i = 0; i < claim.checks.size(); ++i)
         figures += fmt::format("{}{}: {}", i == 0 ? "" : "<br>", report::markdownText(claim.checks[i].says),
                                report::markdownText(described(claim.checks[i], judgement.findings[i])));
+    if (const std::string basis = basisOf(judgement); !basis.empty()) figures += "<br>" + report::markdownText(basis);
     return fmt::format("| {} | {} | {} | {} | {} |\n", claim.id, report::markdownText(claim.says), claim.where,
                        name(judgement.verdict), figures);
 }
@@ -90,6 +101,8 @@ Json asJson(const Judgement& judgement) {
     Json json{{"id", claim.id}, {"says", claim.says}, {"where", claim.where}, {"verdict", name(judgement.verdict)}};
     if (!claim.untestable.empty()) json["untestable"] = claim.untestable;
     json["checks"] = std::move(checks);
+    json["basis"] = judgement.basis;
+    if (!claim.replay.empty()) json["replay"] = claim.replay;
     return json;
 }
 

@@ -96,11 +96,12 @@ Claim parseClaim(const Json& json) {
     const std::string id = json.is_object() && json.contains("id") && json["id"].is_string() ? json["id"].get<std::string>()
                                                                                              : "a claim without id";
     const std::string what = "claims: " + id;
-    const JsonMembers members(json, what, {"id", "says", "where", "checks", "untestable"});
-    Claim claim{members.text("id"), members.text("says"), members.text("where"), {}, ""};
+    const JsonMembers members(json, what, {"id", "says", "where", "checks", "untestable", "replay"});
+    Claim claim{members.text("id"), members.text("says"), members.text("where"), {}, "", ""};
     if (members.has("untestable") == members.has("checks"))
         refuseJson(what, "a claim has either \"checks\" or \"untestable\"");
     if (members.has("untestable")) claim.untestable = members.text("untestable");
+    if (members.has("replay")) claim.replay = members.text("replay");
     if (members.has("checks"))
         for (const Json& check : members.get("checks")) claim.checks.push_back(parseCheck(check, what));
     if (claim.checks.empty() && claim.untestable.empty()) refuseJson(what, "\"checks\" is empty");

@@ -1,35 +1,18 @@
 // The table of strengths and failures: every technique is in it, and what it names is there.
 #include "base/error.h"
-#include "base/files.h"
 #include "harness/metrics/table.h"
 #include "harness/studies/behaviour/behaviour.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
 #include "tests/support/records_examples.h"
+#include "tests/support/tests_of_the_tree.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <gtest/gtest.h>
-#include <regex>
 #include <set>
 
 namespace shadowbench {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// "Suite.Name" of every test of the tree.
-std::set<std::string> testsOfTheTree() {
-    static const std::regex macro(R"(TEST(?:_F|_P)?\((\w+),\s*(\w+)\))");
-    std::set<std::string> names;
-    for (const fs::directory_entry& file : fs::recursive_directory_iterator(fs::path(SOURCE_FOLDER) / "tests")) {
-        if (!file.path().filename().string().ends_with("_test.cpp")) continue;
-        const std::string text = readFile(file.path());
-        for (std::sregex_iterator at(text.begin(), text.end(), macro), end; at != end; ++at)
-            names.insert((*at)[1].str() + "." + (*at)[2].str());
-    }
-    return names;
-}
 
 TEST(Behaviours, AreThoseOfTheCatalogueInItsOrder) {
     std::vector<std::string> ids, catalogue;

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "harness/studies/claims/claims.h"
 #include "tests/support/records_examples.h"
+#include "tests/support/tests_of_the_tree.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -40,6 +41,33 @@ TEST(Claims, VerdictsCountTheChecksThatHold) {
     EXPECT_EQ(verdict(claim(fails), records), Verdict::NotReproduced);
     EXPECT_EQ(verdict(claim(holds + "," + fails), records), Verdict::Partly);
     EXPECT_EQ(verdict(claim(check("a", "at most", "\"bound\": 0.001")), records), Verdict::Reproduced); // equal is at most
+}
+
+TEST(Claims, NameReplaysThatExist) {
+    const std::set<std::string> tests = testsOfTheTree();
+    for (const Claim& claim : claims()) {
+        if (claim.replay.empty()) continue;
+        EXPECT_TRUE(tests.contains(claim.replay)) << claim.id << ": " << claim.replay;
+    }
+}
+
+TEST(Claims, AReportNamesTheRecordsItRestsOnAndTheReplay) {
+    std::string json = claim(check("a", "at most", against) + "," + check("b", "at most", "\"bound\": 1"));
+    json.replace(json.find("\"checks\""), 0, "\"replay\": \"Suite.Name\", ");
+    const std::vector<Claim> parsed = parseClaims(json);
+    Record large = with("b", 0.02);
+    large.profile = "paper";
+    large.width = large.height = 1024;
+    Record small = with("a", 0.001);
+    small.profile = "gate";
+    small.width = small.height = 256;
+    const Judgement judgement = judge(parsed.front(), {small, large});
+    EXPECT_EQ(judgement.basis, (std::vector<std::string>{"dueling-frusta, gate, 256²", "dueling-frusta, paper, 1024²"}));
+    EXPECT_NE(claimsReport({judgement}, "text")
+                  .find("    measured on dueling-frusta, gate, 256²; dueling-frusta, paper, 1024²; computed again in double "
+                        "precision by Suite.Name\n"),
+              std::string::npos)
+        << claimsReport({judgement}, "text");
 }
 
 TEST(Claims, AMissingFigureIsNoVerdict) {
@@ -191,7 +219,7 @@ TEST(Claims, TheReportNamesTheFigures) {
     const std::vector<Claim> parsed = parseClaims(claim(check("a", "at most", against)));
     const std::string text = claimsReport({judge(parsed.front(), {with("a", 0.001), with("b", 0.01)})}, "text");
     EXPECT_EQ(text, "K0: reproduced\n    s (w)\n    - s\n      accuracy.mismatch of a on dueling-frusta = 0.001 ≤ 0.5 × "
-                    "accuracy.mismatch of b on dueling-frusta = 0.01: yes\n");
+                    "accuracy.mismatch of b on dueling-frusta = 0.01: yes\n    measured on dueling-frusta, gate, 256²\n");
 }
 
 TEST(Claims, TheProgramsOwnAreSound) {
