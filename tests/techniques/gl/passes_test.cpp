@@ -119,6 +119,8 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"convolution", {"G-buffer", "blocker images", "summed areas", "convolution"}},
         {"occlusion-texture", {"G-buffer", "slices", "summed areas", "resolve"}},
         {"sampled-maps", {"G-buffer", "depth map", "shadow test", "resolve"}},
+        {"linear-visibility",
+         {"G-buffer", "depth map", "depth discontinuities", "visibility map", "shadow test", "resolve"}},
         {"soft-alias-free", {"G-buffer", "pixel lists", "triangle tests", "resolve"}},
         {"temporal-soft", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}},
         {"temporal-sampling", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}}};
