@@ -121,6 +121,7 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"sampled-maps", {"G-buffer", "depth map", "shadow test", "resolve"}},
         {"linear-visibility",
          {"G-buffer", "depth map", "depth discontinuities", "visibility map", "shadow test", "resolve"}},
+        {"layered-attenuation", {"G-buffer", "resolve"}}, // its map was built in an earlier frame
         {"soft-alias-free", {"G-buffer", "pixel lists", "triangle tests", "resolve"}},
         {"temporal-soft", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}},
         {"temporal-sampling", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}}};
