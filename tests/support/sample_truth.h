@@ -3,13 +3,43 @@
 
 #include "groundtruth/cgal/hard/exact.h"
 #include "groundtruth/cgal/hard/samples.h"
+#include "techniques/shared/sampling/light_points.h"
 #include "tests/support/stages.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <string_view>
 #include <vector>
 
 namespace shadowbench {
+
+/// What is exact but for the rasteriser: it rounds corners to 1/256 of a pixel, and of every hundred pixels a few lie on the
+/// edge of a sample's shadow.
+inline constexpr double rasterised = 2e-4;
+
+inline std::vector<glm::dvec3> samplesOf(const Scene& scene, std::string_view pattern, int count, std::uint32_t seed = 1) {
+    return techniques::lightPoints(scene.light, pattern, count, seed);
+}
+
+/// The slab under two plates, one below the other, and a bumpy body that hides parts of itself; a round light.
+inline Scene overlapScene() {
+    Scene scene = groundScene(96);
+    scene.light = {LightKind::Disk, {0.4, 6, 0.2}, {0, -1, 0}, {1.3, 0, 0.2}, {-0.2, 0, 1.3}};
+    scene.objects.push_back(object(box({1.6, 0.1, 1.2}), {0.13, 1.2, 0.21}, 17));
+    scene.objects.push_back(object(box({1.1, 0.1, 1.9}), {-0.3, 2.1, 0.1}, 41));
+    scene.objects.push_back(object(bumpy(0.7, 0.2, 300, 3), {-2.1, 0.9, 0.7}));
+    return scene;
+}
+
+/// A sheet without a back over the slab under a square light, seen from above.
+inline Scene openMeshScene(const Mesh& sheet) {
+    Scene scene = groundScene(64);
+    scene.light = {LightKind::Rectangle, {0.2, 6.1, 0.3}, {0, -1, 0}, {0.6, 0, 0}, {0, 0, 0.6}};
+    scene.camera.eye = {0.9, 5.2, 1.1}; // most rays end in the directions of the light's own
+    scene.camera.target = {0.5, 0, 0.6};
+    scene.objects.push_back(object(sheet, {0.6, 1.5, 0.7}));
+    return scene;
+}
 
 /// Mean absolute difference between `v`, an image of the stage's frame, and the exact share of `lights` that each receiver
 /// sees, where both see the same surface and no sample touches a border.

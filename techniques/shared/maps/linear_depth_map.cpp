@@ -2,6 +2,8 @@
 
 #include "techniques/gl/api.h"
 
+#include <glm/matrix.hpp>
+
 namespace shadowbench::techniques {
 
 LinearDepthMap::LinearDepthMap(int side, Bias bias, Texel texel)
@@ -21,6 +23,13 @@ void LinearDepthMap::draw(const LightView& light, const Frame& frame) {
     program_.set("depthFromWorld", glm::vec4(light.depthFromWorld)).set("bias", glm::vec2(bias_.factor, constant));
     const CasterPass casters(program_, light, Bias{});
     frame.scene.draw();
+}
+
+glm::dmat4 worldFromTexel(const LightView& light) {
+    glm::dmat4 rows = glm::transpose(mapFromClip() * light.clipFromWorld);
+    rows[2] = rows[3]; // w is the depth
+    rows[3] = glm::dvec4(0, 0, 0, 1);
+    return glm::inverse(glm::transpose(rows));
 }
 
 } // namespace shadowbench::techniques

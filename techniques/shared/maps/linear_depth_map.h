@@ -25,4 +25,8 @@ private:
     Bias bias_;
 };
 
+/// World from a texel of a map of linear depths that a perspective `light` has drawn: of (x · depth, y · depth, depth, 1),
+/// x and y in [0, 1] over the map.
+glm::dmat4 worldFromTexel(const LightView& light);
+
 } // namespace shadowbench::techniques

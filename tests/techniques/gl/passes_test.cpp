@@ -119,6 +119,10 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"convolution", {"G-buffer", "blocker images", "summed areas", "convolution"}},
         {"occlusion-texture", {"G-buffer", "slices", "summed areas", "resolve"}},
         {"sampled-maps", {"G-buffer", "depth map", "shadow test", "resolve"}},
+        {"linear-visibility",
+         {"G-buffer", "depth map", "depth discontinuities", "visibility map", "shadow test", "resolve"}},
+        {"layered-attenuation", {"G-buffer", "resolve"}}, // its map was built in an earlier frame
+        {"soft-alias-free", {"G-buffer", "pixel lists", "triangle tests", "resolve"}},
         {"temporal-soft", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}},
         {"temporal-sampling", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}}};
     for (const auto& [variant, names] : expected) EXPECT_EQ(namesOf(passesOf(stage, variant)), names) << variant;

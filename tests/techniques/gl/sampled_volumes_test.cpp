@@ -1,7 +1,6 @@
 // Shadow volumes of many light samples: the truth of the samples themselves, at a cost that is linear in their number.
 #include "base/error.h"
 #include "harness/measure/pass_cost.h"
-#include "techniques/shared/sampling/light_points.h"
 #include "tests/support/sample_truth.h"
 #include "tests/support/soft_scenes.h"
 
@@ -12,24 +11,6 @@
 
 namespace shadowbench {
 namespace {
-
-/// Exact but for the rasteriser: it rounds corners to 1/256 of a pixel, and of every hundred pixels a few lie on the edge of
-/// a sample's shadow.
-constexpr double rasterised = 2e-4;
-
-std::vector<glm::dvec3> samplesOf(const Scene& scene, std::string_view pattern, int count, std::uint32_t seed = 1) {
-    return techniques::lightPoints(scene.light, pattern, count, seed);
-}
-
-/// The slab under two plates, one below the other, and a bumpy body that hides parts of itself; a round light.
-Scene overlapScene() {
-    Scene scene = groundScene(96);
-    scene.light = {LightKind::Disk, {0.4, 6, 0.2}, {0, -1, 0}, {1.3, 0, 0.2}, {-0.2, 0, 1.3}};
-    scene.objects.push_back(object(box({1.6, 0.1, 1.2}), {0.13, 1.2, 0.21}, 17));
-    scene.objects.push_back(object(box({1.1, 0.1, 1.9}), {-0.3, 2.1, 0.1}, 41));
-    scene.objects.push_back(object(bumpy(0.7, 0.2, 300, 3), {-2.1, 0.9, 0.7}));
-    return scene;
-}
 
 TEST(SampledVolumes, EqualTheExactVisibilityOfTheirOwnSamples) {
     for (const Scene& scene : {halfPlaneScene(), overlapScene()}) {
@@ -121,11 +102,7 @@ TEST(SampledVolumes, ByExclusiveOrAreWrongWhereVolumesOverlap) { // Zápotocký 
 }
 
 TEST(SampledVolumes, LeakUnderAnOpenMesh) { // course, Everitt–Kilgard 3.1: closed models
-    Scene scene = groundScene(64);
-    scene.light = {LightKind::Rectangle, {0.2, 6.1, 0.3}, {0, -1, 0}, {0.6, 0, 0}, {0, 0, 0.6}};
-    scene.camera.eye = {0.9, 5.2, 1.1}; // most rays end in the directions of the light's own
-    scene.camera.target = {0.5, 0, 0.6};
-    scene.objects.push_back(object(plane(0.8), {0.6, 1.5, 0.7}));
+    const Scene scene = openMeshScene(plane(0.8));
     Stage stage(scene);
     stage.show(0);
     const std::vector<glm::dvec3> samples = samplesOf(scene, "hammersley", 16);

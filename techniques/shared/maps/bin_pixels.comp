@@ -1,6 +1,6 @@
 // Puts every pixel that sees a surface into the list of its cell.
 #include "gl/invocation.glsl"
-#include "maps/sm-alias-free/samples.glsl"
+#include "shared/maps/pixel_lists.glsl"
 
 uniform sampler2D positions;
 uniform int pixels;
@@ -12,5 +12,5 @@ void main() {
     vec4 h = mapFromWorld * vec4(point.xyz, 1.0);
     int whichGrid = gridOf(h.w);
     if (point.w < 0.5 || whichGrid == nowhere) return;
-    nexts[pixel] = atomicExchange(heads[cellIndex(whichGrid, ivec2(gridPosition(h)))], pixel + 1u);
+    nexts[pixel] = atomicExchange(heads[cellIndex(whichGrid, ivec2(gridPosition(h.xy / h.w)))], pixel + 1u);
 }

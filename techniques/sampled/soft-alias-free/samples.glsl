@@ -1,0 +1,44 @@
+// Which light samples lie behind planes through a pixel's point (sampled/soft-alias-free/soft-alias-free.cpp). In the light's plane, such
+// a plane is a line; a word's 32 samples are tested in groups of four.
+uniform vec4 samplesAcross[8 * WORDS];  // metres from the light's centre, to the right …
+uniform vec4 samplesUp[8 * WORDS];      // … and up
+uniform vec3 lightRight;
+uniform vec3 lightUp;
+uniform vec2 halfLight;  // metres from its centre to the sides of its bounding rectangle
+
+/// A plane through the origin with this normal, on the light whose centre is at `centre`: the height above it at the centre, and by how
+/// much it grows for each metre to the right and up.
+vec3 onLight(vec3 normal, vec3 centre) {
+    return vec3(dot(centre, normal), dot(lightRight, normal), dot(lightUp, normal));
+}
+
+/// The greatest height of a point of the light.
+float highest(vec3 line) {
+    return line.x + dot(abs(line.yz), halfLight);
+}
+
+vec4 heights(vec3 line, int group) {
+    return line.x + line.y * samplesAcross[group] + line.z * samplesUp[group];
+}
+
+/// Four lines with the samples of interest on their positive side.
+struct Hull {
+    vec3 ab, bc, ca;  // of a triangle's edges: samples on a line count
+    vec3 face;        // of the triangle's own plane: samples on it do not count
+};
+
+uint fourHidden(Hull hull, int group) {
+    vec4 inside = min(min(heights(hull.ab, group), heights(hull.bc, group)), heights(hull.ca, group));
+    bvec4 hidden = greaterThan(heights(hull.face, group), vec4(0.0));
+    uvec4 bits = mix(uvec4(0u), uvec4(1u, 2u, 4u, 8u), hidden);
+    bits = mix(uvec4(0u), bits, greaterThanEqual(inside, vec4(0.0)));
+    return bits.x | bits.y | bits.z | bits.w;
+}
+
+/// The hidden samples of one word. Written out, since every round of a loop counts (shared/maps/cast_triangles.glsl).
+uint wordHidden(Hull hull, int word) {
+    int group = 8 * word;
+    return fourHidden(hull, group) | fourHidden(hull, group + 1) << 4 | fourHidden(hull, group + 2) << 8 |
+           fourHidden(hull, group + 3) << 12 | fourHidden(hull, group + 4) << 16 | fourHidden(hull, group + 5) << 20 |
+           fourHidden(hull, group + 6) << 24 | fourHidden(hull, group + 7) << 28;
+}
