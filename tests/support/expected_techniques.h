@@ -14,7 +14,6 @@ namespace shadowbench {
 inline constexpr auto techniquesToCome = std::to_array<std::string_view>({
     "linear-visibility", "layered-attenuation", "soft-alias-free",
     "depth-complexity",   // soft shadows from many light samples
-    "penumbra-wedge",     // shadow volumes
     "prt-sh", "prt-haar", // environment light
 });
 
