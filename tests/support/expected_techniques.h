@@ -12,9 +12,8 @@ namespace shadowbench {
 
 /// Shadow techniques of the documents that are still to be built. A row that is built leaves this list.
 inline constexpr auto techniquesToCome = std::to_array<std::string_view>({
-    "linear-visibility", "layered-attenuation", "soft-alias-free",
-    "depth-complexity",   // soft shadows from many light samples
-    "prt-sh", "prt-haar", // environment light
+    "linear-visibility", "layered-attenuation", "soft-alias-free", // soft shadows from many light samples
+    "prt-sh", "prt-haar",                                          // environment light
 });
 
 inline std::string idOf(const std::string& variant) { return variant.substr(0, variant.find(':')); }
