@@ -12,8 +12,6 @@ namespace shadowbench {
 
 /// Shadow techniques of the documents that are still to be built. A row that is built leaves this list.
 inline constexpr auto techniquesToCome = std::to_array<std::string_view>({
-    "depth-complexity",   // soft shadows from many light samples
-    "penumbra-wedge",     // shadow volumes
     "prt-sh", "prt-haar", // environment light
 });
 
