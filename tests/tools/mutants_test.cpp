@@ -8,9 +8,12 @@
 #include "techniques/catalog.h"
 #include "tests/support/records_examples.h"
 #include "tools/mutants/outcome.h"
+#include "tools/mutants/tree_copy.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <set>
+#include <sstream>
 
 namespace shadowbench::mutants {
 namespace {
@@ -130,6 +133,18 @@ TEST(Mutants, FaultsRunWithoutTimeAndSlowdownsAreCounted) {
     mutant.sweep = Sweep{"map", {512, 256}};
     EXPECT_EQ(arguments(mutant), (std::vector<std::string>{"sweep", "--quiet", "--technique", "sm-history", "--scene",
                                                            "simple", "--axis", "map", "--values", "512,256"}));
+}
+
+TEST(Mutants, TheCopyHoldsEveryFolderThatTheProgramIsBuiltFrom) {
+    std::istringstream layers(readFile(root / "cmake/layers.txt"));
+    std::size_t folders = 0;
+    for (std::string line; std::getline(layers, line);) {
+        if (line.starts_with('#')) continue;
+        const std::string top = line.substr(0, line.find_first_of("/:"));
+        EXPECT_EQ(std::ranges::count(TreeCopy::parts, top), 1) << top;
+        ++folders;
+    }
+    EXPECT_GT(folders, 20U);
 }
 
 TEST(Mutants, OnlyTheExpectedClassCounts) {

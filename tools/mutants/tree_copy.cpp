@@ -6,14 +6,10 @@
 #include "tools/mutants/tool.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 
 namespace shadowbench::mutants {
 namespace {
-
-/// What `shadowbench` is built from.
-constexpr std::array parts{"CMakeLists.txt", "CMakePresets.json", "cmake", "techniques", "groundtruth", "harness"};
 
 bool onlyJudges(const std::string& file) { return file.starts_with("harness/gate/"); }
 

@@ -1,6 +1,7 @@
 // A copy of the tracked source files in a folder of its own, in which faults are planted and built.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,6 +11,10 @@ namespace shadowbench::mutants {
 
 class TreeCopy {
 public:
+    /// What the program is built from.
+    static constexpr std::array parts{"CMakeLists.txt", "CMakePresets.json", "cmake",       "base",
+                                      "scene",          "techniques",        "groundtruth", "harness"};
+
     /// Copies what the program is built from: files that differ, so that only those are built again. A fault left by a
     /// killed run is thus gone. Throws Inconclusive without git.
     TreeCopy(std::filesystem::path source, std::filesystem::path folder);
