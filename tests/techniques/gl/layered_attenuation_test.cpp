@@ -38,6 +38,29 @@ TEST(LayeredAttenuation, IsNearTheMapsThatItIsMadeFrom) {
     }
 }
 
+/// Of the front side of the box of wallScene().
+double meanOnWall(Stage& stage, const std::string& variant) {
+    const Image<float> v = rendered(stage, variant);
+    const metrics::Drawn drawn = stage.drawn();
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        const glm::dvec3 p = drawn.position[i];
+        if (drawn.id[i] != 2 || p.z < -0.301 || p.y < 0.1 || p.y > 1.9 || std::abs(p.x - 0.1) > 0.7) continue;
+        sum += v[i];
+        ++count;
+    }
+    EXPECT_GT(count, 100);
+    return sum / count;
+}
+
+TEST(LayeredAttenuation, ASteepReceiverTakesAllLayersOfItsTexels) {
+    const Scene scene = wallScene();
+    Stage stage(scene);
+    stage.show(0);
+    // Maps of as many texels; a few of them miss what they see at a slant.
+    EXPECT_NEAR(meanOnWall(stage, "layered-attenuation:n=16,map=256"), meanOnWall(stage, "sampled-maps:n=16,map=512"), 0.05);
+}
+
 TEST(LayeredAttenuation, OfNSamplesHasNPlusOneValues) {
     const Scene scene = overlapScene();
     Stage stage(scene);

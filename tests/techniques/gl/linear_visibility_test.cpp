@@ -91,6 +91,25 @@ TEST(LinearVisibility, ASkinHasAQuadForEachTexelOfAnOutline) {
     EXPECT_NEAR(figuresOf(stage, twoMaps).at("skins"), texels, 0.02 * texels);
 }
 
+TEST(LinearVisibility, ASteepSideIsNoDiscontinuity) {
+    const Scene scene = underALine(wallScene());
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> v = rendered(stage, twoMaps);
+    const metrics::Drawn drawn = stage.drawn();
+    int side = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        const glm::dvec3 p = drawn.position[i];
+        if (drawn.id[i] != 2 || p.z < -0.301 || p.y < 0.1 || p.y > 1.9 || std::abs(p.x - 0.1) > 0.7) continue;
+        EXPECT_EQ(v[i], 1) << p.x << ", " << p.y;
+        ++side;
+    }
+    EXPECT_GT(side, 100);
+    // The outlines of the slab, which fills the maps, and of the box: its top's back and ends, and those of its front side.
+    const double texels = 4 * 1024 + (1.5 / 4 + 2 * 1.0 / 4 + 2 * (0.5 / 4 - 0.5 / 6)) * 1024 / 2;
+    EXPECT_NEAR(figuresOf(stage, twoMaps).at("skins"), 2 * texels, 0.06 * texels);
+}
+
 TEST(LinearVisibility, WhatNothingHidesIsLitWhole) {
     Scene scene = underALine(groundScene(96));
     scene.objects.push_back(object(sphere(0.5, 500), {-5, 0.6, -5})); // a shadow, but far from the middle
