@@ -33,6 +33,7 @@ void requireAnswerable(const Request& request) {
         throw BadInput(fmt::format("a reference of {} × {} pixels has none: give a size of at least 1 × 1", request.size.x,
                                    request.size.y));
     const LightKind kind = request.snapshot.light.kind;
+    if (kind == LightKind::Environment) throw BadInput("no oracle answers for an environment light");
     const bool area = request.snapshot.light.isArea();
     const bool ofAreas = request.oracle == Oracle::Area || request.oracle == Oracle::PovRay;
     if (area && !ofAreas && request.oracle != Oracle::Auto)

@@ -37,6 +37,9 @@ glm::dvec3 directionOf(const Bearing& bearing) {
 
 /// From what the camera looks at to the light.
 glm::dvec3 towardsLight(const Scene& scene) {
+    if (scene.light.isEnvironment())
+        throw BadInput(
+            fmt::format("the light of scene {} is an environment, all around; choose another axis or scene", scene.id));
     if (scene.light.kind == LightKind::Directional) return -scene.light.direction;
     return scene.light.centre - scene.camera.target;
 }
@@ -79,7 +82,7 @@ void setNearPlane(Scene& scene, double metres) {
 
 void setLightSize(Scene& scene, double factor) {
     if (!scene.light.isArea())
-        throw BadInput(fmt::format("the light of scene {} is a {} light and has no size; choose a scene with an area light",
+        throw BadInput(fmt::format("the light of scene {} has no size, its kind is {}; choose a scene with an area light",
                                    scene.id, name(scene.light.kind)));
     if (!(factor > 0)) throw BadInput(fmt::format("a light of {:g} times its size has none; give factors above 0", factor));
     scene.light.u *= factor;
