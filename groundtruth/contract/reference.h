@@ -40,8 +40,8 @@ struct Provenance {
     /// "scale" (POV-Ray units per world unit), and its errors against the exact visible fraction, members of Certificate
     /// (groundtruth/certify/certificate.h): "certificate_points", "…_penumbra" and "…_wrong" (how many), "…_bias", "…_rms"
     /// and "…_largest" (over the penumbra points), "…_rms_half" and "…_rms_quarter" (with the first half and quarter of the
-    /// samples), "…_independent" (what independent random samples would leave), "…_uneven", "…_bracket". Under an environment
-    /// light, which has no "light_mismatch", also "…_directions" (exact ones at each point).
+    /// samples), "…_independent" (what independent random samples would leave), "…_uneven", "…_bracket". Under an
+    /// environment light, which has no "light_mismatch", also "…_directions" (exact ones at each point).
     std::map<std::string, double> measured;
 };
 
@@ -67,9 +67,9 @@ Oracle oracleNamed(std::string_view name); // throws BadInput naming the valid o
 struct Request {
     Snapshot snapshot;
     glm::ivec2 size{256, 256};
-    Oracle oracle = Oracle::Auto; // Auto: povray for area lights and environments; else polygon where the receiver is planar,
-                                  // rays elsewhere
-    int samples = 1024;           // of area lights, and directions of environments, only
+    /// Auto: povray for area lights and environments; else polygon where the receiver is planar, rays elsewhere.
+    Oracle oracle = Oracle::Auto;
+    int samples = 1024; // of area lights, and directions of environments, only
 };
 
 } // namespace shadowbench::groundtruth

@@ -27,8 +27,8 @@ std::vector<Truth> truthsOf(const Light& light) {
 
 groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame) {
     if (!hasTruth(scene.light, truth))
-        throw BadInput(fmt::format("scene {} has no {} truth: its light is of kind {}", scene.id, name(truth),
-                                   name(scene.light.kind)));
+        throw BadInput(
+            fmt::format("scene {} has no {} truth: its light is of kind {}", scene.id, name(truth), name(scene.light.kind)));
     groundtruth::Request request;
     request.snapshot = snapshot(scene, frame);
     request.size = scene.size;

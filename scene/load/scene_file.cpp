@@ -80,6 +80,17 @@ void readTimeline(const TomlValue& value, Timeline& timeline) {
     if (const auto approach = value.find("approach")) timeline.approach = approach->integer(0, kMostFrames);
 }
 
+/// A light that is all around takes more samples than one in one place.
+void readSamples(const TomlValue& root, Scene& scene) {
+    if (scene.light.isEnvironment()) {
+        scene.referenceSamples = 4096;
+        scene.movingReferenceSamples = 1024;
+    }
+    if (const auto samples = root.find("reference_samples")) scene.referenceSamples = samples->integer(1, kMostSamples);
+    if (const auto samples = root.find("moving_reference_samples"))
+        scene.movingReferenceSamples = samples->integer(1, kMostSamples);
+}
+
 void readObjects(const TomlValue& root, Scene& scene, const fs::path& file) {
     const auto objects = root.find("object");
     if (!objects) root.fail("the scene has no objects; add an [[object]]");
@@ -154,12 +165,10 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile, c
         root.get("profile").fail(fmt::format("the scene does not belong to profile {}", name(profile)));
     const auto size = root.find("size");
     scene.size = size ? readSize(*size) : usualSize(profile);
-    if (const auto samples = root.find("reference_samples")) scene.referenceSamples = samples->integer(1, kMostSamples);
-    if (const auto samples = root.find("moving_reference_samples"))
-        scene.movingReferenceSamples = samples->integer(1, kMostSamples);
     if (const auto timeline = root.find("timeline")) readTimeline(*timeline, scene.timeline);
     readCamera(root.get("camera"), scene);
     readLight(root.get("light"), file.parent_path(), scene);
+    readSamples(root, scene);
     if (const auto tolerance = root.find("tolerance")) scene.tolerance = readTolerances(*tolerance, metrics);
     if (const auto expect = root.find("expect")) readExpectations(*expect, metrics, scene);
     readObjects(root, scene, file);

@@ -218,6 +218,8 @@ TEST_F(EnvironmentFiles, GiveAConstantSkyAndSuns) {
     const Scene scene = parsed("sky = { constant = 1 }");
     EXPECT_EQ(snapshot(scene, 0).light, scene.light);
     EXPECT_EQ(snapshot(scene, 0).light.direction, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(scene.referenceSamples, 4096); // directions of all the sky
+    EXPECT_EQ(scene.movingReferenceSamples, 1024);
 }
 
 TEST_F(EnvironmentFiles, GiveScaledHarmonics) {
