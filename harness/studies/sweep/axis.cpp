@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "harness/studies/sweep/tessellate.h"
+#include "scene/sky.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 namespace shadowbench {
 namespace {
@@ -89,6 +91,21 @@ void setLightSize(Scene& scene, double factor) {
     scene.light.v *= factor;
 }
 
+/// What a sun brings stays the same.
+void setSunSize(Scene& scene, double degrees) {
+    if (!scene.light.isEnvironment() || scene.light.environment->suns.empty())
+        throw BadInput(fmt::format("the light of scene {} has no sun; choose a scene with one", scene.id));
+    if (!(degrees > 0) || degrees > 180)
+        throw BadInput(fmt::format("a sun's diameter is more than 0° and at most 180°, not {:g}°", degrees));
+    EnvironmentLight light = *scene.light.environment;
+    for (Sun& sun : light.suns) {
+        const double power = sun.radiance * sun.solidAngle();
+        sun.diameter = degrees;
+        sun.radiance = power / sun.solidAngle();
+    }
+    scene.light = environmentLight(std::move(light));
+}
+
 /// The first object is the ground.
 double casters(const Scene& scene) {
     double count = 0;
@@ -151,6 +168,13 @@ const std::array allAxes{
          true,
          false,
          setLightSize},
+    Axis{"sun-size",
+         "°",
+         "angular diameter of the suns of an environment light, which bring the same whatever it is",
+         {40, 20, 5},
+         true,
+         false,
+         setSunSize},
     Axis{"casters",
          "",
          "number of casters, in the order of the scene file",
