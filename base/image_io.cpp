@@ -81,6 +81,8 @@ void writePng(const fs::path& file, const Image<glm::vec3>& colour) {
     write(file, OIIO::ImageSpec(colour.width(), colour.height(), 3, OIIO::TypeDesc::UINT8), bytes.data());
 }
 
+std::vector<std::string> channelNames(const fs::path& file) { return openImage(file)->spec().channelnames; }
+
 Image<float> readChannel(const fs::path& file, int channel) {
     const auto input = openImage(file);
     const OIIO::ImageSpec& spec = input->spec();

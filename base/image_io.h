@@ -24,6 +24,9 @@ void writePng(const std::filesystem::path& file, const Image<float>& grey);
 /// 8-bit RGB PNG of values in [0, 1] (clamped), linear.
 void writePng(const std::filesystem::path& file, const Image<glm::vec3>& colour);
 
+/// Names of the channels of an EXR or PNG. Throws BadInput for a missing or unreadable file.
+std::vector<std::string> channelNames(const std::filesystem::path& file);
+
 /// Reads one channel (by index) of an EXR or PNG as linear values; integers are divided by their maximum, no gamma applied.
 /// Throws BadInput for a missing or unreadable file and for a channel that is not there.
 Image<float> readChannel(const std::filesystem::path& file, int channel);

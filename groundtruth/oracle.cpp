@@ -9,11 +9,12 @@
 #include "groundtruth/cgal/plan/plan_view.h"
 #include "groundtruth/povray/povray.h"
 #include "groundtruth/povray/uncertainty.h"
+#include "groundtruth/reference_parts.h"
+#include "groundtruth/sky_reference.h"
 
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -23,8 +24,6 @@ namespace {
 constexpr int referenceCodeVersion =
     2; // of this file, the uncertainty and the certificate: raise it with every change that can alter a number
 
-/// Two oracles that see the same geometry differ on isolated silhouette pixels only (docs/metrics.md, "Primary hits").
-constexpr double mostPrimaryMismatch = 0.001;
 /// A light moved by more than its own size is far above this; an occluder too thin for the samples stays below.
 constexpr double mostLightMismatch = 0.01;
 
@@ -33,6 +32,10 @@ void requireAnswerable(const Request& request) {
         throw BadInput(fmt::format("a reference of {} × {} pixels has none: give a size of at least 1 × 1", request.size.x,
                                    request.size.y));
     const LightKind kind = request.snapshot.light.kind;
+    if (kind == LightKind::Environment && request.oracle != Oracle::Auto && request.oracle != Oracle::PovRay)
+        throw BadInput(
+            fmt::format("the {} oracle does not answer for this light, an environment: use povray", name(request.oracle)));
+    if (kind == LightKind::Environment) return;
     const bool area = request.snapshot.light.isArea();
     const bool ofAreas = request.oracle == Oracle::Area || request.oracle == Oracle::PovRay;
     if (area && !ofAreas && request.oracle != Oracle::Auto)
@@ -42,34 +45,6 @@ void requireAnswerable(const Request& request) {
     if (!area && ofAreas)
         throw BadInput(fmt::format("the {} oracle answers for area lights, and this light is {}: use polygon or rays",
                                    name(request.oracle), name(kind)));
-}
-
-/// What all oracles of one request are prepared from, made once.
-using Triangles = std::shared_ptr<const geometry::SceneTriangles>;
-
-/// The part [from, to] of the whole progress.
-Progress part(const Progress& progress, double from, double to) {
-    if (!progress) return {};
-    return [&progress, from, to](double done, std::string_view what) { progress(from + (to - from) * done, what); };
-}
-
-/// A reference that knows its surfaces and nothing of the light.
-Reference unlabelled(const PrimaryHits& primary) {
-    const int width = primary.id.width(), height = primary.id.height();
-    Reference reference;
-    reference.visibility = Image<float>(width, height, 0);
-    reference.sigma = Image<float>(width, height, 0);
-    reference.edgeDistance = Image<float>(width, height, std::numeric_limits<float>::infinity());
-    reference.surface = primary.surface;
-    reference.id = primary.id;
-    reference.position = primary.position;
-    return reference;
-}
-
-double primaryMismatch(const povray::Render& image, const PrimaryHits& primary) {
-    std::size_t differing = 0;
-    for (std::size_t i = 0; i < primary.id.size(); ++i) differing += (image.hit[i] != 0) != (primary.id[i] != 0);
-    return static_cast<double>(differing) / static_cast<double>(primary.id.size());
 }
 
 /// Exact labels for the light's centre against pixels that POV-Ray sees as fully lit or fully shadowed.
@@ -88,24 +63,8 @@ double lightMismatch(const Request& request, const Triangles& triangles, const P
     return static_cast<double>(differing) / static_cast<double>(visible.size());
 }
 
-/// POV-Ray has no near and no far plane. Throws BadInput if that explains the mismatch.
-void requireUncutScene(const Request& request, const povray::Render& image) {
-    Snapshot uncut = request.snapshot;
-    uncut.camera.near *= 1e-6;
-    uncut.camera.far *= 1e6;
-    if (primaryMismatch(image, hard::primaryHits(uncut, request.size)) <= mostPrimaryMismatch)
-        throw BadInput("the camera's near or far plane cuts through the scene, which the povray oracle cannot follow: "
-                       "move the plane");
-}
-
 void requireAligned(const Request& request, const povray::Render& image, const std::map<std::string, double>& measured) {
-    if (const double share = measured.at("primary_mismatch"); share > mostPrimaryMismatch) {
-        requireUncutScene(request, image);
-        throw InternalError(
-            fmt::format("POV-Ray and the exact primary hits disagree on {:.2f} % of the pixels (at most {:.1f} %): "
-                        "their cameras are misaligned; report this scene",
-                        100 * share, 100 * mostPrimaryMismatch));
-    }
+    requireSamePrimaryHits(request, image, measured.at("primary_mismatch"));
     if (const double share = measured.at("light_mismatch"); share > mostLightMismatch)
         throw InternalError(fmt::format("POV-Ray and the exact hard shadow of the light's centre contradict each other on "
                                         "{:.2f} % of the pixels (at most {:.0f} %): occluders too thin for {} samples, or "
@@ -137,11 +96,7 @@ Reference softReference(const Request& request, const Progress& progress) {
 
     const Image<float> sigma =
         calibrated(povray::samplingUncertainty(image, primary.id, request.samples), certificate, request.samples);
-    for (std::size_t i = 0; i < primary.surface.size(); ++i) {
-        if (primary.surface[i] != Surface::Receiver) continue;
-        reference.visibility[i] = image.visible[i];
-        reference.sigma[i] = sigma[i];
-    }
+    fillReceivers(image.visible, sigma, reference);
     return reference;
 }
 
@@ -229,9 +184,11 @@ Reference hardReference(const Request& request, const Progress& progress) {
 Reference computeWith(const ReferenceKey& key, const Request& request, const Progress& progress) {
     requireAnswerable(request);
     const auto start = std::chrono::steady_clock::now();
-    Reference reference = request.oracle == Oracle::Area    ? areaReference(request, progress)
-                          : request.snapshot.light.isArea() ? softReference(request, progress)
-                                                            : hardReference(request, progress);
+    const Light& light = request.snapshot.light;
+    Reference reference = request.oracle == Oracle::Area ? areaReference(request, progress)
+                          : light.isEnvironment()        ? skyReference(request, progress)
+                          : light.isArea()               ? softReference(request, progress)
+                                                         : hardReference(request, progress);
     reference.provenance.key = key.text;
     reference.provenance.tools = key.tools;
     reference.provenance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -244,10 +201,12 @@ Tools toolVersions(const Request& request) {
     Tools tools = hard::toolVersions();
     tools["reference"] = std::to_string(referenceCodeVersion);
     if (request.oracle == Oracle::Plan) tools["plan"] = std::to_string(plan::codeVersion);
-    if (!request.snapshot.light.isArea()) return tools;
-    tools["area"] = std::to_string(area::codeVersion);
+    const Light& light = request.snapshot.light;
+    if (!light.isArea() && !light.isEnvironment()) return tools;
+    if (light.isArea()) tools["area"] = std::to_string(area::codeVersion);
     if (request.oracle == Oracle::Area) return tools;
     tools["povray"] = povray::version();
+    if (light.isEnvironment()) tools["povray sky"] = std::to_string(povray::skyCodeVersion);
     tools["povray recipe"] = std::to_string(povray::codeVersion);
     return tools;
 }

@@ -1,10 +1,13 @@
 #include "scene/camera.h"
 
+#include "scene/sky.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <tuple>
 
 namespace shadowbench {
 
@@ -50,6 +53,8 @@ std::string_view name(LightKind kind) {
         return "disk";
     case LightKind::Line:
         return "line";
+    case LightKind::Environment:
+        return "environment";
     }
     return "";
 }
@@ -57,7 +62,7 @@ std::string_view name(LightKind kind) {
 bool Light::isArea() const { return kind == LightKind::Rectangle || kind == LightKind::Disk || kind == LightKind::Line; }
 
 glm::dvec4 Light::homogeneous() const {
-    return kind == LightKind::Directional ? glm::dvec4(-direction, 0.0) : glm::dvec4(centre, 1.0);
+    return kind == LightKind::Directional || isEnvironment() ? glm::dvec4(-direction, 0.0) : glm::dvec4(centre, 1.0);
 }
 
 glm::dvec3 Light::sample(glm::dvec2 st) const {
@@ -73,14 +78,24 @@ glm::dvec3 Light::sample(glm::dvec2 st) const {
     }
     case LightKind::Point:
     case LightKind::Directional:
+    case LightKind::Environment:
         break;
     }
     return centre;
 }
 
 Light Light::centreOnly() const {
+    if (isEnvironment()) return {LightKind::Directional, centre, direction, glm::dvec3(0), glm::dvec3(0)};
     if (!isArea()) return *this;
     return {LightKind::Point, centre, direction, glm::dvec3(0), glm::dvec3(0)};
+}
+
+bool operator==(const Light& a, const Light& b) {
+    const auto place = [](const Light& light) {
+        return std::tie(light.kind, light.centre, light.direction, light.u, light.v);
+    };
+    if (place(a) != place(b) || (a.environment == nullptr) != (b.environment == nullptr)) return false;
+    return a.environment == b.environment || *a.environment == *b.environment;
 }
 
 } // namespace shadowbench

@@ -4,6 +4,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string_view>
 
 namespace shadowbench {
@@ -36,32 +37,39 @@ struct Camera {
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-enum class LightKind { Point, Directional, Rectangle, Disk, Line };
+struct EnvironmentLight; // scene/sky.h
+
+enum class LightKind { Point, Directional, Rectangle, Disk, Line, Environment };
 std::string_view name(LightKind kind);
 
 /// One light. `centre` is the position of a point light and the middle of an area light; a directional light shines along
 /// `direction` (unit length, away from the light). `u` and `v` are a rectangle's full side vectors; a disk's diameters at
-/// right angles; a line has only `u`.
+/// right angles; a line has only `u`. An environment (scene/sky.h) is all around, and `direction` is the mean one of its
+/// light.
 struct Light {
     LightKind kind = LightKind::Point;
     glm::dvec3 centre{0, 0, 0};
     glm::dvec3 direction{0, -1, 0};
     glm::dvec3 u{0, 0, 0};
     glm::dvec3 v{0, 0, 0};
+    std::shared_ptr<const EnvironmentLight> environment{}; // null unless that is the kind
 
     [[nodiscard]] bool isArea() const;
+    [[nodiscard]] bool isEnvironment() const { return kind == LightKind::Environment; }
 
-    /// Homogeneous position: (centre, 1), or (−direction, 0) for a directional light.
+    /// Homogeneous position: (centre, 1), or (−direction, 0) for a directional light and an environment.
     [[nodiscard]] glm::dvec4 homogeneous() const;
 
     /// Point of the light for parameters in [0, 1)², uniform in area: rectangle centre + (s−½)u + (t−½)v, disk by the
-    /// concentric square-root map, line by s alone. The centre for a point light.
+    /// concentric square-root map, line by s alone. The centre for other lights.
     [[nodiscard]] glm::dvec3 sample(glm::dvec2 st) const;
 
-    /// The point light at the centre of an area light (what a hard technique lights from); other kinds unchanged.
+    /// The point light at the centre of an area light (what a hard technique lights from). Of an environment, the
+    /// directional light of its mean direction: no shadow of it is true, but pictures are lit and shadow maps timed with it.
+    /// Other kinds unchanged.
     [[nodiscard]] Light centreOnly() const;
 
-    friend bool operator==(const Light&, const Light&) = default;
+    friend bool operator==(const Light& a, const Light& b); // an environment by what it holds
 };
 
 } // namespace shadowbench

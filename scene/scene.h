@@ -116,7 +116,7 @@ struct Scene {
     std::vector<Expectation> fails;          // techniques that the scene breaks: one that stops failing is an error too
     std::vector<Expectation> holds;          // techniques that it does not break
     std::vector<BreakExpectation> breaks;    // where techniques break as one of its quantities moves
-    int referenceSamples = 1024;             // light samples of an area light's reference on the scored frame …
+    int referenceSamples = 1024;             // of an area light's or an environment's reference on the scored frame …
     int movingReferenceSamples = 256;        // … and on the moving frames
 };
 

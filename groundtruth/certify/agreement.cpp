@@ -46,7 +46,7 @@ Image<std::uint8_t> labelled(const Reference& reference) {
 }
 
 std::optional<Agreement> polygonAndRays(const Request& request, const Progress& progress) {
-    if (request.snapshot.light.isArea()) return std::nullopt;
+    if (request.snapshot.light.isArea() || request.snapshot.light.isEnvironment()) return std::nullopt;
     const hard::ExactScene scene(request.snapshot, hardwareThreads());
     PrimaryHits primary = scene.primaryHits(request.size, progress);
     const std::vector<hard::PlanarReceiver> planes = scene.planarReceivers(primary);

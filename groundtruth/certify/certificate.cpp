@@ -118,17 +118,6 @@ Certificate tallyOf(const povray::Render& image, const PrimaryHits& primary, int
     return tally.result();
 }
 
-Certificate certifyOn(const povray::Render& image, const PrimaryHits& primary, int samples, int points, int threads,
-                      const ExactFraction& exact, const Progress& progress) {
-    const std::vector<glm::ivec2> pixels = certificatePoints(image, primary, points);
-    std::vector<area::VisibleFraction> fractions(pixels.size());
-    inParallel(static_cast<int>(pixels.size()), threads, progress, "certificate", [&](int i) {
-        const auto index = static_cast<std::size_t>(i);
-        fractions[index] = exact(pixels[index]);
-    });
-    return tallyOf(image, primary, samples, pixels, fractions);
-}
-
 [[noreturn]] void reject(std::string_view what) {
     throw Inconclusive(
         fmt::format("POV-Ray's shadows were compared with the exact visible fraction and rejected: {}; ask for "
@@ -153,9 +142,15 @@ std::vector<glm::ivec2> certificatePoints(const povray::Render& image, const Pri
     return result;
 }
 
-Certificate certify(const povray::Render& image, const PrimaryHits& primary, int samples, int points,
+Certificate certify(const povray::Render& image, const PrimaryHits& primary, int samples, int points, int threads,
                     const ExactFraction& exact, const Progress& progress) {
-    return certifyOn(image, primary, samples, points, 1, exact, progress);
+    const std::vector<glm::ivec2> pixels = certificatePoints(image, primary, points);
+    std::vector<area::VisibleFraction> fractions(pixels.size());
+    inParallel(static_cast<int>(pixels.size()), threads, progress, "certificate", [&](int i) {
+        const auto index = static_cast<std::size_t>(i);
+        fractions[index] = exact(pixels[index]);
+    });
+    return tallyOf(image, primary, samples, pixels, fractions);
 }
 
 Certificate certify(const Request& request, const povray::Render& image, const PrimaryHits& primary, int points, int threads,
@@ -166,7 +161,7 @@ Certificate certify(const Request& request, const povray::Render& image, const P
 Certificate certify(const area::AreaScene& scene, const Request& request, const povray::Render& image,
                     const PrimaryHits& primary, int points, int threads, const Progress& progress) {
     const ExactFraction exact = [&](glm::ivec2 pixel) { return scene.fraction(pixel, request.size, primary); };
-    return certifyOn(image, primary, request.samples, points, threads, exact, progress);
+    return certify(image, primary, request.samples, points, threads, exact, progress);
 }
 
 double resolvedTolerance(int samples) { return std::min(0.9, 4 * std::pow(samples, -0.75)); }

@@ -41,12 +41,12 @@ using ExactFraction = std::function<area::VisibleFraction(glm::ivec2)>;
 /// time.
 std::vector<glm::ivec2> certificatePoints(const povray::Render& image, const PrimaryHits& primary, int points);
 
-/// Compares a render of `samples` light samples with `exact` at certificatePoints.
-Certificate certify(const povray::Render& image, const PrimaryHits& primary, int samples, int points,
+/// Compares a render of `samples` light samples with `exact` at certificatePoints, on `threads` threads; the result does not
+/// depend on their number.
+Certificate certify(const povray::Render& image, const PrimaryHits& primary, int samples, int points, int threads,
                     const ExactFraction& exact, const Progress& progress = {});
 
-/// The same against the exact oracle, `scene` being that of the request, on `threads` threads; the result does not depend on
-/// their number.
+/// The same against the exact oracle, `scene` being that of the request.
 Certificate certify(const area::AreaScene& scene, const Request& request, const povray::Render& image,
                     const PrimaryHits& primary, int points, int threads, const Progress& progress = {});
 

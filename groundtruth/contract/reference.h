@@ -16,7 +16,7 @@ namespace shadowbench::groundtruth {
 enum class Surface : std::uint8_t {
     Background, // nothing
     FacesAway,  // a surface whose geometric side towards the eye does not face the light: unlit whatever the shadows
-    Receiver,   // scored: for an area light, all of it lies above the tangent plane
+    Receiver,   // scored: for an area light, all of it lies above the tangent plane; for an environment, E₀ > 0
     OnEdge,     // a receiver exactly on a shadow edge (exact oracles only): no label is right, never scored
 };
 
@@ -40,12 +40,14 @@ struct Provenance {
     /// "scale" (POV-Ray units per world unit), and its errors against the exact visible fraction, members of Certificate
     /// (groundtruth/certify/certificate.h): "certificate_points", "…_penumbra" and "…_wrong" (how many), "…_bias", "…_rms"
     /// and "…_largest" (over the penumbra points), "…_rms_half" and "…_rms_quarter" (with the first half and quarter of the
-    /// samples), "…_independent" (what independent random samples would leave), "…_uneven", "…_bracket".
+    /// samples), "…_independent" (what independent random samples would leave), "…_uneven", "…_bracket". Under an
+    /// environment light, which has no "light_mismatch", also "…_directions" (exact ones at each point).
     std::map<std::string, double> measured;
 };
 
 struct Reference {
-    Image<float> visibility; // visible fraction of the light in [0, 1] (0 or 1 for point and directional lights)
+    Image<float> visibility; // visible fraction of the light in [0, 1] (0 or 1 for point and directional lights); for an
+                             // environment the share E/E₀ of the unoccluded irradiance
     Image<float> sigma;      // its standard uncertainty; 0 where exact. povray: estimated from the samples
                              // (groundtruth/povray/uncertainty.h), scaled to the certificate's rms error
     Image<Surface> surface;
@@ -65,8 +67,9 @@ Oracle oracleNamed(std::string_view name); // throws BadInput naming the valid o
 struct Request {
     Snapshot snapshot;
     glm::ivec2 size{256, 256};
-    Oracle oracle = Oracle::Auto; // Auto: povray for area lights; else polygon where the receiver is planar, rays elsewhere
-    int samples = 1024;           // area lights only
+    /// Auto: povray for area lights and environments; else polygon where the receiver is planar, rays elsewhere.
+    Oracle oracle = Oracle::Auto;
+    int samples = 1024; // of area lights, and directions of environments, only
 };
 
 } // namespace shadowbench::groundtruth

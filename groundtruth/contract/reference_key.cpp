@@ -2,10 +2,12 @@
 #include "groundtruth/contract/reference_key.h"
 
 #include "base/hash.h"
+#include "scene/sky.h"
 
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <variant>
 #include <vector>
 
 namespace shadowbench::groundtruth {
@@ -43,9 +45,38 @@ void add(FieldHash& hash, const Camera& camera) {
     for (const double value : {camera.fovy, camera.near, camera.far}) hash.add(value);
 }
 
+struct AddSky {
+    FieldHash& hash;
+    void operator()(const ConstantSky& sky) const {
+        hash.add("constant");
+        hash.add(sky.radiance);
+    }
+    void operator()(const HarmonicSky& sky) const {
+        hash.add("harmonics");
+        hash.add(std::uint64_t{sky.coefficients.size()});
+        for (const double coefficient : sky.coefficients) hash.add(coefficient);
+    }
+    void operator()(const ImageSky& sky) const {
+        hash.add("image");
+        for (const int side : {sky.radiance.width(), sky.radiance.height()}) hash.add(static_cast<std::uint64_t>(side));
+        for (const float radiance : sky.radiance) hash.add(static_cast<double>(radiance));
+    }
+};
+
+void add(FieldHash& hash, const EnvironmentLight& light) {
+    std::visit(AddSky{hash}, light.sky);
+    hash.add(std::uint64_t{light.suns.size()});
+    for (const Sun& sun : light.suns) {
+        hash.add(sun.direction);
+        hash.add(sun.diameter);
+        hash.add(sun.radiance);
+    }
+}
+
 /// Only what its kind uses.
 void add(FieldHash& hash, const Light& light) {
     hash.add(name(light.kind));
+    if (light.isEnvironment()) return add(hash, *light.environment);
     hash.add(light.kind == LightKind::Directional ? light.direction : light.centre);
     if (!light.isArea()) return;
     hash.add(light.u);
@@ -93,7 +124,8 @@ std::string key(const Request& request, const Tools& tools) {
         for (int column = 0; column < 4; ++column) hash.add(glm::dvec3(placed.placement->world[column]));
         hash.add(placed.mesh);
     }
-    const bool sampled = snapshot.light.isArea() && request.oracle != Oracle::Area;
+    const bool soft = snapshot.light.isArea() || snapshot.light.isEnvironment();
+    const bool sampled = soft && request.oracle != Oracle::Area;
     for (const int value : {request.size.x, request.size.y, sampled ? request.samples : 0})
         hash.add(static_cast<std::uint64_t>(value));
     hash.add(name(request.oracle));

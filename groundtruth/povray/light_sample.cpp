@@ -40,14 +40,15 @@ std::uint32_t scrambled(std::uint32_t x, int bits, std::uint64_t dimension) {
 
 } // namespace
 
-glm::dvec2 lightSample(int i, int n) {
+glm::dvec2 lightSample(int i, int n, std::uint32_t set) {
     const double unit = 0x1p-32;
     const unsigned cells = std::bit_ceil(static_cast<unsigned>(n));
     const int bits = std::countr_zero(cells);
     const double halfCell = 0.5 / cells;
     const auto index = static_cast<std::uint32_t>(i);
-    return {unit * scrambled(mirrored(index), bits, 0) + halfCell,
-            unit * scrambled(secondDimension(index), bits, 1) + halfCell};
+    const std::uint64_t dimension = 2 * std::uint64_t{set};
+    return {unit * scrambled(mirrored(index), bits, dimension) + halfCell,
+            unit * scrambled(secondDimension(index), bits, dimension + 1) + halfCell};
 }
 
 SampleParts sampleParts(int samples) {

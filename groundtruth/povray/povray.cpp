@@ -1,5 +1,8 @@
 #include "groundtruth/povray/povray.h"
 
+#include "groundtruth/povray/channels.h"
+#include "groundtruth/povray/scene_text.h"
+
 #include "base/error.h"
 #include "base/image_io.h"
 #include "base/process.h"
@@ -163,12 +166,12 @@ Image<float> readImage(const std::filesystem::path& file, int channel, glm::ivec
 
 /// Blue without the hit mask's share, which goes to `hit`.
 Image<float> takeHitMask(Image<float> blue, Image<std::uint8_t>& hit) {
-    constexpr float hitMask = 0.5F;
+    constexpr auto mask = static_cast<float>(hitMask);
     hit = Image<std::uint8_t>(blue.width(), blue.height());
     for (std::size_t i = 0; i < blue.size(); ++i) {
-        if (blue[i] < 0.5F * hitMask) continue;
+        if (blue[i] < 0.5F * mask) continue;
         hit[i] = 1;
-        blue[i] -= hitMask;
+        blue[i] -= mask;
     }
     return blue;
 }
@@ -203,16 +206,6 @@ Render decodeGrid(Image<float> red, Image<float> green, Image<float> blue) {
     return {std::move(blue), std::move(green), std::move(red), {}, 0};
 }
 
-Render decode(const std::filesystem::path& file, glm::ivec2 size, int samples, const Recipe& recipe) {
-    Image<std::uint8_t> hit;
-    Image<float> red = readImage(file, 0, size), green = readImage(file, 1, size);
-    Image<float> blue = takeHitMask(readImage(file, 2, size), hit);
-    Render image = recipe.lights == Recipe::Lights::Points ? decodePoints(red, green, blue, samples)
-                                                           : decodeGrid(std::move(red), std::move(green), std::move(blue));
-    image.hit = std::move(hit);
-    return image;
-}
-
 /// Runs the program.
 std::string askVersion(const std::filesystem::path& program) {
     const TemporaryFolder folder;
@@ -231,8 +224,7 @@ std::string askVersion(const std::filesystem::path& program) {
 
 } // namespace
 
-Render render(const Snapshot& snapshot, glm::ivec2 size, int samples, const Options& options, const Progress& progress) {
-    const std::string text = sceneText(snapshot, size, samples, options.recipe);
+Channels renderChannels(const std::string& text, glm::ivec2 size, const Options& options, const Progress& progress) {
     const std::filesystem::path found = program(options);
     const TemporaryFolder folder;
     writeScene(folder.path() / sceneName, text);
@@ -250,7 +242,18 @@ Render render(const Snapshot& snapshot, glm::ivec2 size, int samples, const Opti
     Messages messages(progress);
     const Finished finished = runProcess(command, std::ref(messages));
     requireSuccess(finished, messages, command);
-    Render image = decode(folder.path() / imageName, size, samples, options.recipe);
+    const std::filesystem::path file = folder.path() / imageName;
+    Channels channels{readImage(file, 0, size), readImage(file, 1, size), readImage(file, 2, size), {}};
+    channels.blue = takeHitMask(std::move(channels.blue), channels.hit);
+    return channels;
+}
+
+Render render(const Snapshot& snapshot, glm::ivec2 size, int samples, const Options& options, const Progress& progress) {
+    Channels channels = renderChannels(sceneText(snapshot, size, samples, options.recipe), size, options, progress);
+    Render image = options.recipe.lights == Recipe::Lights::Points
+                       ? decodePoints(channels.red, channels.green, channels.blue, samples)
+                       : decodeGrid(std::move(channels.red), std::move(channels.green), std::move(channels.blue));
+    image.hit = std::move(channels.hit);
     image.scale = scaleOf(snapshot, options.recipe);
     return image;
 }

@@ -6,6 +6,7 @@
 #include "groundtruth/contract/reference.h"
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -21,8 +22,8 @@ constexpr int mostLightSamples = 16384;
 /// Point `i` of `n` of the low-discrepancy set in [0, 1)² that the light is sampled at: the first two Sobol dimensions, a
 /// (0,2)-sequence in base 2, scrambled by Owen's nested permutations and moved to the centres of its cells. Every aligned
 /// block of 2^k points is a net of its own. Unscrambled, the points lie on diagonals, and straight edges along these would
-/// be sampled badly.
-glm::dvec2 lightSample(int i, int n);
+/// be sampled badly. Each `set`, below 2³¹, is scrambled in another way.
+glm::dvec2 lightSample(int i, int n, std::uint32_t set = 0);
 
 /// How many points of the set each part holds, one after the other.
 struct SampleParts {

@@ -1,4 +1,6 @@
 // Scene text for POV-Ray. Everything in it is a number or a word of ours: no string of the user's gets into it.
+#include "groundtruth/povray/scene_text.h"
+
 #include "groundtruth/povray/povray.h"
 
 #include "base/error.h"
@@ -15,22 +17,7 @@
 namespace shadowbench::groundtruth::povray {
 namespace {
 
-using Text = fmt::memory_buffer;
-
 constexpr double largestCoordinate = 1e7; // POV-Ray's MAX_DISTANCE
-constexpr double hitMask = 0.5;           // of blue: the light has the other half
-
-template <typename... Arguments>
-void add(Text& text, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Arguments>(arguments)...);
-}
-
-/// Round-trip decimal form.
-std::string vector(const glm::dvec3& v) {
-    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-        throw BadInput("cannot write the POV-Ray scene: a position or a placement is not finite; correct the scene");
-    return fmt::format("<{:.17g},{:.17g},{:.17g}>", v.x, v.y, v.z);
-}
 
 void addCamera(Text& text, const Camera& camera, glm::ivec2 size, double scale) {
     const Camera::Basis basis = camera.basis();
@@ -49,13 +36,13 @@ void addMesh(Text& text, const Mesh& mesh, std::size_t number) {
 }
 
 /// POV-Ray multiplies row vectors, so its twelve numbers are the columns of our matrix one after the other.
-void addPlacement(Text& text, const glm::dmat4& world, std::size_t mesh, double scale, const Recipe& recipe) {
+void addPlacement(Text& text, const glm::dmat4& world, std::size_t mesh, double scale, bool doubleIlluminate) {
     add(text, "object {{ M{} matrix <", mesh);
     for (int column = 0; column < 4; ++column) {
         const std::string numbers = vector(scale * glm::dvec3(world[column]));
         add(text, "{}{}", column == 0 ? "" : ",", numbers.substr(1, numbers.size() - 2));
     }
-    add(text, "> texture {{ T }}{} }}\n", recipe.doubleIlluminate ? " double_illuminate" : "");
+    add(text, "> texture {{ T }}{} }}\n", doubleIlluminate ? " double_illuminate" : "");
 }
 
 /// One point light a sample; the parts of the set in red, green and blue.
@@ -115,36 +102,48 @@ double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v
 
 } // namespace
 
-double scaleOf(const Snapshot& snapshot, const Recipe& recipe) {
-    const Light& light = snapshot.light;
-    double world =
-        std::max(largest(snapshot.camera.eye), largest(light.centre) + 0.5 * (largest(light.u) + largest(light.v)));
+std::string vector(const glm::dvec3& v) {
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+        throw BadInput("cannot write the POV-Ray scene: a position or a placement is not finite; correct the scene");
+    return fmt::format("<{:.17g},{:.17g},{:.17g}>", v.x, v.y, v.z);
+}
+
+double scaleFor(const Snapshot& snapshot, double lights, double largestScale) {
+    double world = std::max(largest(snapshot.camera.eye), lights);
     if (const Bounds bounds = snapshot.bounds(); !bounds.empty())
         world = std::max({world, largest(bounds.low), largest(bounds.high)});
-    double scale = recipe.largestScale;
+    double scale = largestScale;
     while (scale * world >= largestCoordinate && std::isfinite(world)) scale /= 2;
     return scale;
 }
 
-std::string sceneText(const Snapshot& snapshot, glm::ivec2 size, int samples, const Recipe& recipe) {
-    requireRenderable(snapshot, size, samples, recipe);
-    const double scale = scaleOf(snapshot, recipe);
-    Text text;
-    // brilliance 0 makes the diffuse term constant.
+double scaleOf(const Snapshot& snapshot, const Recipe& recipe) {
+    const Light& light = snapshot.light;
+    return scaleFor(snapshot, largest(light.centre) + 0.5 * (largest(light.u) + largest(light.v)), recipe.largestScale);
+}
+
+void addScene(Text& text, const Snapshot& snapshot, glm::ivec2 size, const Surfaces& surfaces) {
     add(text, "#version 3.7;\nglobal_settings {{ assumed_gamma 1.0 }}\n");
     add(text,
         "#declare T = texture {{ pigment {{ rgb 1 }} "
-        "finish {{ ambient 0 diffuse 1 brilliance 0 emission rgb <0,0,{}> }} }}\n",
-        hitMask);
-    addCamera(text, snapshot.camera, size, scale);
+        "finish {{ ambient 0 diffuse 1 brilliance {} emission rgb <0,0,{}> }} }}\n",
+        surfaces.brilliance, hitMask);
+    addCamera(text, snapshot.camera, size, surfaces.scale);
 
     std::map<const Mesh*, std::size_t> numbers;
     for (const Batch& batch : snapshot.batches) {
         const auto [entry, isNew] = numbers.try_emplace(batch.mesh.get(), numbers.size());
         if (isNew) addMesh(text, *batch.mesh, entry->second);
         for (const Placement& placement : batch.placements)
-            addPlacement(text, placement.world, entry->second, scale, recipe);
+            addPlacement(text, placement.world, entry->second, surfaces.scale, surfaces.doubleIlluminate);
     }
+}
+
+std::string sceneText(const Snapshot& snapshot, glm::ivec2 size, int samples, const Recipe& recipe) {
+    requireRenderable(snapshot, size, samples, recipe);
+    const double scale = scaleOf(snapshot, recipe);
+    Text text;
+    addScene(text, snapshot, size, {scale, 0, recipe.doubleIlluminate}); // no brilliance: the diffuse term is constant
     addLights(text, snapshot.light, samples, scale, recipe);
     return fmt::to_string(text);
 }

@@ -5,6 +5,7 @@
 #include "harness/cells/environment.h"
 #include "harness/measure/frame_cost.h"
 #include "harness/metrics/frames.h"
+#include "techniques/contract/applicability.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
@@ -20,11 +21,6 @@ using metrics::Mask;
 using techniques::Answer;
 
 constexpr double primaryLimit = 0.001; // docs/metrics.md, "Notation": above this a cell is an error, not a score
-
-/// The truth that a technique's answer is measured by frame after frame.
-Truth mainTruth(const techniques::Variant& variant) {
-    return variant.entry->answer == Answer::Soft ? Truth::Soft : Truth::Hard;
-}
 
 ReferenceInfo describe(const Reference& reference) {
     double sum = 0;
@@ -57,7 +53,7 @@ void scoreStillFrame(const Scene& scene, Truths& truths, const techniques::Varia
         reference = describe(soft);
         score<metrics::OfVisibility>({v, soft, metrics::receiverMask(soft, drawn, eye)}, record);
     };
-    if (variant.entry->answer == Answer::Soft) return scoreSoft(record.reference);
+    if (mainTruth(scene, variant) == Truth::Soft) return scoreSoft(record.reference);
     const Reference& hard = truths.at(Truth::Hard, frame);
     const Mask mask = metrics::receiverMask(hard, drawn, eye);
     record.reference = describe(hard);
@@ -158,25 +154,28 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
     return record;
 }
 
+Truth mainTruth(const Scene& scene, const techniques::Variant& variant) {
+    const bool soft = variant.entry->answer == Answer::Soft || !hasTruth(scene.light, Truth::Hard);
+    return soft ? Truth::Soft : Truth::Hard;
+}
+
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed) {
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
                                      scene.timeline.still, scene.timeline.moving);
     if (scene.timeline.approach > 0) inputs += fmt::format("approach {}\n", scene.timeline.approach);
-    for (const int frame : truths.scoredFrames()) inputs += truths.key(mainTruth(variant), frame) + "\n";
+    for (const int frame : truths.scoredFrames()) inputs += truths.key(mainTruth(scene, variant), frame) + "\n";
     return hash128(inputs).text();
 }
 
 std::optional<std::string> notApplicable(const Scene& scene, const techniques::Variant& variant) {
-    if (variant.entry->answer == Answer::Soft && !scene.light.isArea())
-        return fmt::format("needs an area light; the light of {} is {}", scene.id,
-                           scene.light.kind == LightKind::Point ? "a point" : "directional");
+    if (auto reason = techniques::lightWithoutAnswer(scene, *variant.entry)) return reason;
     if (variant.entry->notApplicable) return variant.entry->notApplicable(scene);
     return std::nullopt;
 }
 
 void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
              const MeasureOptions& options, Record& record, CellImages& images) {
-    const Truth kind = mainTruth(variant);
+    const Truth kind = mainTruth(scene, variant);
     const int scored = scene.timeline.still - 1;
     const bool temporal = variant.entry->temporal;
     stage.show(temporal ? -scene.timeline.approach
@@ -184,7 +183,8 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     const std::uint64_t bytesBefore = gl::Context::current().tally().bytes;
     const auto technique = variant.entry->make(variant.parameters);
 
-    const Reference& graded = truths.at(scene.light.isArea() ? Truth::Soft : Truth::Hard, scored);
+    const bool soft = hasTruth(scene.light, Truth::Soft);
+    const Reference& graded = truths.at(soft ? Truth::Soft : Truth::Hard, scored);
     StillFrameScores still(truths.at(kind, scored), graded, kind == Truth::Hard);
     MovingFrameScores moving;
     std::uint64_t bytes = 0;
@@ -207,7 +207,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
             record.figures =
                 techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame - first, options.seed)));
             measureAliasing(*technique, stage, mask, record);
-            images = {v, scene.light.isArea() ? &truths.at(Truth::Soft, frame) : &truth};
+            images = {v, soft ? &truths.at(Truth::Soft, frame) : &truth};
             bytes = gl::Context::current().tally().bytes - bytesBefore;
         }
         moving.add(stage.shown(), truth, std::move(v), std::move(mask));

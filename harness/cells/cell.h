@@ -20,6 +20,9 @@ struct CellImages {
 /// What is known of a cell before it runs: everything but scores and costs. Needs a GL context.
 Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::uint32_t seed);
 
+/// The truth that a technique's answer is measured by frame after frame.
+Truth mainTruth(const Scene& scene, const techniques::Variant& variant);
+
 /// Hash of everything a cell's scores depend on: truths (hence the scene), variant, frames, seed, schema.
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed);
 

@@ -50,9 +50,9 @@ public:
 private:
     void add(const Scene& scene) {
         for (const int frame : scoredFrames(scene))
-            for (const Truth truth : {Truth::Hard, Truth::Soft}) {
+            for (const Truth truth : truthsOf(scene.light)) {
                 const GoldenName name{scene.id, truth, frame};
-                if ((truth == Truth::Hard || scene.light.isArea()) && holds(name)) wanted_.push_back({&scene, name});
+                if (holds(name)) wanted_.push_back({&scene, name});
             }
     }
 

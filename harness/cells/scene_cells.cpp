@@ -58,12 +58,11 @@ void SceneCells::measureLod(const techniques::Variant& variant, Record& record, 
 }
 
 void SceneCells::computeTruths(const techniques::Variant& variant, const Progress& progress) {
-    const bool soft = variant.entry->answer == techniques::Answer::Soft;
     for (const int frame : truths_.scoredFrames()) {
         const std::string what = fmt::format("truth of frame {}", frame);
         const auto show = [&](double share, std::string_view) { progress(share, what); };
-        truths_.at(soft ? Truth::Soft : Truth::Hard, frame, show);
-        if (scene_.light.isArea() && frame == scene_.timeline.still - 1) truths_.at(Truth::Soft, frame, show);
+        truths_.at(mainTruth(scene_, variant), frame, show);
+        if (hasTruth(scene_.light, Truth::Soft) && frame == scene_.timeline.still - 1) truths_.at(Truth::Soft, frame, show);
     }
 }
 

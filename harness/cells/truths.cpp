@@ -14,7 +14,21 @@ Truth truthNamed(std::string_view name) {
     throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard and soft", name));
 }
 
+bool hasTruth(const Light& light, Truth truth) {
+    return truth == Truth::Hard ? !light.isEnvironment() : light.isArea() || light.isEnvironment();
+}
+
+std::vector<Truth> truthsOf(const Light& light) {
+    std::vector<Truth> truths;
+    for (const Truth truth : {Truth::Hard, Truth::Soft})
+        if (hasTruth(light, truth)) truths.push_back(truth);
+    return truths;
+}
+
 groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame) {
+    if (!hasTruth(scene.light, truth))
+        throw BadInput(
+            fmt::format("scene {} has no {} truth: its light is of kind {}", scene.id, name(truth), name(scene.light.kind)));
     groundtruth::Request request;
     request.snapshot = snapshot(scene, frame);
     request.size = scene.size;

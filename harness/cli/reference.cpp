@@ -107,17 +107,18 @@ void addReference(CLI::App& app, Action& action) {
         ->check(CLI::NonNegativeNumber);
     CLI::Option* oracle =
         verb->add_option("--oracle", options.oracle, "auto, polygon, rays, plan, area or povray")->capture_default_str();
-    CLI::Option* samples =
-        verb->add_option("--samples", options.samples, "Light samples of an area light (default: the scene's)")
-            ->check(CLI::Range(4, 16384));
+    CLI::Option* samples = verb->add_option("--samples", options.samples,
+                                            "Samples of an area light, directions of a sky (default: the scene's)")
+                               ->check(CLI::Range(4, 16384));
     addProfileOption(*verb, words->profile);
     CLI::Option* out =
         verb->add_option("--out", options.out, "Folder for visibility.exr and provenance.json")->capture_default_str();
     CLI::Option* polygons =
         verb->add_flag("--polygons", options.polygons, "Also the exact shadow polygons of planar receivers, as WKT and SVG");
-    CLI::Option* certify =
-        verb->add_flag("--certify", words->certify,
-                       "Measure POV-Ray's error on the frame against the exact visible fraction; see --points");
+    CLI::Option* certify = verb->add_flag(
+        "--certify", words->certify,
+        "Measure POV-Ray's error on the frame against the exact visible fraction, or exact directions of a sky; see "
+        "--points");
     CLI::Option* points =
         verb->add_option("--points", options.points, "Pixels that --certify compares")->check(CLI::Range(32, 1 << 24));
     points->capture_default_str()->needs(certify);

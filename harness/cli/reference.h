@@ -41,8 +41,8 @@ NamedRequest requestOf(const ReferenceOptions& options);
 
 ExitCode computeReference(const ReferenceOptions& options);
 
-/// Renders an area light with POV-Ray and prints its certificate against the exact visible fraction; throws Inconclusive for
-/// a render that is refused.
+/// Renders an area light or an environment with POV-Ray and prints its certificate; throws Inconclusive for a render that is
+/// refused.
 ExitCode certifyReference(const ReferenceOptions& options);
 ExitCode verifyGoldenReferences(const ReferenceOptions& options);
 ExitCode acceptGoldenReferences(const ReferenceOptions& options);

@@ -13,13 +13,8 @@
 namespace shadowbench {
 namespace {
 
-std::vector<Truth> truthsOf(const Scene& scene) {
-    if (scene.light.isArea()) return {Truth::Hard, Truth::Soft};
-    return {Truth::Hard};
-}
-
 report::TruthOfScene truthOf(const Scene& scene, int frame, const groundtruth::Cache& cache, bool quiet) {
-    const std::vector<Truth> truths = truthsOf(scene);
+    const std::vector<Truth> truths = truthsOf(scene.light);
     ProgressLine line(scene.id, static_cast<int>(2 * truths.size()), quiet);
     int done = 0;
     const auto step = [&](const std::string& what) {

@@ -14,12 +14,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view meaning(techniques::Answer answer) {
-    switch (answer) {
+std::string meaning(const techniques::Entry& entry) {
+    using techniques::EnvironmentAnswer;
+    if (entry.environment == EnvironmentAnswer::Only) return "soft shadows, environment lights";
+    const std::string lights = entry.environment == EnvironmentAnswer::Also ? "any light" : "any light but environments";
+    switch (entry.answer) {
     case techniques::Answer::Hard:
-        return "hard shadows, any light";
+        return "hard shadows, " + lights;
     case techniques::Answer::Filtered:
-        return "filtered hard shadows, any light";
+        return "filtered hard shadows, " + lights;
     case techniques::Answer::Soft:
         return "soft shadows, area lights";
     case techniques::Answer::Colour:
@@ -44,7 +47,7 @@ Json techniquesAsJson() {
         all.push_back({{"id", entry.id},
                        {"title", entry.title},
                        {"source", fmt::format("{}, {}", techniques::title(entry.source.document), entry.source.where)},
-                       {"answer", meaning(entry.answer)},
+                       {"answer", meaning(entry)},
                        {"history", entry.temporal},
                        {"parameters", parameters},
                        {"figures", figures},

@@ -1,5 +1,5 @@
-// Scene files: the sections that every scene has. Meshes, objects and expectations are read in
-// read_meshes.cpp, read_objects.cpp and read_expectations.cpp.
+// Scene files: the sections that every scene has. Lights, meshes, objects and expectations are read in read_light.cpp,
+// read_environment.cpp, read_meshes.cpp, read_objects.cpp and read_expectations.cpp.
 #include "scene/load/scene_file.h"
 
 #include "base/error.h"
@@ -8,10 +8,8 @@
 #include "scene/scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <glm/geometric.hpp>
 
 namespace shadowbench {
 namespace fs = std::filesystem;
@@ -56,43 +54,6 @@ void readCamera(const TomlValue& value, Scene& scene) {
         readCameraPath(*path, camera, -scene.timeline.approach, scene.eye, scene.target);
 }
 
-LightKind readKind(const TomlValue& value) {
-    const std::vector<LightKind> kinds{LightKind::Point, LightKind::Directional, LightKind::Rectangle, LightKind::Disk,
-                                       LightKind::Line};
-    std::vector<std::string> names;
-    for (const LightKind kind : kinds) names.emplace_back(name(kind));
-    const std::string word = value.oneOf(names);
-    return kinds[static_cast<std::size_t>(std::find(names.begin(), names.end(), word) - names.begin())];
-}
-
-glm::dvec3 readDirection(const TomlValue& value) {
-    const glm::dvec3 direction = value.vector();
-    if (!(glm::length(direction) > 0)) value.fail("expected a vector other than zero");
-    return glm::normalize(direction);
-}
-
-void readLight(const TomlValue& value, Scene& scene) {
-    Light& light = scene.light;
-    light.kind = readKind(value.only({"kind", "centre", "direction", "u", "v", "path"}).get("kind"));
-    const bool directional = light.kind == LightKind::Directional;
-    const std::string moved = directional ? "direction" : "centre";
-    std::vector<std::string> known{"kind", moved, "path"};
-    if (light.isArea()) known.emplace_back("u");
-    if (light.isArea() && light.kind != LightKind::Line) known.emplace_back("v");
-    value.only(known);
-
-    if (directional)
-        light.direction = readDirection(value.get("direction"));
-    else
-        light.centre = value.get("centre").vector();
-    if (light.isArea()) light.u = value.get("u").vector();
-    if (light.isArea() && light.kind != LightKind::Line) light.v = value.get("v").vector();
-    if (const auto path = value.find("path")) {
-        for (const TomlValue& key : path->list()) key.only({"frame", moved});
-        (directional ? scene.lightDirection : scene.lightCentre) = readTrack(*path, moved);
-    }
-}
-
 glm::ivec2 readSize(const TomlValue& value) {
     if (!value.isList()) return glm::ivec2(value.integer(1, kMostPixels));
     const std::vector<TomlValue> sides = value.list();
@@ -117,6 +78,17 @@ void readTimeline(const TomlValue& value, Timeline& timeline) {
     if (const auto still = value.find("still")) timeline.still = still->integer(1, kMostFrames);
     if (const auto moving = value.find("moving")) timeline.moving = moving->integer(0, kMostFrames);
     if (const auto approach = value.find("approach")) timeline.approach = approach->integer(0, kMostFrames);
+}
+
+/// A light that is all around takes more samples than one in one place.
+void readSamples(const TomlValue& root, Scene& scene) {
+    if (scene.light.isEnvironment()) {
+        scene.referenceSamples = 4096;
+        scene.movingReferenceSamples = 1024;
+    }
+    if (const auto samples = root.find("reference_samples")) scene.referenceSamples = samples->integer(1, kMostSamples);
+    if (const auto samples = root.find("moving_reference_samples"))
+        scene.movingReferenceSamples = samples->integer(1, kMostSamples);
 }
 
 void readObjects(const TomlValue& root, Scene& scene, const fs::path& file) {
@@ -193,12 +165,10 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile, c
         root.get("profile").fail(fmt::format("the scene does not belong to profile {}", name(profile)));
     const auto size = root.find("size");
     scene.size = size ? readSize(*size) : usualSize(profile);
-    if (const auto samples = root.find("reference_samples")) scene.referenceSamples = samples->integer(1, kMostSamples);
-    if (const auto samples = root.find("moving_reference_samples"))
-        scene.movingReferenceSamples = samples->integer(1, kMostSamples);
     if (const auto timeline = root.find("timeline")) readTimeline(*timeline, scene.timeline);
     readCamera(root.get("camera"), scene);
-    readLight(root.get("light"), scene);
+    readLight(root.get("light"), file.parent_path(), scene);
+    readSamples(root, scene);
     if (const auto tolerance = root.find("tolerance")) scene.tolerance = readTolerances(*tolerance, metrics);
     if (const auto expect = root.find("expect")) readExpectations(*expect, metrics, scene);
     readObjects(root, scene, file);

@@ -3,6 +3,7 @@
 
 #include "base/toml_value.h"
 #include "scene/scene.h"
+#include "scene/sky.h"
 
 #include <filesystem>
 #include <map>
@@ -30,6 +31,12 @@ private:
     std::filesystem::path folder_; // that mesh files are relative to
     std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
 };
+
+/// `[light]`; `folder` is what image files are relative to.
+void readLight(const TomlValue& value, const std::filesystem::path& folder, Scene& scene);
+
+/// The `sky` and the `suns` of a `[light]` that is an environment.
+EnvironmentLight readEnvironment(const TomlValue& light, const std::filesystem::path& folder);
 
 /// One `[[object]]`; `eye` is where scattered instances keep clear of. `number` counts from 1.
 Object readObject(const TomlValue& value, int number, const glm::dvec3& eye, MeshStore& meshes);

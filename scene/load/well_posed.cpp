@@ -57,6 +57,7 @@ Polygon shapeOf(const Light& light) {
         return rim;
     }
     case LightKind::Directional:
+    case LightKind::Environment:
         break;
     }
     return {};

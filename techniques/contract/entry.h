@@ -29,8 +29,16 @@ struct Source {
 enum class Answer {
     Hard,     // lit or not, from the light's centre
     Filtered, // a hard shadow with smoothed edges
-    Soft,     // the visible fraction of an area light; needs one
+    Soft,     // the visible fraction of an area light, or of an environment; needs one
     Colour,   // a picture of a scene with levels of detail (techniques/contract/lod_technique.h)
+};
+
+/// Whether a technique has an answer for an environment light (scene/sky.h): then it is the share of the sky's irradiance
+/// that arrives, and its truth is that of a soft technique, whatever kind of answer it gives for other lights.
+enum class EnvironmentAnswer {
+    None,
+    Also, // beside other lights
+    Only, // for no other light
 };
 
 /// A number that a technique reports of each frame (`Technique::figures`).
@@ -46,6 +54,7 @@ struct Entry {
     Source source;
     Answer answer = Answer::Hard;
     bool temporal = false; // keeps history: its frames must be rendered in order
+    EnvironmentAnswer environment = EnvironmentAnswer::None;
     /// Why the technique does not apply to a scene; nothing if it does. Empty: it applies to every scene whose light it has
     /// an answer for.
     std::function<std::optional<std::string>(const Scene&)> notApplicable = {};

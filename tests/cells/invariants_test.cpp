@@ -1,6 +1,7 @@
 // What holds for every shadow technique on every scene.
 #include "scene/load/load.h"
 #include "scene/meshes/primitives.h"
+#include "scene/sky.h"
 #include "tests/support/cell_stage.h"
 #include "tests/support/test_names.h"
 
@@ -41,6 +42,15 @@ std::vector<std::string> shadowVariants() {
     return names;
 }
 
+/// Those that have an answer for lights other than environments.
+std::vector<std::string> variantsForAreaLights() {
+    std::vector<std::string> names = shadowVariants();
+    std::erase_if(names, [](const std::string& name) {
+        return techniques::parseVariant(name).entry->environment == techniques::EnvironmentAnswer::Only;
+    });
+    return names;
+}
+
 /// Every cell that applies; a test below says which do not.
 std::vector<Case> everyCell() {
     std::vector<Case> cases;
@@ -54,10 +64,26 @@ std::vector<Case> everyCell() {
 
 /// What a technique needs that a standard scene lacks; empty if the cell applies.
 std::string need(const Scene& scene, const techniques::Entry& entry) {
+    if (entry.environment == techniques::EnvironmentAnswer::Only) return "needs an environment light";
     if (entry.answer == techniques::Answer::Soft && !scene.light.isArea()) return "needs an area light";
     const bool isOmnidirectional = entry.id == "sm-cube" || entry.id == "sm-dual-paraboloid";
     if (isOmnidirectional && scene.light.kind == LightKind::Directional) return "needs a light with a position";
     return "";
+}
+
+TEST(Cells, UnderASkyOnlyThoseApplyThatSayTheyAnswerForOne) {
+    Scene scene = smallScene("simple");
+    scene.light = environmentLight({});
+    for (const std::string& name : shadowVariants()) {
+        const techniques::Variant variant = techniques::parseVariant(name);
+        const std::optional<std::string> reason = notApplicable(scene, variant);
+        if (variant.entry->environment == techniques::EnvironmentAnswer::None) {
+            ASSERT_TRUE(reason.has_value()) << name;
+            EXPECT_NE(reason->find("the light of simple is an environment"), std::string::npos) << name << ": " << *reason;
+        } else if (variant.entry->id == "none") {
+            EXPECT_FALSE(reason.has_value()) << *reason;
+        }
+    }
 }
 
 TEST(Cells, DoNotApplyWhereTheSceneLacksWhatTheTechniqueNeedsAndNowhereElse) {
@@ -139,7 +165,7 @@ TEST_P(EveryVariant, LeavesAFullyLitSceneLit) {
     EXPECT_GT(top, 2000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(shadowVariants()), nameOfText);
+INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(variantsForAreaLights()), nameOfText);
 
 } // namespace
 } // namespace shadowbench

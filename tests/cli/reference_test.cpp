@@ -20,6 +20,7 @@ protected:
     std::string area_ = folder_.write(
         "area.toml",
         tinyScene("{ kind = \"rectangle\", centre = [1.7, 6.1, -2.3], u = [1.1, 0, 0.2], v = [-0.2, 0, 1.1] }"));
+    std::string sky_ = folder_.write("sky.toml", tinyScene("{ kind = \"environment\", sky = { constant = 1 } }"));
 };
 
 TEST_F(Reference, WritesVisibilityAndProvenance) {
@@ -48,6 +49,30 @@ TEST_F(Reference, CertifyMeasuresPovRayAgainstTheExactFraction) {
     EXPECT_EQ(json["certificate_wrong"], 0);
     EXPECT_LT(json["certificate_rms"], 0.01); // a net of 256 points errs by some 1/256
     EXPECT_LT(json["certificate_rms"], json["certificate_rms_quarter"]);
+}
+
+TEST_F(Reference, OfASkyIsRenderedAndCertified) {
+    const Outcome outcome = reference("--samples 256 --scene " + sky_);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const auto json = nlohmann::json::parse(provenance());
+    EXPECT_EQ(json["oracle"], "povray");
+    EXPECT_TRUE(json["tools"].contains("povray sky"));
+    EXPECT_FALSE(json["tools"].contains("area"));
+    EXPECT_GE(json["measured"]["certificate_directions"], 16384);
+
+    const Outcome certified = shell("shadowbench reference --quiet --certify --points 64 --samples 256 --scene " + sky_);
+    EXPECT_EQ(certified.code, 0) << certified.output;
+    EXPECT_NE(certified.output.find("256 directions of the sky against 16384 exact ones"), std::string::npos)
+        << certified.output;
+}
+
+TEST_F(Reference, OfASkyHasNoHardShadowAndNoPolygons) {
+    for (const std::string options : {"--oracle rays", "--oracle area", "--samples 256 --polygons"}) {
+        const Outcome outcome = reference(options + " --scene " + sky_);
+        EXPECT_EQ(outcome.code, 2) << options;
+        EXPECT_NE(outcome.output.find("an environment"), std::string::npos) << outcome.output;
+    }
+    EXPECT_EQ(shell("shadowbench reference --quiet --verify --truth hard --scene " + sky_).code, 2);
 }
 
 TEST_F(Reference, PolygonsAreWrittenOnRequest) {

@@ -1,10 +1,12 @@
 #include "base/error.h"
 #include "groundtruth/oracle.h"
+#include "scene/sky.h"
 #include "tests/support/povray_scene.h"
 
 #include <cstdlib>
 #include <functional>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace shadowbench::groundtruth {
 namespace {
@@ -59,6 +61,37 @@ TEST(ReferenceKey, ChangesWithEverythingThatMattersToTheTruth) {
     };
     for (const auto& [what, change] : changes) EXPECT_NE(keyAfter(soft(), change), key(soft(), tools)) << what;
     EXPECT_NE(key(hard(), tools), key(soft(), tools));
+}
+
+Request underSky(EnvironmentLight environment) {
+    Request request = soft();
+    request.snapshot.light = environmentLight(std::move(environment));
+    return request;
+}
+
+TEST(ReferenceKey, OfAnEnvironmentChangesWithAllThatLights) {
+    ImageSky image{Image<float>(8, 4, 1)};
+    const EnvironmentLight plain{image, {Sun{{0, 1, 0}, 5, 10}}};
+    const std::string before = key(underSky(plain), tools);
+    EXPECT_EQ(key(underSky(plain), tools), before); // of another copy of the same image
+
+    image.radiance(3, 2) = 1.0001F;
+    const std::vector<EnvironmentLight> others{{image, plain.suns},
+                                               {ConstantSky{1}, plain.suns},
+                                               {ConstantSky{2}, plain.suns},
+                                               {HarmonicSky{{1}}, plain.suns},
+                                               {HarmonicSky{{1, 0, 0, 0}}, plain.suns},
+                                               {plain.sky, {}},
+                                               {plain.sky, {Sun{{1, 0, 0}, 5, 10}}},
+                                               {plain.sky, {Sun{{0, 1, 0}, 6, 10}}},
+                                               {plain.sky, {Sun{{0, 1, 0}, 5, 11}}},
+                                               {plain.sky, {plain.suns[0], plain.suns[0]}}};
+    std::set<std::string> keys{before, key(soft(), tools)};
+    for (const EnvironmentLight& other : others) keys.insert(key(underSky(other), tools));
+    EXPECT_EQ(keys.size(), others.size() + 2);
+    Request finer = underSky(plain);
+    finer.samples = 4096;
+    EXPECT_NE(key(finer, tools), before);
 }
 
 TEST(ReferenceKey, ChangesWithEveryToolVersion) {

@@ -102,7 +102,8 @@ const std::vector<Mistake>& mistakes() {
                     "[0, 2, 6] }, { frame = 4, eye = [1, 0, 9] }]"),
          "scenes/x.toml:2: camera.path[2]: give shift (of eye and target) in every key or in none"},
         {"UnknownLightKind", withLight("kind = \"dsik\", centre = [0, 5, 0]"),
-         "scenes/x.toml:3: light.kind: expected one of point, directional, rectangle, disk, line, got \"dsik\" (did "
+         "scenes/x.toml:3: light.kind: expected one of point, directional, rectangle, disk, line, environment, got \"dsik\" "
+         "(did "
          "you mean \"disk\"?)"},
         {"KeyOfAnotherLightKind", withLight("kind = \"point\", centre = [0, 5, 0], u = [1, 0, 0]"),
          "scenes/x.toml:3: light.u: unknown key"},

@@ -46,8 +46,10 @@ std::optional<Hit> nearest(const SceneTriangles& scene, const Camera& camera, co
     return best;
 }
 
-/// Homogeneous points that all must lie strictly on the eye's side for a surface to be a receiver.
+/// Homogeneous points that all must lie strictly on the eye's side for a surface to be a receiver. None of an environment,
+/// which is on all sides.
 std::vector<glm::dvec4> lightCorners(const Light& light) {
+    if (light.isEnvironment()) return {};
     if (!light.isArea()) return {light.homogeneous()};
     if (light.kind == LightKind::Line)
         return {glm::dvec4(light.centre - 0.5 * light.u, 1), glm::dvec4(light.centre + 0.5 * light.u, 1)};

@@ -31,8 +31,9 @@ void prepare(const PrimaryHits& primary, Reference& out) {
 }
 
 void requireHardLight(const Light& light) {
-    if (light.isArea())
-        throw InternalError("Hard shadow labels were asked for an area light; use Light::centreOnly for its centre.");
+    if (light.isArea() || light.isEnvironment())
+        throw InternalError("Hard shadow labels were asked for a light that is no point and no direction; use "
+                            "Light::centreOnly for an area light's centre.");
 }
 
 void requireSize(const PrimaryHits& primary, glm::ivec2 size) {

@@ -41,7 +41,7 @@ public:
 
     /// What every pixel centre sees: the nearest triangle whose distance along the camera's forward axis lies in [near,
     /// far]. Ties go to the lower surface id, then to the lower triangle index. An area light is faced if the corners of its
-    /// rectangle are (for a disk: of the square around it; for a line: its ends).
+    /// rectangle are (for a disk: of the square around it; for a line: its ends); an environment always is.
     [[nodiscard]] PrimaryHits primaryHits(glm::ivec2 size, const Progress& progress = {}) const;
 
     /// Exact labels at the receivers of `primary` by shadow rays: 1 lit, 0 shadowed (0 where there is no receiver);

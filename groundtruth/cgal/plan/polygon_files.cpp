@@ -113,6 +113,8 @@ std::string svg(const PolygonPicture& picture) {
 
 std::vector<std::filesystem::path> writeShadowPolygons(const Snapshot& snapshot, const PrimaryHits& primary,
                                                        const std::filesystem::path& folder) {
+    if (snapshot.light.isEnvironment())
+        throw BadInput("shadow polygons need a light in one place or direction, and this one is an environment, all around");
     Snapshot hard = snapshot;
     hard.light = snapshot.light.centreOnly();
     const std::vector<hard::PlanarReceiver> receivers = hard::planarReceivers(hard, primary);

@@ -188,6 +188,11 @@ private:
 } // namespace
 
 CasterRecommendation recommendCasters(const Scene& scene, const CasterOptions& options, const Progress& progress) {
+    if (scene.light.isEnvironment())
+        throw BadInput(
+            fmt::format("levels for shadow casters are chosen by the shadow of one light, and that of scene {} is an "
+                        "environment; choose another scene or question",
+                        scene.id));
     return Recommender(scene, options, progress).recommend();
 }
 

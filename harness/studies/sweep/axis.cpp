@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "harness/studies/sweep/tessellate.h"
+#include "scene/sky.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 namespace shadowbench {
 namespace {
@@ -37,6 +39,9 @@ glm::dvec3 directionOf(const Bearing& bearing) {
 
 /// From what the camera looks at to the light.
 glm::dvec3 towardsLight(const Scene& scene) {
+    if (scene.light.isEnvironment())
+        throw BadInput(
+            fmt::format("the light of scene {} is an environment, all around; choose another axis or scene", scene.id));
     if (scene.light.kind == LightKind::Directional) return -scene.light.direction;
     return scene.light.centre - scene.camera.target;
 }
@@ -79,11 +84,26 @@ void setNearPlane(Scene& scene, double metres) {
 
 void setLightSize(Scene& scene, double factor) {
     if (!scene.light.isArea())
-        throw BadInput(fmt::format("the light of scene {} is a {} light and has no size; choose a scene with an area light",
+        throw BadInput(fmt::format("the light of scene {} has no size, its kind is {}; choose a scene with an area light",
                                    scene.id, name(scene.light.kind)));
     if (!(factor > 0)) throw BadInput(fmt::format("a light of {:g} times its size has none; give factors above 0", factor));
     scene.light.u *= factor;
     scene.light.v *= factor;
+}
+
+/// What a sun brings stays the same.
+void setSunSize(Scene& scene, double degrees) {
+    if (!scene.light.isEnvironment() || scene.light.environment->suns.empty())
+        throw BadInput(fmt::format("the light of scene {} has no sun; choose a scene with one", scene.id));
+    if (!(degrees > 0) || degrees > 180)
+        throw BadInput(fmt::format("a sun's diameter is more than 0° and at most 180°, not {:g}°", degrees));
+    EnvironmentLight light = *scene.light.environment;
+    for (Sun& sun : light.suns) {
+        const double power = sun.radiance * sun.solidAngle();
+        sun.diameter = degrees;
+        sun.radiance = power / sun.solidAngle();
+    }
+    scene.light = environmentLight(std::move(light));
 }
 
 /// The first object is the ground.
@@ -148,6 +168,13 @@ const std::array allAxes{
          true,
          false,
          setLightSize},
+    Axis{"sun-size",
+         "°",
+         "angular diameter of the suns of an environment light, which bring the same whatever it is",
+         {40, 20, 5},
+         true,
+         false,
+         setSunSize},
     Axis{"casters",
          "",
          "number of casters, in the order of the scene file",

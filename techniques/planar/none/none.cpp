@@ -19,6 +19,7 @@ Entry none() {
             .title = "No shadow",
             .source = {Document::Zapotocky, "5.2"},
             .answer = Answer::Hard,
+            .environment = EnvironmentAnswer::Also,
             .parameters = {},
             .variants = {""},
             .make = [](const Parameters&) { return std::make_unique<None>(); }};

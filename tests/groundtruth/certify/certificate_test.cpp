@@ -50,7 +50,7 @@ povray::Render honest() {
 }
 
 Certificate certified(const povray::Render& image, int points = certificatePointCount) {
-    return certify(image, ground(), samples, points, exactRamp);
+    return certify(image, ground(), samples, points, 1, exactRamp);
 }
 
 void expectRejected(const povray::Render& image, const std::string& reason) {
@@ -125,7 +125,7 @@ TEST(Certificate, HoldsTheMiddleOfABracketForTheFraction) {
     const ExactFraction wide = [](glm::ivec2 p) {
         return VisibleFraction{std::max(0.0, ramp(p.x) - 5e-5), std::min(1.0, ramp(p.x) + 5e-5)};
     };
-    const Certificate c = certify(honest(), ground(), samples, 512, wide);
+    const Certificate c = certify(honest(), ground(), samples, 512, 1, wide);
     EXPECT_NEAR(c.bracket, 5e-5, 1e-9);
     EXPECT_EQ(c.penumbra, certified(honest()).penumbra); // the umbra's middle is not 0, but 0 lies in its bracket
     EXPECT_NEAR(c.rms, 2 * one, 1e-6);
@@ -133,7 +133,7 @@ TEST(Certificate, HoldsTheMiddleOfABracketForTheFraction) {
 
 TEST(Certificate, LeavesOutPointsThatSeeTheLightEdgeOn) {
     const ExactFraction none = [](glm::ivec2) { return VisibleFraction{0, 1}; };
-    const Certificate c = certify(honest(), ground(), samples, 512, none);
+    const Certificate c = certify(honest(), ground(), samples, 512, 1, none);
     EXPECT_EQ(c.points, 0);
     requireCertified(c, samples);
 }
@@ -175,7 +175,7 @@ TEST(Certificate, DoesNotJudgeByAFewPenumbraPixels) {
     };
     for (float& value : image.visible) value = 1;
     image.visible(64, 64) = 922.0F / samples; // an error of 0.70
-    const Certificate c = certify(image, ground(), samples, side * side, almostLit);
+    const Certificate c = certify(image, ground(), samples, side * side, 1, almostLit);
     EXPECT_EQ(c.penumbra, 1);
     EXPECT_NEAR(c.rms, 922.0 / samples - 0.2, 1e-6); // told …
     requireCertified(c, samples);                    // … and no reason to refuse the reference

@@ -6,6 +6,7 @@
 #include "harness/studies/sweep/tessellate.h"
 #include "scene/load/load.h"
 #include "scene/meshes/primitives.h"
+#include "scene/sky.h"
 #include "tests/support/records_examples.h"
 
 #include <cmath>
@@ -81,6 +82,30 @@ TEST(Axes, ALightSizeScalesBothSidesOfTheScenesLightAboutItsCentre) {
     EXPECT_EQ(scene.light.u, 0.5 * before.u);
     EXPECT_EQ(scene.light.v, 0.5 * before.v);
     EXPECT_THROW(axisNamed("light-size").move(scene, 0), BadInput);
+}
+
+TEST(Axes, ASunBringsTheSameWhateverItsSize) {
+    Scene scene = loadScene("sun-in-sky", Profile::Gate);
+    const EnvironmentLight before = *scene.light.environment;
+    axisNamed("sun-size").move(scene, 40);
+    const EnvironmentLight& now = *scene.light.environment;
+    EXPECT_EQ(now.sky, before.sky);
+    EXPECT_EQ(now.suns[0].diameter, 40);
+    EXPECT_EQ(now.suns[0].direction, before.suns[0].direction);
+    EXPECT_NEAR(now.suns[0].radiance * now.suns[0].solidAngle(), before.suns[0].radiance * before.suns[0].solidAngle(),
+                1e-9);
+    EXPECT_EQ(before.suns[0].diameter, axisNamed("sun-size").values.back()); // the scene's own is the hardest
+    for (const double degrees : {0.0, 181.0}) EXPECT_THROW(axisNamed("sun-size").move(scene, degrees), BadInput);
+}
+
+TEST(Axes, OfALocalLightDoNotMoveAnEnvironment) {
+    Scene scene = loadScene("sun-in-sky", Profile::Gate);
+    for (const char* axis : {"light-size", "light-elevation", "light-view-angle"})
+        EXPECT_THROW(axisNamed(axis).move(scene, 30), BadInput) << axis;
+    for (const char* id : {"constant-sky", "basic"}) {
+        Scene without = loadScene(id, Profile::Gate);
+        EXPECT_THROW(axisNamed("sun-size").move(without, 20), BadInput) << id;
+    }
 }
 
 TEST(Axes, CastersAreCountedWithoutTheGround) {
