@@ -66,6 +66,8 @@ std::vector<Case> everyCell() {
 std::string need(const Scene& scene, const techniques::Entry& entry) {
     if (entry.environment == techniques::EnvironmentAnswer::Only) return "needs an environment light";
     if (entry.answer == techniques::Answer::Soft && !scene.light.isArea()) return "needs an area light";
+    if (entry.id == "linear-visibility" && scene.light.kind != LightKind::Line)
+        return "interpolates between the ends of a linear light";
     const bool isOmnidirectional = entry.id == "sm-cube" || entry.id == "sm-dual-paraboloid";
     if (isOmnidirectional && scene.light.kind == LightKind::Directional) return "needs a light with a position";
     return "";
