@@ -96,7 +96,7 @@ inline Scene fallingPlateScene(int side = 96) {
 
 /// The slab and light of halfPlaneScene() beside a box, whose front side, at z = −0.3, the light sees at a slant: in a map,
 /// depth falls off steeply there.
-inline Scene wallScene(int side = 96) {
+inline Scene steepSideScene(int side = 96) {
     Scene scene = halfPlaneScene(side);
     scene.objects[1] = object(box({1.5, 2, 1}), {0.1, 1, -0.8});
     return scene;

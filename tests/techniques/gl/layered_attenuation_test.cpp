@@ -38,7 +38,7 @@ TEST(LayeredAttenuation, IsNearTheMapsThatItIsMadeFrom) {
     }
 }
 
-/// Of the front side of the box of wallScene().
+/// Of the front side of the box of steepSideScene().
 double meanOnWall(Stage& stage, const std::string& variant) {
     const Image<float> v = rendered(stage, variant);
     const metrics::Drawn drawn = stage.drawn();
@@ -54,7 +54,7 @@ double meanOnWall(Stage& stage, const std::string& variant) {
 }
 
 TEST(LayeredAttenuation, ASteepReceiverTakesAllLayersOfItsTexels) {
-    const Scene scene = wallScene();
+    const Scene scene = steepSideScene();
     Stage stage(scene);
     stage.show(0);
     // Maps of as many texels; a few of them miss what they see at a slant.

@@ -92,7 +92,7 @@ TEST(LinearVisibility, ASkinHasAQuadForEachTexelOfAnOutline) {
 }
 
 TEST(LinearVisibility, ASteepSideIsNoDiscontinuity) {
-    const Scene scene = underALine(wallScene());
+    const Scene scene = underALine(steepSideScene());
     Stage stage(scene);
     stage.show(0);
     const Image<float> v = rendered(stage, twoMaps);
