@@ -153,6 +153,8 @@ TEST_P(EveryVariant, LeavesAFullyLitSceneLit) {
     ground.levels.push_back({std::make_shared<const Mesh>(box({8, 0.2, 8}))});
     ground.instances.push_back({});
     scene.objects.push_back(ground);
+    if (notApplicable(scene, techniques::parseVariant(GetParam()))) // one for linear lights
+        scene.light = {LightKind::Line, {0.7, 5.3, 0.4}, {0, -1, 0}, {1, 0, 0.1}, {0, 0, 0}};
     std::size_t top = 0;
     Stage stage(scene);
     const auto images = shortRun(stage, GetParam());

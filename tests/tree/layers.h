@@ -31,13 +31,14 @@ struct Include {
 };
 
 /// Whose a header is by how its path begins. `<thread>` needs no line: every module reaches base, which links threads.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 10> packageOfHeader{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 11> packageOfHeader{
     {{"CGAL/", "cgal"},
      {"CLI/", "cli11"},
      {"GL/", "osmesa"},
      {"OpenImageIO/", "oiio"},
      {"assimp/", "assimp"},
      {"boost/", "boost"},
+     {"embree3/", "embree"},
      {"meshoptimizer.h", "meshoptimizer"},
      {"nlohmann/", "json"},
      {"toml++/", "toml"},

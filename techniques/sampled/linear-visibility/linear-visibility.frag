@@ -35,7 +35,9 @@ float seenFrom(int end, sampler2D depths, sampler2D visibilities, vec3 world, ve
     vec2 at = h.xy / h.w;
     float inverse = planeInverse(worldFromTexels[end], world, normal, at, float(textureSize(depths, 0).x));
     inverse = clamp(inverse, 0.5 / h.w, 2.0 / h.w);  // seen edge-on
-    if (inverse < 1.0 / abs(texture(depths, at).r) - 0.5 * leastGap) return 0.0;
+    float seen = 1.0 / abs(texture(depths, at).r);
+    if (inverse < seen - 0.5 * leastGap) return 0.0;
+    if (inverse > seen + leastGap) return completelyLit;  // a rim: the skins of this texel lie on what is behind it
     float share = skinAt(visibilities, at);
     return share > 1.0 ? completelyLit : share;
 }

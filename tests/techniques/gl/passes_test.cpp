@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "harness/measure/pass_cost.h"
 #include "harness/measure/raster_clock.h"
+#include "scene/sky.h"
 #include "techniques/gl/api.h"
 #include "tests/support/lod_scenes.h"
 #include "tests/support/stages.h"
@@ -24,6 +25,13 @@ using timing::measurePasses;
 Scene lampScene() {
     Scene scene = boxScene(64);
     scene.light = {LightKind::Rectangle, {1.7, 6.1, -2.3}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+    return scene;
+}
+
+/// The same under a sky.
+Scene skyScene() {
+    Scene scene = boxScene(64);
+    scene.light = environmentLight({ConstantSky{1}, {{{0, 1, 0}, 20, 1}}});
     return scene;
 }
 
@@ -66,7 +74,8 @@ void expectSum(const FramePasses& passes, const gl::WorkCount& whole) {
 class EveryTechnique : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryTechnique, HasPassesThatAddUpToItsFrame) {
-    const Scene scene = lampScene();
+    const bool needsSky = techniques::parseVariant(GetParam()).entry->environment == techniques::EnvironmentAnswer::Only;
+    const Scene scene = needsSky ? skyScene() : lampScene();
     Stage stage(scene);
     stage.show(0);
     const auto technique = made(GetParam());
@@ -126,6 +135,14 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"temporal-soft", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}},
         {"temporal-sampling", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}}};
     for (const auto& [variant, names] : expected) EXPECT_EQ(namesOf(passesOf(stage, variant)), names) << variant;
+}
+
+TEST(Passes, UnderASkyHaveTheNamesOfTheField) {
+    const Scene scene = skyScene();
+    Stage stage(scene);
+    stage.show(0);
+    for (const std::string variant : {"prt-sh", "prt-sh:compression=clustered", "prt-haar"})
+        EXPECT_EQ(namesOf(passesOf(stage, variant)), (std::vector<std::string>{"G-buffer", "dot products", "lookup"}));
 }
 
 TEST(Passes, CountWhatTheyDraw) {
