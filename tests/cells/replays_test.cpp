@@ -21,6 +21,10 @@ namespace {
 using groundtruth::Reference;
 using groundtruth::Surface;
 
+std::size_t pixelIndex(glm::ivec2 size, int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
+}
+
 struct HistoryMethod {
     bool warped = true;  // over LiSPSM, else over a map that is fitted to the scene
     bool rotated = true; // the map is turned from frame to frame, not only translated
@@ -57,9 +61,7 @@ public:
 
     /// The next one to be shown.
     [[nodiscard]] int frame() const { return frame_; }
-    [[nodiscard]] double visibility(int x, int y) const {
-        return pixels_[static_cast<std::size_t>(y * scene_.size.x + x)].shown;
-    }
+    [[nodiscard]] double visibility(int x, int y) const { return pixels_[pixelIndex(scene_.size, x, y)].shown; }
 
 private:
     static constexpr int side = 1024;
@@ -87,10 +89,12 @@ private:
         old_.clear();
         for (const Pixel& pixel : pixels_) old_.push_back({pixel.shown, pixel.depth});
         const groundtruth::PrimaryHits hits = groundtruth::hard::primaryHits(frame, scene_.size);
-        pixels_.assign(old_.empty() ? static_cast<std::size_t>(scene_.size.x * scene_.size.y) : old_.size(), {});
+        pixels_.assign(old_.empty() ? static_cast<std::size_t>(scene_.size.x) * static_cast<std::size_t>(scene_.size.y)
+                                    : old_.size(),
+                       {});
         for (int y = 0; y < scene_.size.y; ++y)
             for (int x = 0; x < scene_.size.x; ++x) {
-                Pixel& pixel = pixels_[static_cast<std::size_t>(y * scene_.size.x + x)];
+                Pixel& pixel = pixels_[pixelIndex(scene_.size, x, y)];
                 pixel.seen = hits.surface(x, y) != Surface::Background;
                 if (!pixel.seen) continue;
                 pixel.position = glm::dvec3(hits.position(x, y));
@@ -110,7 +114,7 @@ private:
                 const int x = std::clamp(static_cast<int>(low.x) + dx, 0, scene_.size.x - 1);
                 const int y = std::clamp(static_cast<int>(low.y) + dy, 0, scene_.size.y - 1);
                 const double weight = (dx == 1 ? part.x : 1 - part.x) * (dy == 1 ? part.y : 1 - part.y);
-                const Old& old = old_[static_cast<std::size_t>(y * scene_.size.x + x)];
+                const Old& old = old_[pixelIndex(scene_.size, x, y)];
                 shown += weight * old.shown;
                 depth += weight * old.depth;
             }
@@ -303,7 +307,7 @@ private:
         const Pixel& pixel = pixels_[p];
         const double radius = 0.5 * lightSize * perMetre / pixel.depth * (r.depth - pixel.blocker) / pixel.blocker;
         const auto row = static_cast<std::size_t>(wide_.x);
-        const glm::dvec2 centre(static_cast<double>(p % row), static_cast<double>(p / row));
+        const glm::dvec2 centre(static_cast<double>(p % row), std::floor(static_cast<double>(p) / static_cast<double>(row)));
         double sum = own, taken = 1;
         for (const glm::vec2& tap : points) {
             // Row 0 is the top here and the bottom there.
@@ -435,7 +439,7 @@ TEST(PictureReplays, HardAndFilteredShadowsAreAsCorrectAsTheRecordSays) {
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
             const bool scored = soft.surface(x, y) == Surface::Receiver;
-            const glm::dvec3 normal = normals[static_cast<std::size_t>(y * size.x + x)];
+            const glm::dvec3 normal = normals[pixelIndex(size, x, y)];
             const long truth = grey(soft.visibility(x, y));
             const double filtered =
                 scored ? percentageCloser(map, view, glm::dvec3(soft.position(x, y)), normal, 7) : soft.visibility(x, y);

@@ -146,16 +146,16 @@ private:
         const double perTexel = 2.0 / side_; // NDC; window depth is half of NDC's
         t.bias = 0.5 * perTexel * std::max(std::abs(t.depth.x), std::abs(t.depth.y)) + 64.0 / (1 << 24);
         for (int y = cellOf(t.low.y); y <= cellOf(t.high.y); ++y)
-            for (int x = cellOf(t.low.x); x <= cellOf(t.high.x); ++x)
-                cells_[static_cast<std::size_t>(y * across + x)].push_back(mapped_.size());
+            for (int x = cellOf(t.low.x); x <= cellOf(t.high.x); ++x) cells_[cellIndex(x, y)].push_back(mapped_.size());
         mapped_.push_back(t);
     }
 
+    static std::size_t cellIndex(int x, int y) { return static_cast<std::size_t>(y) * across + static_cast<std::size_t>(x); }
     static int cellOf(double ndc) { return static_cast<int>(std::clamp((0.5 * ndc + 0.5) * across, 0.0, across - 1.0)); }
 
     /// The triangles whose boxes meet the cell of a grid that a point lies in.
     [[nodiscard]] const std::vector<std::size_t>& cellAt(glm::dvec2 ndc) const {
-        return cells_[static_cast<std::size_t>(cellOf(ndc.y) * across + cellOf(ndc.x))];
+        return cells_[cellIndex(cellOf(ndc.x), cellOf(ndc.y))];
     }
 
     static constexpr int across = 32; // cells of the grid

@@ -15,7 +15,6 @@
 #include "techniques/environment/prt-sh/harmonic_transfer.h"
 #include "techniques/environment/static_scene.h"
 
-#include <chrono>
 #include <numeric>
 #include <optional>
 
@@ -46,17 +45,15 @@ public:
                 {"spacing", shading_.points().spacing},
                 {"transfer_bytes", static_cast<double>(unshadowed + shadowed)},
                 {"compression_error", compressed_ ? compressed_->rmsError : 0},
-                {"precomputation_seconds", seconds_}};
+                {"rays", static_cast<double>(shading_.points().points.size() * directions_.size())}};
     }
 
 private:
     void precompute(const Frame& frame) {
         const auto pass = frame.pass("precomputation");
-        const auto start = std::chrono::steady_clock::now();
         shading_.begin(frame.snapshot, budget_);
         const std::vector<float> vectors = harmonicTransfer(shading_.points(), frame.snapshot, directions_, coefficients_);
         uploadTransfer(vectors);
-        seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         light_.forget();
     }
 
@@ -116,7 +113,6 @@ private:
     gl::Buffer transfer_, unshadowed_, lightCoefficients_;
     gl::Buffer clusterNumbers_, weights_, responses_;
     gl::Program weightedSum_ = gl::Program::compute("environment/prt-sh/weighted_sum.comp");
-    double seconds_ = 0;
 };
 
 } // namespace
@@ -145,7 +141,7 @@ Entry prtSh() {
                     {"spacing", "of the points, metres at most"},
                     {"transfer_bytes", "of transfer that is kept, with the unshadowed one of each triangle"},
                     {"compression_error", "root mean square of what compression changes of a coefficient"},
-                    {"precomputation_seconds", "wall time, in no frame's cost"}},
+                    {"rays", "of the precomputation, which is in no frame's cost"}},
         .variants = {"", "compression=clustered"},
         .make = [](const Parameters& p) { return std::make_unique<PrtSh>(p); }};
 }
