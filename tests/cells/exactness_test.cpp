@@ -102,8 +102,10 @@ void PrintTo(const Case& cell, std::ostream* out) { *out << cell.variant << " on
 std::vector<Case> everyExactCell() {
     std::vector<Case> cases;
     for (const std::string& id : builtinScenes()) {
+        const Scene scene = loadScene(id, Profile::Gate);
+        if (scene.light.isEnvironment()) continue; // no hard shadows there
         cases.push_back({id, "sm-alias-free"});
-        if (isClosed(loadScene(id, Profile::Gate))) cases.push_back({id, "volume-zfail"});
+        if (isClosed(scene)) cases.push_back({id, "volume-zfail"});
     }
     return cases;
 }
