@@ -10,7 +10,6 @@
 #include "tests/support/models/temporal_soft.h"
 
 #include <algorithm>
-#include <array>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
@@ -35,7 +34,7 @@ struct HistoryMethod {
 class HistoryReplay {
 public:
     HistoryReplay(const Scene& scene, HistoryMethod method)
-        : scene_(scene), method_(method), triangles_(test::worldTriangles(snapshot(scene, 0))) {}
+        : scene_(scene), method_(method), triangles_(worldTriangles(snapshot(scene, 0))) {}
 
     /// Shows the next frame of the timeline, from −approach on.
     void next() {
@@ -131,7 +130,7 @@ private:
 
     const Scene& scene_;
     HistoryMethod method_;
-    std::vector<std::array<glm::dvec3, 3>> triangles_;
+    std::vector<WorldTriangle> triangles_;
     int frame_ = -scene_.timeline.approach;
     double m_ = 3;
     Camera camera_; // of the frame before
@@ -197,7 +196,7 @@ class TemporalReplay {
 public:
     /// `start`: samples that the start from PCSS counts for, 0: none. `filter`: the display filter is on.
     TemporalReplay(const Snapshot& frame, glm::ivec2 size, double start, bool filter)
-        : frame_(frame), start_(start), filter_(filter), triangles_(test::worldTriangles(frame)), size_(size),
+        : frame_(frame), start_(start), filter_(filter), triangles_(worldTriangles(frame)), size_(size),
           border_(static_cast<int>(std::ceil(0.025 * size.x))), wide_(size + 2 * border_) {
         Snapshot wider = frame;
         const double half = std::tan(0.5 * glm::radians(frame.camera.fovy)) * wide_.y / size.y;
@@ -360,7 +359,7 @@ private:
     Snapshot frame_;
     double start_;
     bool filter_;
-    std::vector<std::array<glm::dvec3, 3>> triangles_;
+    std::vector<WorldTriangle> triangles_;
     glm::ivec2 size_;
     int border_;
     glm::ivec2 wide_;
@@ -432,7 +431,7 @@ TEST(PictureReplays, HardAndFilteredShadowsAreAsCorrectAsTheRecordSays) {
     const groundtruth::PrimaryHits hits = groundtruth::hard::primaryHits(frame, size);
     const std::vector<glm::dvec3> normals = test::geometricNormals(frame, hits);
     const techniques::LightView view = techniques::fitToScene(frame.light.centreOnly(), frame);
-    const test::MapReplay map(test::worldTriangles(frame), view, 1024);
+    const test::MapReplay map(worldTriangles(frame), view, 1024);
 
     const auto grey = [](double visibility) { return std::lround(255 * (0.3 + 0.7 * visibility)); };
     double hardRight = 0, filteredRight = 0;

@@ -5,6 +5,7 @@
 #include "groundtruth/contract/reference.h"
 #include "scene/snapshot.h"
 #include "techniques/shared/light_views/light_view.h"
+#include "tests/support/world_triangles.h"
 
 #include <algorithm>
 #include <array>
@@ -17,20 +18,6 @@
 #include <vector>
 
 namespace shadowbench::test {
-
-/// World-space triangles of a snapshot.
-inline std::vector<std::array<glm::dvec3, 3>> worldTriangles(const Snapshot& snapshot) {
-    std::vector<std::array<glm::dvec3, 3>> triangles;
-    for (const Batch& batch : snapshot.batches)
-        for (const Placement& placement : batch.placements)
-            for (const glm::uvec3& t : batch.mesh->triangles) {
-                const auto at = [&](std::uint32_t i) {
-                    return glm::dvec3(placement.world * glm::dvec4(glm::dvec3(batch.mesh->positions[i]), 1));
-                };
-                triangles.push_back({at(t.x), at(t.y), at(t.z)});
-            }
-    return triangles;
-}
 
 /// Of unit length, by pixel, row 0 at the top; zero where nothing is seen.
 inline std::vector<glm::dvec3> geometricNormals(const Snapshot& snapshot, const groundtruth::PrimaryHits& hits) {
@@ -56,7 +43,7 @@ inline std::vector<glm::dvec3> geometricNormals(const Snapshot& snapshot, const 
 /// 2⁻²⁴).
 class MapReplay {
 public:
-    MapReplay(const std::vector<std::array<glm::dvec3, 3>>& triangles, const techniques::LightView& view, int side)
+    MapReplay(const std::vector<WorldTriangle>& triangles, const techniques::LightView& view, int side)
         : clip_(view.clipFromWorld), side_(side) {
         const glm::dmat4 worldFromClip = glm::inverse(clip_);
         for (const auto& corners : triangles) {
@@ -123,7 +110,7 @@ private:
         return inside ? glm::dot(t.inverse, point) : 0;
     }
 
-    void add(const std::array<glm::dvec3, 3>& corners, const glm::dvec4& plane) {
+    void add(const WorldTriangle& corners, const glm::dvec4& plane) {
         std::array<glm::dvec3, 3> h; // x, y, w
         Mapped t{};
         t.low = glm::dvec2(std::numeric_limits<double>::infinity());

@@ -20,7 +20,7 @@ inline Object plate(double height, double edge) { return object(box({20, 0.002, 
 inline double edgeFor(double height, double at) { return at + (0.1 - at) * height / 6; }
 
 /// The half-plane scene with its plate at another height, its hard shadow's edge at the same place.
-inline Scene plateScene(double height, int side = 96) {
+inline Scene halfPlaneAt(double height, int side = 96) {
     Scene scene = halfPlaneScene(side);
     scene.objects[1] = plate(height, edgeFor(height, hardEdge));
     return scene;

@@ -109,7 +109,7 @@ TEST(OcclusionRays, MeetWhatTheModelMeets) {
     const Snapshot snapshot = boxOnSlab();
     const OcclusionRays rays(snapshot);
     const std::vector<DirectionSample> directions = evenSamples(500);
-    const auto triangles = models::worldTriangles(snapshot);
+    const auto triangles = worldTriangles(snapshot);
     std::vector<std::uint8_t> blocked(directions.size());
     for (const SurfacePoint& point : {SurfacePoint{{1.7, 0, 0.3}, {0, 1, 0}}, SurfacePoint{{1, 0.9, 0.2}, {1, 0, 0}},
                                       SurfacePoint{{0.4, 2.05, 0.2}, {0, 1, 0}}}) {

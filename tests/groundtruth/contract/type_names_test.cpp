@@ -68,6 +68,39 @@ namespace a::c { struct Outer {}; }
               (std::set<std::string>{"a::b::Outer", "a::b::Outer::Inner", "a::b::Pair", "a::b::Alias", "a::c::Outer"}));
 }
 
+/// The inline functions that a header defines outside of classes, as "name(types of parameters)".
+std::set<std::string> functionsOf(const std::string& header) {
+    static const std::regex function(R"((?:^|\n)inline [^;={(]*?\b(\w+)\(([^)]*)\))");
+    static const std::regex nameOrDefault(R"(\s*\b\w*\s*(=[^,]*)?(?=,|$))"), spaces(R"(\s+)");
+    const std::string text = withoutComments(header);
+    std::set<std::string> functions;
+    for (std::sregex_iterator i(text.begin(), text.end(), function), end; i != end; ++i) {
+        const std::string types = std::regex_replace((*i)[2].str(), nameOrDefault, "");
+        functions.insert((*i)[1].str() + "(" + std::regex_replace(types, spaces, " ") + ")");
+    }
+    return functions;
+}
+
+TEST(FunctionNames, AreReadWithTheTypesOfTheirParameters) {
+    EXPECT_EQ(
+        functionsOf(
+            "inline int f(double side, int pixels = 128) {}\ninline const A& g(const B& b,\n C* c) {}\n  inline int h();"),
+        (std::set<std::string>{"f(double, int)", "g(const B&, C*)"}));
+}
+
+// Types of parameters keep overloads apart; namespaces are not looked at, as tests use them all.
+TEST(FunctionNames, NoTwoHeadersOfTheTestsDefineTheSame) {
+    std::map<std::string, std::string> headerOf;
+    for (const fs::directory_entry& file : fs::recursive_directory_iterator(fs::path(SOURCE_FOLDER) / "tests/support")) {
+        if (file.path().extension() != ".h") continue;
+        for (const std::string& function : functionsOf(readFile(file.path()))) {
+            const auto [known, isNew] = headerOf.try_emplace(function, file.path().filename().string());
+            EXPECT_TRUE(isNew) << function << " is defined in " << known->second << " and " << file.path().filename();
+        }
+    }
+    EXPECT_GT(headerOf.size(), 100U); // else they were not found
+}
+
 TEST(TypeNames, NoTwoHeadersDefineTheSame) {
     std::map<std::string, std::vector<std::string>> headersOf;
     for (const char* folder : {"base", "scene", "techniques", "groundtruth", "harness"})

@@ -5,6 +5,7 @@
 #include "scene/sky.h"
 #include "techniques/environment/cube_map.h"
 #include "techniques/environment/surface_points.h"
+#include "tests/support/world_triangles.h"
 
 #include <algorithm>
 #include <array>
@@ -24,21 +25,6 @@ using techniques::PointPatch;
 using techniques::PointRow;
 using techniques::SurfacePoint;
 using techniques::SurfacePoints;
-
-using WorldTriangle = std::array<glm::dvec3, 3>;
-
-inline std::vector<WorldTriangle> worldTriangles(const Snapshot& snapshot) {
-    std::vector<WorldTriangle> triangles;
-    for (const Batch& batch : snapshot.batches)
-        for (const Placement& placement : batch.placements)
-            for (const glm::uvec3& t : batch.mesh->triangles) {
-                const auto corner = [&](unsigned i) {
-                    return glm::dvec3(placement.world * glm::dvec4(glm::dvec3(batch.mesh->positions[i]), 1));
-                };
-                triangles.push_back({corner(t.x), corner(t.y), corner(t.z)});
-            }
-    return triangles;
-}
 
 /// Whether the ray meets the triangle (Möller and Trumbore 1997).
 inline bool meets(const WorldTriangle& t, const glm::dvec3& from, const glm::dvec3& direction) {

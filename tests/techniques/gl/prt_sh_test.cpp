@@ -74,7 +74,7 @@ public:
     TransferModel(const Stage& stage, std::size_t budget, int directions, std::size_t coefficients)
         : points_(spreadPoints(stage.shown(), budget)), light_(harmonicLight(*stage.shown().light.environment)),
           coefficients_(coefficients) {
-        const auto triangles = models::worldTriangles(stage.shown());
+        const auto triangles = worldTriangles(stage.shown());
         const std::vector<DirectionSample> samples = evenSamples(directions);
         for (const SurfacePoint& point : points_.points) {
             double blocked = 0; // irradiance

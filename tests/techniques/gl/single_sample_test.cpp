@@ -21,7 +21,7 @@ TEST(SingleSample, ThePenumbraUnderAHalfPlaneIsLinear) {
 
 TEST(SingleSample, APenumbraIsAsWideAsSimilarTrianglesSay) {
     for (const double height : {1.0, 3.0}) {
-        const Points points = pointsOf(withHigherPlate(plateScene(height)), "single-sample:map=1024");
+        const Points points = pointsOf(withHigherPlate(halfPlaneAt(height)), "single-sample:map=1024");
         const double width = 1.5 * height / (6 - height);
         EXPECT_NEAR(widthBetween(points, 0.1, 0.9), 0.8 * width, 0.1 * width) << height; // two texels
     }

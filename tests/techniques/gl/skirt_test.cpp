@@ -38,7 +38,7 @@ TEST(Skirt, WidthGrowsWithTheDistanceBehindTheOccluder) {
     for (const double height : {1.5, 2.0, 3.0}) {
         const double width = 1.5 * height / (6 - height); // light · (r − b) / b
         const double measured =
-            widthBetween(pointsOf(withHigherPlate(plateScene(height)), "skirt:map=512,passes=3"), 0.1, 0.9) / 0.8;
+            widthBetween(pointsOf(withHigherPlate(halfPlaneAt(height)), "skirt:map=512,passes=3"), 0.1, 0.9) / 0.8;
         EXPECT_NEAR(measured, width, 0.15 * width) << height;
     }
 }
