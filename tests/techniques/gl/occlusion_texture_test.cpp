@@ -47,7 +47,7 @@ TEST(OcclusionTexture, PlatesWithOneEdgeDarkenTwice) { // the product takes slic
 }
 
 TEST(OcclusionTexture, WithoutASliceBetweenThereIsNoShadow) { // contact is as thin as slices are thick
-    const Scene scene = halfPlaneAt(0.3);                      // umbra from 4 cm behind the hard edge
+    const Scene scene = halfPlaneAt(0.3);                     // umbra from 4 cm behind the hard edge
     const double umbra = 0.5;
     // The slab's top lies a quarter of the way into the second of two slices, and so counts a quarter of the first.
     EXPECT_GT(visibilityAt(pointsOf(scene, "occlusion-texture:map=1024,slices=2"), umbra), 0.7);
