@@ -12,7 +12,10 @@ int harmonicBands(std::size_t coefficients) {
 
 std::vector<double> harmonics(const glm::dvec3& direction, int bands) {
     std::vector<double> values(static_cast<std::size_t>(bands) * static_cast<std::size_t>(bands));
-    const auto at = [&](int l, int m) -> double& { return values[static_cast<std::size_t>(l * (l + 1) + m)]; };
+    const auto at = [&](int l, int m) -> double& {
+        const int index = l * (l + 1) + m;
+        return values[static_cast<std::size_t>(index)];
+    };
     // sine and cosine are sinᵐθ sin mφ and sinᵐθ cos mφ, polynomials in x and y.
     double sine = 0, cosine = 1;
     double top = std::sqrt(0.25 * std::numbers::inv_pi); // normalised P_m^m without sinᵐθ

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 #include <variant>
 

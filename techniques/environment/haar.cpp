@@ -12,7 +12,9 @@ namespace {
 /// quarter, the latter to the other three.
 void transformOnce(std::span<double> face, int side, int size, std::vector<double>& before) {
     before.assign(face.begin(), face.end());
-    const auto at = [side](int x, int y) { return static_cast<std::size_t>(y * side + x); };
+    const auto at = [side](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x);
+    };
     const int half = size / 2;
     for (int y = 0; y < half; ++y)
         for (int x = 0; x < half; ++x) {

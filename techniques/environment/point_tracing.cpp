@@ -67,7 +67,7 @@ std::vector<std::uint32_t> sourcesOf(const SurfacePoints& points, const std::vec
 std::vector<std::uint32_t> tracePoints(const SurfacePoints& points, const Snapshot& snapshot,
                                        std::span<const DirectionSample> directions, const PointVisit& visit) {
     const OcclusionRays rays(snapshot);
-    const std::vector<std::uint32_t> sources = sourcesOf(points, insidePoints(points, rays));
+    std::vector<std::uint32_t> sources = sourcesOf(points, insidePoints(points, rays));
     forEachPoint(points, [&](std::size_t begin, std::size_t end) {
         std::vector<std::uint8_t> blocked(directions.size());
         for (std::size_t i = begin; i < end; ++i) {

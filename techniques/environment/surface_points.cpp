@@ -21,7 +21,7 @@ Triangle fromShortestEdge(Triangle t) {
     std::size_t shortest = 0;
     for (const std::size_t i : {1U, 2U})
         if (length(i) < length(shortest)) shortest = i;
-    std::ranges::rotate(t, t.begin() + static_cast<std::ptrdiff_t>(shortest));
+    std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(shortest), t.end());
     return t;
 }
 
