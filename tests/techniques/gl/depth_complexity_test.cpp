@@ -25,16 +25,6 @@ double errorOfSamples(const Scene& scene, const std::string& pattern, int count,
     return meanErrorOfSamples(stage, v, techniques::lightPoints(scene.light, pattern, count, seed));
 }
 
-/// The slab under two plates, one below the other, and a bumpy body that hides parts of itself; a round light.
-Scene overlapScene() {
-    Scene scene = groundScene(96);
-    scene.light = {LightKind::Disk, {0.4, 6, 0.2}, {0, -1, 0}, {1.3, 0, 0.2}, {-0.2, 0, 1.3}};
-    scene.objects.push_back(object(box({1.6, 0.1, 1.2}), {0.13, 1.2, 0.21}, 17));
-    scene.objects.push_back(object(box({1.1, 0.1, 1.9}), {-0.3, 2.1, 0.1}, 41));
-    scene.objects.push_back(object(bumpy(0.7, 0.2, 300, 3), {-2.1, 0.9, 0.7}));
-    return scene;
-}
-
 /// A cube under a light that is wider than it.
 Scene cubeScene() {
     Scene scene = groundScene(96);
