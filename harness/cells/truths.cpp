@@ -5,22 +5,37 @@
 #include <fmt/format.h>
 
 namespace shadowbench {
+namespace {
 
-std::string_view name(Truth truth) { return truth == Truth::Hard ? "hard" : "soft"; }
+constexpr Truth allTruths[] = {Truth::Hard, Truth::Soft, Truth::PixelArea};
 
-Truth truthNamed(std::string_view name) {
-    if (name == "hard") return Truth::Hard;
-    if (name == "soft") return Truth::Soft;
-    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard and soft", name));
+} // namespace
+
+std::string_view name(Truth truth) {
+    switch (truth) {
+    case Truth::Hard:
+        return "hard";
+    case Truth::Soft:
+        return "soft";
+    case Truth::PixelArea:
+        return "pixel-area";
+    }
+    return "";
+}
+
+Truth truthNamed(std::string_view word) {
+    for (const Truth truth : allTruths)
+        if (name(truth) == word) return truth;
+    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard, soft and pixel-area", word));
 }
 
 bool hasTruth(const Light& light, Truth truth) {
-    return truth == Truth::Hard ? !light.isEnvironment() : light.isArea() || light.isEnvironment();
+    return truth == Truth::Soft ? light.isArea() || light.isEnvironment() : !light.isEnvironment();
 }
 
 std::vector<Truth> truthsOf(const Light& light) {
     std::vector<Truth> truths;
-    for (const Truth truth : {Truth::Hard, Truth::Soft})
+    for (const Truth truth : allTruths)
         if (hasTruth(light, truth)) truths.push_back(truth);
     return truths;
 }
@@ -33,7 +48,8 @@ groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame
     request.snapshot = snapshot(scene, frame);
     request.size = scene.size;
     request.samples = frame < scene.timeline.still ? scene.referenceSamples : scene.movingReferenceSamples;
-    if (truth == Truth::Hard) request.snapshot.light = request.snapshot.light.centreOnly();
+    if (truth != Truth::Soft) request.snapshot.light = request.snapshot.light.centreOnly();
+    request.pixelAreas = truth == Truth::PixelArea;
     return request;
 }
 

@@ -14,15 +14,15 @@
 namespace shadowbench {
 
 /// Exact truth of the light's centre, or soft truth of the whole light: the visible fraction of an area light, the share of
-/// an environment's irradiance that arrives.
-enum class Truth { Hard, Soft };
-std::string_view name(Truth truth);      // "hard", "soft"
-Truth truthNamed(std::string_view name); // throws BadInput naming both
+/// an environment's irradiance that arrives. PixelArea is the exact truth of the light's centre over each pixel's square.
+enum class Truth { Hard, Soft, PixelArea };
+std::string_view name(Truth truth);      // "hard", "soft", "pixel-area"
+Truth truthNamed(std::string_view name); // throws BadInput naming all
 
-/// Whether a scene's light has that truth: an environment, all around, has no hard one, and only it and area lights have a
-/// soft one.
+/// Whether a scene's light has that truth: an environment, all around, has no hard one and no pixel areas, and only it and
+/// area lights have a soft one.
 bool hasTruth(const Light& light, Truth truth);
-std::vector<Truth> truthsOf(const Light& light); // hard before soft
+std::vector<Truth> truthsOf(const Light& light); // in the order above
 
 /// The request for one frame's truth; moving frames of an area light take fewer samples. Throws BadInput for a truth that
 /// the scene's light does not have.

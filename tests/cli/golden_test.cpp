@@ -33,8 +33,7 @@ TEST(GoldenReferences, AreAllThatARunOfTheStandardScenesAsksFor) {
     for (const std::string& id : standardScenes()) {
         const Scene scene = loadScene(id, lock.profile);
         for (const int frame : scoredFrames(scene)) {
-            for (const Truth truth : {Truth::Hard, Truth::Soft}) {
-                if (truth == Truth::Soft && !scene.light.isArea()) continue;
+            for (const Truth truth : truthsOf(scene.light)) {
                 ++asked;
                 const GoldenEntry* entry = lock.find({id, truth, frame});
                 ASSERT_NE(entry, nullptr) << id << " " << name(truth) << " frame " << frame;
@@ -45,9 +44,15 @@ TEST(GoldenReferences, AreAllThatARunOfTheStandardScenesAsksFor) {
     EXPECT_EQ(asked, lock.entries.size());
 }
 
-/// Those that take a second each; the soft ones take POV-Ray a minute.
+/// Those that take a second each; the soft ones take POV-Ray a minute, pixel areas under trees some seconds.
 TEST(GoldenReferences, HardOnesAreStillComputedBitForBit) {
     const Outcome outcome = shell("shadowbench reference --verify --quiet --truth hard --golden " + committed.string());
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+}
+
+TEST(GoldenReferences, PixelAreasAreStillComputedBitForBit) {
+    const Outcome outcome = shell(
+        "shadowbench reference --verify --quiet --truth pixel-area --scene dueling-frusta --golden " + committed.string());
     EXPECT_EQ(outcome.code, 0) << outcome.output;
 }
 
@@ -82,7 +87,7 @@ TEST_F(GoldenVerb, AcceptedReferencesVerify) {
     EXPECT_TRUE(fs::exists(folder_ / "golden/tiny-hard.exr"));
     const Outcome verified = reference("--verify");
     EXPECT_EQ(verified.code, 0) << verified.output;
-    EXPECT_NE(verified.output.find("2 identical"), std::string::npos) << verified.output;
+    EXPECT_NE(verified.output.find("4 identical"), std::string::npos) << verified.output;
 }
 
 TEST_F(GoldenVerb, AcceptingTheSameAgainChangesNoByte) {
@@ -118,7 +123,7 @@ TEST_F(GoldenVerb, AChangedLockIsDetected) {
     edit(hash, other);
     const Outcome verified = reference("--verify");
     EXPECT_EQ(verified.code, 4);
-    EXPECT_NE(verified.output.find("1 identical, 1 changed"), std::string::npos) << verified.output;
+    EXPECT_NE(verified.output.find("3 identical, 1 changed"), std::string::npos) << verified.output;
     const auto json = nlohmann::json::parse(reference("--verify --json").output);
     EXPECT_EQ(json[0]["status"], "changed");
     EXPECT_EQ(json[1]["status"], "identical");
@@ -149,10 +154,11 @@ TEST_F(GoldenVerb, AMissingToolIsInconclusiveAndTheOthersAreVerifiedAllTheSame) 
     scene_ = folder_.write("area.toml",
                            tinyScene("{ kind = \"rectangle\", centre = [0.2, 6, 0.3], u = [1, 0, 0], v = [0, 0, 1] }"));
     ASSERT_EQ(reference("--accept --truth hard").code, 0);
+    ASSERT_EQ(reference("--accept --truth pixel-area").code, 0);
     const Outcome verified = shell("PATH=/nonexistent shadowbench reference --quiet --verify --scene " + scene_ +
                                    " --golden " + folder_ / "golden");
     EXPECT_EQ(verified.code, 5) << verified.output;
-    EXPECT_NE(verified.output.find("2 identical, 2 unverified"), std::string::npos) << verified.output;
+    EXPECT_NE(verified.output.find("4 identical, 2 unverified"), std::string::npos) << verified.output;
     EXPECT_NE(verified.output.find("apt-get install povray"), std::string::npos) << verified.output;
 }
 
