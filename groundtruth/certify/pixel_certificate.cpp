@@ -64,7 +64,7 @@ PixelCertificate certifyPixels(const hard::ExactScene& scene, const Reference& m
     std::vector<Compared> found(pixels.size());
     inParallel(static_cast<int>(pixels.size()), threads, progress, "certificate", [&](int i) {
         const glm::ivec2 pixel = pixels[static_cast<std::size_t>(i)];
-        const auto [mean, sigma] = scene.meanByRays(size, pixel, pixelCertificateRays);
+        const auto [mean, sigma] = scene.meanByRays(size, pixel, means.id(pixel.x, pixel.y), pixelCertificateRays);
         found[static_cast<std::size_t>(i)] = {means.visibility(pixel.x, pixel.y) - mean, sigma * sigma};
     });
 

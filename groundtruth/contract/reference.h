@@ -71,8 +71,8 @@ struct Request {
     /// Auto: povray for area lights and environments; else polygon where the receiver is planar, rays elsewhere.
     Oracle oracle = Oracle::Auto;
     int samples = 1024; // of area lights, and directions of environments, only
-    /// Point and directional lights: not the label of each pixel's centre, but the mean of exact visibility over its square,
-    /// over the surfaces seen in it that face the light (docs/ground-truth.md, "Pixel areas").
+    /// Point and directional lights: not the label of each pixel's centre, but the mean of exact visibility over the part
+    /// of its square in which the same surface is seen and faces the light (docs/ground-truth.md, "Pixel areas").
     bool pixelAreas = false;
 };
 

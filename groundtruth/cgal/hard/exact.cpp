@@ -105,9 +105,10 @@ void ExactScene::averageOverPixels(glm::ivec2 size, const PrimaryHits& primary, 
     inParallel(size.y, data_->threads, progress, "pixel areas", [&](int y) {
         for (int x = 0; x < size.x; ++x) {
             if (primary.surface(x, y) != Surface::Receiver) continue;
-            const std::optional<AreaShares> found = areas.of({x, y});
-            const AreaShares shares =
-                found ? *found : sharesByRays(*data_->triangles, data_->camera, data_->light, size, {x, y}, raysAcross);
+            const std::optional<AreaShares> found = areas.of({x, y}, primary.id(x, y));
+            const AreaShares shares = found ? *found
+                                            : sharesByRays(*data_->triangles, data_->camera, data_->light, size, {x, y},
+                                                           primary.id(x, y), raysAcross);
             out.surface(x, y) = Surface::Receiver;
             if (shares.seen <= 0) continue; // a sliver: its label stays
             out.visibility(x, y) = static_cast<float>(std::clamp(shares.lit / shares.seen, 0.0, 1.0));
@@ -116,9 +117,9 @@ void ExactScene::averageOverPixels(glm::ivec2 size, const PrimaryHits& primary, 
     });
 }
 
-ExactScene::PixelMean ExactScene::meanByRays(glm::ivec2 size, glm::ivec2 pixel, int side) const {
+ExactScene::PixelMean ExactScene::meanByRays(glm::ivec2 size, glm::ivec2 pixel, std::uint32_t surface, int side) const {
     requireHardLight(data_->light);
-    const AreaShares shares = sharesByRays(*data_->triangles, data_->camera, data_->light, size, pixel, side);
+    const AreaShares shares = sharesByRays(*data_->triangles, data_->camera, data_->light, size, pixel, surface, side);
     if (shares.seen <= 0) return {};
     return {shares.lit / shares.seen, shares.sigma};
 }

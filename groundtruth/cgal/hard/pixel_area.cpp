@@ -99,7 +99,7 @@ std::optional<PixelAreas::SeenTriangle> PixelAreas::seen(const Triangle& triangl
         distance;
     for (const glm::dvec2& corner : patch.outline.corners()) result.nearness.add(patch.nearness(corner.x, corner.y));
     const int lightSide = side(triangle, light_);
-    patch.facesLight = lightSide != 0 && lightSide == side(triangle, glm::dvec4(eye_, 1));
+    patch.counts = lightSide != 0 && lightSide == side(triangle, glm::dvec4(eye_, 1));
     if (lightSide < 0) result.normal = -result.normal;
     return result;
 }
@@ -173,13 +173,14 @@ void PixelAreas::addShadows(const PixelSquare& square, SeenTriangle& seen) const
     });
 }
 
-std::optional<AreaShares> PixelAreas::of(glm::ivec2 pixel) const {
+std::optional<AreaShares> PixelAreas::of(glm::ivec2 pixel, std::uint32_t surface) const {
     const PixelSquare square{glm::dvec2(pixel)};
     std::vector<SeenTriangle> triangles;
     double hiddenBelow = 0; // inverse depth behind which a patch that fills the square hides all
-    scene_.visitShaft(eyeShaft(square), [&](TriangleName, const Triangle& triangle) {
+    scene_.visitShaft(eyeShaft(square), [&](TriangleName name, const Triangle& triangle) {
         std::optional<SeenTriangle> here = seen(triangle, square);
         if (!here || here->nearness.high < hiddenBelow) return;
+        here->patch.counts &= scene_.instances()[name.instance].id == surface;
         if (covers(here->patch.outline)) hiddenBelow = std::max(hiddenBelow, here->nearness.low);
         triangles.push_back(std::move(*here));
     });
@@ -188,7 +189,7 @@ std::optional<AreaShares> PixelAreas::of(glm::ivec2 pixel) const {
 
     std::vector<Patch> patches;
     for (SeenTriangle& here : triangles) {
-        if (here.patch.facesLight) addShadows(square, here);
+        if (here.patch.counts) addShadows(square, here);
         patches.push_back(std::move(here.patch));
     }
     return shares(patches, square);

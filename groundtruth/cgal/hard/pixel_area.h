@@ -21,8 +21,9 @@ public:
     /// `scene` must live longer; `light` is homogeneous.
     PixelAreas(const SceneTriangles& scene, const Camera& camera, const glm::dvec4& light, glm::ivec2 size);
 
-    /// Nothing for a pixel with more triangles than are worth cutting: it is for rays.
-    [[nodiscard]] std::optional<AreaShares> of(glm::ivec2 pixel) const;
+    /// Of what the pixel sees of the surface with this id. Nothing for a pixel with more triangles than are worth cutting:
+    /// it is for rays.
+    [[nodiscard]] std::optional<AreaShares> of(glm::ivec2 pixel, std::uint32_t surface) const;
 
 private:
     struct SeenTriangle;
@@ -45,6 +46,6 @@ private:
 /// By rays: exact primary hits and labels at `side`² image positions, one drawn in each cell of a grid, seeded by the
 /// pixel. Sigma is what independent positions would leave: more than what these do.
 AreaShares sharesByRays(const SceneTriangles& scene, const Camera& camera, const Light& light, glm::ivec2 size,
-                        glm::ivec2 pixel, int side);
+                        glm::ivec2 pixel, std::uint32_t surface, int side);
 
 } // namespace shadowbench::groundtruth::hard

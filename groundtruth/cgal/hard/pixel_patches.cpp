@@ -85,7 +85,7 @@ private:
     }
 
     void add(const Patch& patch, double from, double to) {
-        if (!patch.facesLight) return;
+        if (!patch.counts) return;
         lengths_.seen += to - from;
         if (patch.shadowed) return;
         shadows_.clear();

@@ -11,8 +11,8 @@ namespace shadowbench::groundtruth::hard {
 /// The part of a triangle that lies in a pixel's square, hidden by others or not.
 struct Patch {
     ImagePolygon outline;
-    glm::dvec3 inverseDepth{0}; // 1 / depth at image position (x, y) is its product with (x, y, 1)
-    bool facesLight = false;
+    glm::dvec3 inverseDepth{0};        // 1 / depth at image position (x, y) is its product with (x, y, 1)
+    bool counts = false;               // it faces the light and is of the surface in question
     bool shadowed = false;             // wholly
     std::vector<ImagePolygon> shadows; // on its plane, as far as the square holds them
 
@@ -23,7 +23,7 @@ struct Patch {
 
 /// Shares of a pixel's square.
 struct AreaShares {
-    double seen = 0;  // where a surface is seen that faces the light
+    double seen = 0;  // where a triangle is seen that counts: of the surface in question, facing the light
     double lit = 0;   // and is lit
     double sigma = 0; // standard uncertainty of lit / seen; 0 where exact
 };

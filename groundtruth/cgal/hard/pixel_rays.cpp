@@ -8,7 +8,7 @@
 
 namespace shadowbench::groundtruth::hard {
 AreaShares sharesByRays(const SceneTriangles& scene, const Camera& camera, const Light& light, glm::ivec2 size,
-                        glm::ivec2 pixel, int side) {
+                        glm::ivec2 pixel, std::uint32_t surface, int side) {
     std::size_t seen = 0, lit = 0;
     Random random((static_cast<std::uint64_t>(pixel.y) << 32U) | static_cast<std::uint32_t>(pixel.x));
     for (int y = 0; y < side; ++y)
@@ -18,6 +18,7 @@ AreaShares sharesByRays(const SceneTriangles& scene, const Camera& camera, const
             const Ray ray{camera.eye, camera.ray(glm::dvec2(pixel) + inside, size)};
             const std::optional<SeenPoint> hit = seenAlong(scene, camera, light, ray);
             if (!hit || hit->surface != Surface::Receiver) continue;
+            if (scene.instances()[hit->name.instance].id != surface) continue;
             ++seen;
             const ReceiverPoint point(ray, scene.triangle(hit->name));
             if (shadowLabel(scene, point, hit->name, light.homogeneous()) != Blocking::Blocks) ++lit;
