@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "groundtruth/certify/agreement.h"
 #include "groundtruth/certify/certificate.h"
+#include "groundtruth/certify/pixel_certificate.h"
 #include "groundtruth/cgal/area/area.h"
 #include "groundtruth/cgal/geometry/triangles.h"
 #include "groundtruth/cgal/hard/exact.h"
@@ -25,6 +26,8 @@ namespace {
 constexpr int referenceCodeVersion =
     2; // of this file, the uncertainty and the certificate: raise it with every change that can alter a number
 
+constexpr int pixelAreaCodeVersion = 1; // of groundtruth/cgal/hard/pixel_*.cpp and the certificate of pixel areas
+
 /// A light moved by more than its own size is far above this; an occluder too thin for the samples stays below.
 constexpr double mostLightMismatch = 0.01;
 
@@ -33,6 +36,11 @@ void requireAnswerable(const Request& request) {
         throw BadInput(fmt::format("a reference of {} × {} pixels has none: give a size of at least 1 × 1", request.size.x,
                                    request.size.y));
     const LightKind kind = request.snapshot.light.kind;
+    const bool isHard = kind == LightKind::Point || kind == LightKind::Directional;
+    if (request.pixelAreas && (!isHard || request.oracle != Oracle::Auto))
+        throw BadInput(fmt::format("means over pixels are of point and directional lights and by the oracle auto, and this "
+                                   "light is {} and the oracle {}: ask for the light's centre",
+                                   name(kind), name(request.oracle)));
     if (kind == LightKind::Environment && request.oracle != Oracle::Auto && request.oracle != Oracle::PovRay)
         throw BadInput(
             fmt::format("the {} oracle does not answer for this light, an environment: use povray", name(request.oracle)));
@@ -185,14 +193,30 @@ Reference hardReference(const Request& request, const Progress& progress) {
     return reference;
 }
 
+/// C*: the mean of exact visibility over each pixel's square.
+Reference pixelAreaReference(const Request& request, const Progress& progress) {
+    const hard::ExactScene scene(request.snapshot, hardwareThreads());
+    const PrimaryHits primary = scene.primaryHits(request.size, part(progress, 0, 0.1));
+    const Reference labels = byRays(request, scene, primary, part(progress, 0.1, 0.3));
+    Reference reference = labels;
+    scene.averageOverPixels(request.size, primary, reference, part(progress, 0.3, 0.8));
+    const PixelCertificate certificate =
+        certifyPixels(scene, reference, labels, pixelCertificatePoints, hardwareThreads(), part(progress, 0.8, 1));
+    requirePixelsCertified(certificate);
+    reference.provenance.oracle = "pixel-areas";
+    reference.provenance.measured = measured(certificate);
+    return reference;
+}
+
 Reference computeWith(const ReferenceKey& key, const Request& request, const Progress& progress) {
     requireAnswerable(request);
     const auto start = std::chrono::steady_clock::now();
     const Light& light = request.snapshot.light;
-    Reference reference = request.oracle == Oracle::Area ? areaReference(request, progress)
-                          : light.isEnvironment()        ? skyReference(request, progress)
-                          : light.isArea()               ? softReference(request, progress)
-                                                         : hardReference(request, progress);
+    Reference reference = request.pixelAreas               ? pixelAreaReference(request, progress)
+                          : request.oracle == Oracle::Area ? areaReference(request, progress)
+                          : light.isEnvironment()          ? skyReference(request, progress)
+                          : light.isArea()                 ? softReference(request, progress)
+                                                           : hardReference(request, progress);
     reference.provenance.key = key.text;
     reference.provenance.tools = key.tools;
     reference.provenance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -204,6 +228,7 @@ Reference computeWith(const ReferenceKey& key, const Request& request, const Pro
 Tools toolVersions(const Request& request) {
     Tools tools = hard::toolVersions();
     tools["reference"] = std::to_string(referenceCodeVersion);
+    if (request.pixelAreas) tools["pixel areas"] = std::to_string(pixelAreaCodeVersion);
     if (request.oracle == Oracle::Plan) tools["plan"] = std::to_string(plan::codeVersion);
     const Light& light = request.snapshot.light;
     if (!light.isArea() && !light.isEnvironment()) return tools;

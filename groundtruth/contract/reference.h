@@ -30,7 +30,8 @@ struct PrimaryHits {
 
 /// Where the numbers of a reference come from.
 struct Provenance {
-    std::string oracle; // "polygon", "rays", "polygon+rays" (planar receivers + the others), "plan", "area", "povray"
+    std::string oracle; // "polygon", "rays", "polygon+rays" (planar receivers + the others), "plan", "area", "povray",
+                        // "pixel-areas"
     std::string key;    // content hash of everything the reference depends on
     int samples = 0;    // light samples; 0 for exact oracles
     std::map<std::string, std::string> tools; // tool → version
@@ -47,8 +48,8 @@ struct Provenance {
 };
 
 struct Reference {
-    Image<float> visibility; // visible fraction of the light in [0, 1] (0 or 1 for point and directional lights); for an
-                             // environment the share E/E₀ of the unoccluded irradiance
+    Image<float> visibility; // visible fraction of the light in [0, 1] (0 or 1 for point and directional lights, but for
+                             // pixel areas); for an environment the share E/E₀ of the unoccluded irradiance
     Image<float> sigma;      // its standard uncertainty; 0 where exact. povray: estimated from the samples
                              // (groundtruth/povray/uncertainty.h), scaled to the certificate's rms error
     Image<Surface> surface;
@@ -71,6 +72,9 @@ struct Request {
     /// Auto: povray for area lights and environments; else polygon where the receiver is planar, rays elsewhere.
     Oracle oracle = Oracle::Auto;
     int samples = 1024; // of area lights, and directions of environments, only
+    /// Point and directional lights: not the label of each pixel's centre, but the mean of exact visibility over the part
+    /// of its square in which the same surface is seen and faces the light (docs/ground-truth.md, "Pixel areas").
+    bool pixelAreas = false;
 };
 
 } // namespace shadowbench::groundtruth

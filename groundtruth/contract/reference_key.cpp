@@ -129,6 +129,7 @@ std::string key(const Request& request, const Tools& tools) {
     for (const int value : {request.size.x, request.size.y, sampled ? request.samples : 0})
         hash.add(static_cast<std::uint64_t>(value));
     hash.add(name(request.oracle));
+    if (request.pixelAreas) hash.add("pixel areas");
     for (const auto& [tool, version] : tools) {
         hash.add(tool);
         hash.add(version);

@@ -73,6 +73,10 @@ void scoreStillFrame(const Scene& scene, Truths& truths, const techniques::Varia
         scoreSoft(record.softReference);
     else if (variant.entry->answer == Answer::Filtered || variant.entry->temporal)
         score<metrics::OfVisibility>({v, hard, mask}, record);
+    if (!usesPixelAreas(scene, variant)) return;
+    const Reference& areas = truths.at(Truth::PixelArea, frame);
+    record.pixelReference = describe(areas, truths.content(Truth::PixelArea, frame));
+    if (!scene.light.isArea()) score<metrics::OfPixelAreas>({v, areas, metrics::receiverMask(areas, drawn, eye)}, record);
 }
 
 /// The still frames from an empty history. Labels are compared with the technique's own truth, graded visibility with the
@@ -103,18 +107,21 @@ private:
     std::vector<Image<std::uint8_t>> pictures_;
 };
 
-/// The frames that are scored one after the other: the last still one and the moving ones.
+/// The frames that are scored one after the other, the last still one and the moving ones, against one truth.
 class MovingFrameScores {
 public:
-    void add(const Snapshot& shown, const Reference& truth, Image<float> v, Mask mask) {
-        const Kept& now = kept_.emplace_back(Kept{std::move(v), truth, std::move(mask)});
+    void add(const Snapshot& shown, const Reference& truth, const Image<float>& v, Mask mask) {
+        const Kept& now = kept_.emplace_back(Kept{v, truth, std::move(mask)});
         if (kept_.size() == 1) return;
         const Kept& before = kept_[kept_.size() - 2];
         Image<glm::vec2> warp = metrics::warp(shown, {now.v.width(), now.v.height()}, truth, before.truth);
         frames_.pairs.push_back({{now.v, now.truth, now.mask}, {before.v, before.truth, before.mask}, std::move(warp)});
     }
 
-    void finish(metrics::Values& values) const { metrics::compute<metrics::OfMovingFrames>(frames_, values); }
+    template <class Kind>
+    void finish(metrics::Values& values) const {
+        metrics::compute<Kind>(frames_, values);
+    }
 
 private:
     struct Kept {
@@ -125,6 +132,17 @@ private:
     std::deque<Kept> kept_; // the pairs refer to its elements
     metrics::MovingFrames frames_;
 };
+
+/// Throws InternalError for a receiver pixel without an answer.
+void requireAnswers(const Image<float>& v, const Mask& mask, const std::string& variant, int frame) {
+    constexpr float rounding = 0x1p-10F; // of 1 in a 16-bit float
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        if (mask.scored[i] == 0 || (v[i] >= -rounding && v[i] <= 1 + rounding)) continue;
+        const auto width = static_cast<std::size_t>(v.width());
+        throw InternalError(fmt::format("{} wrote a visibility of {} at pixel ({}, {}) of frame {}; it must be in [0, 1]",
+                                        variant, v[i], i % width, i / width, frame));
+    }
+}
 
 void measureAliasing(const techniques::Technique& technique, const Stage& stage, const Mask& mask, Record& record) {
     const metrics::MapPoint mapPoint = [&](const glm::dvec3& world) { return technique.mapPoint(world); };
@@ -170,11 +188,19 @@ Truth mainTruth(const Scene& scene, const techniques::Variant& variant) {
     return soft ? Truth::Soft : Truth::Hard;
 }
 
+bool usesPixelAreas(const Scene& scene, const techniques::Variant& variant) {
+    if (mainTruth(scene, variant) == Truth::Soft) return false;
+    return scene.timeline.moving > 0 || !scene.light.isArea();
+}
+
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed) {
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
                                      scene.timeline.still, scene.timeline.moving);
     if (scene.timeline.approach > 0) inputs += fmt::format("approach {}\n", scene.timeline.approach);
-    for (const int frame : truths.scoredFrames()) inputs += truths.key(mainTruth(scene, variant), frame) + "\n";
+    for (const int frame : truths.scoredFrames()) {
+        inputs += truths.key(mainTruth(scene, variant), frame) + "\n";
+        if (usesPixelAreas(scene, variant)) inputs += truths.key(Truth::PixelArea, frame) + "\n";
+    }
     return hash128(inputs).text();
 }
 
@@ -197,7 +223,8 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     const bool soft = hasTruth(scene.light, Truth::Soft);
     const Reference& graded = truths.at(soft ? Truth::Soft : Truth::Hard, scored);
     StillFrameScores still(truths.at(kind, scored), graded, kind == Truth::Hard);
-    MovingFrameScores moving;
+    const bool usesAreas = usesPixelAreas(scene, variant);
+    MovingFrameScores moving, movingAreas;
     std::uint64_t bytes = 0;
     const int first = -scene.timeline.approach;
     for (int frame = temporal ? first : scored; frame < scene.timeline.frames(); ++frame) {
@@ -208,6 +235,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
         const Reference& truth = truths.at(kind, std::max(frame, scored));
         Mask mask = metrics::receiverMask(truth, stage.drawn(), stage.shown().camera.eye);
         requireSamePrimaryHits(mask.primaryMismatch, scene, frame);
+        requireAnswers(v, mask, variant.name, frame);
         if (temporal && frame <= scored)
             still.add(v, mask, metrics::receiverMask(graded, stage.drawn(), stage.shown().camera.eye), record.values);
         if (frame < scored) continue;
@@ -221,9 +249,12 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
             images = {v, soft ? &truths.at(Truth::Soft, frame) : &truth};
             bytes = gl::Context::current().tally().bytes - bytesBefore;
         }
-        moving.add(stage.shown(), truth, std::move(v), std::move(mask));
+        const Reference& areas = usesAreas ? truths.at(Truth::PixelArea, frame) : truth;
+        movingAreas.add(stage.shown(), areas, v, metrics::receiverMask(areas, stage.drawn(), stage.shown().camera.eye));
+        moving.add(stage.shown(), truth, v, std::move(mask));
     }
-    moving.finish(record.values);
+    moving.finish<metrics::OfMovingFrames>(record.values);
+    movingAreas.finish<metrics::OfMovingAreas>(record.values);
 
     stage.show(scored);
     const int next = scene.timeline.frames() - first; // of the technique's sequence

@@ -23,6 +23,10 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
 /// The truth that a technique's answer is measured by frame after frame.
 Truth mainTruth(const Scene& scene, const techniques::Variant& variant);
 
+/// Whether a cell is scored against the truth of pixel areas: hard and filtered answers are, under an area light only by
+/// what changes from frame to frame.
+bool usesPixelAreas(const Scene& scene, const techniques::Variant& variant);
+
 /// Hash of everything a cell's scores depend on: truths (hence the scene), variant, frames, seed, schema.
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed);
 

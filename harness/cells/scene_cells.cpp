@@ -62,6 +62,7 @@ void SceneCells::computeTruths(const techniques::Variant& variant, const Progres
         const std::string what = fmt::format("truth of frame {}", frame);
         const auto show = [&](double share, std::string_view) { progress(share, what); };
         truths_.at(mainTruth(scene_, variant), frame, show);
+        if (usesPixelAreas(scene_, variant)) truths_.at(Truth::PixelArea, frame, show);
         if (hasTruth(scene_.light, Truth::Soft) && frame == scene_.timeline.still - 1) truths_.at(Truth::Soft, frame, show);
     }
 }

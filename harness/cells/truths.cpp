@@ -7,26 +7,48 @@
 #include <fmt/format.h>
 
 namespace shadowbench {
+namespace {
+
+constexpr Truth allTruths[] = {Truth::Hard, Truth::Soft, Truth::PixelArea, Truth::Area};
+
+} // namespace
 
 std::string_view name(Truth truth) {
-    if (truth == Truth::Area) return "area";
-    return truth == Truth::Hard ? "hard" : "soft";
+    switch (truth) {
+    case Truth::Hard:
+        return "hard";
+    case Truth::Soft:
+        return "soft";
+    case Truth::PixelArea:
+        return "pixel-area";
+    case Truth::Area:
+        return "area";
+    }
+    return "";
 }
 
-Truth truthNamed(std::string_view text) {
-    for (const Truth truth : {Truth::Hard, Truth::Soft, Truth::Area})
-        if (text == name(truth)) return truth;
-    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard, soft and area", text));
+Truth truthNamed(std::string_view word) {
+    for (const Truth truth : allTruths)
+        if (name(truth) == word) return truth;
+    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard, soft, pixel-area and area", word));
 }
 
 bool hasTruth(const Light& light, Truth truth) {
-    if (truth == Truth::Area) return light.isArea();
-    return truth == Truth::Hard ? !light.isEnvironment() : light.isArea() || light.isEnvironment();
+    switch (truth) {
+    case Truth::Soft:
+        return light.isArea() || light.isEnvironment();
+    case Truth::Area:
+        return light.isArea();
+    case Truth::Hard:
+    case Truth::PixelArea:
+        return !light.isEnvironment();
+    }
+    return false;
 }
 
 std::vector<Truth> truthsOf(const Light& light) {
     std::vector<Truth> truths;
-    for (const Truth truth : {Truth::Hard, Truth::Soft})
+    for (const Truth truth : {Truth::Hard, Truth::Soft, Truth::PixelArea})
         if (hasTruth(light, truth)) truths.push_back(truth);
     return truths;
 }
@@ -39,8 +61,9 @@ groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame
     request.snapshot = snapshot(scene, frame);
     request.size = scene.size;
     request.samples = frame < scene.timeline.still ? scene.referenceSamples : scene.movingReferenceSamples;
-    if (truth == Truth::Hard) request.snapshot.light = request.snapshot.light.centreOnly();
+    if (truth == Truth::Hard || truth == Truth::PixelArea) request.snapshot.light = request.snapshot.light.centreOnly();
     if (truth == Truth::Area) request.oracle = groundtruth::Oracle::Area;
+    request.pixelAreas = truth == Truth::PixelArea;
     return request;
 }
 

@@ -128,7 +128,7 @@ void addReference(CLI::App& app, Action& action) {
     CLI::Option* verify = verb->add_flag("--verify", words->verify, "Compute the golden references again and compare");
     CLI::Option* accept =
         verb->add_flag("--accept", words->accept, "Compute the golden references again, say what changed, and keep them");
-    verb->add_option("--truth", words->truth, "Golden references of one truth only: hard, soft or area");
+    verb->add_option("--truth", words->truth, "Golden references of one truth only: hard, soft, pixel-area or area");
     verb->add_option("--golden", options.golden, "Folder of the golden references")->capture_default_str();
     verb->add_flag("--json", options.json, "What --verify, --accept and --certify found, for machines");
     verb->add_flag("--quiet", options.quiet, "No progress");

@@ -87,32 +87,118 @@ double displacement(const EdgePoint& p, const EdgePoint& q, const groundtruth::R
     return isLit(truth.visibility(nearer.x, nearer.y)) ? distance : -distance;
 }
 
+/// The islands of an image: regions of wrong labels away from every exact edge.
+class Islands {
+public:
+    Islands(const ScoredFrame& frame, const std::vector<EdgePoint>& exact)
+        : frame_(frame), exact_(exact), nearest_(exact), seen_(frame.v.width(), frame.v.height()),
+          islands_(frame.v.width(), frame.v.height()) {
+        for (int y = 0; y < frame.v.height(); ++y)
+            for (int x = 0; x < frame.v.width(); ++x) {
+                if (seen_(x, y) != 0 || !isWrong({x, y})) continue;
+                const std::vector<glm::ivec2> region = regionFrom({x, y});
+                if (std::ranges::any_of(region, [&](glm::ivec2 pixel) { return isNearEdge(pixel); })) continue;
+                ++count_;
+                for (const glm::ivec2 pixel : region) islands_(pixel.x, pixel.y) = 1;
+            }
+    }
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] bool outline(const EdgePoint& p) const {
+        return islands_(p.pair.a.x, p.pair.a.y) != 0 || islands_(p.pair.b.x, p.pair.b.y) != 0;
+    }
+
+private:
+    static constexpr double reach = 2; // pixels between a region and an exact edge that it belongs to
+
+    [[nodiscard]] bool isWrong(glm::ivec2 p) const {
+        return frame_.mask.scored(p.x, p.y) != 0 && isLit(frame_.v(p.x, p.y)) != isLit(frame_.truth.visibility(p.x, p.y));
+    }
+
+    [[nodiscard]] bool isNearEdge(glm::ivec2 pixel) const {
+        const glm::dvec2 centre = glm::dvec2(pixel) + 0.5;
+        return glm::distance(exact_[nearest_.to(centre)].position(), centre) <= reach;
+    }
+
+    std::vector<glm::ivec2> regionFrom(glm::ivec2 first) {
+        std::vector<glm::ivec2> region{first};
+        seen_(first.x, first.y) = 1;
+        for (std::size_t i = 0; i < region.size(); ++i) {
+            const glm::ivec2 here = region[i];
+            for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+                const glm::ivec2 next = here + step;
+                if (!seen_.contains(next.x, next.y) || seen_(next.x, next.y) != 0 || !isWrong(next)) continue;
+                if (frame_.truth.id(next.x, next.y) != frame_.truth.id(here.x, here.y)) continue;
+                seen_(next.x, next.y) = 1;
+                region.push_back(next);
+            }
+        }
+        return region;
+    }
+
+    const ScoredFrame& frame_;
+    const std::vector<EdgePoint>& exact_;
+    NearestPoint nearest_;
+    Image<std::uint8_t> seen_, islands_;
+    std::size_t count_ = 0;
+};
+
+/// Displacements both ways.
+struct Displacements {
+    std::vector<double> absolute;
+    double signedSum = 0, largest = 0;
+    std::size_t missing = 0; // points of the exact edge
+};
+
+Displacements displacements(const std::vector<EdgePoint>& technique, const std::vector<EdgePoint>& exact,
+                            const groundtruth::Reference& truth) {
+    constexpr double farthest = 8; // pixels from an exact edge to the technique's; beyond, the edge is missing
+    const NearestPoint nearestExact(exact), nearestTechnique(technique);
+    Displacements result;
+    const auto add = [&](double moved) {
+        result.absolute.push_back(std::abs(moved));
+        result.largest = std::max(result.largest, std::abs(moved));
+    };
+    for (const EdgePoint& p : technique) {
+        const double moved = displacement(p, exact[nearestExact.to(p.position())], truth);
+        result.signedSum += moved;
+        add(moved);
+    }
+    for (const EdgePoint& q : exact) {
+        const EdgePoint& p = technique[nearestTechnique.to(q.position())];
+        const double distance = glm::distance(q.position(), p.position());
+        result.largest = std::max(result.largest, distance);
+        if (distance > farthest)
+            ++result.missing;
+        else
+            add(displacement(p, q, truth));
+    }
+    return result;
+}
+
 } // namespace
 
 std::optional<EdgeError> edgeError(const ScoredFrame& frame) {
     requireComparable(frame);
     const auto& [v, truth, mask] = frame;
-    const std::vector<EdgePoint> technique = techniqueEdge(v, truth, mask);
     const std::vector<EdgePoint> exact = exactEdge(truth, mask, isHard(v, mask));
-    if (technique.empty() || exact.empty()) return {};
-
-    const NearestPoint nearestExact(exact);
-    const NearestPoint nearestTechnique(technique);
+    if (exact.empty()) return {};
+    const Islands islands(frame, exact);
     EdgeError result;
-    std::vector<double> distances;
-    distances.reserve(technique.size());
-    for (const EdgePoint& p : technique) {
-        const double moved = displacement(p, exact[nearestExact.to(p.position())], truth);
-        result.signedMean += moved / static_cast<double>(technique.size());
-        distances.push_back(std::abs(moved));
+    result.islands = static_cast<double>(islands.count());
+    std::vector<EdgePoint> technique = techniqueEdge(v, truth, mask);
+    std::erase_if(technique, [&](const EdgePoint& p) { return islands.outline(p); });
+    if (technique.empty()) {
+        result.missing = 1;
+        return result;
     }
-    result.mean = mean(distances);
-    result.p95 = quantile(distances, 0.95);
-    result.hausdorff = distances.back(); // sorted by quantile()
-    for (const EdgePoint& q : exact) {
-        const EdgePoint& p = technique[nearestTechnique.to(q.position())];
-        result.hausdorff = std::max(result.hausdorff, glm::distance(q.position(), p.position()));
-    }
+    Displacements found = displacements(technique, exact, truth);
+    result.missing = static_cast<double>(found.missing) / static_cast<double>(exact.size());
+    result.mean = mean(found.absolute);
+    result.median = quantile(found.absolute, 0.5);
+    result.p95 = quantile(found.absolute, 0.95);
+    result.hausdorff = found.largest;
+    result.signedMean = found.signedSum / static_cast<double>(technique.size());
     return result;
 }
 

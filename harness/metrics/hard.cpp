@@ -1,6 +1,8 @@
 // Scores of hard labels.
 #include "harness/metrics/pixels.h"
 
+#include <cmath>
+
 namespace shadowbench::metrics {
 namespace {
 
@@ -19,6 +21,7 @@ struct Tally {
 
 struct HardTally {
     Tally all, offEdge, lit, shadowed;
+    double distance = 0; // of V from the label, summed up
 };
 
 HardTally tally(const ScoredFrame& frame) {
@@ -30,6 +33,7 @@ HardTally tally(const ScoredFrame& frame) {
         const bool lit = isLit(truth.visibility[i]);
         const bool wrong = isLit(v[i]) != lit;
         result.all.add(wrong);
+        result.distance += std::abs(static_cast<double>(v[i]) - truth.visibility[i]);
         (lit ? result.lit : result.shadowed).add(wrong);
         if (truth.edgeDistance[i] > edgePixel) result.offEdge.add(wrong);
     }
@@ -41,7 +45,9 @@ HardTally tally(const ScoredFrame& frame) {
 LabelErrors labelErrors(const ScoredFrame& frame) {
     requireComparable(frame);
     const HardTally counts = tally(frame);
-    return {counts.all.share(), counts.offEdge.share(), counts.lit.share(), counts.shadowed.share()};
+    LabelErrors errors{counts.all.share(), {}, counts.offEdge.share(), counts.lit.share(), counts.shadowed.share()};
+    if (counts.all.all > 0) errors.unrounded = counts.distance / static_cast<double>(counts.all.all);
+    return errors;
 }
 
 } // namespace shadowbench::metrics

@@ -120,6 +120,11 @@ struct OfVisibility {
     Value<ScoredFrame> value;
 };
 
+/// Of the last still frame against the truth of pixel areas, under point and directional lights.
+struct OfPixelAreas {
+    Value<ScoredFrame> value;
+};
+
 /// Of the last still frame and the technique's map.
 struct OfMap {
     Value<MappedFrame> value;
@@ -132,6 +137,11 @@ struct OfStillFrames {
 
 /// Of the moving frames.
 struct OfMovingFrames {
+    Value<MovingFrames> value;
+};
+
+/// Of the moving frames against what is true of whole pixels: the truth of pixel areas, for soft answers the soft one.
+struct OfMovingAreas {
     Value<MovingFrames> value;
 };
 
@@ -155,8 +165,8 @@ struct ByStillFrame {
     std::vector<double> (*values)(const StillFrames&);
 };
 
-using Computation = std::variant<Measured, OfLabels, OfVisibility, OfMap, OfStillFrames, OfMovingFrames, OfWalk,
-                                 LabelsByFrame, VisibilityByFrame, ByStillFrame>;
+using Computation = std::variant<Measured, OfLabels, OfVisibility, OfPixelAreas, OfMap, OfStillFrames, OfMovingFrames,
+                                 OfMovingAreas, OfWalk, LabelsByFrame, VisibilityByFrame, ByStillFrame>;
 
 /// A line of the table.
 struct Metric {

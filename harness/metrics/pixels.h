@@ -36,8 +36,13 @@ struct Bilinear {
     [[nodiscard]] bool within(const Mask& mask, const Image<std::uint32_t>& ids, std::uint32_t id) const;
 };
 
-/// The flicker excess at every pixel of both masks that the frame before shows (see `flicker` in table.h).
-std::vector<double> flickerExcess(const FramePair& pair);
+/// How V and V* changed at a pixel from the frame before.
+struct Change {
+    double drawn, exact;
+};
+
+/// Of every pixel of both masks that the frame before shows (see `flicker` in table.h).
+std::vector<Change> changes(const FramePair& pair);
 
 /// Reprojected pixels whose class changed while the truth's did not, and how many were compared (see `flipRate`).
 struct Flips {

@@ -112,19 +112,16 @@ Image<glm::vec2> warp(const Snapshot& now, glm::ivec2 size, const groundtruth::R
     return result;
 }
 
-std::vector<double> flickerExcess(const FramePair& pair) {
+std::vector<Change> changes(const FramePair& pair) {
     requireOneSize(pair);
     const auto& [now, before, warp] = pair;
-    std::vector<double> excess;
+    std::vector<Change> result;
     for (std::size_t i = 0; i < warp.size(); ++i) {
         if (!now.mask.scored[i] || !isSomewhere(warp[i])) continue;
         const std::optional<Looked> previous = lookUp(before, warp[i], now.truth.id[i]);
-        if (!previous) continue;
-        const double change = now.v[i] - previous->v;
-        const double exactChange = now.truth.visibility[i] - previous->exact;
-        excess.push_back(static_cast<float>(std::abs(change - exactChange)));
+        if (previous) result.push_back({now.v[i] - previous->v, now.truth.visibility[i] - previous->exact});
     }
-    return excess;
+    return result;
 }
 
 Flips flips(const FramePair& pair) {
@@ -145,14 +142,18 @@ Flips flips(const FramePair& pair) {
 
 std::optional<Flicker> flicker(const MovingFrames& frames) {
     std::vector<double> values;
+    double exact = 0;
     for (const FramePair& pair : frames.pairs) {
-        const std::vector<double> excess = flickerExcess(pair);
-        values.insert(values.end(), excess.begin(), excess.end());
+        for (const Change& change : changes(pair)) {
+            values.push_back(static_cast<float>(std::abs(change.drawn - change.exact)));
+            exact += std::abs(change.exact);
+        }
     }
     if (values.empty()) return {};
     Flicker result;
     result.mean = mean(values);
     result.p95 = quantile(values, 0.95);
+    result.floor = exact / static_cast<double>(values.size());
     return result;
 }
 

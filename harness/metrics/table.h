@@ -22,27 +22,35 @@ namespace shadowbench::metrics {
 /// Wrong labels as shares.
 struct LabelErrors {
     std::optional<double> mismatch;        // of M
+    std::optional<double> unrounded;       // of M: mean abs(V − V*), which is `mismatch` where V is 0 or 1 everywhere
     std::optional<double> mismatchOffEdge; // of the pixels more than ½ px from the exact edge
     std::optional<double> falseShadow;     // lit pixels called shadowed, of the lit ones
     std::optional<double> leak;            // shadowed pixels called lit, of the shadowed ones
 };
 LabelErrors labelErrors(const ScoredFrame& frame);
 
-/// Distance in pixels from the technique's shadow edge to the exact one.
+/// Displacement in pixels of the technique's shadow edge from the exact one, both ways.
 struct EdgeError {
-    double mean = 0, p95 = 0, hausdorff = 0;
-    double signedMean = 0; // − shadow too small, + too large
+    std::optional<double> mean, median, p95, hausdorff;
+    std::optional<double> signedMean; // − shadow too small, + too large
+    double missing = 0;               // share of the exact edge that the technique has nothing near
+    double islands = 0;               // wrong regions away from every exact edge
 };
 
-/// Absent if either shadow has no edge inside M.
+/// Absent if the truth has no edge inside M; all but `missing` and `islands` are absent if the technique's image has none.
 ///
 /// An edge is sampled where two pixels of M, side by side or one above the other on the same surface, have different labels.
 /// The technique's point p lies where V, linear between the two centres, is ½: halfway for hard labels. The truth's point
 /// lies where its signed distance field is 0, halfway if the truth states no distance. Where V is hard everywhere the
-/// truth's points are put halfway too, so that an image with the truth's labels has no error. With q the truth's point
-/// nearest to p, the displacement of p is d(p) − d(q), where d is the exact distance to the edge, positive on the lit side,
-/// linear between the two pixels; where the truth states no distance it is |p − q|, positive where V* is lit. `mean`, `p95`
-/// and `signedMean` are over the displacements; `hausdorff` also counts the distance of every q to its nearest p.
+/// truth's points are put halfway too, so that an image with the truth's labels has no error.
+///
+/// An island (acne, a hole) is a 4-connected region of wrong pixels on one surface of which no centre lies within 2 pixels
+/// of a point of the exact edge. Its outline is not measured, islands are counted. With q the truth's point nearest to p,
+/// the displacement of p is d(p) − d(q), where d is the exact distance to the edge, positive on the lit side, linear between
+/// the two pixels; where the truth states no distance it is |p − q|, positive where V* is lit. In the same way each q is
+/// displaced to the p nearest to it, unless that is more than 8 pixels away: then the edge is missing there. `mean`,
+/// `median` and `p95` are over the displacements of all p and of all q that are not missing, `signedMean` over those of all
+/// p; `hausdorff` is the largest displacement of a p or distance of a q from its nearest p.
 std::optional<EdgeError> edgeError(const ScoredFrame& frame);
 
 /// Sums over M of V − V*; absent where M is empty.
@@ -125,9 +133,9 @@ std::vector<double> changedByFrame(const StillFrames& frames);
 
 /// Per-pixel flicker excess abs((V_t − warp V_{t−1}) − (V*_t − warp V*_{t−1})) over every pixel in both masks. The previous
 /// frame is read bilinearly where all four pixels are in its mask on the same surface, else at the nearest pixel if that one
-/// is, else the pixel is left out.
+/// is, else the pixel is left out. `floor` is the mean for an image that is lit throughout and never changes.
 struct Flicker {
-    double mean = 0, p95 = 0;
+    double mean = 0, p95 = 0, floor = 0;
 };
 std::optional<Flicker> flicker(const MovingFrames& frames);
 
@@ -205,6 +213,10 @@ inline constexpr auto table = std::to_array<Metric>({
      .bound = "mismatch", .allowance = Allowance{.pixels = 2},
      .computed = OfLabels{part<labelErrors, &LabelErrors::mismatch>},
      .meaning = "receiver pixels whose rounded visibility differs from the exact label"},
+    {.path = "accuracy.mismatch_unrounded", .unit = "share", .range = range::share, .optional = true,
+     .about = Class::Labels, .bound = "mismatch_unrounded", .allowance = Allowance{.pixels = 2},
+     .computed = OfLabels{part<labelErrors, &LabelErrors::unrounded>},
+     .meaning = "the same without rounding: mean distance of the visibility from the exact label"},
     {.path = "accuracy.mismatch_off_edge", .unit = "share", .range = range::share, .optional = true, .about = Class::Labels,
      .bound = "mismatch_off_edge", .allowance = Allowance{.pixels = 1},
      .computed = OfLabels{part<labelErrors, &LabelErrors::mismatchOffEdge>},
@@ -216,18 +228,29 @@ inline constexpr auto table = std::to_array<Metric>({
     {.path = "accuracy.leak", .unit = "share", .range = range::share, .optional = true, .about = Class::Leak,
      .bound = "leak", .allowance = Allowance{.pixels = 2}, .computed = OfLabels{part<labelErrors, &LabelErrors::leak>},
      .meaning = "shadowed pixels called lit (peter-panning, light leak)"},
-    {.path = "accuracy.edge_error.mean", .unit = "pixels", .range = range::size, .about = Class::Edge, .bound = "edge_error",
-     .allowance = Allowance{.relative = 0.01, .absolute = strayEdge},
+    {.path = "accuracy.edge_error.mean", .unit = "pixels", .range = range::size, .optional = true, .about = Class::Edge,
+     .bound = "edge_error", .allowance = Allowance{.relative = 0.01, .absolute = strayEdge},
      .computed = OfLabels{part<edgeError, &EdgeError::mean>},
-     .meaning = "distance from the technique's shadow edge to the exact one, mean"},
-    {.path = "accuracy.edge_error.p95", .unit = "pixels", .range = range::size,
+     .meaning = "displacement of the technique's shadow edge from the exact one, both ways, without islands, mean"},
+    {.path = "accuracy.edge_error.median", .unit = "pixels", .range = range::size, .optional = true, .about = Class::Edge,
+     .bound = "edge_error_median", .allowance = Allowance{.relative = 0.01, .absolute = strayEdge},
+     .computed = OfLabels{part<edgeError, &EdgeError::median>}, .meaning = "the same, median"},
+    {.path = "accuracy.edge_error.p95", .unit = "pixels", .range = range::size, .optional = true,
      .computed = OfLabels{part<edgeError, &EdgeError::p95>}, .meaning = "the same, 95th percentile"},
-    {.path = "accuracy.edge_error.hausdorff", .unit = "pixels", .range = range::size,
-     .computed = OfLabels{part<edgeError, &EdgeError::hausdorff>}, .meaning = "the same, largest, from either edge"},
-    {.path = "accuracy.edge_error.signed", .unit = "pixels", .about = Class::Edge,
+    {.path = "accuracy.edge_error.hausdorff", .unit = "pixels", .range = range::size, .optional = true,
+     .computed = OfLabels{part<edgeError, &EdgeError::hausdorff>}, .meaning = "the same, largest, missing edges too"},
+    {.path = "accuracy.edge_error.signed", .unit = "pixels", .optional = true, .about = Class::Edge,
      .allowance = Allowance{.relative = 0.01, .absolute = strayEdge, .magnitude = true},
      .computed = OfLabels{part<edgeError, &EdgeError::signedMean>},
      .meaning = "the same, mean with a sign: − shadow too small, + too large"},
+    {.path = "accuracy.edge_error.missing", .unit = "share", .range = range::share, .optional = true, .about = Class::Edge,
+     .bound = "missing_edges", .allowance = Allowance{.pixels = 2},
+     .computed = OfLabels{part<edgeError, &EdgeError::missing>},
+     .meaning = "exact shadow edge with none of the technique's within 8 pixels"},
+    {.path = "accuracy.edge_error.islands", .unit = "count", .range = range::count, .optional = true, .about = Class::Edge,
+     .bound = "islands", .allowance = Allowance{.absolute = 1},
+     .computed = OfLabels{part<edgeError, &EdgeError::islands>},
+     .meaning = "regions of wrong labels more than 2 pixels away from every exact edge: acne, holes"},
     {.path = "accuracy.rmse", .unit = "1", .range = range::size, .optional = true, .about = Class::Penumbra, .bound = "rmse",
      .allowance = Allowance{.truth = TruthError::Rms},
      .computed = OfVisibility{part<visibilityErrors, &VisibilityErrors::rmse>}, .meaning = "root mean square of V − V*"},
@@ -273,6 +296,15 @@ inline constexpr auto table = std::to_array<Metric>({
      .computed = OfVisibility{part<pictureCorrectness, &PictureCorrectness::within16>}, .meaning = "the same, at most 16"},
     {.path = "accuracy.z_correctness_30", .unit = "share", .range = range::share, .optional = true,
      .computed = OfVisibility{part<pictureCorrectness, &PictureCorrectness::within30>}, .meaning = "the same, at most 30"},
+    {.path = "accuracy.pixel_area.rmse", .unit = "1", .range = range::size, .optional = true, .about = Class::Penumbra,
+     .bound = "pixel_area_rmse", .allowance = Allowance{.truth = TruthError::Rms},
+     .computed = OfPixelAreas{of<rmse>},
+     .meaning = "root mean square of V − C*, the mean of exact visibility over the pixel's square: what a filter is for"},
+    {.path = "accuracy.pixel_area.bad30", .unit = "share", .range = range::share, .optional = true,
+     .about = Class::Penumbra, .bound = "pixel_area_bad30", .allowance = Allowance{.pixels = 2},
+     .computed = OfPixelAreas{of<bad30>}, .meaning = "pixels with abs(V − C*) > 30/255"},
+    {.path = "accuracy.pixel_area.ssim", .unit = "1", .range = range::correlation, .optional = true,
+     .computed = OfPixelAreas{of<ssim>}, .meaning = "structural similarity with C*"},
     {.path = "accuracy.primary_mismatch", .unit = "share", .range = range::share,
      .meaning = "pixels where rasteriser and truth see different surfaces; above 0.1 % nothing is scored"},
 
@@ -285,10 +317,13 @@ inline constexpr auto table = std::to_array<Metric>({
 
     {.path = "stability.flicker.mean", .unit = "1", .range = range::size, .about = Class::Flicker, .bound = "flicker",
      .allowance = Allowance{.truth = TruthError::Mean, .relative = 0.01},
-     .computed = OfMovingFrames{part<flicker, &Flicker::mean>},
-     .meaning = "change between moving frames beyond the truth's own, after exact reprojection, mean"},
+     .computed = OfMovingAreas{part<flicker, &Flicker::mean>},
+     .meaning = "change between moving frames beyond that of the true pixel areas, after exact reprojection, mean"},
     {.path = "stability.flicker.p95", .unit = "1", .range = range::size,
-     .computed = OfMovingFrames{part<flicker, &Flicker::p95>}, .meaning = "the same, 95th percentile"},
+     .computed = OfMovingAreas{part<flicker, &Flicker::p95>}, .meaning = "the same, 95th percentile"},
+    {.path = "stability.flicker.floor", .unit = "1", .range = range::size, .optional = true,
+     .computed = OfMovingAreas{part<flicker, &Flicker::floor>},
+     .meaning = "the mean for an image without shadows, which never changes: none's"},
     {.path = "stability.flip_rate", .unit = "share", .range = range::share, .optional = true, .about = Class::Flicker,
      .bound = "flip_rate", .allowance = Allowance{.pixels = 2, .relative = 0.01}, .computed = OfMovingFrames{of<flipRate>},
      .meaning = "reprojected pixels that change class while the truth does not"},

@@ -107,6 +107,7 @@ void fields(auto& visit, Is<Record> auto& r) {
     visit("environment", r.environment);
     visit("reference", r.reference);
     visit("soft_reference", r.softReference);
+    visit("pixel_reference", r.pixelReference);
     visit("sweep", r.sweep);
     metricGroup(visit, "lod", r.values);
     metricGroup(visit, "accuracy", hasAccuracy(r), r.values);

@@ -65,12 +65,13 @@ struct Record {
     std::string time; // ISO 8601, UTC
     Environment environment;
     std::optional<ReferenceInfo> reference;
-    std::optional<ReferenceInfo> softReference; // the second truth of a hard technique on an area-light scene
-    std::optional<SweepStep> sweep;             // of `sweep` only
-    metrics::Values values;                     // of every metric; a record has either "accuracy" or "lod"
-    std::map<std::string, double> figures;      // of the scored frame, by names that `list techniques` explains
-    double tolerance = 0;                       // the scene's, for the metric below; 0 if it states none
-    std::string toleranceMetric;                // "mismatch", "penumbra_rmse" …
+    std::optional<ReferenceInfo> softReference;  // the second truth of a hard technique on an area-light scene
+    std::optional<ReferenceInfo> pixelReference; // the truth of pixel areas that `flicker` and `pixel_area` are against
+    std::optional<SweepStep> sweep;              // of `sweep` only
+    metrics::Values values;                      // of every metric; a record has either "accuracy" or "lod"
+    std::map<std::string, double> figures;       // of the scored frame, by names that `list techniques` explains
+    double tolerance = 0;                        // the scene's, for the metric below; 0 if it states none
+    std::string toleranceMetric;                 // "mismatch", "penumbra_rmse" …
 };
 
 /// One JSON line, keys in schema order, no newline. Numbers are written so that they read back equal; a parameter that is a

@@ -50,6 +50,7 @@ constexpr const char* withoutMetrics = R"({
     },
     "reference": {"$ref": "#/definitions/reference"},
     "soft_reference": {"$ref": "#/definitions/reference"},
+    "pixel_reference": {"$ref": "#/definitions/reference"},
     "sweep": {
       "type": "object",
       "description": "place on a curve over one quantity; break_point: first value at which the scene's tolerance is exceeded",

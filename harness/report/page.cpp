@@ -20,18 +20,20 @@ constexpr const char* legend = R"(## The columns
 |:---|:---|
 | error | share of receiver pixels with the wrong label (per cent), or, on scenes lit by an area light, root mean square error of visibility |
 | false shadow, leak | share of lit pixels called shadowed, share of shadowed pixels called lit |
-| edge error px | mean distance in pixels from the technique's shadow edge to the exact one |
+| edge error px, median | mean and median displacement in pixels of the technique's shadow edge from the exact one, both ways |
+| missing edges, islands | share of the exact edge that the technique has nothing near; regions of wrong labels away from it (acne, holes), which the displacement leaves out |
 | off-edge error | mismatching pixels more than half a pixel from the exact edge |
 | bad30 | share of pixels off by more than 30/255 |
 | SSIM | structural similarity with the truth |
+| area rmse, bad30, SSIM | against the mean of exact visibility over each pixel's square: how well an image is antialiased |
 | penumbra rmse, penumbra width | error in and around the penumbra; relative error of its width |
 | umbra leak | mean visibility where the light is fully hidden |
-| flicker, flips | mean change between moving frames beyond the truth's own; share of pixels whose label changes while the truth's does not |
+| flicker, floor, flips | mean change between moving frames beyond that of the true pixel areas; the same for an image without shadows; share of pixels whose label changes while the truth's does not |
 | moving rmse | error over the moving frames: a steady trail does not flicker |
 | converged at | still frame, counted from 1, from which the error stays within 5 % of its final value |
 | MiB | textures and buffers |
 | cost | frame time, G-buffer included, as a multiple of `sm-uniform` in the same rounds |
-| front | ● no other technique has both less error and less cost |
+| front | ● no other technique has both less error and less cost, beyond the intervals of the times; ○ the same for a baseline or an error of more than 10 times the tolerance |
 
 – does not apply. Pixels count where the rasteriser and the truth see the same receiver.
 )";

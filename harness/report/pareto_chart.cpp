@@ -32,8 +32,8 @@ std::vector<Point> points(const std::vector<Record>& records, const std::string&
     std::vector<Point> result;
     for (const std::size_t i : order) {
         const std::optional<double> error = limit ? metrics::bounded(records[i].values, limit->metric) : std::nullopt;
-        result.push_back(
-            {records[i].variant, *place(records[i]), result.size() < front.size(), error && *error <= limit->value});
+        result.push_back({records[i].variant, *place(records[i]), result.size() < front.size(),
+                          error && *error <= limit->value && !isBaseline(records[i])});
     }
     return result;
 }

@@ -23,13 +23,14 @@ std::string sweepTable(const std::vector<Record>& records);
 /// One row a record, every metric a column, absent ones empty.
 std::string csv(const std::vector<Record>& records);
 
-/// Indices of the records of `scene` that no other one beats in both headline error and cost ratio, by rising cost.
+/// Indices of the records of `scene` that no other one beats in headline error and cost ratio (`dominates` in
+/// harness/report/summary.h), by rising cost.
 std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene);
 
 /// Indices of the records of `scene` within its tolerance; none if it states none.
 std::vector<std::size_t> adequate(const std::vector<Record>& records, const std::string& scene);
 
-/// Index of the cheapest record of `scene` within its tolerance; nothing if none is or it states none.
+/// Index of the cheapest record of `scene` within its tolerance that draws shadows; nothing if none is or it states none.
 std::optional<std::size_t> cheapestAdequate(const std::vector<Record>& records, const std::string& scene);
 
 /// Writes report.md, results.csv and the charts (SVG, by gnuplot): pareto-<scene>.svg for every scene,

@@ -3,18 +3,31 @@
 #include "harness/report/run_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <string_view>
 #include <tuple>
 
 namespace shadowbench::report {
-namespace {
 
 bool dominates(const Place& a, const Place& b) {
-    return a.error <= b.error && a.cost <= b.cost && (a.error < b.error || a.cost < b.cost);
+    const bool cheaper = a.cost * (1 + a.costSpread) < b.cost * (1 - b.costSpread);
+    const bool dearer = a.cost * (1 - a.costSpread) > b.cost * (1 + b.costSpread);
+    return (a.error <= b.error && cheaper) || (a.error < b.error && !dearer);
 }
 
-} // namespace
+bool isBaseline(const Record& record) { return record.technique == "none"; }
+
+double costSpread(const Record& record) {
+    std::vector<double> times = record.values.list("cost.time.samples");
+    constexpr std::size_t fewest = 6; // with fewer rounds no interval of order statistics holds 95 %
+    if (times.size() < fewest) return 0;
+    std::ranges::sort(times);
+    const double n = static_cast<double>(times.size());
+    const auto low = static_cast<std::size_t>(std::max(0.0, std::floor(0.5 * n - 0.98 * std::sqrt(n)))); // 1.96 / 2
+    const double median = 0.5 * (times[(times.size() - 1) / 2] + times[times.size() / 2]);
+    return 0.5 * (times[times.size() - 1 - low] - times[low]) / median;
+}
 
 std::vector<std::string> scenes(const std::vector<Record>& records) {
     std::vector<std::string> ids;
@@ -34,7 +47,7 @@ std::optional<Place> place(const Record& record) {
     const std::optional<Headline> error = headline(record);
     const std::optional<double>& cost = record.values["cost.time.ratio"];
     if (!error || !cost) return {};
-    return Place{error->value, *cost};
+    return Place{error->value, *cost, costSpread(record)};
 }
 
 std::optional<Tolerance> tolerance(const std::vector<Record>& records, const std::string& scene) {
@@ -90,7 +103,10 @@ std::string markdownText(const std::string& text) {
 }
 
 std::string truth(const ReferenceInfo& reference) {
-    if (reference.oracle != "povray") return "exact (" + reference.oracle + ")";
+    if (reference.oracle != "povray") {
+        const std::string exact = "exact (" + reference.oracle + ")";
+        return reference.sigma > 0 ? fmt::format("{}, σ {:.1g}", exact, reference.sigma) : exact;
+    }
     return fmt::format("POV-Ray {} samples, σ {:.1g}", reference.samples, reference.sigma);
 }
 
@@ -111,6 +127,16 @@ std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const s
     return front;
 }
 
+std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index) {
+    const std::vector<std::size_t> front = paretoFront(records, scene);
+    if (std::ranges::find(front, index) == front.end()) return "";
+    if (isBaseline(records[index])) return "○";
+    const std::optional<Tolerance> limit = tolerance(records, scene);
+    if (!limit) return "●";
+    const std::optional<double> error = metrics::bounded(records[index].values, limit->metric);
+    return error && *error <= markedWithin * limit->value ? "●" : "○";
+}
+
 std::vector<std::size_t> adequate(const std::vector<Record>& records, const std::string& scene) {
     const std::optional<Tolerance> limit = tolerance(records, scene);
     if (!limit) return {};
@@ -123,10 +149,10 @@ std::vector<std::size_t> adequate(const std::vector<Record>& records, const std:
 }
 
 std::optional<std::size_t> cheapestAdequate(const std::vector<Record>& records, const std::string& scene) {
-    std::optional<std::size_t> best;
+    std::optional<std::size_t> best; // the baseline draws no shadow: within a tolerance it is so by chance
     const auto rank = [&](std::size_t i) { return std::tuple(place(records[i])->cost, place(records[i])->error); };
     for (const std::size_t i : adequate(records, scene))
-        if (place(records[i]) && (!best || rank(i) < rank(*best))) best = i;
+        if (place(records[i]) && !isBaseline(records[i]) && (!best || rank(i) < rank(*best))) best = i;
     return best;
 }
 

@@ -17,10 +17,28 @@ std::vector<std::size_t> ofScene(const std::vector<Record>& records, const std::
 
 /// A record's place on the accuracy–cost plane; nothing unless it was scored and timed.
 struct Place {
-    double error; // headline
-    double cost;  // ratio to sm-uniform
+    double error;          // headline
+    double cost;           // ratio to sm-uniform
+    double costSpread = 0; // the cost lies within cost · (1 ± costSpread): the interval of the rounds' median
 };
 std::optional<Place> place(const Record& record);
+
+/// Half the 95 % interval of the median of the rounds' times (by order statistics), as a share of the median; 0 where the
+/// record has no rounds.
+double costSpread(const Record& record);
+
+/// Whether `a` beats `b`: it is at most as wrong, and cheaper by more than both intervals; or less wrong, and not dearer by
+/// more than both intervals.
+bool dominates(const Place& a, const Place& b);
+
+/// A technique that draws no shadow: what others are measured from.
+bool isBaseline(const Record& record);
+
+/// A record of the front deserves a mark if its error is within so many times the scene's tolerance, or there is none.
+inline constexpr double markedWithin = 10;
+
+/// Of a table's row: ● on the Pareto front, ○ there for a baseline or an error beyond `markedWithin`, "" off it.
+std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index);
 
 /// The scene's tolerance, from the first of its records that states one.
 struct Tolerance {

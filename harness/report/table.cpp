@@ -2,6 +2,7 @@
 #include "harness/report/run_report.h"
 #include "harness/report/summary.h"
 #include "harness/report/text_table.h"
+#include "techniques/catalog.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -30,15 +31,22 @@ std::span<const Column> columns() {
         {"false shadow", false, "accuracy.false_shadow", percent},
         {"leak", false, "accuracy.leak", percent},
         {"edge error px", false, "accuracy.edge_error.mean", decimals<2>},
+        {"median", true, "accuracy.edge_error.median", decimals<2>},
+        {"missing edges", true, "accuracy.edge_error.missing", percent},
+        {"islands", true, "accuracy.edge_error.islands", decimals<0>},
         {"off-edge error", true, "accuracy.mismatch_off_edge", percent},
         {"bad30", true, "accuracy.bad30", percent},
         {"SSIM", true, "accuracy.ssim", decimals<3>},
+        {"area rmse", true, "accuracy.pixel_area.rmse", decimals<4>},
+        {"area bad30", true, "accuracy.pixel_area.bad30", percent},
+        {"area SSIM", true, "accuracy.pixel_area.ssim", decimals<3>},
         {"penumbra rmse", true, "accuracy.penumbra_rmse", decimals<4>},
         {"penumbra width", true, "accuracy.penumbra_width_error", percent},
         {"umbra leak", true, "accuracy.umbra_leak", decimals<4>},
         {"texel px", true, "aliasing.median", decimals<2>},
         {"texel px p95", true, "aliasing.p95", decimals<2>},
-        {"flicker", false, "stability.flicker.mean", decimals<3>},
+        {"flicker", false, "stability.flicker.mean", decimals<4>},
+        {"floor", true, "stability.flicker.floor", decimals<4>},
         {"flips", true, "stability.flip_rate", percent},
         {"moving rmse", true, "stability.moving_rmse", decimals<4>},
         {"converged at", true, "stability.convergence", decimals<0>},
@@ -78,23 +86,42 @@ TextTable table(const std::vector<Record>& records, const std::string& scene, bo
         for (std::size_t row = 0; row < scored.size(); ++row)
             result.rows[row].push_back(cell(column, records[scored[row]]).value_or("–"));
     }
-    const std::vector<std::size_t> front = paretoFront(records, scene);
-    if (front.empty()) return result;
+    if (paretoFront(records, scene).empty()) return result;
     result.titles.emplace_back("front");
     for (std::size_t row = 0; row < scored.size(); ++row)
-        result.rows[row].emplace_back(std::find(front.begin(), front.end(), scored[row]) == front.end() ? "" : "●");
+        result.rows[row].emplace_back(frontMark(records, scene, scored[row]));
     return result;
+}
+
+/// "planar-hard (projected shadow on a plane)": what a technique is says where else it will do.
+std::string withTitle(const Record& record) {
+    const auto all = techniques::catalog();
+    const auto entry = std::ranges::find(all, record.technique, &techniques::Entry::id);
+    return entry == all.end() ? record.variant : fmt::format("{} ({})", record.variant, entry->title);
+}
+
+/// "truth: exact (polygon+rays), exact (pixel-areas); σ 0.0006": what errors cannot resolve.
+std::string truthLine(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::string> truths;
+    for (const std::size_t i : ofScene(records, scene))
+        for (const auto* info : {&records[i].reference, &records[i].softReference, &records[i].pixelReference}) {
+            if (!*info) continue;
+            const std::string text = truth(**info);
+            if (std::ranges::find(truths, text) == truths.end()) truths.push_back(text);
+        }
+    return truths.empty() ? "" : fmt::format("truth: {}", fmt::join(truths, "; "));
 }
 
 std::vector<std::string> footnotes(const std::vector<Record>& records, const std::string& scene) {
     std::vector<std::string> lines;
+    if (const std::string line = truthLine(records, scene); !line.empty()) lines.push_back(line);
     if (const std::optional<Tolerance> limit = tolerance(records, scene)) {
         const std::optional<std::size_t> best = cheapestAdequate(records, scene);
         const std::string metric = limit->metric == headlineMetric(records, scene) ? "" : limit->metric + " ";
         const std::string bound = metric + formatBound(*limit);
         std::vector<std::string_view> within;
         for (const std::size_t i : adequate(records, scene)) within.push_back(records[i].variant);
-        lines.push_back(best ? fmt::format("cheapest within tolerance ({}): {}", bound, records[*best].variant)
+        lines.push_back(best ? fmt::format("cheapest within tolerance ({}): {}", bound, withTitle(records[*best]))
                         : within.empty()
                             ? fmt::format("no technique is within tolerance ({})", bound)
                             : fmt::format("within tolerance ({}), none of them timed: {}", bound, fmt::join(within, ", ")));

@@ -92,9 +92,15 @@ TEST(GoldenContents, ARunAgainstAWrongTruthInTheCacheEndsAsInconclusive) {
         << outcome.output;
 }
 
-/// Those that take a second each; the soft ones take POV-Ray a minute.
+/// Those that take a second each; the soft ones take POV-Ray a minute, pixel areas under trees some seconds.
 TEST(GoldenReferences, HardOnesAreStillComputedBitForBit) {
     const Outcome outcome = shell("shadowbench reference --verify --quiet --truth hard --golden " + committed.string());
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+}
+
+TEST(GoldenReferences, PixelAreasAreStillComputedBitForBit) {
+    const Outcome outcome = shell(
+        "shadowbench reference --verify --quiet --truth pixel-area --scene dueling-frusta --golden " + committed.string());
     EXPECT_EQ(outcome.code, 0) << outcome.output;
 }
 
@@ -129,7 +135,7 @@ TEST_F(GoldenVerb, AcceptedReferencesVerify) {
     EXPECT_TRUE(fs::exists(folder_ / "golden/tiny-hard.exr"));
     const Outcome verified = reference("--verify");
     EXPECT_EQ(verified.code, 0) << verified.output;
-    EXPECT_NE(verified.output.find("2 identical"), std::string::npos) << verified.output;
+    EXPECT_NE(verified.output.find("4 identical"), std::string::npos) << verified.output;
 }
 
 TEST_F(GoldenVerb, AcceptingTheSameAgainChangesNoByte) {
@@ -165,7 +171,7 @@ TEST_F(GoldenVerb, AChangedLockIsDetected) {
     edit(hash, other);
     const Outcome verified = reference("--verify");
     EXPECT_EQ(verified.code, 4);
-    EXPECT_NE(verified.output.find("1 identical, 1 changed"), std::string::npos) << verified.output;
+    EXPECT_NE(verified.output.find("3 identical, 1 changed"), std::string::npos) << verified.output;
     const auto json = nlohmann::json::parse(reference("--verify --json").output);
     EXPECT_EQ(json[0]["status"], "changed");
     EXPECT_EQ(json[1]["status"], "identical");
@@ -196,10 +202,11 @@ TEST_F(GoldenVerb, AMissingToolIsInconclusiveAndTheOthersAreVerifiedAllTheSame) 
     scene_ = folder_.write("area.toml",
                            tinyScene("{ kind = \"rectangle\", centre = [0.2, 6, 0.3], u = [1, 0, 0], v = [0, 0, 1] }"));
     ASSERT_EQ(reference("--accept --truth hard").code, 0);
+    ASSERT_EQ(reference("--accept --truth pixel-area").code, 0);
     const Outcome verified = shell("PATH=/nonexistent shadowbench reference --quiet --verify --scene " + scene_ +
                                    " --golden " + folder_ / "golden");
     EXPECT_EQ(verified.code, 5) << verified.output;
-    EXPECT_NE(verified.output.find("2 identical, 2 unverified"), std::string::npos) << verified.output;
+    EXPECT_NE(verified.output.find("4 identical, 2 unverified"), std::string::npos) << verified.output;
     EXPECT_NE(verified.output.find("apt-get install povray"), std::string::npos) << verified.output;
 }
 

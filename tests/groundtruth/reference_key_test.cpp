@@ -58,6 +58,7 @@ TEST(ReferenceKey, ChangesWithEverythingThatMattersToTheTruth) {
         {"sides swapped", [](Request& r) { std::swap(r.size.x, r.size.y); }},
         {"samples", [](Request& r) { r.samples = 256; }},
         {"oracle", [](Request& r) { r.oracle = Oracle::PovRay; }},
+        {"pixel areas", [](Request& r) { r.pixelAreas = true; }},
     };
     for (const auto& [what, change] : changes) EXPECT_NE(keyAfter(soft(), change), key(soft(), tools)) << what;
     EXPECT_NE(key(hard(), tools), key(soft(), tools));

@@ -33,6 +33,7 @@ inline std::vector<Record> hardScene() {
 inline Record softCell(const std::string& variant, double rmse, double ratio) {
     Record r = softRecord();
     r.variant = variant;
+    r.technique = variant.substr(0, variant.find(':'));
     clearAccuracy(r);
     r.values["accuracy.rmse"] = rmse;
     r.values["accuracy.penumbra_rmse"] = 2 * rmse;

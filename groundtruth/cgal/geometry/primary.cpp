@@ -72,6 +72,12 @@ Ray pixelRay(const Camera& camera, int x, int y, glm::ivec2 size) {
     return {camera.eye, camera.ray({x + 0.5, y + 0.5}, size)};
 }
 
+std::optional<SeenPoint> seenAlong(const SceneTriangles& scene, const Camera& camera, const Light& light, const Ray& ray) {
+    const std::optional<Hit> hit = nearest(scene, camera, ray);
+    if (!hit) return std::nullopt;
+    return SeenPoint{hit->name, classify(hit->triangle, camera.eye, lightCorners(light))};
+}
+
 PrimaryHits tracePrimary(const SceneTriangles& scene, const Camera& camera, const Light& light, glm::ivec2 size, int threads,
                          const Progress& progress) {
     PrimaryHits hits{Image<std::uint32_t>(size.x, size.y), Image<glm::vec3>(size.x, size.y, glm::vec3(0)),

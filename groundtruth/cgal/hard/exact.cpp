@@ -1,7 +1,9 @@
 #include "groundtruth/cgal/hard/exact.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "groundtruth/cgal/geometry/primary.h"
+#include "groundtruth/cgal/hard/pixel_area.h"
 #include "groundtruth/cgal/hard/pixel_edges.h"
 #include "groundtruth/cgal/hard/planar.h"
 #include "groundtruth/cgal/hard/polygon.h"
@@ -9,7 +11,9 @@
 
 #include <CGAL/version.h>
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,6 +21,9 @@ namespace shadowbench::groundtruth::hard {
 namespace {
 
 constexpr int codeVersion = 3; // raise it with every change that can change a label or a distance
+
+/// In a pixel that is left to rays: enough of them for σ ≤ 0.01 whatever it sees.
+constexpr int raysAcross = 50;
 
 /// Gives the images of `out` their size and what is the same for every oracle.
 void prepare(const PrimaryHits& primary, Reference& out) {
@@ -87,6 +94,34 @@ void ExactScene::labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, con
         throw InternalError("Polygon labels were asked for a planar receiver without triangles.");
     prepare(primary, out);
     labelPlane(data_->occluders, data_->camera, size, primary, receiver, out, progress);
+}
+
+void ExactScene::averageOverPixels(glm::ivec2 size, const PrimaryHits& primary, Reference& out,
+                                   const Progress& progress) const {
+    requireSize(primary, size);
+    requireHardLight(data_->light);
+    prepare(primary, out);
+    const PixelAreas areas(*data_->triangles, data_->camera, data_->light.homogeneous(), size);
+    inParallel(size.y, data_->threads, progress, "pixel areas", [&](int y) {
+        for (int x = 0; x < size.x; ++x) {
+            if (primary.surface(x, y) != Surface::Receiver) continue;
+            const std::optional<AreaShares> found = areas.of({x, y}, primary.id(x, y));
+            const AreaShares shares = found ? *found
+                                            : sharesByRays(*data_->triangles, data_->camera, data_->light, size, {x, y},
+                                                           primary.id(x, y), raysAcross);
+            out.surface(x, y) = Surface::Receiver;
+            if (shares.seen <= 0) continue; // a sliver: its label stays
+            out.visibility(x, y) = static_cast<float>(std::clamp(shares.lit / shares.seen, 0.0, 1.0));
+            out.sigma(x, y) = static_cast<float>(shares.sigma);
+        }
+    });
+}
+
+ExactScene::PixelMean ExactScene::meanByRays(glm::ivec2 size, glm::ivec2 pixel, std::uint32_t surface, int side) const {
+    requireHardLight(data_->light);
+    const AreaShares shares = sharesByRays(*data_->triangles, data_->camera, data_->light, size, pixel, surface, side);
+    if (shares.seen <= 0) return {};
+    return {shares.lit / shares.seen, shares.sigma};
 }
 
 PrimaryHits primaryHits(const Snapshot& snapshot, glm::ivec2 size, const Progress& progress) {

@@ -62,6 +62,19 @@ public:
     void labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
                         const Progress& progress = {}) const;
 
+    /// Replaces the labels in `out` by the mean over the part of each pixel's square in which the surface of its centre is
+    /// seen and faces the light: by polygons, with rays in pixels that see more triangles than are worth cutting. Sigma is 0
+    /// where that is exact, else at most 0.01; pixels on an edge become receivers again. Point and directional lights; else
+    /// InternalError.
+    void averageOverPixels(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress = {}) const;
+
+    /// The same of one pixel by `side`² exact rays alone, with which `averageOverPixels` shares no decision.
+    struct PixelMean {
+        double mean = 0;  // 0 where no ray meets a surface that faces the light
+        double sigma = 0; // that independent rays would have; these, one in each cell of a grid, have less
+    };
+    [[nodiscard]] PixelMean meanByRays(glm::ivec2 size, glm::ivec2 pixel, std::uint32_t surface, int side) const;
+
 private:
     struct Data;
     std::unique_ptr<Data> data_;

@@ -61,6 +61,9 @@ TEST(HardAccuracy, OfTheTruthItselfHasNoErrorAtAll) {
     const std::optional<metrics::EdgeError> edge = metrics::edgeError({truth.visibility, truth, everything(truth)});
     ASSERT_TRUE(edge);
     EXPECT_EQ(edge->mean, 0.0);
+    EXPECT_EQ(edge->median, 0.0);
+    EXPECT_EQ(edge->missing, 0);
+    EXPECT_EQ(edge->islands, 0);
     EXPECT_EQ(edge->p95, 0.0);
     EXPECT_EQ(edge->hausdorff, 0.0);
     EXPECT_EQ(edge->signedMean, 0.0);
@@ -100,6 +103,15 @@ TEST(HardAccuracy, CountsAHalfAsLit) {
     EXPECT_EQ(metrics::labelErrors({Image<float>(4, 4, 0.4999F), truth, everything(truth)}).mismatch, 1);
 }
 
+TEST(HardAccuracy, OfAShadowThatIsNotDarkHasAnErrorBeforeRounding) {
+    const Reference truth = vertical.truth(size, size);
+    const Image<float> v = imageOf(size, size, [](glm::dvec2 p) { return vertical.hard(p) > 0 ? 1 : 0.4; });
+    const metrics::LabelErrors a = metrics::labelErrors({v, truth, everything(truth)});
+    EXPECT_EQ(a.mismatch, 0.0);
+    EXPECT_NEAR(*a.unrounded, 0.4 / 2, 1e-6);
+    EXPECT_EQ(metrics::labelErrors({truth.visibility, truth, everything(truth)}).unrounded, 0.0);
+}
+
 TEST(HardAccuracy, LeavesAbsentWhatHasNoPixel) {
     const Reference truth = truthOf(8, 8, [](glm::dvec2) { return 1; });
     const metrics::LabelErrors a = metrics::labelErrors({truth.visibility, truth, everything(truth)});
@@ -136,10 +148,10 @@ TEST(EdgeError, OfAShiftByOnePixelIsOnePixelWithItsSign) {
         const Image<float> v = imageOf(size, size, [&](glm::dvec2 p) { return edge.moved(shift).hard(p); });
         const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
         ASSERT_TRUE(error);
-        EXPECT_NEAR(error->signedMean, shift, 1e-6) << "float distances";
-        EXPECT_NEAR(error->mean, 1, 1e-6);
-        EXPECT_NEAR(error->p95, 1, 1e-6);
-        EXPECT_NEAR(error->hausdorff, 1, 1e-6);
+        EXPECT_NEAR(*error->signedMean, shift, 1e-6) << "float distances";
+        EXPECT_NEAR(*error->mean, 1, 1e-6);
+        EXPECT_NEAR(*error->p95, 1, 1e-6);
+        EXPECT_NEAR(*error->hausdorff, 1, 1e-6);
     }
 }
 
@@ -150,8 +162,8 @@ TEST(EdgeError, OfAShiftWithoutADistanceFieldIsMeasuredBetweenTheLabels) {
         const Image<float> v = imageOf(size, size, [&](glm::dvec2 p) { return vertical.moved(shift).hard(p); });
         const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
         ASSERT_TRUE(error);
-        EXPECT_DOUBLE_EQ(error->signedMean, shift);
-        EXPECT_DOUBLE_EQ(error->mean, 3);
+        EXPECT_DOUBLE_EQ(*error->signedMean, shift);
+        EXPECT_DOUBLE_EQ(*error->mean, 3);
     }
 }
 
@@ -162,8 +174,8 @@ TEST(EdgeError, OfAGradedEdgeResolvesAQuarterOfAPixel) {
         const Image<float> v = imageOf(size, size, [&](glm::dvec2 p) { return edge.moved(shift).ramp(p, 6); });
         const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
         ASSERT_TRUE(error);
-        EXPECT_NEAR(error->signedMean, shift, 1e-5) << "both fields are linear: only float rounding is left";
-        EXPECT_NEAR(error->mean, 0.25, 1e-5);
+        EXPECT_NEAR(*error->signedMean, shift, 1e-5) << "both fields are linear: only float rounding is left";
+        EXPECT_NEAR(*error->mean, 0.25, 1e-5);
     }
 }
 
@@ -176,18 +188,54 @@ TEST(EdgeError, OfHardLabelsFindsAQuarterOfAPixelOnAverage) {
     ASSERT_TRUE(error);
     // About 290 labels, of which a share of 1/4 sees the shift: standard error √(¼ ¾ / 290) = 0.025 px were they
     // independent.
-    EXPECT_NEAR(error->signedMean, 0.25, 0.05);
+    EXPECT_NEAR(*error->signedMean, 0.25, 0.05);
 }
 
-TEST(EdgeError, CountsAShadowThatIsMissingFarAwayInTheHausdorffDistanceOnly) {
+TEST(EdgeError, CountsAShadowThatIsMissingFarAwayInTheHausdorffDistanceAndAsMissing) {
     const auto withPatch = [](glm::dvec2 p) { return p.x > 16 && !(p.x > 26 && p.y < 3) ? 1 : 0; };
     const Reference truth = truthOf(size, size, withPatch);
     const std::optional<metrics::EdgeError> error =
         metrics::edgeError({vertical.truth(size, size).visibility, truth, everything(truth)});
     ASSERT_TRUE(error);
     EXPECT_EQ(error->mean, 0);
-    EXPECT_NEAR(error->hausdorff, std::hypot(15.5, 0.5),
-                1e-12); // the patch's corner (31.5, 3) to the edge's sample (16, 2.5)
+    EXPECT_NEAR(*error->hausdorff, std::hypot(15.5, 0.5),
+                1e-12);                           // the patch's corner (31.5, 3) to the edge's sample (16, 2.5)
+    EXPECT_NEAR(error->missing, 9.0 / 41, 1e-12); // of 32 samples of the one edge and 3 + 6 of the other
+}
+
+TEST(EdgeError, CountsIslandsApart) {
+    const Reference truth = vertical.truth(size, size);
+    Image<float> v = truth.visibility;
+    v(25, 5) = v(26, 5) = v(25, 6) = 0; // acne
+    v(28, 20) = 0;
+    v(6, 9) = 1;   // a hole
+    v(17, 28) = 0; // a step of the edge itself, 1.5 pixels beside it
+    const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->islands, 3);
+    EXPECT_EQ(error->missing, 0);
+    EXPECT_EQ(error->median, 0);
+    EXPECT_LE(*error->hausdorff, 2);
+}
+
+TEST(EdgeError, OfAnImageWithoutShadowIsMissingThroughout) {
+    const Reference truth = vertical.truth(size, size);
+    const std::optional<metrics::EdgeError> error =
+        metrics::edgeError({Image<float>(size, size, 1), truth, everything(truth)});
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->missing, 1);
+    EXPECT_EQ(error->islands, 0);
+    EXPECT_FALSE(error->mean);
+    EXPECT_FALSE(error->hausdorff);
+}
+
+TEST(EdgeError, IsMeasuredFromTheExactEdgeToo) {
+    // The technique has half of the edge where it belongs and nothing else: what it has is right, half is missing.
+    const Reference truth = vertical.truth(size, size);
+    const Image<float> v = imageOf(size, size, [](glm::dvec2 p) { return p.y < 16 ? vertical.hard(p) : 1; });
+    const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
+    ASSERT_TRUE(error);
+    EXPECT_NEAR(error->missing, 0.25, 0.05); // 8 of the 16 rows lie more than 8 pixels away
 }
 
 TEST(EdgeError, IgnoresBordersBetweenSurfaces) {

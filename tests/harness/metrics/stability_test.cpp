@@ -49,6 +49,18 @@ Snapshot snapshotOf(const Camera& now, const Camera& before) {
 
 bool litDisk(const glm::dvec3& p) { return std::hypot(p.x - 0.3, p.y + 0.2) > 3; }
 
+/// The same with the lit share of each pixel, from side × side points of its square.
+Image<float> sharesOf(const Camera& camera, int side) {
+    return imageOf(size.x, size.y, [&](glm::dvec2 centre) {
+        int lit = 0;
+        for (int i = 0; i < side * side; ++i) {
+            const glm::dvec2 inside = (glm::dvec2(i % side, i / side) + 0.5) / static_cast<double>(side) - 0.5;
+            lit += litDisk(camera.eye + 10.0 * camera.ray(centre + inside, size)) ? 1 : 0;
+        }
+        return static_cast<double>(lit) / (side * side);
+    });
+}
+
 struct TwoFrames {
     Camera before = cameraAt(0), now = cameraAt(0.53); // 1.7 pixels to the right
     Reference truthBefore = frameOf(before, litDisk), truthNow = frameOf(now, litDisk);
@@ -106,7 +118,7 @@ TEST(Warp, LeavesOutTheBackground) {
 TEST(Flicker, IsZeroForTheTruthUnderCameraMotion) {
     const TwoFrames frames;
     const metrics::FramePair pair = frames.pair(frames.truthNow.visibility);
-    EXPECT_EQ(metrics::flickerExcess(pair).size(), 62U * 64U); // two columns came into view
+    EXPECT_EQ(metrics::changes(pair).size(), 62U * 64U); // two columns came into view
     const std::optional<metrics::Flicker> flicker = metrics::flicker({{pair}});
     ASSERT_TRUE(flicker);
     EXPECT_EQ(flicker->mean, 0);
@@ -130,9 +142,33 @@ TEST(Flicker, ReadsTheNearestPixelBesideTheMaskAndLeavesOutTheRest) {
     TwoFrames frames;
     frames.maskBefore.scored(32, 30) = 0; // of the four pixels around (30.5 + 1.7, 30.5) this one is the nearest
     frames.maskBefore.scored(40, 40) = 0; // here it is the other one
-    EXPECT_EQ(metrics::flickerExcess(frames.pair(frames.truthNow.visibility)).size(),
+    EXPECT_EQ(metrics::changes(frames.pair(frames.truthNow.visibility)).size(),
               62U * 64U - 2U); // one pixel maps nearest to each of the two
     EXPECT_FALSE(metrics::flicker({}));
+}
+
+TEST(Flicker, OfCrawlingStepsIsMoreThanOfTheirAntialiasedImageAndThatOfTrueAreasIsNone) {
+    TwoFrames frames;
+    const Image<float> stepsBefore = frames.truthBefore.visibility, stepsNow = frames.truthNow.visibility;
+    frames.truthBefore.visibility = sharesOf(frames.before, 32);
+    frames.truthNow.visibility = sharesOf(frames.now, 32);
+    const auto flickerOf = [&](const Image<float>& now, const Image<float>& before) {
+        return *metrics::flicker({{frames.pair(now, before)}});
+    };
+    EXPECT_EQ(flickerOf(frames.truthNow.visibility, frames.truthBefore.visibility).mean, 0);
+    const double steps = flickerOf(stepsNow, stepsBefore).mean;
+    const double antialiased = flickerOf(sharesOf(frames.now, 4), sharesOf(frames.before, 4)).mean;
+    EXPECT_GT(antialiased, 0);
+    EXPECT_GT(steps, 5 * antialiased);
+}
+
+TEST(Flicker, HasAsItsFloorWhatAnImageWithoutShadowsScores) {
+    const TwoFrames frames;
+    const Image<float> lit(size.x, size.y, 1);
+    const metrics::Flicker without = *metrics::flicker({{frames.pair(lit, lit)}});
+    EXPECT_GT(without.floor, 0);
+    EXPECT_NEAR(without.floor, without.mean, 1e-7) << "single changes are floats";
+    EXPECT_EQ(metrics::flicker({{frames.pair(frames.truthNow.visibility)}})->floor, without.floor);
 }
 
 TEST(Flips, CountClassesThatChangeWhileTheTruthDoesNot) {

@@ -1,4 +1,5 @@
 #include "harness/report/run_report.h"
+#include "harness/report/summary.h"
 #include "tests/support/report_examples.h"
 
 #include <algorithm>
@@ -20,22 +21,25 @@ TEST(TerminalTable, ListsEveryTechniqueAndEndsWithTheCheapestWithinTolerance) {
     EXPECT_EQ(report::terminalTable(hardScene(), "dueling-frusta"),
               " scene: dueling-frusta · 256² · error = mismatching pixels · cost = frames of sm-uniform\n"
               " technique                 error   false shadow     leak   edge error px   flicker   cost   front\n"
-              " none                     31.2 %              –    100 %               –     0.104   0.31       ●\n"
-              " sm-uniform               4.87 %         0.05 %   0.04 %            0.40     0.016   1.00       ●\n"
-              " sm-history:base=lispsm   0.09 %         0.05 %   0.04 %            0.40     0.000   1.19       ●\n"
-              " volume-zfail             0.00 %         0.05 %   0.04 %            0.40     0.000   4.70       ●\n"
-              " cheapest within tolerance (0.5 %): sm-history:base=lispsm\n"
+              " none                     31.2 %              –    100 %               –    0.1040   0.31       ○\n"
+              " sm-uniform               4.87 %         0.05 %   0.04 %            0.40    0.0162   1.00       ●\n"
+              " sm-history:base=lispsm   0.09 %         0.05 %   0.04 %            0.40    0.0003   1.19       ●\n"
+              " volume-zfail             0.00 %         0.05 %   0.04 %            0.40    0.0000   4.70       ●\n"
+              " truth: exact (polygon)\n"
+              " cheapest within tolerance (0.5 %): sm-history:base=lispsm (Pixel-correct shadow map with history)\n"
               " not applicable: pcss (needs an area light)\n");
 }
 
 TEST(TerminalTable, OfASoftSceneComparesOneMetricAndLeavesOutWhatNoRecordHas) {
-    EXPECT_EQ(report::terminalTable(softScene(), "overlapping-occluders"),
-              " scene: overlapping-occluders · 256² · error = rms error of visibility · cost = frames of sm-uniform\n"
-              " technique        error     leak   cost   front\n"
-              " sm-uniform      0.1900   1.00 %   1.00       ●\n"
-              " pcss            0.0312        –   2.94\n"
-              " temporal-soft   0.0210        –   2.20       ●\n"
-              " cheapest within tolerance (penumbra_rmse 0.05): temporal-soft\n");
+    EXPECT_EQ(
+        report::terminalTable(softScene(), "overlapping-occluders"),
+        " scene: overlapping-occluders · 256² · error = rms error of visibility · cost = frames of sm-uniform\n"
+        " technique        error     leak   cost   front\n"
+        " sm-uniform      0.1900   1.00 %   1.00       ●\n"
+        " pcss            0.0312        –   2.94\n"
+        " temporal-soft   0.0210        –   2.20       ●\n"
+        " truth: exact (polygon); POV-Ray 1024 samples, σ 0.0006\n"
+        " cheapest within tolerance (penumbra_rmse 0.05): temporal-soft (Physically correct soft shadows over time)\n");
 }
 
 TEST(TerminalTable, SaysThatNothingIsWithinToleranceAndNamesErrors) {
@@ -43,7 +47,8 @@ TEST(TerminalTable, SaysThatNothingIsWithinToleranceAndNamesErrors) {
     EXPECT_EQ(report::terminalTable(records, "dueling-frusta"),
               " scene: dueling-frusta · 256² · error = mismatching pixels · cost = frames of sm-uniform\n"
               " technique     error   false shadow     leak   edge error px   flicker   cost   front\n"
-              " sm-uniform   4.87 %         0.05 %   0.04 %            0.40     0.016   1.00       ●\n"
+              " sm-uniform   4.87 %         0.05 %   0.04 %            0.40    0.0162   1.00       ●\n"
+              " truth: exact (polygon)\n"
               " no technique is within tolerance (0.5 %)\n"
               " error: sm-history:base=lispsm (primary hits differ)\n");
     EXPECT_EQ(report::terminalTable(records, "no-such-scene"), "");
@@ -74,6 +79,8 @@ TEST(MarkdownTable, HasARowARecordAndEscapesWhatMarkdownWouldRead) {
                                                                 "|:---|---:|---:|---:|\n"
                                                                 "| a\\_b\\|c | 1.00 % | 1.00 | ● |\n"
                                                                 "\n"
+                                                                "truth: exact (polygon)\n"
+                                                                "\n"
                                                                 "no technique is within tolerance (0.5 %)\n");
 }
 
@@ -96,6 +103,30 @@ TEST(ParetoFront, KeepsEqualRecordsAndDropsOnesBeatenInOneOnly) {
                                          hardCell("dearer", 0.1, 1.1), hardCell("worse", 0.2, 1)};
     EXPECT_EQ(variants(records, report::paretoFront(records, "dueling-frusta")),
               (std::vector<std::string>{"twin", "twin:map=2"}));
+}
+
+TEST(ParetoFront, CountsADifferenceInCostBeyondTheRoundsIntervalsOnly) {
+    Record right = hardCell("right", 0.01, 1.02), worse = hardCell("worse", 0.02, 1), cheap = hardCell("cheap", 0.02, 0.8);
+    for (Record* record : {&right, &worse, &cheap})
+        record->values.list("cost.time.samples") = {20, 20.1, 20.2, 20.3, 20.4, 20.5, 20.6, 20.7, 20.8, 20.9, 21, 21.1};
+    EXPECT_EQ(variants({right, worse, cheap}, report::paretoFront({right, worse, cheap}, "dueling-frusta")),
+              (std::vector<std::string>{"cheap", "right"}))
+        << "2 % are within the interval, a fifth is not";
+}
+
+TEST(FrontMark, IsHollowForABaselineAndFarBeyondTheTolerance) {
+    const std::vector<Record> records = {hardCell("none", 0.3, 0.3), hardCell("coarse", 0.051, 0.5),
+                                         hardCell("fair", 0.049, 0.8), hardCell("beaten", 0.06, 1)}; // tolerance 0.005
+    const auto mark = [&](std::size_t i) { return report::frontMark(records, "dueling-frusta", i); };
+    EXPECT_EQ(mark(0), "○");
+    EXPECT_EQ(mark(1), "○");
+    EXPECT_EQ(mark(2), "●");
+    EXPECT_EQ(mark(3), "");
+}
+
+TEST(CheapestAdequate, IsNoBaseline) {
+    const std::vector<Record> records = {hardCell("none", 0.001, 0.3), hardCell("sm-uniform", 0.002, 1)};
+    EXPECT_EQ(records[*report::cheapestAdequate(records, "dueling-frusta")].variant, "sm-uniform");
 }
 
 TEST(ParetoFront, LeavesOutWhatHasNoCostOrNoScoreAndOtherScenes) {
@@ -145,7 +176,7 @@ TEST(Csv, NamesColumnsByTheirPathAndQuotesWhatNeedsIt) {
     Record record = unscored(Status::Error, "said \"no\", twice");
     const std::string text = report::csv({record});
     EXPECT_EQ(text.find("schema_version,scene,technique,variant,profile,width,height,frames,seed,status,reason,cell,"), 0);
-    EXPECT_NE(text.find(",accuracy.edge_error.signed,accuracy.rmse,"), std::string::npos);
+    EXPECT_NE(text.find(",accuracy.edge_error.islands,accuracy.rmse,"), std::string::npos);
     EXPECT_NE(text.find(",error,\"said \"\"no\"\", twice\","), std::string::npos);
     EXPECT_NE(text.find("\"llvmpipe (LLVM 15.0.6, 256 bits)\""), std::string::npos);
 }
@@ -153,9 +184,9 @@ TEST(Csv, NamesColumnsByTheirPathAndQuotesWhatNeedsIt) {
 TEST(Csv, LeavesAbsentMetricsEmpty) {
     Record record = hardRecord();
     clear(record, "accuracy");
-    record.values["accuracy.mismatch"] = 0.25; // two more columns until …
+    record.values["accuracy.mismatch"] = 0.25; // three more columns until …
     record.values["accuracy.leak"] = 0.5;
-    EXPECT_NE(report::csv({record}).find(",0.25,,,0.5,,,,"), std::string::npos) << report::csv({record});
+    EXPECT_NE(report::csv({record}).find(",0.25,,,,0.5,,,,"), std::string::npos) << report::csv({record});
 }
 
 } // namespace

@@ -1,0 +1,225 @@
+#include "groundtruth/cgal/hard/pixel_patches.h"
+
+#include <limits>
+
+namespace shadowbench::groundtruth::hard {
+namespace {
+
+constexpr std::size_t fewEdges = 128;             // whose crossings are found, too
+constexpr std::size_t manyEdges = 1024;           // from here on no strip ends are found
+constexpr double leastStrip = 1e-12;              // px; thinner ones are left out
+constexpr double sameDepth = 1e-12;               // relative: nearer together, two patches are one surface
+constexpr double largestSigma = 0.0095;           // of the share of a pixel
+constexpr int fewestLines = 32, mostLines = 4096; // across a pixel
+
+struct Segment {
+    glm::dvec2 from, to;
+};
+
+/// What a horizontal line through the pixel meets.
+struct Lengths {
+    double seen = 0, lit = 0;
+    bool crossing = false; // of patches, in depth
+};
+
+/// Reads one line after the other; keeps its working space.
+class LineReader {
+public:
+    explicit LineReader(const std::vector<Patch>& patches) : patches_(patches) {}
+
+    Lengths at(double y) {
+        y_ = y;
+        lengths_ = {};
+        spans_.clear();
+        cuts_.clear();
+        for (const Patch& patch : patches_) {
+            const std::optional<ImagePolygon::Interval> inside = patch.outline.onLine(y);
+            if (!inside || !(inside->from < inside->to)) continue;
+            spans_.push_back({*inside, &patch});
+            cuts_.push_back(inside->from);
+            cuts_.push_back(inside->to);
+        }
+        std::ranges::sort(cuts_);
+        for (std::size_t i = 1; i < cuts_.size(); ++i)
+            if (cuts_[i - 1] < cuts_[i]) addNearest(cuts_[i - 1], cuts_[i], mostSplits);
+        return lengths_;
+    }
+
+private:
+    struct Span {
+        ImagePolygon::Interval inside;
+        const Patch* patch;
+    };
+    static constexpr int mostSplits = 8;
+
+    /// The patch that is nearest at `x`, of those that hold all of [from, to].
+    [[nodiscard]] const Patch* nearest(double x, double from, double to) const {
+        const Patch* best = nullptr;
+        double most = 0;
+        const double middle = 0.5 * (from + to);
+        for (const auto& [inside, patch] : spans_) {
+            if (middle < inside.from || middle > inside.to) continue;
+            const double nearness = patch->nearness(x, y_);
+            if (best != nullptr && nearness <= most * (1 + sameDepth)) continue;
+            best = patch;
+            most = nearness;
+        }
+        return best;
+    }
+
+    /// Between two cuts the same patches lie behind one another; inverse depths are linear, so what is nearest at both ends
+    /// is nearest between them.
+    void addNearest(double from, double to, int splits) {
+        const Patch* left = nearest(from, from, to);
+        const Patch* right = nearest(to, from, to);
+        if (left == nullptr || right == nullptr) return;
+        const double ahead = left->nearness(from, y_) - right->nearness(from, y_);
+        const double behind = right->nearness(to, y_) - left->nearness(to, y_);
+        const bool cross =
+            left != right && ahead > sameDepth * left->nearness(from, y_) && behind > sameDepth * right->nearness(to, y_);
+        if (!cross || splits == 0) return add(*nearest(0.5 * (from + to), from, to), from, to); // ends may be ties
+        lengths_.crossing = true;
+        const double at = from + ahead / (ahead + behind) * (to - from);
+        addNearest(from, at, splits - 1);
+        addNearest(at, to, splits - 1);
+    }
+
+    void add(const Patch& patch, double from, double to) {
+        if (!patch.counts) return;
+        lengths_.seen += to - from;
+        if (patch.shadowed) return;
+        shadows_.clear();
+        for (const ImagePolygon& shadow : patch.shadows)
+            if (const std::optional<ImagePolygon::Interval> inside = shadow.onLine(y_)) shadows_.push_back(*inside);
+        std::ranges::sort(shadows_, {}, &ImagePolygon::Interval::from);
+        double reached = from;
+        for (const ImagePolygon::Interval& shadow : shadows_) {
+            if (shadow.from > reached) lengths_.lit += std::min(shadow.from, to) - reached;
+            reached = std::max(reached, shadow.to);
+            if (reached >= to) return;
+        }
+        lengths_.lit += to - reached;
+    }
+
+    const std::vector<Patch>& patches_;
+    double y_ = 0;
+    Lengths lengths_;
+    std::vector<Span> spans_;
+    std::vector<double> cuts_;
+    std::vector<ImagePolygon::Interval> shadows_;
+};
+
+void addEdges(const ImagePolygon& polygon, std::vector<Segment>& edges) {
+    const Corners<glm::dvec2>& corners = polygon.corners();
+    for (std::size_t i = 0; i < corners.size(); ++i) edges.push_back({corners[i], corners.after(i)});
+}
+
+/// All edges at whose corners and crossings lengths along a line can begin to change in another way.
+std::vector<Segment> edgesOf(const std::vector<Patch>& patches) {
+    std::vector<Segment> edges;
+    for (const Patch& patch : patches) {
+        addEdges(patch.outline, edges);
+        for (const ImagePolygon& shadow : patch.shadows) addEdges(shadow, edges);
+    }
+    return edges;
+}
+
+/// Height at which two edges cross.
+std::optional<double> crossingHeight(const Segment& a, const Segment& b) {
+    const glm::dvec2 d = a.to - a.from, e = b.to - b.from, between = b.from - a.from;
+    const double turn = d.x * e.y - d.y * e.x;
+    if (turn == 0) return std::nullopt;
+    const double alongA = (between.x * e.y - between.y * e.x) / turn, alongB = (between.x * d.y - between.y * d.x) / turn;
+    if (alongA < 0 || alongA > 1 || alongB < 0 || alongB > 1) return std::nullopt;
+    return a.from.y + alongA * d.y;
+}
+
+/// The heights of all corners; between them and the crossings of edges lengths change linearly.
+std::vector<double> cornerHeights(const std::vector<Segment>& edges, const PixelSquare& square) {
+    std::vector<double> heights{square.low.y, square.high().y};
+    if (edges.size() >= manyEdges) return heights;
+    for (const Segment& edge : edges) heights.push_back(edge.from.y);
+    return heights;
+}
+
+void addCrossings(const std::vector<Segment>& edges, std::vector<double>& heights) {
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (const std::optional<double> y = crossingHeight(edges[i], edges[j])) heights.push_back(*y);
+}
+
+/// Sums over lines; the uncertainty that comes of their number.
+class Sum {
+public:
+    /// Lines through the middles of `count` equal parts of [from, to].
+    void addLines(LineReader& reader, double from, double to, int count) {
+        const double height = (to - from) / count;
+        Lengths last;
+        for (int i = 0; i < count; ++i) {
+            const Lengths here = reader.at(from + (i + 0.5) * height);
+            shares_.seen += height * here.seen;
+            shares_.lit += height * here.lit;
+            if (i > 0) steps_.push_back({height * (here.seen - last.seen), height * (here.lit - last.lit), false});
+            last = here;
+        }
+    }
+
+    /// A strip that one line through its middle gives exactly, or several where patches cross.
+    void addExactStrip(LineReader& reader, double from, double to, int lines) {
+        const Lengths middle = reader.at(0.5 * (from + to));
+        if (middle.crossing) return addStrip(reader, from, to, lines);
+        shares_.seen += (to - from) * middle.seen;
+        shares_.lit += (to - from) * middle.lit;
+    }
+
+    /// A strip in which edges may cross; `lines` would cross all of the pixel.
+    void addStrip(LineReader& reader, double from, double to, int lines) {
+        addLines(reader, from, to, std::max(2, static_cast<int>(std::ceil(lines * (to - from)))));
+    }
+
+    /// Two neighbouring lines differ by at most twice what one may err by: with s a step of lit − mean · seen, the variance
+    /// of a sum over lines is at most ½ Σ s².
+    [[nodiscard]] AreaShares result() const {
+        AreaShares result = shares_;
+        if (result.seen <= 0) return result;
+        const double mean = result.lit / result.seen;
+        double squares = 0;
+        for (const Lengths& step : steps_) {
+            const double change = step.lit - mean * step.seen;
+            squares += change * change;
+        }
+        result.sigma = std::sqrt(0.5 * squares) / result.seen;
+        return result;
+    }
+
+private:
+    AreaShares shares_;
+    std::vector<Lengths> steps_; // from line to line, times the height of a line's strip
+};
+
+template <class AddStrip>
+AreaShares overStrips(const std::vector<double>& heights, const AddStrip& add) {
+    Sum sum;
+    for (std::size_t i = 1; i < heights.size(); ++i)
+        if (heights[i] - heights[i - 1] > leastStrip) add(sum, heights[i - 1], heights[i]);
+    return sum.result();
+}
+
+} // namespace
+
+AreaShares shares(const std::vector<Patch>& patches, const PixelSquare& square) {
+    LineReader reader(patches);
+    const std::vector<Segment> edges = edgesOf(patches);
+    std::vector<double> heights = cornerHeights(edges, square);
+    const bool exact = edges.size() <= fewEdges;
+    if (exact) addCrossings(edges, heights);
+    std::ranges::sort(heights);
+    for (int lines = fewestLines;; lines *= 4) {
+        const AreaShares result = overStrips(heights, [&](Sum& sum, double from, double to) {
+            exact ? sum.addExactStrip(reader, from, to, lines) : sum.addStrip(reader, from, to, lines);
+        });
+        if (result.sigma <= largestSigma || lines >= mostLines) return result;
+    }
+}
+
+} // namespace shadowbench::groundtruth::hard

@@ -1,0 +1,34 @@
+// Pixel areas by rays.
+#include "base/random.h"
+#include "groundtruth/cgal/geometry/primary.h"
+#include "groundtruth/cgal/hard/pixel_area.h"
+#include "groundtruth/cgal/hard/rays.h"
+
+#include <cmath>
+
+namespace shadowbench::groundtruth::hard {
+AreaShares sharesByRays(const SceneTriangles& scene, const Camera& camera, const Light& light, glm::ivec2 size,
+                        glm::ivec2 pixel, std::uint32_t surface, int side) {
+    std::size_t seen = 0, lit = 0;
+    Random random((static_cast<std::uint64_t>(pixel.y) << 32U) | static_cast<std::uint32_t>(pixel.x));
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const double right = random.uniform(), down = random.uniform();
+            const glm::dvec2 inside = glm::dvec2(x + right, y + down) / static_cast<double>(side);
+            const Ray ray{camera.eye, camera.ray(glm::dvec2(pixel) + inside, size)};
+            const std::optional<SeenPoint> hit = seenAlong(scene, camera, light, ray);
+            if (!hit || hit->surface != Surface::Receiver) continue;
+            if (scene.instances()[hit->name.instance].id != surface) continue;
+            ++seen;
+            const ReceiverPoint point(ray, scene.triangle(hit->name));
+            if (shadowLabel(scene, point, hit->name, light.homogeneous()) != Blocking::Blocks) ++lit;
+        }
+    const double all = static_cast<double>(side) * side;
+    AreaShares shares{static_cast<double>(seen) / all, static_cast<double>(lit) / all, 0};
+    if (seen == 0) return shares;
+    const double mean = shares.lit / shares.seen;
+    shares.sigma = std::sqrt(mean * (1 - mean) / static_cast<double>(seen));
+    return shares;
+}
+
+} // namespace shadowbench::groundtruth::hard
