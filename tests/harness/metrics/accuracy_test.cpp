@@ -51,6 +51,23 @@ TEST(ReceiverMask, CountsBackgroundDrawnOverAsMismatch) {
     EXPECT_DOUBLE_EQ(metrics::receiverMask(truth, drawn, glm::dvec3(0)).primaryMismatch, 0.01);
 }
 
+TEST(ReceiverMask, ATinyImageMayDisagreeInAFewPixelsThatLieOnAnEdge) {
+    Reference truth = vertical.truth(24, 24);
+    for (int y = 0; y < 24; ++y)
+        for (int x = 12; x < 24; ++x) truth.id(x, y) = 2;
+    const auto aligned = [&](const std::vector<glm::ivec2>& pixels) {
+        metrics::Drawn drawn{truth.id, truth.position};
+        for (const glm::ivec2 p : pixels) drawn.id(p.x, p.y) = 3 - truth.id(p.x, p.y);
+        return metrics::receiverMask(truth, drawn, glm::dvec3(0)).aligned;
+    };
+    EXPECT_TRUE(aligned({}));
+    EXPECT_TRUE(aligned({{12, 3}})) << "1 of 576 is more than 0.1 %, and the other surface is a neighbour's";
+    EXPECT_FALSE(aligned({{20, 3}})) << "no edge is near";
+    EXPECT_FALSE(aligned({{12, 3}, {20, 3}}));
+    EXPECT_TRUE(aligned({{12, 3}, {12, 4}, {11, 9}, {12, 12}}));
+    EXPECT_FALSE(aligned({{12, 3}, {12, 4}, {12, 5}, {12, 6}, {12, 7}})) << "a camera beside the truth's";
+}
+
 TEST(HardAccuracy, OfTheTruthItselfHasNoErrorAtAll) {
     const Reference truth = HalfPlane{{0.8, 0.6}, 20.3}.truth(size, size);
     const metrics::LabelErrors a = metrics::labelErrors({truth.visibility, truth, everything(truth)});
