@@ -32,7 +32,7 @@ struct Mutant {
     std::filesystem::path file;
     std::string find, replace;
     Means means = Means::Gate;
-    std::string target;                  // of Truth: "scene/truth" or "scene/truth/frame"; of Test: its name
+    std::string target; // of Truth: scene, truth and, if one is meant, frame, with slashes between; of Test: its name
     std::vector<std::string> techniques; // variants, of what is found by records at least one
     std::vector<std::string> scenes;     // empty: those that the gate judges; exactly one with a sweep
     std::optional<Sweep> sweep;

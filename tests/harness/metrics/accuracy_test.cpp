@@ -277,6 +277,21 @@ TEST(Ssim, FallsWithNoise) {
     EXPECT_LT(noisy(0.1F), 0.7);
 }
 
+TEST(Ssim, OfConstantImagesIsTheTermOfTheMeansAndTurnsWithTheImage) {
+    const auto ssimOf = [](const auto& v, const auto& exact) {
+        const Reference truth = test::truthOf(24, 24, exact);
+        return *metrics::ssim({test::imageOf(24, 24, v), truth, everything(truth)});
+    };
+    const auto quarter = [](glm::dvec2) { return 0.25; };
+    const auto half = [](glm::dvec2) { return 0.5; };
+    EXPECT_NEAR(ssimOf(half, quarter), (2 * 0.125 + 1e-4) / (0.3125 + 1e-4), 1e-6); // eq. 13 without variances
+    const auto ramp = [](double x) { return 0.5 + 0.4 * std::sin(0.8 * x); };
+    const auto step = [](double x) { return x > 12 ? 1.0 : 0.0; };
+    const double along = ssimOf([&](glm::dvec2 p) { return ramp(p.x); }, [&](glm::dvec2 p) { return step(p.x); });
+    const double down = ssimOf([&](glm::dvec2 p) { return ramp(p.y); }, [&](glm::dvec2 p) { return step(p.y); });
+    EXPECT_NEAR(along, down, 1e-9);
+}
+
 TEST(PenumbraRmse, IsMeasuredOnThePenumbraDilatedByTwoPixels) {
     // Penumbra: the columns 14 … 17 (V* = 1/8, 3/8, 5/8, 7/8); with two more on each side 8 columns.
     const Reference truth = truthOf(size, size, [](glm::dvec2 p) { return vertical.ramp(p, 4); });
