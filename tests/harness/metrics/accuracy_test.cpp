@@ -249,6 +249,11 @@ TEST(SoftAccuracy, CountsBadPixelsAboveTheirThresholdsOnly) {
     const metrics::Values a = visibilityOf({v, truth, everything(truth)});
     EXPECT_DOUBLE_EQ(*a["accuracy.bad30"], 0.01);
     EXPECT_DOUBLE_EQ(*a["accuracy.bad8"], 0.02);
+    const Reference lit = truthOf(10, 10, [](glm::dvec2) { return 1; });
+    for (float& value : v) value = 1 - value;
+    const metrics::Values tooDark = visibilityOf({v, lit, everything(lit)});
+    EXPECT_DOUBLE_EQ(*tooDark["accuracy.bad30"], 0.01);
+    EXPECT_DOUBLE_EQ(*tooDark["accuracy.bad8"], 0.02);
 }
 
 TEST(SoftAccuracy, MeasuresInsideTheMaskOnly) {
