@@ -68,6 +68,8 @@ double TomlValue::number() const {
     if (!node_->is_number()) fail(fmt::format("expected a number, got {}", got()));
     const double value = *node_->value<double>();
     if (!std::isfinite(value)) fail(fmt::format("expected a finite number, got {}", got()));
+    if (std::abs(value) > source_->largest)
+        fail(fmt::format("expected a number of at most {:g} in size, got {}", source_->largest, got()));
     return value;
 }
 

@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@ struct TomlSource {
     /// A table whose keys are among `choices` gives one value for each; the one that counts is that of `chosen`.
     std::vector<std::string> choices{};
     std::string chosen{};
+    double largest = std::numeric_limits<double>::max(); // size of a number
 };
 
 /// One value of the file with the dotted key that leads to it. Every accessor throws BadInput, `file:line: key: what is
@@ -33,7 +35,7 @@ public:
     [[nodiscard]] bool boolean() const;
     [[nodiscard]] std::string text() const;
     std::string oneOf(const std::vector<std::string>& words) const;
-    [[nodiscard]] double number() const; // finite
+    [[nodiscard]] double number() const; // finite, and no larger than the source allows
     [[nodiscard]] double positive() const;
     [[nodiscard]] int integer(int least, int most) const;
     [[nodiscard]] glm::dvec3 vector() const;

@@ -3,10 +3,37 @@
 #include "harness/cells/cell.h"
 #include "harness/cells/cell_images.h"
 #include "harness/cells/lod_images.h"
+#include "harness/metrics/values.h"
+#include "techniques/catalog.h"
 
 #include <fmt/format.h>
 
 namespace shadowbench {
+namespace {
+
+/// Whether the scene names the variant; one of a technique that is still to come is named by nobody.
+bool names(const std::string& expected, const techniques::Variant& variant) {
+    try {
+        return techniques::parseVariant(expected).name == variant.name;
+    } catch (const BadInput&) {
+        return false;
+    }
+}
+
+/// What the scene is there to break is broken: the first of its bounds that is exceeded is said with the scores.
+void markExpectedFailure(const Scene& scene, const techniques::Variant& variant, Record& record) {
+    for (const Expectation& expected : scene.fails) {
+        if (!names(expected.technique, variant)) continue;
+        const std::optional<double> value = metrics::bounded(record.values, expected.metric);
+        if (!value || *value <= expected.bound) continue;
+        record.status = Status::ExpectedFailure;
+        record.reason =
+            fmt::format("{} is expected to lie above {:g}: {}", expected.metric, expected.bound, expected.reason);
+        return;
+    }
+}
+
+} // namespace
 
 SceneCells::SceneCells(const Scene& scene, const groundtruth::Cache& cache, MeasureOptions options)
     : scene_(scene), options_(std::move(options)), truths_(scene, cache), lodScene_(scene) {}
@@ -43,6 +70,7 @@ void SceneCells::measure(const techniques::Variant& variant, Record& record, con
     CellImages images;
     if (!stage_) stage_.emplace(scene_);
     runCell(scene_, *stage_, truths_, variant, options_, record, images);
+    markExpectedFailure(scene_, variant, record);
     if (!options_.images.empty()) writeCellImages(imageFolder(variant), images);
 }
 
@@ -54,6 +82,7 @@ void SceneCells::measureLod(const techniques::Variant& variant, Record& record, 
         keep = [&images](int frame, const metrics::ColourImage& picture) { images->keep(frame, picture); };
     }
     lod::runLodCell(lodScene_, variant, options_, record, progress, keep);
+    markExpectedFailure(scene_, variant, record);
     if (images) images->write(imageFolder(variant));
 }
 

@@ -42,7 +42,7 @@ std::vector<Bound> boundsOf(const Scene& scene) {
 std::vector<Change> judgeBounds(const std::vector<Record>& records, const std::vector<Bound>& bounds) {
     std::vector<Change> changes;
     for (const Record& record : records) {
-        if (record.status != Status::Scored || record.sweep) continue;
+        if (!wasScored(record.status) || record.sweep) continue;
         for (const Bound& bound : bounds)
             if (bound.cells.scene == record.scene && bound.cells.covers(record.variant))
                 changes.push_back(judged(record, bound));

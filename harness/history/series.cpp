@@ -38,7 +38,7 @@ std::string rasteriser(const Environment& e) {
 /// All figures of a record that have a series.
 std::vector<Figure> figuresOf(const Record& record) {
     using gate::Class;
-    const bool scored = record.status == Status::Scored, error = record.status == Status::Error;
+    const bool scored = wasScored(record.status), error = record.status == Status::Error;
     std::vector<Figure> figures;
     if (scored || error) figures.push_back({errorMetric, Class::Status, false, error ? 1.0 : 0.0, 0, ""});
     if (!scored) return figures;

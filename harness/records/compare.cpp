@@ -89,7 +89,7 @@ Change statusChange(const Record& record, Direction direction, const std::string
             fmt::format("{} on {} {}", record.variant, record.scene, what)};
 }
 
-bool scored(const Record& record) { return record.status == Status::Scored; }
+bool scored(const Record& record) { return wasScored(record.status); }
 
 void compareCells(const Record& base, const Record& head, std::vector<Change>& changes) {
     if (scored(base) != scored(head)) {

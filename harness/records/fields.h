@@ -83,8 +83,6 @@ void fields(auto& visit, Is<SweepStep> auto& s) {
     visit("break_point", s.breakPoint);
 }
 
-inline bool wasScored(Status status) { return status == Status::Scored || status == Status::ExpectedFailure; }
-
 /// Scored against a truth: a level-of-detail record is not.
 inline bool hasAccuracy(const Record& r) { return wasScored(r.status) && !isLevelOfDetail(r); }
 

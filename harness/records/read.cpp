@@ -178,7 +178,7 @@ Record parseRecord(const std::string& json) {
     Reader reader(object, "");
     records::fields(reader, record);
     reader.refuseUnknown();
-    if (isLevelOfDetail(record) && !records::wasScored(record.status))
+    if (isLevelOfDetail(record) && !wasScored(record.status))
         refuse("lod", "belongs to scored records and expected failures, and to no others");
     if (object.contains("accuracy") != records::hasAccuracy(record))
         refuse("accuracy", "belongs to scored records and expected failures without \"lod\", and to no others");

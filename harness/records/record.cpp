@@ -23,6 +23,8 @@ std::string_view name(Status status) {
     return "";
 }
 
+bool wasScored(Status status) { return status == Status::Scored || status == Status::ExpectedFailure; }
+
 bool isLevelOfDetail(const Record& record) { return record.values["lod.pop"].has_value(); }
 
 std::optional<Headline> headline(const Record& record) {

@@ -58,7 +58,7 @@ struct Record {
     int width = 0, height = 0, frames = 0;
     std::uint32_t seed = 1;
     Status status = Status::Scored;
-    std::string reason; // of NotApplicable, ExpectedFailure and Error
+    std::string reason; // of NotApplicable, ExpectedFailure (which bound is exceeded, and why) and Error
     std::string cell;   // hash of the cell's inputs: two records with one cell id measured the same thing
     std::string commit;
     bool dirty = false;
@@ -95,6 +95,9 @@ std::vector<Record> readRecords(const std::filesystem::path& file);
 void writeRecords(const std::filesystem::path& file, const std::vector<Record>& records);
 
 std::string_view name(Status status);
+
+/// Whether there are scores: also of a cell that fails as its scene expects.
+bool wasScored(Status status);
 
 /// The metric that ranks a record's accuracy, the same for all records of one scene: "rmse" where a soft truth (oracle
 /// "povray") was used, for a hard technique beside its exact one, else "mismatch"; nothing if it was not scored.

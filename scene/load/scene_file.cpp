@@ -142,6 +142,7 @@ void requireNoProblem(const TomlValue& root, const Scene& scene) {
     if (!problem) return;
     const std::size_t dot = problem->key.find('.');
     const TomlValue section = root.get(problem->key.substr(0, dot));
+    if (dot == std::string::npos) section.fail(problem->sentence);
     const auto inner = section.find(problem->key.substr(dot + 1));
     (inner ? *inner : section).fail(problem->sentence);
 }
@@ -149,7 +150,7 @@ void requireNoProblem(const TomlValue& root, const Scene& scene) {
 } // namespace
 
 Scene parseScene(std::string_view toml, const fs::path& file, Profile profile, const std::vector<std::string>& metrics) {
-    const TomlSource source{file.string(), profileNames(), std::string(name(profile))};
+    const TomlSource source{file.string(), profileNames(), std::string(name(profile)), kLargestNumber};
     const toml::table table = parseToml(toml, source.file);
     const TomlValue root(source, "", table);
     if (table.empty()) root.fail("the file is empty; a scene has a title, a camera, a light and objects");

@@ -15,6 +15,10 @@ namespace shadowbench {
 
 constexpr int kMostTriangles = 4'000'000; // of one mesh; more is taken for a typing error
 
+/// Of a number in a scene file, and of the distance of anything from the origin, in metres: shaders multiply up to three
+/// coordinates with each other, and their numbers end at 3·10³⁸.
+constexpr double kLargestNumber = 1e12;
+
 /// The meshes of one scene: a generator called twice with the same arguments gives one shared mesh.
 class MeshStore {
 public:

@@ -1,4 +1,5 @@
-// Set-ups that have no defined answer: a light of no size or on a surface, an eye within a closed mesh.
+// Set-ups that have no defined answer: a light of no size or on a surface, an eye within a closed mesh, distances that
+// shaders cannot multiply.
 #include "base/error.h"
 #include "scene/load/load.h"
 #include "scene/load/scene_file.h"
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/matrix.hpp>
@@ -34,6 +36,22 @@ std::optional<Problem> viewProblem(const Camera& camera) {
     if (!(glm::length(forward) > 0)) return Problem{"camera.target", "the camera looks at its own eye"};
     const double sine = glm::length(glm::cross(forward, camera.up)) / (glm::length(forward) * glm::length(camera.up));
     if (!(sine > 1e-6)) return Problem{"camera.up", "up is zero or parallel to the line of sight"};
+    return std::nullopt;
+}
+
+/// Scales multiply what is bounded one by one, and sweeps move what a file has bounded.
+std::optional<Problem> reachProblem(const Snapshot& frame) {
+    const auto isFar = [](const glm::dvec3& point) {
+        return !glm::all(glm::lessThanEqual(glm::abs(point), glm::dvec3(kLargestNumber)));
+    };
+    const std::string where = fmt::format("farther than {:g} m from the origin at frame {}", kLargestNumber, frame.frame);
+    const Light& light = frame.light;
+    if (isFar(frame.camera.eye)) return Problem{"camera.eye", fmt::format("lies {}; move it nearer", where)};
+    if (isFar(light.centre) || isFar(light.u) || isFar(light.v))
+        return Problem{"light.centre", fmt::format("the light reaches {}; move it nearer", where)};
+    const Bounds all = frame.bounds();
+    if (!all.empty() && (isFar(all.low) || isFar(all.high)))
+        return Problem{"object", fmt::format("an object reaches {}; make it smaller or move it nearer", where)};
     return std::nullopt;
 }
 
@@ -165,6 +183,7 @@ std::optional<Problem> findProblem(const Scene& scene) {
         return Problem{"light.direction", "expected a vector other than zero"};
     for (int frame = std::max(0, scene.timeline.still - 1); frame < scene.timeline.frames(); ++frame) {
         const Snapshot now = snapshot(scene, frame);
+        if (auto problem = reachProblem(now)) return problem;
         if (auto problem = viewProblem(now.camera)) return problem;
         if (auto problem = surfaceProblem(now)) return problem;
     }

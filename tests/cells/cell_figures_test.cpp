@@ -1,4 +1,5 @@
 // What a cell's record says beside its scores.
+#include "harness/cells/scene_cells.h"
 #include "tests/support/cell_stage.h"
 
 #include <gtest/gtest.h>
@@ -37,6 +38,26 @@ TEST(CellRecord, AnApproachFillsTheHistory) {
     ASSERT_EQ(filled.size(), 60U); // the approach is not scored
     EXPECT_LT(filled.front(), 0.8 * empty.front());
     EXPECT_NEAR(filled.back(), empty.back(), 0.0005); // sixty frames later it is forgotten
+}
+
+TEST(CellRecord, SaysThatASceneBreaksATechniqueAsExpected) {
+    testContext();
+    Scene scene = loadScene("contact", Profile::Gate);
+    scene.timeline = {1, 0};
+    const groundtruth::Cache cache = testCache();
+    SceneCells cells(scene, cache, {.seed = 1, .time = false, .images = {}});
+    const auto measured = [&](const std::string& variant) {
+        const techniques::Variant parsed = techniques::parseVariant(variant);
+        Record record = cells.blank(parsed);
+        cells.measure(parsed, record, [](double, std::string_view) {});
+        return record;
+    };
+    const Record broken = measured("sm-uniform:bias=constant,units=1600000"), sound = measured("sm-uniform");
+    EXPECT_EQ(broken.status, Status::ExpectedFailure);
+    EXPECT_EQ(broken.reason.find("leak is expected to lie above"), 0U) << broken.reason;
+    EXPECT_TRUE(broken.values["accuracy.leak"]);
+    EXPECT_EQ(sound.status, Status::Scored);
+    EXPECT_EQ(sound.reason, "");
 }
 
 } // namespace

@@ -42,9 +42,13 @@ TEST(ReferenceKey, IsThirtyTwoHexDigitsAndTheSameEachTime) {
 TEST(ReferenceKey, ChangesWithEverythingThatMattersToTheTruth) {
     const std::vector<std::pair<const char*, std::function<void(Request&)>>> changes{
         {"eye", [](Request& r) { r.snapshot.camera.eye.x += 1e-9; }},
+        {"target", [](Request& r) { r.snapshot.camera.target.z += 1e-9; }},
+        {"far plane", [](Request& r) { r.snapshot.camera.far += 1; }},
         {"field of view", [](Request& r) { r.snapshot.camera.fovy = 41; }},
         {"light kind", [](Request& r) { r.snapshot.light.kind = LightKind::Disk; }},
         {"light side", [](Request& r) { r.snapshot.light.u.x *= 2; }},
+        {"the light's other side", [](Request& r) { r.snapshot.light.v *= 2; }},
+        {"the light's place", [](Request& r) { r.snapshot.light.centre.y += 1e-9; }},
         {"vertex", [](Request& r) { ownMesh(r, 1).positions[3].y += 0.001F; }},
         {"triangle",
          [](Request& r) {

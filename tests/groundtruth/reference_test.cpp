@@ -4,6 +4,7 @@
 #include "groundtruth/cgal/hard/exact.h"
 #include "groundtruth/oracle.h"
 #include "groundtruth/povray/povray.h"
+#include "groundtruth/reference_parts.h"
 #include "tests/support/povray_scene.h"
 
 #include <algorithm>
@@ -32,6 +33,29 @@ Snapshot ball() {
     scene.batches.clear();
     scene.batches.push_back(placed(sphere(1.0, 5000), at({0, 1, 0}), 1));
     return scene;
+}
+
+TEST(Reference, OnSilhouettesOfATinyImageAFewHitsMayDiffer) {
+    const Request request{ball(), {24, 24}};
+    const PrimaryHits exact = primaryHits(request.snapshot, request.size);
+    povray::Render image;
+    image.hit = Image<std::uint8_t>(request.size.x, request.size.y, 0);
+    for (std::size_t i = 0; i < exact.id.size(); ++i) image.hit[i] = exact.id[i] != 0;
+    const auto flipped = [&](std::vector<glm::ivec2> pixels) {
+        povray::Render changed = image;
+        for (const glm::ivec2 p : pixels) changed.hit(p.x, p.y) ^= 1;
+        requireSamePrimaryHits(request, changed, primaryMismatch(changed, exact));
+    };
+    std::vector<glm::ivec2> silhouette;
+    for (int y = 0; y < 24; ++y)
+        for (int x = 1; x < 24; ++x)
+            if (image.hit(x, y) != image.hit(x - 1, y)) silhouette.emplace_back(x, y);
+    ASSERT_GE(silhouette.size(), 5U);
+    silhouette.resize(5);
+    EXPECT_THROW(flipped(silhouette), InternalError) << "a camera beside the exact one";
+    silhouette.pop_back();
+    EXPECT_NO_THROW(flipped(silhouette));
+    EXPECT_THROW(flipped({{0, 0}}), InternalError) << "no silhouette is near";
 }
 
 TEST(Reference, PovRayAndTheExactPrimaryHitsSeeTheSameGeometry) {

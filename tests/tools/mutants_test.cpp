@@ -8,9 +8,11 @@
 #include "techniques/catalog.h"
 #include "tests/support/records_examples.h"
 #include "tools/mutants/outcome.h"
+#include "tools/mutants/sources.h"
 #include "tools/mutants/tree_copy.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <set>
 #include <sstream>
@@ -29,6 +31,7 @@ Mutant example() {
     mutant.find = "x + 1";
     mutant.replace = "x - 1";
     mutant.techniques = {"sm-history"};
+    mutant.expected = gate::Class::Labels;
     return mutant;
 }
 
@@ -59,20 +62,27 @@ TEST(Mutants, EveryOneRunsWhatThereIs) {
         for (const std::string& variant : mutant.techniques) EXPECT_NO_THROW(techniques::parseVariant(variant)) << mutant.id;
         for (const std::string& scene : mutant.scenes)
             EXPECT_NE(std::find(known.begin(), known.end(), scene), known.end()) << mutant.id << ": " << scene;
+        const std::string test = fmt::format("tests/{}_test.cpp", mutant.target);
+        EXPECT_TRUE(mutant.means != Means::Test || std::filesystem::exists(root / test)) << mutant.id;
+        const std::string scene = mutant.target.substr(0, mutant.target.find('/'));
+        EXPECT_TRUE(mutant.means != Means::Truth || std::ranges::count(known, scene) == 1) << mutant.id;
     }
 }
 
 TEST(Mutants, ThereAreAsManyAsTheGateHasToBeShownTo) {
     std::set<std::string> techniques;
     std::set<gate::Class> classes;
-    int faults = 0, slowdowns = 0;
+    int faults = 0, slowdowns = 0, harness = 0, benign = 0;
     for (const Mutant& mutant : all()) {
-        classes.insert(mutant.expected);
-        ++(mutant.isSlowdown() ? slowdowns : faults);
-        if (mutant.isSlowdown()) continue;
+        if (mutant.expected) classes.insert(*mutant.expected);
+        const bool inTechniques = mutant.file.string().starts_with("techniques/");
+        ++(mutant.benign ? benign : mutant.isSlowdown() ? slowdowns : inTechniques ? faults : harness);
+        if (mutant.isSlowdown() || mutant.benign) continue;
         for (const std::string& variant : mutant.techniques) techniques.insert(variant.substr(0, variant.find(':')));
     }
     EXPECT_GE(faults, 25);
+    EXPECT_GE(harness, 40);
+    EXPECT_GE(benign, 15);
     EXPECT_GE(techniques.size(), 10U);
     EXPECT_GE(slowdowns, 8);
     EXPECT_EQ(classes.size(), 9U); // all but the status of a cell
@@ -97,6 +107,11 @@ TEST(Mutants, AListWithAFaultOfItsOwnIsRefused) {
     EXPECT_NE(refusal(withoutClass + "class = 'leak'\nscene = 'simple'\n").find("scene"), std::string::npos);
     EXPECT_NE(refusal(withoutClass + "class = 'break point'\nsweep = { axis = 'map', values = [1] }\n").find("one scene"),
               std::string::npos);
+    EXPECT_EQ(refusal(withoutClass + "benign = true\n"), "");
+    EXPECT_NE(refusal(withoutClass + "benign = true\nclass = 'leak'\n").find("class"), std::string::npos);
+    EXPECT_NE(refusal(withoutClass + "detected_by = 'luck'\n").find("refusal"), std::string::npos);
+    EXPECT_NE(refusal(withoutClass + "detected_by = 'test:harness/metrics/accuracy'\n").find("techniques"),
+              std::string::npos);
     EXPECT_NE(
         refusal(withoutClass + "class = 'leak'\n[[mutant]]\n" + withoutClass + "class = 'leak'\n").find("two of \"a\""),
         std::string::npos);
@@ -108,6 +123,44 @@ TEST(Mutants, GlobsChooseAndOneThatMatchesNothingIsAnError) {
     EXPECT_EQ(matching({example(), other}, {}).size(), 2U);
     EXPECT_EQ(matching({example(), other}, {"ex*", "*ple"}).size(), 1U);
     EXPECT_THROW(matching({example(), other}, {"pcf*"}), BadInput);
+}
+
+TEST(Mutants, ShardsHoldEachOnce) {
+    Mutant other = example(), third = example();
+    other.id = "other";
+    third.id = "third";
+    const std::vector<Mutant> first = shardOf({example(), other, third}, "1/2");
+    ASSERT_EQ(first.size(), 2U);
+    EXPECT_EQ(first[1].id, "third");
+    EXPECT_EQ(shardOf({example(), other, third}, "2/2").size(), 1U);
+    for (const char* none : {"", "2", "0/2", "3/2", "1/2/3", "a/b"}) EXPECT_THROW(shardOf({example()}, none), BadInput);
+}
+
+TEST(Mutants, AResultHangsOnWhatItsProgramIsMadeOf) {
+    const std::string layers = "base: | x\nscene: base\ntechniques/a: base\ntechniques/b: base\ntechniques/contract: base\n"
+                               "techniques: techniques/a techniques/b techniques/contract base\n"
+                               "harness/metrics: base\nharness/records: harness/metrics\n"
+                               "harness/cells: techniques harness/records scene\nharness/gate: harness/cells\n";
+    const std::vector<std::string> files{"base/a.cpp",
+                                         "harness/gate/b.cpp",
+                                         "harness/metrics/c.cpp",
+                                         "harness/records/compare.cpp",
+                                         "scene/library/other.toml",
+                                         "scene/library/simple.toml",
+                                         "techniques/a/sm-history/d.cpp",
+                                         "techniques/b/other/e.cpp",
+                                         "techniques/variant.cpp",
+                                         "tests/harness/metrics/accuracy_test.cpp",
+                                         "tests/harness/metrics/other_test.cpp"};
+    Mutant mutant = example();
+    mutant.scenes = {"simple"};
+    EXPECT_EQ(sourcesThatMatter(mutant, files, layers),
+              (std::vector<std::string>{"base/a.cpp", "harness/metrics/c.cpp", "scene/library/simple.toml",
+                                        "techniques/a/sm-history/d.cpp", "techniques/variant.cpp"}));
+    mutant.means = Means::Test;
+    mutant.target = "harness/metrics/accuracy";
+    EXPECT_EQ(sourcesThatMatter(mutant, files, layers),
+              (std::vector<std::string>{"base/a.cpp", "harness/metrics/c.cpp", "tests/harness/metrics/accuracy_test.cpp"}));
 }
 
 TEST(Mutants, OneWithoutScenesRunsOnThoseThatTheGateJudgesItsTechniquesOn) {
@@ -133,6 +186,10 @@ TEST(Mutants, FaultsRunWithoutTimeAndSlowdownsAreCounted) {
     mutant.sweep = Sweep{"map", {512, 256}};
     EXPECT_EQ(arguments(mutant), (std::vector<std::string>{"sweep", "--quiet", "--technique", "sm-history", "--scene",
                                                            "simple", "--axis", "map", "--values", "512,256"}));
+    mutant.means = Means::Truth;
+    mutant.target = "simple/soft/60";
+    EXPECT_EQ(arguments(mutant), (std::vector<std::string>{"reference", "--verify", "--quiet", "--scene", "simple",
+                                                           "--truth", "soft", "--frame", "60"}));
 }
 
 TEST(Mutants, TheCopyHoldsEveryFolderThatTheProgramIsBuiltFrom) {
@@ -147,28 +204,52 @@ TEST(Mutants, TheCopyHoldsEveryFolderThatTheProgramIsBuiltFrom) {
     EXPECT_GT(folders, 20U);
 }
 
+Trial recorded(const Record& record) { return {{record}, ""}; }
+
 TEST(Mutants, OnlyTheExpectedClassCounts) {
     Mutant mutant = example();
     mutant.expected = gate::Class::Leak;
     const Record base = test::hardRecord();
     Record head = base;
-    EXPECT_FALSE(outcomeOf(mutant, {base}, {head}).caught());
+    EXPECT_FALSE(outcomeOf(mutant, recorded(base), recorded(head)).caught());
     head.values["accuracy.false_shadow"] = 0.5;
-    const Outcome elsewhere = outcomeOf(mutant, {base}, {head});
+    const Outcome elsewhere = outcomeOf(mutant, recorded(base), recorded(head));
     EXPECT_TRUE(elsewhere.caught());
     EXPECT_FALSE(elsewhere.caughtInClass());
     head.values["accuracy.leak"] = 0.01;
-    const Outcome caught = outcomeOf(mutant, {base}, {head});
+    const Outcome caught = outcomeOf(mutant, recorded(base), recorded(head));
     EXPECT_TRUE(caught.caughtInClass());
     EXPECT_EQ(strongest(caught)->metric, "accuracy.leak"); // though false shadow grew more
 }
 
+TEST(Mutants, ARefusalIsADetectionAndOfABenignChangeAFalseRed) {
+    Mutant mutant = example();
+    mutant.means = Means::Refusal;
+    const Record base = test::hardRecord();
+    Record otherTruth = base, error = base;
+    otherTruth.reference->key = "0123456789abcdef0123456789abcdef";
+    error.status = Status::Error;
+    error.reason = "the rasteriser and the ground truth disagree";
+    EXPECT_FALSE(outcomeOf(mutant, recorded(base), recorded(base)).caught());
+    EXPECT_TRUE(outcomeOf(mutant, recorded(base), recorded(otherTruth)).caughtInClass());
+    EXPECT_TRUE(outcomeOf(mutant, recorded(base), recorded(error)).caughtInClass());
+    EXPECT_TRUE(outcomeOf(mutant, recorded(base), {{}, "no camera"}).caughtInClass());
+    mutant.means = Means::Gate;
+    mutant.benign = true;
+    EXPECT_TRUE(outcomeOf(mutant, recorded(base), recorded(base)).asForetold());
+    EXPECT_FALSE(outcomeOf(mutant, recorded(base), recorded(otherTruth)).asForetold());
+}
+
 TEST(Mutants, TheReportCountsSharesAndNamesSurvivorsWithTheirReason) {
-    Mutant leak = example(), survivor = example(), slow = example();
+    Mutant leak = example(), survivor = example(), slow = example(), metric = example(), benign = example();
+    leak.file = survivor.file = slow.file = benign.file = "techniques/a.cpp";
     leak.expected = gate::Class::Leak;
     survivor.id = "survivor";
     survivor.survives = "equal to the bit";
     slow.expected = gate::Class::Instructions;
+    metric.means = Means::Test;
+    metric.target = "harness/metrics/accuracy";
+    benign.benign = true;
     const Record base = test::hardRecord();
     Record leaking = base;
     leaking.values["accuracy.leak"] = 0.01;
@@ -176,13 +257,15 @@ TEST(Mutants, TheReportCountsSharesAndNamesSurvivorsWithTheirReason) {
     Record slower = counted;
     slower.values["cost.instructions"] = *counted.values["cost.instructions"] * 103 / 100;
     const std::string report = mutantsReport(
-        {outcomeOf(leak, {base}, {leaking}), outcomeOf(survivor, {base}, {base}), outcomeOf(slow, {counted}, {slower})},
+        {outcomeOf(leak, recorded(base), recorded(leaking)), outcomeOf(survivor, recorded(base), recorded(base)),
+         outcomeOf(slow, recorded(counted), recorded(slower)), outcomeOf(metric, {}, {{}, "Leak.IsAShare failed"}),
+         outcomeOf(benign, recorded(base), recorded(base))},
         "commit c0ffee");
-    EXPECT_NE(report.find("in 1 techniques: 1 of 2 (50 %) caught in the class"), std::string::npos) << report;
-    EXPECT_NE(report.find("Slowdowns: 1 of 1 (100 %) caught by instructions; of 1 % or more, 1 of 1"), std::string::npos)
-        << report;
-    EXPECT_NE(report.find("+3.00 %"), std::string::npos) << report;
-    EXPECT_NE(report.find("**survivor**: equal to the bit"), std::string::npos) << report;
+    for (const char* line :
+         {"in 1 techniques: 1 of 2 (50 %) caught in the class", "All faults and slowdowns: 3 of 4 (75 %) caught as foretold",
+          "Slowdowns: 1 of 1 (100 %) caught by instructions; of 1 % or more, 1 of 1", "+3.00 %",
+          "**survivor**: equal to the bit", "Leak.IsAShare failed", "Benign changes: 0 of 1 (0 %) red", "| test | 1 | 1 |"})
+        EXPECT_NE(report.find(line), std::string::npos) << line << "\n" << report;
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fnmatch.h>
@@ -16,8 +17,8 @@ namespace {
 
 using gate::Class;
 
-constexpr std::array classes{Class::Labels, Class::FalseShadow, Class::Leak,       Class::Edge,        Class::Penumbra,
-                             Class::Colour, Class::Flicker,     Class::BreakPoint, Class::Instructions};
+constexpr std::array classes{Class::Labels, Class::FalseShadow, Class::Leak,       Class::Edge,         Class::Penumbra,
+                             Class::Colour, Class::Flicker,     Class::BreakPoint, Class::Instructions, Class::Status};
 
 Class classNamed(const TomlValue& value) {
     std::vector<std::string> names;
@@ -39,21 +40,49 @@ Sweep readSweep(const TomlValue& value) {
     return sweep;
 }
 
+/// `detected_by`: "gate", "refusal", "truth:SCENE/TRUTH" or "test:NAME".
+void readMeans(const TomlValue& value, Mutant& mutant) {
+    const std::string text = value.text();
+    const std::string word = text.substr(0, text.find(':'));
+    if (word.size() < text.size()) mutant.target = text.substr(word.size() + 1);
+    const auto targets = std::ranges::count(mutant.target, '/');
+    if (text == "gate")
+        mutant.means = Means::Gate;
+    else if (text == "refusal")
+        mutant.means = Means::Refusal;
+    else if (word == "truth" && (targets == 1 || targets == 2))
+        mutant.means = Means::Truth;
+    else if (word == "test" && targets > 0)
+        mutant.means = Means::Test;
+    else
+        value.fail(R"(expected "gate", "refusal", "truth:SCENE/TRUTH", "truth:SCENE/TRUTH/FRAME" or "test:NAME")");
+}
+
+/// Techniques, scenes and class of what is found by records.
+void readCells(const TomlValue& value, Mutant& mutant) {
+    mutant.techniques = texts(value.get("techniques"));
+    if (mutant.techniques.empty()) value.get("techniques").fail("names no technique");
+    if (const auto scenes = value.find("scenes")) mutant.scenes = texts(*scenes);
+    if (const auto sweep = value.find("sweep")) mutant.sweep = readSweep(*sweep);
+    if (mutant.sweep && mutant.scenes.size() != 1) value.get("sweep").fail("needs exactly one scene");
+    if (mutant.means == Means::Gate && !mutant.benign) mutant.expected = classNamed(value.get("class"));
+}
+
 Mutant readMutant(const TomlValue& value) {
-    value.only({"id", "what", "file", "find", "replace", "techniques", "scenes", "sweep", "class", "survives"});
     Mutant mutant;
+    if (const auto benign = value.find("benign")) mutant.benign = benign->boolean();
+    if (const auto means = value.find("detected_by")) readMeans(*means, mutant);
+    std::vector<std::string> known{"id", "what", "file", "find", "replace", "benign", "detected_by", "survives"};
+    if (mutant.makesRecords()) known.insert(known.end(), {"techniques", "scenes", "sweep"});
+    if (mutant.means == Means::Gate && !mutant.benign) known.emplace_back("class");
+    value.only(known);
     mutant.id = value.get("id").text();
     mutant.what = value.get("what").text();
     mutant.file = value.get("file").text();
     mutant.find = value.get("find").text();
     mutant.replace = value.get("replace").text();
     if (mutant.find.empty()) value.get("find").fail("is empty");
-    mutant.techniques = texts(value.get("techniques"));
-    if (mutant.techniques.empty()) value.get("techniques").fail("names no technique");
-    if (const auto scenes = value.find("scenes")) mutant.scenes = texts(*scenes);
-    if (const auto sweep = value.find("sweep")) mutant.sweep = readSweep(*sweep);
-    if (mutant.sweep && mutant.scenes.size() != 1) value.get("sweep").fail("needs exactly one scene");
-    mutant.expected = classNamed(value.get("class"));
+    if (mutant.makesRecords()) readCells(value, mutant);
     if (const auto survives = value.find("survives")) mutant.survives = survives->text();
     return mutant;
 }
@@ -77,7 +106,7 @@ std::vector<Mutant> readMutants(const std::filesystem::path& file) {
 
 std::vector<Mutant> onTheGatesScenes(std::vector<Mutant> mutants, const gate::Watchlist& watchlist) {
     for (Mutant& mutant : mutants) {
-        if (!mutant.scenes.empty()) continue;
+        if (!mutant.makesRecords() || !mutant.scenes.empty()) continue;
         mutant.scenes = standardScenes();
         for (const gate::Watch& watch : watchlist.scenes)
             if (std::ranges::all_of(mutant.techniques, [&](const std::string& t) { return watch.covers(t); }))
@@ -100,6 +129,19 @@ std::vector<Mutant> matching(const std::vector<Mutant>& mutants, const std::vect
     return chosen;
 }
 
+std::vector<Mutant> shardOf(const std::vector<Mutant>& mutants, const std::string& shard) {
+    std::size_t index = 0, count = 0;
+    const char* const end = shard.data() + shard.size();
+    const auto first = std::from_chars(shard.data(), end, index);
+    const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+    const auto second = slash ? std::from_chars(first.ptr + 1, end, count) : first;
+    if (!slash || second.ec != std::errc() || second.ptr != end || index < 1 || index > count)
+        throw BadInput(fmt::format("\"{}\" is no shard: give its number and how many there are, such as 2/3", shard));
+    std::vector<Mutant> chosen;
+    for (std::size_t i = index - 1; i < mutants.size(); i += count) chosen.push_back(mutants[i]);
+    return chosen;
+}
+
 std::string planted(const Mutant& mutant, std::string_view source) {
     const std::size_t at = source.find(mutant.find);
     if (at == std::string_view::npos)
@@ -110,7 +152,35 @@ std::string planted(const Mutant& mutant, std::string_view source) {
     return result.replace(at, mutant.find.size(), mutant.replace);
 }
 
+std::string foretold(const Mutant& mutant) {
+    if (mutant.benign) return "nothing";
+    switch (mutant.means) {
+    case Means::Gate:
+        return std::string(name(*mutant.expected));
+    case Means::Refusal:
+        return "refusal";
+    case Means::Truth:
+        return fmt::format("truth:{}", mutant.target);
+    case Means::Test:
+        return fmt::format("test:{}", mutant.target);
+    }
+    return "";
+}
+
 std::vector<std::string> arguments(const Mutant& mutant) {
+    if (mutant.means == Means::Test) return {"test", mutant.target};
+    if (mutant.means == Means::Truth) {
+        const std::size_t scene = mutant.target.find('/'), truth = mutant.target.find('/', scene + 1);
+        std::vector<std::string> words{"reference",
+                                       "--verify",
+                                       "--quiet",
+                                       "--scene",
+                                       mutant.target.substr(0, scene),
+                                       "--truth",
+                                       mutant.target.substr(scene + 1, truth - scene - 1)};
+        if (truth != std::string::npos) words.insert(words.end(), {"--frame", mutant.target.substr(truth + 1)});
+        return words;
+    }
     std::vector<std::string> words{mutant.sweep ? "sweep" : "run", "--quiet"};
     for (const std::string& technique : mutant.techniques) words.insert(words.end(), {"--technique", technique});
     for (const std::string& scene : mutant.scenes) words.insert(words.end(), {"--scene", scene});

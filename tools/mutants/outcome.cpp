@@ -1,5 +1,7 @@
 #include "tools/mutants/outcome.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +15,7 @@ namespace {
 using gate::Change;
 using gate::Class;
 
-bool isOf(const Change& change, Class expected) { return change.changeClass == expected; }
+bool isOf(const Change& change, std::optional<Class> expected) { return expected == change.changeClass; }
 
 /// By how many allowances a change exceeds what the base has.
 double allowances(const Change& change) {
@@ -41,12 +43,8 @@ std::string otherClasses(const Outcome& outcome) {
     std::set<std::string_view> names;
     for (const Change& change : outcome.worse)
         if (!isOf(change, outcome.mutant.expected)) names.insert(name(change.changeClass));
+    if (!outcome.refused.empty()) names.insert("refusal");
     return fmt::format("{}", fmt::join(names, ", "));
-}
-
-std::string verdict(const Outcome& outcome) {
-    if (outcome.caughtInClass()) return "caught";
-    return outcome.caught() ? "caught in another class" : "**survives**";
 }
 
 /// Places of the change beside what is allowed: "31 ×".
@@ -55,12 +53,34 @@ std::string excess(const Change& change) {
     return std::isfinite(times) ? fmt::format("{:.3g} ×", times) : "–";
 }
 
+/// What was seen of a mutant: a figure, a refusal, or nothing.
+std::string seenOf(const Outcome& outcome) {
+    if (const auto seen = strongest(outcome)) return figure(*seen);
+    return outcome.refused.empty() ? "nothing" : outcome.refused;
+}
+
 std::string faultRow(const Outcome& outcome) {
     const Mutant& mutant = outcome.mutant;
     const auto seen = strongest(outcome);
     return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", mutant.id, fmt::join(mutant.techniques, ", "),
-                       mutant.what, name(mutant.expected), seen ? figure(*seen) : "nothing is worse",
-                       seen ? excess(*seen) : "–", otherClasses(outcome), verdict(outcome));
+                       mutant.what, foretold(mutant), seenOf(outcome), seen ? excess(*seen) : "–", otherClasses(outcome),
+                       verdict(outcome));
+}
+
+/// A fault beside the techniques: where it lies says more than what it was run with.
+std::string harnessRow(const Outcome& outcome) {
+    const Mutant& mutant = outcome.mutant;
+    return fmt::format("| {} | {} | {} | {} | {} | {} |\n", mutant.id, mutant.file.parent_path().string(), mutant.what,
+                       foretold(mutant), seenOf(outcome), verdict(outcome));
+}
+
+std::string benignRow(const Outcome& outcome) {
+    const Mutant& mutant = outcome.mutant;
+    return fmt::format("| {} | {} | {} | {} | {} |\n", mutant.id, fmt::join(mutant.techniques, ", "), mutant.what,
+                       outcome.caught()
+                           ? fmt::format("{} ({} worse: {})", seenOf(outcome), outcome.worse.size(), otherClasses(outcome))
+                           : "nothing",
+                       verdict(outcome));
 }
 
 std::string slowdownRow(const Outcome& outcome) {
@@ -78,12 +98,20 @@ std::vector<Outcome> those(const std::vector<Outcome>& outcomes, const auto& pre
     return result;
 }
 
+/// The word before the colon: all truths, and all tests, are one means.
+std::string meansOf(const Outcome& outcome) {
+    const std::string text = foretold(outcome.mutant);
+    return text.substr(0, text.find(':'));
+}
+
 std::string byClass(const std::vector<Outcome>& outcomes) {
-    std::string text = "\n| class | planted | caught in it |\n|---|--:|--:|\n";
-    for (const Class c : {Class::Labels, Class::FalseShadow, Class::Leak, Class::Edge, Class::Penumbra, Class::Colour,
-                          Class::Flicker, Class::BreakPoint, Class::Instructions}) {
-        const std::vector<Outcome> of = those(outcomes, [&](const Outcome& o) { return o.mutant.expected == c; });
-        if (!of.empty()) text += fmt::format("| {} | {} | {} |\n", name(c), of.size(), count(of, &Outcome::caughtInClass));
+    std::vector<std::string> means; // in the order of the list
+    for (const Outcome& outcome : outcomes)
+        if (std::ranges::find(means, meansOf(outcome)) == means.end()) means.push_back(meansOf(outcome));
+    std::string text = "\n| by | planted | caught by it |\n|---|--:|--:|\n";
+    for (const std::string& each : means) {
+        const std::vector<Outcome> of = those(outcomes, [&](const Outcome& o) { return meansOf(o) == each; });
+        text += fmt::format("| {} | {} | {} |\n", each, of.size(), count(of, &Outcome::caughtInClass));
     }
     return text;
 }
@@ -95,26 +123,44 @@ std::size_t techniqueCount(const std::vector<Outcome>& outcomes) {
     return ids.size();
 }
 
-std::string survivors(const std::vector<Outcome>& outcomes) {
+std::string unforetold(const std::vector<Outcome>& outcomes) {
     std::string text;
     for (const Outcome& outcome : outcomes)
-        if (!outcome.caughtInClass())
+        if (!outcome.asForetold())
             text += fmt::format("* **{}**{}: {}\n", outcome.mutant.id,
                                 outcome.caught() ? fmt::format(" (told by {})", otherClasses(outcome)) : "",
                                 outcome.mutant.survives.empty() ? "not explained" : outcome.mutant.survives);
-    return text.empty() ? text : "\n## Not caught in their class\n\n" + text;
+    return text.empty() ? text : "\n## Not as foretold\n\n" + text;
 }
+
+bool isHarness(const Outcome& outcome) { return !outcome.mutant.file.string().starts_with("techniques/"); }
 
 } // namespace
 
 bool Outcome::caughtInClass() const {
-    return std::ranges::any_of(worse, [&](const Change& change) { return isOf(change, mutant.expected); });
+    if (mutant.means == Means::Truth || mutant.means == Means::Test) return !refused.empty();
+    if (mutant.means == Means::Refusal && !refused.empty()) return true;
+    const std::optional<Class> expected = mutant.means == Means::Refusal ? Class::Status : mutant.expected;
+    return std::ranges::any_of(worse, [&](const Change& change) { return isOf(change, expected); });
 }
 
-Outcome outcomeOf(const Mutant& mutant, const std::vector<Record>& base, const std::vector<Record>& head) {
-    Outcome outcome{mutant, {}, {}};
-    for (Change& change : gate::compare(base, head)) {
-        if (isOf(change, Class::Instructions) && change.base && change.head) {
+std::string verdict(const Outcome& outcome) {
+    if (outcome.mutant.benign) return outcome.caught() ? "**false red**" : "green";
+    if (outcome.caughtInClass()) return "caught";
+    return outcome.caught() ? "caught in another class" : "**survives**";
+}
+
+Outcome outcomeOf(const Mutant& mutant, const Trial& base, const Trial& head) {
+    Outcome outcome{mutant, {}, {}, head.refused};
+    if (!mutant.makesRecords() || !head.refused.empty()) return outcome;
+    std::vector<Change> changes;
+    try {
+        changes = gate::compare(base.records, head.records);
+    } catch (const Inconclusive& error) { // of other truths or environments: never a silent pass
+        outcome.refused = error.what();
+    }
+    for (Change& change : changes) {
+        if (change.changeClass == Class::Instructions && change.base && change.head) {
             const double slowdown = *change.head / *change.base - 1;
             outcome.slowdown = std::max(outcome.slowdown.value_or(slowdown), slowdown);
         }
@@ -134,33 +180,50 @@ std::optional<Change> strongest(const Outcome& outcome) {
 
 std::string mutantsReport(const std::vector<Outcome>& outcomes, const std::string& source) {
     const auto isSlowdown = [](const Outcome& o) { return o.mutant.isSlowdown(); };
-    const std::vector<Outcome> slowdowns = those(outcomes, isSlowdown);
-    const std::vector<Outcome> faults = those(outcomes, std::not_fn(isSlowdown));
+    const auto isBenign = [](const Outcome& o) { return o.mutant.benign; };
+    const std::vector<Outcome> benign = those(outcomes, isBenign);
+    const std::vector<Outcome> planted = those(outcomes, std::not_fn(isBenign));
+    const std::vector<Outcome> slowdowns = those(planted, isSlowdown);
+    const std::vector<Outcome> faults = those(planted, std::not_fn(isSlowdown));
+    const std::vector<Outcome> techniques = those(faults, std::not_fn(isHarness));
+    const std::vector<Outcome> harness = those(faults, isHarness);
 
     std::string text = fmt::format(
-        "# Planted faults and slowdowns\n\nMade by `mutants` ({}). Each fault is one replacement in one file of the "
-        "techniques (`tools/mutants/mutants.toml`); the mutated and the unmutated program run the same cells of the gate "
-        "profile, and their records are compared as `shadowbench compare` does.\n\n",
+        "# Planted faults, slowdowns and benign changes\n\nMade by `mutants` ({}). Each is one replacement in one file "
+        "(`tools/mutants/mutants.toml`). Of faults that are found by records, the mutated and the unmutated program run the "
+        "same cells of the gate profile, and their records are compared as `shadowbench compare` does; other faults are "
+        "found when a golden reference is computed again (`truth`), by a test (`test`), or by what refuses to go on "
+        "(`refusal`).\n\n",
         source);
-    text += fmt::format("* Faults of accuracy or stability, in {} techniques: {} caught in the class they belong to, {} in "
-                        "any class.\n",
-                        techniqueCount(faults), share(count(faults, &Outcome::caughtInClass), faults.size()),
-                        share(count(faults, &Outcome::caught), faults.size()));
+    text += fmt::format("* All faults and slowdowns: {} caught as foretold, {} by something.\n",
+                        share(count(planted, &Outcome::caughtInClass), planted.size()),
+                        share(count(planted, &Outcome::caught), planted.size()));
+    text += fmt::format("* Faults in {} techniques: {} caught in the class they belong to, {} in any class.\n",
+                        techniqueCount(techniques), share(count(techniques, &Outcome::caughtInClass), techniques.size()),
+                        share(count(techniques, &Outcome::caught), techniques.size()));
+    text += fmt::format("* Faults in metrics, truth, records, gate, scenes and loader: {} caught as foretold.\n",
+                        share(count(harness, &Outcome::caughtInClass), harness.size()));
     const std::vector<Outcome> noticeable =
         those(slowdowns, [](const Outcome& o) { return o.slowdown.value_or(0) >= 0.01; });
     text += fmt::format("* Slowdowns: {} caught by instructions; of 1 % or more, {}.\n",
                         share(count(slowdowns, &Outcome::caughtInClass), slowdowns.size()),
                         share(count(noticeable, &Outcome::caughtInClass), noticeable.size()));
-    text += byClass(outcomes);
+    text += fmt::format("* Benign changes: {} red.\n", share(count(benign, &Outcome::caught), benign.size()));
+    text += byClass(planted);
 
-    text += "\n## Faults\n\n`Beyond` is the change in units of what `compare` allows.\n\n"
+    text += "\n## Faults in techniques\n\n`Beyond` is the change in units of what `compare` allows.\n\n"
             "| fault | technique | what | expected | seen | beyond | also worse | verdict "
             "|\n|---|---|---|---|---|--:|---|---|\n";
-    for (const Outcome& outcome : faults) text += faultRow(outcome);
+    for (const Outcome& outcome : techniques) text += faultRow(outcome);
+    text +=
+        "\n## Faults beside techniques\n\n| fault | in | what | expected | seen | verdict |\n|---|---|---|---|---|---|\n";
+    for (const Outcome& outcome : harness) text += harnessRow(outcome);
     text += "\n## Slowdowns\n\n| slowdown | technique | scenes | what | instructions | also worse | verdict |\n"
             "|---|---|---|---|--:|---|---|\n";
     for (const Outcome& outcome : slowdowns) text += slowdownRow(outcome);
-    return text + survivors(outcomes);
+    text += "\n## Benign changes\n\n| change | technique | what | seen | verdict |\n|---|---|---|---|---|\n";
+    for (const Outcome& outcome : benign) text += benignRow(outcome);
+    return text + unforetold(outcomes);
 }
 
 } // namespace shadowbench::mutants

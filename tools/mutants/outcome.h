@@ -1,7 +1,8 @@
-// What comparing records detects of a planted fault, and the report on all of them.
+// What is detected of a planted fault, and the report on all of them.
 #pragma once
 
 #include "tools/mutants/mutant.h"
+#include "tools/mutants/trial.h"
 
 #include <optional>
 #include <string>
@@ -13,17 +14,23 @@ struct Outcome {
     Mutant mutant;
     std::vector<gate::Change> worse; // than without the fault
     std::optional<double> slowdown;  // largest change of instructions, as a share of the base's
+    std::string refused;             // the sentence with which program, comparison, truth or test refused; "": none did
 
-    [[nodiscard]] bool caughtInClass() const;
-    [[nodiscard]] bool caught() const { return !worse.empty(); }
+    [[nodiscard]] bool caughtInClass() const; // or by the means foretold
+    [[nodiscard]] bool caught() const { return !worse.empty() || !refused.empty(); }
+    [[nodiscard]] bool asForetold() const { return mutant.benign ? !caught() : caughtInClass(); }
 };
 
-Outcome outcomeOf(const Mutant& mutant, const std::vector<Record>& base, const std::vector<Record>& head);
+Outcome outcomeOf(const Mutant& mutant, const Trial& base, const Trial& head);
 
 /// The change of the expected class that exceeds its allowance most; else that of any class; nothing if nothing is worse.
 std::optional<gate::Change> strongest(const Outcome& outcome);
 
-/// Markdown: shares caught over all and by class, a table of faults, one of slowdowns, survivors with their reasons.
+/// "caught", "elsewhere", "SURVIVES"; of a benign change "green", "FALSE RED".
+std::string verdict(const Outcome& outcome);
+
+/// Markdown: shares caught over all and by class, tables of faults, of slowdowns and of benign changes, and what did not end
+/// as foretold, with its reason.
 /// `source` says what the records were made from.
 std::string mutantsReport(const std::vector<Outcome>& outcomes, const std::string& source);
 

@@ -25,18 +25,19 @@ std::vector<std::string> withOurLanguageAndHome() {
     return words;
 }
 
-/// The first line that complains, else the last one.
-std::string complaint(const std::vector<std::string>& lines) {
-    const auto first =
-        std::ranges::find_if(lines, [](const std::string& line) { return line.find("rror") != std::string::npos; });
-    if (first != lines.end()) return *first;
+} // namespace
+
+std::string ToolResult::complaint() const {
+    constexpr std::string_view failed = "[  FAILED  ] ";
+    for (const std::string_view word : {failed, std::string_view("rror")})
+        for (const std::string& line : lines)
+            if (const std::size_t at = line.find(word); at != std::string::npos)
+                return word == failed ? line.substr(at + failed.size()) : line;
     return lines.empty() ? "it printed nothing" : lines.back();
 }
 
-} // namespace
-
-std::vector<std::string> runTool(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                                 const std::filesystem::path& folder) {
+ToolResult tryTool(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                   const std::filesystem::path& folder) {
     Command command;
     command.program = found("env");
     command.arguments = withOurLanguageAndHome();
@@ -47,10 +48,17 @@ std::vector<std::string> runTool(const std::filesystem::path& program, const std
     command.cpuLimit = std::chrono::hours(2);
     command.fileLimit = std::uintmax_t{1} << 30;
     command.memoryLimit = std::uintmax_t{32} << 30;
-    std::vector<std::string> lines;
-    const Finished finished = runProcess(command, [&](std::string_view line) { lines.emplace_back(line); });
-    if (finished.exitCode == 0 && finished.signal == 0 && !finished.timedOut) return lines;
-    throw InternalError(fmt::format("{} failed: {}", program.filename().string(), complaint(lines)));
+    ToolResult result;
+    const Finished finished = runProcess(command, [&](std::string_view line) { result.lines.emplace_back(line); });
+    result.succeeded = finished.exitCode == 0 && finished.signal == 0 && !finished.timedOut;
+    return result;
+}
+
+std::vector<std::string> runTool(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                                 const std::filesystem::path& folder) {
+    ToolResult result = tryTool(program, arguments, folder);
+    if (result.succeeded) return std::move(result.lines);
+    throw InternalError(fmt::format("{} failed: {}", program.filename().string(), result.complaint()));
 }
 
 } // namespace shadowbench::mutants

@@ -11,22 +11,23 @@ namespace shadowbench::mutants {
 
 class TreeCopy {
 public:
-    /// What the program is built from.
-    static constexpr std::array parts{"CMakeLists.txt", "CMakePresets.json", "cmake",       "base",
-                                      "scene",          "techniques",        "groundtruth", "harness"};
+    /// What the program and its tests are built from, and what their tests read.
+    static constexpr std::array parts{"CMakeLists.txt", "CMakePresets.json", "cmake", "base",  "scene",  "techniques",
+                                      "groundtruth",    "harness",           "tools", "tests", "results"};
 
     /// Copies what the program is built from: files that differ, so that only those are built again. A fault left by a
     /// killed run is thus gone. Throws Inconclusive without git.
     TreeCopy(std::filesystem::path source, std::filesystem::path folder);
 
-    /// Hash of the copied files but for those that only judge records (harness/gate): with one hash, one program's records.
-    [[nodiscard]] const std::string& hash() const { return hash_; }
+    /// The copied files, sorted paths from the root.
+    [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
     [[nodiscard]] std::string read(const std::filesystem::path& file) const;
     void write(const std::filesystem::path& file, std::string_view text) const;
 
-    /// Builds the program; throws InternalError with what the compiler said first.
-    void build() const;
+    /// Builds a target of the build; throws InternalError with what the compiler said first.
+    void build(const std::string& target) const;
     [[nodiscard]] std::filesystem::path program() const { return folder_ / "build/release/shadowbench"; }
 
 private:
@@ -34,7 +35,7 @@ private:
     void removeAllBut(const std::vector<std::string>& files) const;
 
     std::filesystem::path source_, folder_;
-    std::string hash_;
+    std::vector<std::string> files_;
 };
 
 /// A fault that is in the copy for as long as the object lives.

@@ -110,7 +110,7 @@ std::vector<Least> leastAdequate(const std::vector<Record>& records, const std::
     for (const std::size_t i : report::ofScene(records, scene)) {
         const Record& record = records[i];
         const std::optional<double> error = metrics::bounded(record.values, limit->metric);
-        if (record.status != Status::Scored || !error) continue;
+        if (!wasScored(record.status) || !error) continue;
         for (const auto& [name, value] : record.parameters)
             if (const auto much = amount(resource, name, value))
                 curves[curveOf(record, name)].push_back({*much, *error, *error <= limit->value, record.variant});

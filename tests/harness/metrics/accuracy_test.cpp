@@ -51,6 +51,23 @@ TEST(ReceiverMask, CountsBackgroundDrawnOverAsMismatch) {
     EXPECT_DOUBLE_EQ(metrics::receiverMask(truth, drawn, glm::dvec3(0)).primaryMismatch, 0.01);
 }
 
+TEST(ReceiverMask, ATinyImageMayDisagreeInAFewPixelsThatLieOnAnEdge) {
+    Reference truth = vertical.truth(24, 24);
+    for (int y = 0; y < 24; ++y)
+        for (int x = 12; x < 24; ++x) truth.id(x, y) = 2;
+    const auto aligned = [&](const std::vector<glm::ivec2>& pixels) {
+        metrics::Drawn drawn{truth.id, truth.position};
+        for (const glm::ivec2 p : pixels) drawn.id(p.x, p.y) = 3 - truth.id(p.x, p.y);
+        return metrics::receiverMask(truth, drawn, glm::dvec3(0)).aligned;
+    };
+    EXPECT_TRUE(aligned({}));
+    EXPECT_TRUE(aligned({{12, 3}})) << "1 of 576 is more than 0.1 %, and the other surface is a neighbour's";
+    EXPECT_FALSE(aligned({{20, 3}})) << "no edge is near";
+    EXPECT_FALSE(aligned({{12, 3}, {20, 3}}));
+    EXPECT_TRUE(aligned({{12, 3}, {12, 4}, {11, 9}, {12, 12}}));
+    EXPECT_FALSE(aligned({{12, 3}, {12, 4}, {12, 5}, {12, 6}, {12, 7}})) << "a camera beside the truth's";
+}
+
 TEST(HardAccuracy, OfTheTruthItselfHasNoErrorAtAll) {
     const Reference truth = HalfPlane{{0.8, 0.6}, 20.3}.truth(size, size);
     const metrics::LabelErrors a = metrics::labelErrors({truth.visibility, truth, everything(truth)});
@@ -280,6 +297,11 @@ TEST(SoftAccuracy, CountsBadPixelsAboveTheirThresholdsOnly) {
     const metrics::Values a = visibilityOf({v, truth, everything(truth)});
     EXPECT_DOUBLE_EQ(*a["accuracy.bad30"], 0.01);
     EXPECT_DOUBLE_EQ(*a["accuracy.bad8"], 0.02);
+    const Reference lit = truthOf(10, 10, [](glm::dvec2) { return 1; });
+    for (float& value : v) value = 1 - value;
+    const metrics::Values tooDark = visibilityOf({v, lit, everything(lit)});
+    EXPECT_DOUBLE_EQ(*tooDark["accuracy.bad30"], 0.01);
+    EXPECT_DOUBLE_EQ(*tooDark["accuracy.bad8"], 0.02);
 }
 
 TEST(SoftAccuracy, MeasuresInsideTheMaskOnly) {
@@ -306,6 +328,21 @@ TEST(Ssim, FallsWithNoise) {
     EXPECT_LT(noisy(0.02F), 1.0);
     EXPECT_LT(noisy(0.1F), noisy(0.02F));
     EXPECT_LT(noisy(0.1F), 0.7);
+}
+
+TEST(Ssim, OfConstantImagesIsTheTermOfTheMeansAndTurnsWithTheImage) {
+    const auto ssimOf = [](const auto& v, const auto& exact) {
+        const Reference truth = test::truthOf(24, 24, exact);
+        return *metrics::ssim({test::imageOf(24, 24, v), truth, everything(truth)});
+    };
+    const auto quarter = [](glm::dvec2) { return 0.25; };
+    const auto half = [](glm::dvec2) { return 0.5; };
+    EXPECT_NEAR(ssimOf(half, quarter), (2 * 0.125 + 1e-4) / (0.3125 + 1e-4), 1e-6); // eq. 13 without variances
+    const auto ramp = [](double x) { return 0.5 + 0.4 * std::sin(0.8 * x); };
+    const auto step = [](double x) { return x > 12 ? 1.0 : 0.0; };
+    const double along = ssimOf([&](glm::dvec2 p) { return ramp(p.x); }, [&](glm::dvec2 p) { return step(p.x); });
+    const double down = ssimOf([&](glm::dvec2 p) { return ramp(p.y); }, [&](glm::dvec2 p) { return step(p.y); });
+    EXPECT_NEAR(along, down, 1e-9);
 }
 
 TEST(PenumbraRmse, IsMeasuredOnThePenumbraDilatedByTwoPixels) {

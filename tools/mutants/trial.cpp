@@ -1,0 +1,120 @@
+#include "tools/mutants/trial.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/hash.h"
+#include "groundtruth/store/cache.h"
+#include "tools/mutants/sources.h"
+#include "tools/mutants/tool.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace shadowbench::mutants {
+namespace {
+
+std::string hashOf(const std::vector<std::string>& words) {
+    std::string all;
+    for (const std::string& word : words) all += word + '\0';
+    return fmt::format("{:016x}", hash64(all));
+}
+
+/// Records are kept as they are; what has none, as the sentence.
+void write(const std::filesystem::path& file, const Trial& trial) {
+    if (trial.refused.empty() && !trial.records.empty())
+        writeRecords(file, trial.records);
+    else
+        writeFile(file, fmt::format("refused: {}\n", trial.refused));
+}
+
+Trial read(const std::filesystem::path& file) {
+    constexpr std::string_view heading = "refused: ";
+    const std::string text = readFile(file);
+    if (!text.starts_with(heading)) return {readRecords(file), ""};
+    return {{}, text.substr(heading.size(), text.size() - heading.size() - 1)};
+}
+
+/// Folder and executable of the tests that a test of CTest belongs to.
+std::string testTarget(const std::string& test) {
+    std::string target = fmt::format("test_{}", test.substr(0, test.rfind('/')));
+    std::ranges::replace(target, '/', '_');
+    return target;
+}
+
+/// Truths that a fault may have touched must not reach the references that other runs share.
+bool mayTouchTruths(const Mutant& mutant) {
+    const std::string file = mutant.file.string();
+    return file.starts_with("groundtruth/") || file.starts_with("scene/") || file.starts_with("base/");
+}
+
+} // namespace
+
+Trials::Trials(const TreeCopy& tree, std::filesystem::path kept)
+    : tree_(tree), kept_(std::move(kept)), layers_(tree.read("cmake/layers.txt")) {}
+
+std::string Trials::key(const Mutant& mutant) const {
+    std::vector<std::string> words = arguments(mutant);
+    for (const std::string& source : sourcesThatMatter(mutant, tree_.files(), layers_))
+        words.insert(words.end(), {source, tree_.read(source)});
+    return hashOf(words);
+}
+
+std::filesystem::path Trials::baseFile(const Mutant& mutant) const {
+    return kept_ / fmt::format("base-{}.jsonl", key(mutant));
+}
+
+std::filesystem::path Trials::file(const Mutant& mutant) const {
+    const std::string source = tree_.read(mutant.file);
+    return kept_ /
+           fmt::format("{}-{}.jsonl", mutant.id, hashOf({key(mutant), mutant.file.string(), planted(mutant, source)}));
+}
+
+bool Trials::hasBase(const Mutant& mutant) const { return std::filesystem::exists(baseFile(mutant)); }
+bool Trials::has(const Mutant& mutant) const { return std::filesystem::exists(file(mutant)); }
+Trial Trials::base(const Mutant& mutant) const { return read(baseFile(mutant)); }
+Trial Trials::of(const Mutant& mutant) const { return read(file(mutant)); }
+
+void Trials::makeBase(const Mutant& mutant) const {
+    const Trial trial = run(mutant);
+    if (!trial.refused.empty())
+        throw InternalError(fmt::format("mutant {}: without the fault {}", mutant.id, trial.refused));
+    write(baseFile(mutant), trial);
+}
+
+void Trials::make(const Mutant& mutant) const {
+    const std::filesystem::path result = file(mutant); // named by the tree without the fault
+    const PlantedFault fault(tree_, mutant.file, planted(mutant, tree_.read(mutant.file)));
+    write(result, run(mutant));
+}
+
+Trial Trials::run(const Mutant& mutant) const {
+    if (mutant.makesRecords()) return runProgram(mutant);
+    ToolResult result;
+    if (mutant.means == Means::Test) {
+        tree_.build(testTarget(mutant.target));
+        result = tryTool("ctest",
+                         {"--test-dir", "build/release", "-R", fmt::format("^{}$", mutant.target), "--no-tests=error",
+                          "--output-on-failure"},
+                         tree_.folder());
+    } else {
+        tree_.build("shadowbench");
+        result = tryTool(tree_.program(), arguments(mutant), tree_.folder());
+    }
+    return {{}, result.succeeded ? "" : fmt::format("{} failed: {}", mutant.target, result.complaint())};
+}
+
+Trial Trials::runProgram(const Mutant& mutant) const {
+    tree_.build("shadowbench");
+    const std::filesystem::path out = tree_.folder() / "running", own = tree_.folder() / "references";
+    std::filesystem::remove_all(out);
+    std::filesystem::remove_all(own);
+    const std::filesystem::path cache = mayTouchTruths(mutant) ? own : groundtruth::defaultCacheFolder();
+    std::vector<std::string> words = arguments(mutant);
+    words.insert(words.end(), {"--out", out.string(), "--cache", cache.string()});
+    const ToolResult result = tryTool(tree_.program(), words, tree_.folder());
+    const std::filesystem::path records = out / (mutant.sweep ? "sweep.jsonl" : "results.jsonl");
+    if (std::filesystem::exists(records)) return {readRecords(records), ""}; // cells in error among them
+    return {{}, result.succeeded ? "the program left no records" : result.complaint()};
+}
+
+} // namespace shadowbench::mutants
