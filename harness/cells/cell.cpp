@@ -145,6 +145,8 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
     const Commit commit = builtFrom();
     record.commit = commit.hash;
     record.dirty = commit.dirty;
+    record.program = programHash();
+    record.metricCode = metricCodeHash();
     record.time = timeNow();
     record.environment = environmentOf(gl::Context::current().info());
     if (!scene.tolerance.empty() && !variant.isLod()) { // it is about shadows
@@ -187,6 +189,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     const Reference& graded = truths.at(soft ? Truth::Soft : Truth::Hard, scored);
     StillFrameScores still(truths.at(kind, scored), graded, kind == Truth::Hard);
     MovingFrameScores moving;
+    Hasher128 shown;
     std::uint64_t bytes = 0;
     const int first = -scene.timeline.approach;
     for (int frame = temporal ? first : scored; frame < scene.timeline.frames(); ++frame) {
@@ -194,6 +197,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
         stage.render(*technique, frame - first, options.seed);
         if (frame < 0) continue;
         Image<float> v = stage.visibility();
+        shown.add(v.data(), v.size() * sizeof(float));
         const Reference& truth = truths.at(kind, std::max(frame, scored));
         Mask mask = metrics::receiverMask(truth, stage.drawn(), stage.shown().camera.eye);
         requireSamePrimaryHits(mask.primaryMismatch, scene, frame);
@@ -213,6 +217,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
         moving.add(stage.shown(), truth, std::move(v), std::move(mask));
     }
     moving.finish(record.values);
+    record.images = shown.digest().text();
 
     stage.show(scored);
     const int next = scene.timeline.frames() - first; // of the technique's sequence

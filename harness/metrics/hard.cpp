@@ -44,4 +44,11 @@ LabelErrors labelErrors(const ScoredFrame& frame) {
     return {counts.all.share(), counts.offEdge.share(), counts.lit.share(), counts.shadowed.share()};
 }
 
+LabelledPixels labelledPixels(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const HardTally counts = tally(frame);
+    const auto all = [](const Tally& t) { return static_cast<double>(t.all); };
+    return {all(counts.all), all(counts.lit), all(counts.shadowed), all(counts.offEdge)};
+}
+
 } // namespace shadowbench::metrics
