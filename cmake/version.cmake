@@ -1,4 +1,5 @@
-# Run at every build: writes embedded_commit.h with the project's version and the checked-out commit, only when it changed.
+# Run at every build: writes embedded_commit.h with the project's version, the checked-out commit and hashes of the sources,
+# only when it changed.
 # Of results/, which is being made anew while the program runs, only the golden references make another program.
 execute_process(COMMAND git rev-parse HEAD WORKING_DIRECTORY ${ROOT} OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
                 ERROR_QUIET RESULT_VARIABLE failed)
@@ -13,8 +14,33 @@ if("${changes}${golden_changes}" STREQUAL "")
 else()
   set(dirty true)
 endif()
+
+# The hash of all files in folders and of a text that belongs to them: the same wherever and whenever they are built.
+function(digest_of result text)
+  set(all "${text}\n")
+  foreach(folder IN LISTS ARGN)
+    file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${folder}/*)
+    list(SORT files)
+    foreach(file IN LISTS files)
+      file(SHA256 ${ROOT}/${file} hash)
+      string(APPEND all "${hash} ${file}\n")
+    endforeach()
+  endforeach()
+  string(SHA256 digest "${all}")
+  string(SUBSTRING ${digest} 0 32 digest)
+  set(${result} ${digest} PARENT_SCOPE)
+endfunction()
+set(build "")
+if(EXISTS ${ROOT}/CMakeLists.txt)
+  file(SHA256 ${ROOT}/CMakeLists.txt build)
+endif()
+digest_of(program "${COMPILER} ${build}" base scene techniques groundtruth harness cmake)
+digest_of(metric_code "" harness/cells harness/metrics harness/render)
+
 file(WRITE ${OUT}/embedded_commit.h.new "#pragma once\n\nnamespace shadowbench::embedded {\n\n"
      "inline constexpr const char* version = \"${VERSION}\";\n"
-     "inline constexpr const char* commit = \"${commit}\";\ninline constexpr bool dirty = ${dirty};\n\n"
+     "inline constexpr const char* commit = \"${commit}\";\ninline constexpr bool dirty = ${dirty};\n"
+     "inline constexpr const char* program = \"${program}\";\n"
+     "inline constexpr const char* metric_code = \"${metric_code}\";\n\n"
      "}  // namespace shadowbench::embedded\n")
 file(COPY_FILE ${OUT}/embedded_commit.h.new ${OUT}/embedded_commit.h ONLY_IF_DIFFERENT)

@@ -174,6 +174,8 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
     const Commit commit = builtFrom();
     record.commit = commit.hash;
     record.dirty = commit.dirty;
+    record.program = programHash();
+    record.metricCode = metricCodeHash();
     record.time = timeNow();
     record.environment = environmentOf(gl::Context::current().info());
     if (!scene.tolerance.empty() && !variant.isLod()) { // it is about shadows
@@ -225,6 +227,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     StillFrameScores still(truths.at(kind, scored), graded, kind == Truth::Hard);
     const bool usesAreas = usesPixelAreas(scene, variant);
     MovingFrameScores moving, movingAreas;
+    Hasher128 shown;
     std::uint64_t bytes = 0;
     const int first = -scene.timeline.approach;
     for (int frame = temporal ? first : scored; frame < scene.timeline.frames(); ++frame) {
@@ -232,6 +235,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
         stage.render(*technique, frame - first, options.seed);
         if (frame < 0) continue;
         Image<float> v = stage.visibility();
+        shown.add(v.data(), v.size() * sizeof(float));
         const Reference& truth = truths.at(kind, std::max(frame, scored));
         Mask mask = alignedMask(truth, stage.drawn(), stage.shown().camera.eye, frame);
         requireAnswers(v, mask, variant.name, frame);
@@ -253,6 +257,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     }
     moving.finish<metrics::OfMovingFrames>(record.values);
     movingAreas.finish<metrics::OfMovingAreas>(record.values);
+    record.images = shown.digest().text();
 
     stage.show(scored);
     const int next = scene.timeline.frames() - first; // of the technique's sequence

@@ -1,36 +1,104 @@
 #include "harness/cells/environment.h"
 
+#include "base/hash.h"
+
 #include "embedded_commit.h"
 
 #include <ctime>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
+#include <map>
 #include <string_view>
+#include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace shadowbench {
 namespace {
 
-std::string cpuModel() {
+/// "family" of "cpu family	: 6"; nothing for a line without a colon.
+std::pair<std::string, std::string> keyAndValue(const std::string& line) {
+    const std::size_t colon = line.find(": ");
+    if (colon == std::string::npos) return {};
+    return {line.substr(0, line.find_last_not_of(" \t", colon - 1) + 1), line.substr(colon + 2)};
+}
+
+/// What the kernel says of the first processor.
+std::map<std::string, std::string> firstProcessor() {
+    std::map<std::string, std::string> known;
     std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name")) return line.substr(line.find(": ") + 2);
-    return "unknown";
+    for (std::string line; std::getline(info, line) && !line.empty();) known.insert(keyAndValue(line));
+    return known;
+}
+
+std::string valueOf(const std::map<std::string, std::string>& known, const std::string& key) {
+    const auto found = known.find(key);
+    return found == known.end() ? "unknown" : found->second;
+}
+
+/// "family 6, model 85, stepping 7, features 1f0c…".
+std::string featuresOf(const std::map<std::string, std::string>& cpu) {
+    return fmt::format("family {}, model {}, stepping {}, features {}", valueOf(cpu, "cpu family"), valueOf(cpu, "model"),
+                       valueOf(cpu, "stepping"), hash128(valueOf(cpu, "flags")).text());
+}
+
+/// Installed packages with their versions, as Debian's package manager lists them; empty elsewhere.
+std::map<std::string, std::string> installedPackages() {
+    std::map<std::string, std::string> versions;
+    std::ifstream status("/var/lib/dpkg/status");
+    std::string package;
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("Package: ")) package = line.substr(9);
+        if (line.starts_with("Version: ")) versions[package] = line.substr(9);
+    }
+    return versions;
+}
+
+/// "libosmesa6 22.3.6-1, libllvm15 …": those that are installed.
+std::string revisionsOf(const std::map<std::string, std::string>& installed, const std::vector<std::string>& packages) {
+    std::vector<std::string> found;
+    for (const std::string& package : packages)
+        if (const auto version = installed.find(package); version != installed.end())
+            found.push_back(package + " " + version->second);
+    return fmt::format("{}", fmt::join(found, ", "));
+}
+
+/// "glibc 2.36".
+std::string libraryVersion() {
+    std::string text(64, '\0');
+    const std::size_t length = confstr(_CS_GNU_LIBC_VERSION, text.data(), text.size());
+    return length == 0 ? "unknown C library" : std::string(text.c_str());
+}
+
+/// The parts that are the same as long as the program runs.
+Environment ofThisMachine() {
+    const std::map<std::string, std::string> cpu = firstProcessor(), packages = installedPackages();
+    Environment environment;
+    environment.cpu = valueOf(cpu, "model name");
+    environment.cpuFeatures = featuresOf(cpu);
+    environment.compiler = std::string("g++ ") + __VERSION__;
+    environment.mesa = revisionsOf(packages, {"libosmesa6", "libllvm15"});
+    environment.libraries = fmt::format("{}, {}", libraryVersion(), revisionsOf(packages, {"libstdc++6"}));
+    return environment;
 }
 
 } // namespace
 
 Environment environmentOf(const gl::ContextInfo& context) {
-    Environment environment;
+    static const Environment machine = ofThisMachine();
+    Environment environment = machine;
     environment.renderer = context.renderer;
     environment.gl = context.version;
-    environment.cpu = cpuModel();
-    environment.compiler = std::string("g++ ") + __VERSION__;
     environment.rasterThreads = context.rasterThreads;
     environment.vectorBits = context.vectorBits;
     return environment;
 }
 
 Commit builtFrom() { return {embedded::commit, embedded::dirty}; }
+
+std::string programHash() { return embedded::program; }
+std::string metricCodeHash() { return embedded::metric_code; }
 
 std::string programVersion() {
     return fmt::format("{} (commit {}{})", embedded::version, std::string_view(embedded::commit).substr(0, 12),

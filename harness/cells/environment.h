@@ -17,6 +17,11 @@ struct Commit {
 };
 Commit builtFrom();
 
+/// Hashes of the sources and the compiler that this program was built from, and of those sources that score: two programs
+/// with one hash do the same, whatever their commits.
+std::string programHash();
+std::string metricCodeHash();
+
 /// The version of the project, and the commit: "0.1.0 (commit 79e0c196bffc, with changes)".
 std::string programVersion();
 

@@ -159,6 +159,7 @@ void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const Me
     std::unique_ptr<LodTechnique> technique = make(variant);
     metrics::Walk walk;
     WalkPictures pictures(reference, walk);
+    Hasher128 shown;
     Work busiest;
     const bool isReference = variant.entry->id == "lod-full"; // drawn already, and the same whatever levels are selected
     for (int index = 0; index < frames; ++index) {
@@ -168,6 +169,7 @@ void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const Me
         if (!isReference) work = draw(stage, *technique, index);
         const ColourImage picture = isReference ? reference.pictures[frame] : stage.picture();
         pictures.add(frame, picture, static_cast<double>(work.primitives));
+        shown.add(picture.data(), picture.size() * sizeof(*picture.data()));
         if (frame == reference.busiest)
             busiest = {work.fragments, work.vertices, work.primitives, work.draws, work.passes, 0};
         if (keep) keep(index, picture);
@@ -186,6 +188,7 @@ void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const Me
         setTime(record, cost.time);
         record.values.list("lod.by_frame.milliseconds") = cost.milliseconds;
     }
+    record.images = shown.digest().text();
     busiest.bytes = bytesOf(std::move(technique));
     setWork(record, busiest);
     record.frames = frames;

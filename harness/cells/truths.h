@@ -15,8 +15,9 @@
 namespace shadowbench {
 
 /// Exact truth of the light's centre, or soft truth of the whole light: the visible fraction of an area light, the share of
-/// an environment's irradiance that arrives. PixelArea is the exact truth of the light's centre over each pixel's square. Area
-/// is the exact visible fraction of an area light at every pixel: what its soft truth, which POV-Ray samples, is held to.
+/// an environment's irradiance that arrives. PixelArea is the exact truth of the light's centre over each pixel's square.
+/// Area is the exact visible fraction of an area light at every pixel: what its soft truth, which POV-Ray samples, is held
+/// to.
 enum class Truth { Hard, Soft, PixelArea, Area };
 std::string_view name(Truth truth);      // "hard", "soft", "pixel-area", "area"
 Truth truthNamed(std::string_view name); // throws BadInput naming all

@@ -13,6 +13,7 @@ struct CompareOptions {
     std::filesystem::path base, head, junit, summary;
     std::string format = "text";
     bool annotations = false;
+    bool aa = false; // one program on both sides is meant
 };
 
 /// A record file, or the folder that a run wrote it to.
@@ -21,8 +22,11 @@ std::vector<Record> recordsAt(const std::filesystem::path& place) {
 }
 
 ExitCode compareAndPrint(const CompareOptions& options) {
-    const std::vector<gate::Change> changes = gate::compare(recordsAt(options.base), recordsAt(options.head));
+    const std::vector<Record> base = recordsAt(options.base), head = recordsAt(options.head);
+    if (const auto why = gate::whyMeaningless(base, head, options.aa)) throw Inconclusive(*why);
+    const std::vector<gate::Change> changes = gate::compare(base, head);
     fmt::print("{}", gate::changesReport(changes, options.format));
+    if (!options.aa && gate::sameProgram(base, head)) fmt::print("both commits make the same program\n");
     if (options.annotations) fmt::print("{}", gate::annotations(changes));
     if (!options.junit.empty()) writeFile(options.junit, gate::junit(changes));
     if (!options.summary.empty()) writeFile(options.summary, gate::changesReport(changes, "md"));
@@ -34,14 +38,17 @@ ExitCode compareAndPrint(const CompareOptions& options) {
 void addCompare(CLI::App& app, Action& action) {
     const auto options = std::make_shared<CompareOptions>();
     CLI::App* verb = app.add_subcommand("compare", "Compares two sets of records: what changed, with a verdict");
-    verb->footer("Example:\n  shadowbench compare results/published results/latest --summary changes.md\n"
-                 "Exits with 4 when accuracy or stability is worse, with 3 when only cost is.");
+    verb->footer(
+        "Example:\n  shadowbench compare results/published results/latest --summary changes.md\n"
+        "Exits with 4 when accuracy or stability is worse, with 3 when only cost is, and with 5 when something could "
+        "not be\ncompared, nothing is in both, or both are of one program.");
     verb->add_option("base", options->base, "Records to compare with: a file, or the folder of a run")->required();
     verb->add_option("head", options->head, "Records to judge")->required();
     verb->add_option("--format", options->format, "text or md")->check(CLI::IsMember({"text", "md"}))->capture_default_str();
     verb->add_option("--junit", options->junit, "Write the verdicts as JUnit XML");
     verb->add_option("--summary", options->summary, "Write what changed as Markdown");
     verb->add_flag("--annotations", options->annotations, "Print what is worse as CI annotations too");
+    verb->add_flag("--aa", options->aa, "Both are records of one program, on purpose");
     verb->callback([&action, options] { action = [options] { return compareAndPrint(*options); }; });
 }
 

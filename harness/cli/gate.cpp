@@ -25,26 +25,42 @@ ExitCode gateAndPrint(const gate::GateOptions& options, const GateFiles& files) 
     const std::filesystem::path page = options.out / "gate.md";
     writeFile(page, gate::gateReport(result, options, "md"));
     if (!files.summary.empty()) writeFile(files.summary, gate::gateReport(result, options, "md"));
-    if (!files.junit.empty()) writeFile(files.junit, gate::junit(result.changes));
+    if (!files.junit.empty()) writeFile(files.junit, gate::junit(result.changes, result.unjudged));
     fmt::print("{}page: {}\n", gate::gateReport(result, options, "text"), page.string());
     if (files.annotations) fmt::print("{}", gate::annotations(result.changes));
     return result.code();
 }
 
+/// What a gate asks of its base.
+void addPolicy(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("policy", "Prints commit, hash of the sources and what a gate by this build judges");
+    verb->group(""); // left out of --help
+    verb->callback([&action] {
+        action = [] {
+            fmt::print("{}", gate::toJson(gate::ownIdentity()));
+            return ExitCode::Pass;
+        };
+    });
+}
+
 } // namespace
 
 void addGate(CLI::App& app, Action& action) {
+    addPolicy(app, action);
     const auto options = std::make_shared<gate::GateOptions>();
     const auto files = std::make_shared<GateFiles>();
     const auto profile = std::make_shared<std::string>("gate");
     const auto cost = std::make_shared<std::vector<std::string>>(std::vector<std::string>{"instructions", "time"});
     CLI::App* verb = app.add_subcommand("gate", "Judges this build against another: is anything worse?");
-    verb->footer("Examples:\n  shadowbench gate --base origin/main --junit gate.xml --summary gate.md --annotations\n"
-                 "  shadowbench gate --base ../main/build/release --technique 'sm-*' --scene windmills --cost none\n"
-                 "  shadowbench gate --base results/published/results.jsonl\n"
-                 "Exits with 0 when nothing is worse, 3 when only cost is, 4 when accuracy or stability is, and 5 when "
-                 "something could\n"
-                 "not be judged. A killed gate goes on where it was; what was measured of a build is not measured again.");
+    verb->footer(
+        "Examples:\n  shadowbench gate --base origin/main --junit gate.xml --summary gate.md --annotations\n"
+        "  shadowbench gate --base ../main/build/release --technique 'sm-*' --scene windmills --cost none\n"
+        "  shadowbench gate --base results/published/results.jsonl\n"
+        "Exits with 0 when nothing is worse, 3 when only cost is, 4 when accuracy or stability is, and 5 when "
+        "something could\n"
+        "not be judged, or base and head are one program. The stricter of both sides' policies judges. A killed gate "
+        "goes on\n"
+        "where it was; what was measured of a build is not measured again.");
     verb->add_option("--base", options->base,
                      "A build folder or program, a git revision (built once and kept), or records (then no time is judged)");
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
@@ -64,6 +80,7 @@ void addGate(CLI::App& app, Action& action) {
     verb->add_option("--junit", files->junit, "Write the verdicts as JUnit XML");
     verb->add_option("--summary", files->summary, "Write the page there, too (a CI host's summary file)");
     verb->add_flag("--annotations", files->annotations, "Print what is worse as CI annotations, too");
+    verb->add_flag("--aa", options->aa, "Base and head are one program, on purpose: does the gate stay silent?");
     verb->add_flag("--quiet", options->quiet, "No progress");
     verb->callback([&action, options, files, profile, cost] {
         action = [options, files, profile, cost] {

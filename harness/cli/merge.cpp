@@ -42,7 +42,8 @@ void addMerge(CLI::App& app, Action& action) {
     verb->footer("Examples:\n  shadowbench merge results/large\n"
                  "  shadowbench merge first-machine second-machine --out results/large\n"
                  "Writes results.jsonl and report as `run` does, and exits as it does. Exits with 5 when cells are missing "
-                 "(each is named), or were\nmeasured in different environments or by different commits.");
+                 "(each is named), or were\nmeasured in different environments, by different commits or by programs of "
+                 "different sources.");
     verb->add_option("folders", options->folders, "Folders of one run's parts: --out of `run --shard`")->required();
     verb->add_option("--out", options->out, "Folder of records and report (default: the folder, if there is one only)");
     verb->callback([&action, options] { action = [options] { return mergeAndReport(*options); }; });

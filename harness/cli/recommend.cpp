@@ -105,7 +105,8 @@ void addRecommend(CLI::App& app, Action& action) {
     verb->add_option("--technique", options.techniques,
                      "For technique, map and samples: variant or glob over ids; repeatable (default: all)");
     CLI::Option* records = verb->add_option("--records", options.records, "Records that answer technique, map and samples");
-    verb->add_option("--out", options.out, "Folder of the records of cells that are run; those that it holds are kept")
+    verb->add_option("--out", options.out,
+                     "Folder of the records of cells that are run; those of this program that it holds are kept")
         ->excludes(records)
         ->capture_default_str();
     addProfileOption(*verb, words->profile);

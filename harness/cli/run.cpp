@@ -86,7 +86,7 @@ void addRun(CLI::App& app, Action& action) {
     verb->add_option("--cache", options->cache,
                      "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     addSeedOption(*verb, options->measure.seed);
-    verb->add_flag("--resume", options->resume, "Keep the cells that --out already holds, run the rest");
+    verb->add_flag("--resume", options->resume, "Keep the cells that --out already holds of this program, run the rest");
     verb->add_flag("--images", *images, "Write visibility, reference and error of each cell as EXR and PNG");
     verb->add_option("--cost", *cost,
                      "What is measured beside work counters: time, instructions (under Valgrind, the same in every run), "

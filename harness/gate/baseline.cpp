@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/git.h"
+#include "base/hash.h"
 #include "base/process.h"
 #include "base/temporary_folder.h"
 
@@ -35,6 +36,15 @@ fs::path required(const char* tool) {
     if (const auto program = findProgram(tool)) return *program;
     throw Inconclusive(
         fmt::format("building the base needs {}, which is not installed; install it with: apt-get install {}", tool, tool));
+}
+
+/// What tells compilers apart, hashed: a base that another one built would show its code as the head's change.
+std::string compilerHash() {
+    std::string said;
+    const TemporaryFolder folder;
+    Command command{required("c++"), {"--version"}, folder.path()};
+    runProcess(command, [&](std::string_view line) { said += std::string(line) + "\n"; });
+    return hash128(said).text().substr(0, 12);
 }
 
 /// Where ccache keeps what it knows, for a build whose HOME is a scratch folder.
@@ -104,7 +114,7 @@ Baseline findBaseline(const std::string& text, const fs::path& cache, const Prog
             fmt::format("the base \"{}\" is no build folder, no records and no git revision here; name one of "
                         "them with --base",
                         text));
-    const fs::path program = fs::absolute(cache) / "programs" / commit / "shadowbench";
+    const fs::path program = fs::absolute(cache) / "programs" / (commit + "-" + compilerHash()) / "shadowbench";
     if (!isProgram(program)) Build(repository, commit, progress).into(program);
     return {Baseline::Kind::Program, program, fmt::format("{} ({})", text, commit.substr(0, 12))};
 }

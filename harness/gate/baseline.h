@@ -17,9 +17,9 @@ struct Baseline {
 };
 
 /// `text` is a build folder or the program in it, a record file or the folder of a run, or else a git revision of the
-/// repository that holds the working directory: that commit is built (once; kept in `cache` by its hash), and `progress`
-/// gets the build's output line by line. Throws Inconclusive, naming what was tried, when it is none of them or cannot be
-/// built: without a baseline nothing is judged.
+/// repository that holds the working directory: that commit is built (once; kept in `cache` by its hash and the compiler),
+/// and `progress` gets the build's output line by line. Throws Inconclusive, naming what was tried, when it is none of them
+/// or cannot be built: without a baseline nothing is judged.
 Baseline findBaseline(const std::string& text, const std::filesystem::path& cache, const Progress& progress);
 
 } // namespace shadowbench::gate

@@ -3,6 +3,7 @@
 #include "base/progress_line.h"
 #include "groundtruth/store/cache.h"
 #include "harness/cells/environment.h"
+#include "harness/gate/anchor.h"
 #include "harness/gate/baseline.h"
 #include "harness/gate/bounds.h"
 #include "harness/gate/failure_pictures.h"
@@ -49,7 +50,6 @@ public:
         const MeasuredProgram head(ownProgram(), cache_);
         const Commit commit = builtFrom();
         result_.base = base.name;
-        noteUnknownScenes();
         result_.head = commit.hash.substr(0, 12) + (commit.dirty ? " with changes" : "");
         if (base.kind == Baseline::Kind::Records)
             judgeAgainstRecords(base, head);
@@ -65,24 +65,66 @@ private:
     }
 
     void judgeAgainstRecords(const Baseline& base, const MeasuredProgram& head) {
+        noteUnknownScenes();
         std::vector<Record> before = readRecords(base.file);
         std::erase_if(before, [&](const Record& r) { return !isJudged(r); });
         const bool counted =
             std::ranges::any_of(before, [](const Record& r) { return r.values["cost.instructions"].has_value(); });
+        result_.notes.emplace_back("the base is a file of records: this build's policy alone judges");
         if (options_.time) result_.notes.emplace_back("time is not judged: the base is a file of records, not a program");
         if (options_.instructions && !counted)
             result_.notes.emplace_back("instructions are not judged: the base's records hold none");
         const bool instructions = options_.instructions && counted;
-        judgeRecords(before, measure(head, "head", instructions), cells_.steps(head, instructions));
+        const std::vector<Record> now = measure(head, "head", instructions);
+        judgeRecords(before, now, cells_.steps(head, instructions));
+        if (const auto why = whyMeaningless(before, now, options_.aa)) result_.unjudged.push_back(*why);
+        judgeAgainstAnchors(now);
         addPictures(nullptr, head);
     }
 
     void judgeAgainstProgram(const MeasuredProgram& base, const MeasuredProgram& head) {
-        noteWhatIsGone(base, head);
+        if (isDecidedAlready(base, head)) return;
+        unitePolicies(base);
+        noteUnknownScenes();
         const std::vector<Record> before = measure(base, "base", options_.instructions);
-        judgeRecords(before, measure(head, "head", options_.instructions), cells_.steps(head, options_.instructions));
+        const std::vector<Record> now = measure(head, "head", options_.instructions);
+        judgeRecords(before, now, cells_.steps(head, options_.instructions));
+        if (const auto why = whyMeaningless(before, now, true)) result_.unjudged.push_back(*why);
+        judgeAgainstAnchors(now);
         if (options_.time) judgeTimes(base, head);
         addPictures(&base, head);
+    }
+
+    /// One program is never worse than itself: of one commit that is a mistake, of two it is all there is to say.
+    bool isDecidedAlready(const MeasuredProgram& base, const MeasuredProgram& head) {
+        if (options_.aa) return false;
+        const auto &before = base.identity(), &now = head.identity();
+        const bool same = base.content() == head.content() || (before && now && before->program == now->program);
+        if (!same) return false;
+        if (!before || !now || (before->commit == now->commit && before->dirty == now->dirty))
+            throw Inconclusive(
+                fmt::format("base and head are one program ({}), so nothing would be judged; name another base, "
+                            "or say --aa if that is meant",
+                            result_.head));
+        const Policy judged = readPolicy(options_.bounds, Profile::Gate);
+        if (!sentencesOf(loosened(before->policy, judged)).empty() || !sentencesOf(loosened(judged, before->policy)).empty())
+            return false;
+        result_.notes.push_back(
+            fmt::format("commits {} and {} make the same program with the same policy: nothing was measured",
+                        before->commit.substr(0, 12), now->commit.substr(0, 12)));
+        return true;
+    }
+
+    void unitePolicies(const MeasuredProgram& base) {
+        std::optional<Policy> policy;
+        if (base.identity())
+            policy = base.identity()->policy;
+        else
+            result_.notes.emplace_back("the base was built before programs said what they judge: this build's policy alone "
+                                       "judges");
+        cells_ = JudgedCells(options_, policy, base.variants());
+        std::ranges::copy(cells_.loosened, std::back_inserter(result_.notes));
+        std::ranges::copy(cells_.gone, std::back_inserter(result_.unjudged));
     }
 
     std::vector<Record> measure(const MeasuredProgram& program, const char* who, bool instructions) {
@@ -96,11 +138,13 @@ private:
     void judgeRecords(const std::vector<Record>& before, const std::vector<Record>& now, const std::vector<Step>& steps) {
         result_.changes = compare(before, now);
         std::vector<Bound> bounds = cells_.watchlist.bounds;
-        if (options_.profile == Profile::Gate) // what scenes expect, they expect of this profile
+        if (options_.profile == Profile::Gate) // what scenes expect, they expect of this profile; those of others are known
             for (const JudgedScene& scene : cells_.scenes)
-                for (Bound& bound : boundsOf(loadScene(scene.argument, options_.profile)))
-                    bounds.push_back(std::move(bound));
-        for (Change& change : judgeBounds(now, bounds)) result_.changes.push_back(std::move(change));
+                if (!scene.content.empty())
+                    std::ranges::move(boundsOf(loadScene(scene.argument, options_.profile)), std::back_inserter(bounds));
+        std::vector<Record> ofSeed = now;
+        std::erase_if(ofSeed, [&](const Record& r) { return r.seed != options_.seed; });
+        for (Change& change : judgeBounds(ofSeed, bounds)) result_.changes.push_back(std::move(change));
         requireEveryCell(before, now, steps);
     }
 
@@ -108,7 +152,7 @@ private:
     void requireEveryCell(const std::vector<Record>& before, const std::vector<Record>& now,
                           const std::vector<Step>& steps) {
         for (const Record& record : now)
-            if (record.status == Status::Error)
+            if (record.status == Status::Error && !isRefusedByBoth(record, before))
                 result_.unjudged.push_back(fmt::format("{} on {}: {}", record.variant, record.scene, record.reason));
         std::set<std::pair<std::string, std::string>> there;
         for (const Record& record : now)
@@ -120,10 +164,35 @@ private:
         if (std::ranges::any_of(steps, [](const Step& s) { return s.records == "sweep.jsonl"; }) &&
             std::ranges::none_of(before, [](const Record& r) { return r.sweep.has_value(); }))
             result_.notes.emplace_back("break points are not judged: the base's records hold no sweep");
-        std::set<CellKey> known;
-        for (const Record& record : before) known.insert(cellOf(record));
-        if (std::ranges::none_of(now, [&](const Record& r) { return known.contains(cellOf(r)); }))
-            result_.unjudged.emplace_back("the base holds none of the cells: nothing is compared");
+    }
+
+    /// The drift since each anchor, in units of what one commit may change.
+    void judgeAgainstAnchors(const std::vector<Record>& now) {
+        for (const Anchor& anchor : cells_.watchlist.anchors) {
+            StageLine line("anchor", options_.quiet);
+            const Baseline found =
+                timed("building the anchor", [&] { return findBaseline(anchor.commit, cache_, line.progress()); });
+            const std::vector<Record> before =
+                found.kind == Baseline::Kind::Records
+                    ? readRecords(found.file)
+                    : measure(MeasuredProgram(found.file, cache_), "anchor", options_.instructions);
+            AnchorJudgement judgement = judgeDrift(anchor, before, now);
+            std::ranges::move(judgement.changes, std::back_inserter(result_.changes));
+            std::ranges::move(judgement.notes, std::back_inserter(result_.notes));
+            if (judgement.compared == 0)
+                result_.unjudged.push_back(
+                    fmt::format("nothing can be compared with the anchor {}: name a younger commit in {}", anchor.commit,
+                                options_.bounds.string()));
+        }
+    }
+
+    /// Choices that do not fit each other, which base and head refuse with the same sentence.
+    [[nodiscard]] bool isRefusedByBoth(const Record& record, const std::vector<Record>& before) const {
+        const auto scene = std::ranges::find(cells_.scenes, record.scene, &JudgedScene::id);
+        if (scene == cells_.scenes.end() || !scene->ofChoices) return false;
+        return std::ranges::any_of(before, [&](const Record& r) {
+            return r.status == Status::Error && r.reason == record.reason && cellOf(r) == cellOf(record);
+        });
     }
 
     void noteUnknownScenes() {
@@ -132,13 +201,6 @@ private:
         for (const std::string& scene : cells_.watchlist.unknownScenes(known))
             result_.notes.push_back(
                 fmt::format("{} names a scene \"{}\" that is not among the chosen ones", options_.bounds.string(), scene));
-    }
-
-    void noteWhatIsGone(const MeasuredProgram& base, const MeasuredProgram& head) {
-        if (!options_.techniques.empty()) return;
-        for (const std::string& id : base.techniques())
-            if (!head.knowsVariant(id))
-                result_.unjudged.push_back(fmt::format("{} no longer exists, so it is not judged", id));
     }
 
     void judgeTimes(const MeasuredProgram& base, const MeasuredProgram& head) {
@@ -159,18 +221,32 @@ private:
         const std::string scene = sceneId(judgement.cell.scene), variant = judgement.cell.variant;
         const std::string figures =
             fmt::format("{} on {}: a frame takes {:.3f} of the base's CPU time", variant, scene, judgement.ratio);
+        Change change{scene,
+                      variant,
+                      "time.ratio",
+                      Class::Time,
+                      1,
+                      judgement.ratio,
+                      rule.floor,
+                      Direction::Same,
+                      fmt::format("{}, surely more than {:.3f}", figures, judgement.lowerBound)};
         if (judgement.controlAlarm) {
-            result_.unjudged.push_back(fmt::format("{}, but the base against itself differs, too: the machine is not steady "
-                                                   "enough",
-                                                   figures));
-            return;
+            change.direction = Direction::Unjudged;
+            change.sentence =
+                fmt::format("{}, but the base against itself differs, too: the machine is not steady enough", figures);
+        } else if (judgement.verdict == TimeVerdict::Slower) {
+            change.direction = Direction::Worse;
+        } else if (judgement.verdict == TimeVerdict::Unclear) {
+            change.direction = Direction::Unclear;
+            change.sentence = fmt::format("{}, which {} rounds leave uncertain", figures, judgement.rounds);
         }
-        const bool slower = judgement.verdict == TimeVerdict::Slower;
-        if (judgement.verdict == TimeVerdict::Unclear)
-            result_.notes.push_back(fmt::format("{}, which {} rounds leave uncertain", figures, judgement.rounds));
-        result_.changes.push_back({scene, variant, "time.ratio", Class::Time, 1, judgement.ratio, rule.floor,
-                                   slower ? Direction::Worse : Direction::Same,
-                                   fmt::format("{}, surely more than {:.3f}", figures, judgement.lowerBound)});
+        result_.changes.push_back(std::move(change));
+        if (!judgement.waits) return;
+        result_.changes.push_back(
+            {scene, variant, "time.wall_ratio", Class::Time, 1, judgement.wallRatio, rule.wallFloor, Direction::Worse,
+             fmt::format("{} on {}: a frame takes {:.3f} of the base's wall time and {:.3f} of its CPU "
+                         "time: it waits",
+                         variant, scene, judgement.wallRatio, judgement.ratio)});
     }
 
     void addPictures(const MeasuredProgram* base, const MeasuredProgram& head) {
@@ -188,9 +264,14 @@ private:
         return outcome;
     }
 
+    /// Of a base's records: what this build measures, and what it no longer has of a scene that it judges with all
+    /// techniques.
     [[nodiscard]] bool isJudged(const Record& r) const {
         if (r.profile != name(options_.profile) || r.seed != options_.seed) return false;
-        return cells_.chooses(r.scene, r.sweep ? r.sweep->curve : r.variant);
+        if (cells_.chooses(r.scene, r.sweep ? r.sweep->curve : r.variant)) return true;
+        const std::vector<std::string> standard = standardScenes();
+        return options_.techniques.empty() && options_.scenes.empty() && !r.sweep &&
+               std::ranges::find(standard, r.scene) != standard.end();
     }
 
     [[nodiscard]] std::string sceneId(const std::string& argument) const {

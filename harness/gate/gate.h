@@ -22,6 +22,7 @@ struct GateOptions {
     std::filesystem::path cache;                // empty: the default
     std::uint32_t seed = 1;
     bool instructions = true, time = true; // which costs are judged
+    bool aa = false;                       // base and head may be one program
     bool quiet = false;
 };
 

@@ -2,6 +2,9 @@
 
 #include "base/files.h"
 #include "harness/cells/cell.h"
+#include "harness/cells/lod_cell.h"
+#include "harness/cells/truths.h"
+#include "harness/gate/choices.h"
 #include "harness/metrics/table.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
@@ -14,11 +17,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Keys of the scored frame's truths; empty without a tool that they need, which measuring reports.
+std::string truthKeys(const Scene& scene) {
+    const groundtruth::Cache unused{std::filesystem::path()};
+    const Truths truths(scene, unused);
+    std::string keys;
+    try {
+        for (const Truth truth : truthsOf(scene.light)) keys += truths.key(truth, scene.timeline.still - 1) + "\n";
+    } catch (const Inconclusive&) {
+        return "";
+    }
+    return keys;
+}
+
 JudgedScene loadJudged(const std::string& idOrFile, Profile profile) {
     const Scene scene = loadScene(idOrFile, profile, metrics::boundedMetrics()); // to refuse it now
     const std::vector<std::string> builtin = builtinScenes();
-    if (std::ranges::find(builtin, idOrFile) != builtin.end()) return {scene.id, idOrFile, "", {}};
-    return {scene.id, fs::absolute(idOrFile).string(), readFile(idOrFile), {}};
+    if (std::ranges::find(builtin, idOrFile) != builtin.end()) return {scene.id, idOrFile, "", truthKeys(scene), {}};
+    return {scene.id, fs::absolute(idOrFile).string(), readFile(idOrFile), truthKeys(scene), {}};
 }
 
 std::vector<std::string> namesOf(const std::vector<std::string>& patterns) {
@@ -43,72 +59,154 @@ std::vector<std::string> coveredOf(const std::vector<Watch>& watches, const std:
     return result;
 }
 
-Watchlist readBounds(const GateOptions& options) {
+Policy policyOf(const GateOptions& options) {
     if (!fs::exists(options.bounds))
         throw Inconclusive(
             fmt::format("the gate's bounds file {} is missing; name another with --bounds", options.bounds.string()));
-    return readWatchlist(options.bounds, options.profile);
+    return readPolicy(options.bounds, options.profile);
 }
 
 bool has(const MeasuredProgram& program, const JudgedScene& scene) {
     return !scene.content.empty() || program.knowsScene(scene.id);
 }
 
+bool isBuiltin(const std::string& scene) {
+    const std::vector<std::string> builtin = builtinScenes();
+    return std::ranges::find(builtin, scene) != builtin.end();
+}
+
+/// The canonical name of a variant that another build shows; nothing if this one does not have it.
+std::optional<std::string> ownName(const std::string& variant) {
+    try {
+        return techniques::parseVariant(variant).name;
+    } catch (const BadInput&) {
+        return std::nullopt;
+    }
+}
+
+template <class Predicate>
+std::vector<std::string> those(const std::vector<std::string>& all, const Predicate& predicate) {
+    std::vector<std::string> some;
+    std::ranges::copy_if(all, std::back_inserter(some), predicate);
+    return some;
+}
+
+/// A run or sweep of one scene, without its techniques.
+std::vector<std::string> arguments(const char* verb, const JudgedScene& scene, Profile profile, std::uint32_t seed,
+                                   const std::vector<std::string>& more) {
+    std::vector<std::string> words{verb,     "--scene",           scene.argument, "--profile", std::string(name(profile)),
+                                   "--seed", std::to_string(seed)};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+/// Whether choices are tried there: on an area light those of soft techniques only, for others do the same as elsewhere.
+bool belongsTo(const Scene& scene, const std::string& name) {
+    const techniques::Variant variant = techniques::parseVariant(name);
+    if (variant.isLod()) return !lod::notApplicable(scene);
+    return !notApplicable(scene, variant) && (!scene.light.isArea() || variant.entry->answer == techniques::Answer::Soft);
+}
+
+/// Seeds that a cell is measured with where chance plays a part: as many as the allowance for it counts on
+/// (harness/records/compare.cpp).
+constexpr std::uint32_t seedsOfChance = 8;
+
 } // namespace
 
-JudgedCells::JudgedCells(const GateOptions& options)
-    : watchlist(readBounds(options)), profile(options.profile), seed(options.seed) {
-    const std::vector<std::string> chosen = namesOf(options.techniques);
-    const auto add = [&](const std::string& scene, const Watch* only) {
+JudgedCells::JudgedCells(const GateOptions& options, const std::optional<Policy>& base,
+                         const std::vector<std::string>& baseVariants)
+    : profile(options.profile), seed(options.seed) {
+    Policy policy = policyOf(options);
+    if (base) {
+        const Policy more = gate::loosened(*base, policy);
+        loosened = sentencesOf(more);
+        add(more, policy);
+    }
+    watchlist = std::move(policy.watchlist);
+    const std::vector<std::string> chosen = chosenVariants(options, baseVariants);
+    const auto addScene = [&](const std::string& scene, const Watch* only) {
+        if (options.scenes.empty() && !isBuiltin(scene)) {
+            gone.push_back(fmt::format("the scene {}, which the base judges, no longer exists", scene));
+            return;
+        }
         JudgedScene judged = loadJudged(scene, profile);
-        std::ranges::copy_if(chosen, std::back_inserter(judged.variants),
-                             [&](const std::string& v) { return only == nullptr || only->covers(v); });
+        judged.variants = those(chosen, [&](const std::string& v) { return only == nullptr || only->covers(v); });
         if (!judged.variants.empty()) scenes.push_back(std::move(judged));
     };
-    for (const std::string& scene : options.scenes.empty() ? standardScenes() : options.scenes) add(scene, nullptr);
+    for (const std::string& scene : options.scenes.empty() ? policy.standard : options.scenes) addScene(scene, nullptr);
     if (!options.scenes.empty()) return;
-    for (const Watch& watch : watchlist.scenes) add(watch.scene, &watch);
+    for (const Watch& watch : watchlist.scenes) addScene(watch.scene, &watch);
+    addChoices(options, chosen);
+}
+
+std::vector<std::string> JudgedCells::chosenVariants(const GateOptions& options,
+                                                     const std::vector<std::string>& baseVariants) {
+    std::vector<std::string> chosen = namesOf(options.techniques);
+    if (!options.techniques.empty()) return chosen;
+    for (const std::string& variant : baseVariants) {
+        const std::optional<std::string> name = ownName(variant);
+        if (!name) {
+            gone.push_back(fmt::format("{}, which the base shows, no longer exists, so it is not judged", variant));
+        } else if (std::ranges::find(chosen, *name) == chosen.end()) {
+            chosen.push_back(*name);
+            loosened.push_back(fmt::format("{}, which the base shows, is shown no longer", *name));
+        }
+    }
+    return chosen;
+}
+
+void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::string>& chosen) {
+    for (const Watch& watch : watchlist.choices) {
+        const std::string file = (options.bounds.parent_path() / watch.scene).string();
+        JudgedScene judged = loadJudged(file, profile);
+        judged.ofChoices = true;
+        const Scene scene = loadScene(file, profile);
+        const auto isChosen = [&](const std::string& id) {
+            return watch.covers(id) &&
+                   std::ranges::any_of(chosen, [&](const std::string& v) { return v.substr(0, v.find(':')) == id; });
+        };
+        for (const techniques::Entry& entry : techniques::catalog())
+            if (isChosen(entry.id))
+                for (std::string& variant : pairwiseVariants(entry))
+                    if (!watch.excludes(variant) && belongsTo(scene, variant)) judged.variants.push_back(std::move(variant));
+        if (!judged.variants.empty()) scenes.push_back(std::move(judged));
+    }
+}
+
+void JudgedCells::addSteps(const MeasuredProgram& program, const JudgedScene& scene, bool instructions,
+                           std::vector<Step>& steps) const {
+    const std::vector<std::string> known = those(scene.variants, [&](const auto& v) { return program.knowsVariant(v); });
+    const auto counted = instructions ? coveredOf(watchlist.counted, scenes, scene.id, known) : std::vector<std::string>{};
+    const auto add = [&](const std::string& name, std::uint32_t with, const char* cost,
+                         const std::vector<std::string>& variants) {
+        if (!variants.empty())
+            steps.push_back({name, arguments("run", scene, profile, with, {"--cost", cost}), variants, "results.jsonl",
+                             scene.content + scene.truths});
+    };
+    add(scene.id, seed, "none", those(known, [&](const auto& v) { return std::ranges::find(counted, v) == counted.end(); }));
+    add(scene.id + ", instructions", seed, "instructions", counted);
+    const std::vector<std::string> byChance = those(known, [&](const auto& v) {
+        return std::ranges::any_of(watchlist.seeds, [&](const Watch& w) { return w.scene == scene.id && w.covers(v); });
+    });
+    for (std::uint32_t other = seed + 1; other < seed + seedsOfChance; ++other)
+        add(fmt::format("{}, seed {}", scene.id, other), other, "none", byChance);
 }
 
 std::vector<Step> JudgedCells::steps(const MeasuredProgram& program, bool instructions) const {
-    const auto knownOn = [&](const JudgedScene& scene) {
-        std::vector<std::string> known;
-        std::ranges::copy_if(scene.variants, std::back_inserter(known),
-                             [&](const auto& v) { return program.knowsVariant(v); });
-        return known;
-    };
-    const auto arguments = [&](const char* verb, const JudgedScene& scene, std::vector<std::string> more) {
-        std::vector<std::string> words{
-            verb, "--scene", scene.argument, "--profile", std::string(name(profile)), "--seed", std::to_string(seed)};
-        words.insert(words.end(), more.begin(), more.end());
-        return words;
-    };
-
     std::vector<Step> steps;
-    const auto add = [&](Step step) {
-        if (!step.techniques.empty()) steps.push_back(std::move(step));
-    };
-    for (const JudgedScene& scene : scenes) {
-        if (!has(program, scene)) continue;
-        const std::vector<std::string> known = knownOn(scene);
-        const auto counted =
-            instructions ? coveredOf(watchlist.counted, scenes, scene.id, known) : std::vector<std::string>{};
-        std::vector<std::string> others;
-        std::ranges::copy_if(known, std::back_inserter(others),
-                             [&](const auto& v) { return std::ranges::find(counted, v) == counted.end(); });
-        add({scene.id, arguments("run", scene, {"--cost", "none"}), others, "results.jsonl", scene.content});
-        add({scene.id + ", instructions", arguments("run", scene, {"--cost", "instructions"}), counted, "results.jsonl",
-             scene.content});
-    }
+    for (const JudgedScene& scene : scenes)
+        if (has(program, scene)) addSteps(program, scene, instructions, steps);
     for (const WatchedSweep& sweep : watchlist.sweeps) {
         const auto scene = std::ranges::find(scenes, sweep.cells.scene, &JudgedScene::id);
         if (scene == scenes.end() || !has(program, *scene)) continue;
-        std::vector<std::string> more{"--axis", sweep.axis}, swept;
+        std::vector<std::string> more{"--axis", sweep.axis};
         for (const double value : sweep.values) more.insert(more.end(), {"--values", fmt::format("{}", value)});
-        std::ranges::copy_if(knownOn(*scene), std::back_inserter(swept),
-                             [&](const auto& v) { return sweep.cells.covers(v); });
-        add({fmt::format("{} over {}", scene->id, sweep.axis), arguments("sweep", *scene, more), swept, "sweep.jsonl",
-             scene->content});
+        const std::vector<std::string> swept =
+            those(scene->variants, [&](const auto& v) { return program.knowsVariant(v) && sweep.cells.covers(v); });
+        if (!swept.empty())
+            steps.push_back({fmt::format("{} over {}", scene->id, sweep.axis),
+                             arguments("sweep", *scene, profile, seed, more), swept, "sweep.jsonl",
+                             scene->content + scene->truths});
     }
     return steps;
 }

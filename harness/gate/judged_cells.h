@@ -3,8 +3,9 @@
 
 #include "harness/gate/gate.h"
 #include "harness/gate/paired_run.h"
-#include "harness/gate/watchlist.h"
+#include "harness/gate/policy.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,20 +13,27 @@ namespace shadowbench::gate {
 
 struct JudgedScene {
     std::string id;
-    std::string argument;              // of `--scene`: the id, or an absolute path
-    std::string content;               // of the file; empty for a built-in scene
+    std::string argument; // of `--scene`: the id, or an absolute path
+    std::string content;  // of the file; empty for a built-in scene
+    std::string truths;   // their keys: what a kept record was scored against must be what is scored against now
     std::vector<std::string> variants; // that are judged there, by their canonical names
+    bool ofChoices = false;            // some of them are refused: choices that do not fit each other
 };
 
 struct JudgedCells {
     Watchlist watchlist;
     std::vector<JudgedScene> scenes;
+    std::vector<std::string>
+        loosened;                  // sentences: what the base judges more strictly, and the base's policy now judges here
+    std::vector<std::string> gone; // sentences: what the base judges and this build cannot
     Profile profile = Profile::Gate;
     std::uint32_t seed = 1;
 
-    /// The cells that `options` choose. Throws BadInput for an unknown scene or technique, Inconclusive without a file of
-    /// bounds.
-    explicit JudgedCells(const GateOptions& options);
+    /// The cells that `options` choose, by the policy of their file of bounds and by that of a base, which shows
+    /// `baseVariants` when all are asked for. Throws BadInput for an unknown scene or technique, Inconclusive without a file
+    /// of bounds.
+    explicit JudgedCells(const GateOptions& options, const std::optional<Policy>& base = {},
+                         const std::vector<std::string>& baseVariants = {});
 
     /// The runs that measure all cells whose scene and variant `program` has. With `instructions`, the instructions of those
     /// that the watchlist names are counted, or of all when it names none of the scenes.
@@ -36,6 +44,13 @@ struct JudgedCells {
     [[nodiscard]] std::vector<TimedCell> timedCells(const MeasuredProgram& base, const MeasuredProgram& head) const;
 
     [[nodiscard]] bool chooses(const std::string& scene, const std::string& variant) const;
+
+private:
+    [[nodiscard]] std::vector<std::string> chosenVariants(const GateOptions& options,
+                                                          const std::vector<std::string>& baseVariants);
+    void addChoices(const GateOptions& options, const std::vector<std::string>& chosen);
+    void addSteps(const MeasuredProgram& program, const JudgedScene& scene, bool instructions,
+                  std::vector<Step>& steps) const;
 };
 
 } // namespace shadowbench::gate

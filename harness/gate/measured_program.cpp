@@ -8,10 +8,12 @@
 #include "base/temporary_folder.h"
 #include "harness/cells/environment.h"
 #include "harness/measure/callgrind.h"
+#include "harness/records/comparability.h"
 
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <mutex>
@@ -30,7 +32,7 @@ constexpr std::chrono::hours longestStep{3};
 std::string surroundings() {
     const auto context = gl::Context::create();
     const Environment e = environmentOf(context->info());
-    return fmt::format("{}\n{}\n{}\n{}", e.renderer, e.gl, e.cpu, findProgram("valgrind") ? timing::valgrindVersion() : "");
+    return countingEnvironment(e) + (findProgram("valgrind") ? "\n" + timing::valgrindVersion() : "");
 }
 
 /// The exit code and the last line; `onLine` sees all of them.
@@ -71,12 +73,34 @@ Json listOf(const fs::path& program, const std::string& what) {
     return list;
 }
 
-/// "pcss:taps=32+32,map=2048" → "taps", "map".
-std::vector<std::string> parameterNames(const std::string& variant) {
-    std::vector<std::string> names;
-    for (std::size_t at = variant.find(':'); at != std::string::npos; at = variant.find(',', at + 1))
-        names.push_back(variant.substr(at + 1, variant.find('=', at) - at - 1));
-    return names;
+/// What the program says of itself; nothing where it has no such verb.
+std::optional<Identity> identityOf(const fs::path& program) {
+    std::string text;
+    const auto [code, last] = runToEnd(program, {"policy"}, [&](std::string_view line) { text += line; });
+    if (code != 0) return {};
+    return identityFrom(text);
+}
+
+/// "pcss:taps=32+32,map=2048" → ("taps", "32+32"), ("map", "2048").
+std::vector<std::pair<std::string, std::string>> assignmentsOf(const std::string& variant) {
+    std::vector<std::pair<std::string, std::string>> assignments;
+    for (std::size_t at = variant.find(':'); at != std::string::npos; at = variant.find(',', at + 1)) {
+        const std::size_t equals = variant.find('=', at);
+        assignments.emplace_back(variant.substr(at + 1, equals - at - 1),
+                                 variant.substr(equals + 1, variant.find(',', equals) - equals - 1));
+    }
+    return assignments;
+}
+
+/// Whether a listed domain ("a|b", "1…8") has the value.
+bool allows(const std::string& domain, const std::string& value) {
+    constexpr std::string_view to = "…";
+    if (const std::size_t at = domain.find(to); at != std::string::npos) {
+        const double number = std::strtod(value.c_str(), nullptr);
+        return number >= std::strtod(domain.c_str(), nullptr) &&
+               number <= std::strtod(domain.c_str() + at + to.size(), nullptr);
+    }
+    return ("|" + domain + "|").find("|" + value + "|") != std::string::npos;
 }
 
 std::string text(const Step& step) {
@@ -87,38 +111,39 @@ std::string text(const Step& step) {
 
 MeasuredProgram::MeasuredProgram(const fs::path& file, const fs::path& cache)
     : file_(fs::absolute(file)), cache_(fs::absolute(cache)) {
-    std::string key;
     try {
-        key = hash128(readFile(file_) + surroundings()).text();
+        const std::string bytes = readFile(file_);
+        content_ = hash128(bytes).text();
+        records_ = cache_ / "gate" / hash128(bytes + surroundings()).text();
     } catch (const BadInput& error) {
         throw Inconclusive(error.what());
     }
-    records_ = cache_ / "gate" / key;
-    for (const Json& scene : listOf(file_, "scenes")) contents_.scenes.push_back(scene.at("id"));
+    identity_ = identityOf(file_);
+    for (const Json& scene : listOf(file_, "scenes")) scenes_.push_back(scene.at("id"));
     for (const Json& technique : listOf(file_, "techniques")) {
-        std::vector<std::string> parameters;
-        for (const Json& parameter : technique.at("parameters")) parameters.push_back(parameter.at("name"));
-        contents_.techniques.emplace_back(technique.at("id"), std::move(parameters));
+        Technique& known = techniques_.emplace_back(Technique{technique.at("id"), {}, technique.at("variants")});
+        for (const Json& parameter : technique.at("parameters"))
+            known.parameters[parameter.at("name")] = parameter.at("values");
     }
 }
 
 bool MeasuredProgram::knowsVariant(const std::string& variant) const {
-    const std::string id = variant.substr(0, variant.find(':'));
-    const auto found = std::ranges::find(contents_.techniques, id, [](const auto& t) { return t.first; });
-    if (found == contents_.techniques.end()) return false;
-    return std::ranges::all_of(parameterNames(variant), [&](const std::string& name) {
-        return std::ranges::find(found->second, name) != found->second.end();
+    const auto technique = std::ranges::find(techniques_, variant.substr(0, variant.find(':')), &Technique::id);
+    if (technique == techniques_.end()) return false;
+    return std::ranges::all_of(assignmentsOf(variant), [&](const auto& assignment) {
+        const auto parameter = technique->parameters.find(assignment.first);
+        return parameter != technique->parameters.end() && allows(parameter->second, assignment.second);
     });
 }
 
-bool MeasuredProgram::knowsScene(const std::string& id) const {
-    return std::ranges::find(contents_.scenes, id) != contents_.scenes.end();
-}
+bool MeasuredProgram::knowsScene(const std::string& id) const { return std::ranges::find(scenes_, id) != scenes_.end(); }
 
-std::vector<std::string> MeasuredProgram::techniques() const {
-    std::vector<std::string> ids;
-    for (const auto& [id, parameters] : contents_.techniques) ids.push_back(id);
-    return ids;
+std::vector<std::string> MeasuredProgram::variants() const {
+    std::vector<std::string> variants;
+    for (const Technique& technique : techniques_)
+        for (const std::string& parameters : technique.variants)
+            variants.push_back(parameters.empty() ? technique.id : technique.id + ":" + parameters);
+    return variants;
 }
 
 int MeasuredProgram::run(const Step& step, const fs::path& out, const Progress& progress) const {

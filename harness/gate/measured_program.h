@@ -2,10 +2,12 @@
 #pragma once
 
 #include "base/progress.h"
-#include "harness/gate/watchlist.h"
+#include "harness/gate/policy.h"
 #include "harness/records/record.h"
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,7 @@ struct Step {
     std::vector<std::string> arguments;  // without --technique, --out, --cache and --quiet
     std::vector<std::string> techniques; // canonical names
     std::string records;                 // the file that it leaves in --out
-    std::string inputs = {};             // content of the files that `arguments` name
+    std::string inputs = {};             // content of the files that `arguments` name, and keys of truths
 };
 
 struct StepTime {
@@ -39,12 +41,18 @@ public:
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
-    /// Whether the program has the variant (its technique and all its parameters), or the built-in scene.
+    /// What it is and judges; nothing of a build from before there was the verb `policy`.
+    [[nodiscard]] const std::optional<Identity>& identity() const { return identity_; }
+
+    /// Hash of the executable.
+    [[nodiscard]] const std::string& content() const { return content_; }
+
+    /// Whether the program has the variant (its technique, all its parameters and their values), or the built-in scene.
     [[nodiscard]] bool knowsVariant(const std::string& variant) const;
     [[nodiscard]] bool knowsScene(const std::string& id) const;
 
-    /// Ids, in the order of its catalogue.
-    [[nodiscard]] std::vector<std::string> techniques() const;
+    /// The variants that it shows, in the order of its catalogue, as it lists them.
+    [[nodiscard]] std::vector<std::string> variants() const;
 
     /// Runs the steps that no earlier call has finished, on all cores, and reads the records of all steps. A
     /// step that was killed is resumed. Throws Inconclusive when a step fails otherwise than in some of its cells.
@@ -55,13 +63,17 @@ public:
     int run(const Step& step, const std::filesystem::path& out, const Progress& progress) const;
 
 private:
-    struct Contents {
-        std::vector<std::string> scenes;
-        std::vector<std::pair<std::string, std::vector<std::string>>> techniques; // ids, with the names of their parameters
+    struct Technique {
+        std::string id;
+        std::map<std::string, std::string> parameters; // with their values: "a|b", "1…8"
+        std::vector<std::string> variants;             // parameter strings
     };
 
     std::filesystem::path file_, cache_, records_;
-    Contents contents_;
+    std::string content_;
+    std::optional<Identity> identity_;
+    std::vector<std::string> scenes_;
+    std::vector<Technique> techniques_;
 };
 
 } // namespace shadowbench::gate

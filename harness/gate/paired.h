@@ -11,15 +11,16 @@ double medianLowerBound(std::vector<double> samples, double alpha);
 
 struct TimeRule {
     double floor = 0.01; // slowdowns up to this are never a regression: machines differ by as much from one hour to the next
-    double alpha = 0.01; // of a false alarm in the whole gate, shared by all cells
-    double beta = 0.01;  // of passing a cell early that is slower by more than the floor, each time it is looked at
+    double wallFloor = 0.05; // the same of wall time, in which other processes count, too
+    double alpha = 0.01;     // of a false alarm in the whole gate, shared by all cells
+    double beta = 0.01;      // of passing a cell early that is slower by more than the floor, each time it is looked at
 };
 
 enum class TimeVerdict { Pass, Slower, Unclear };
 
 /// Log-ratios of head to base, one a round. Slower: the one-sided lower bound of their median lies above the floor at
-/// `alpha` / `cells`. Unclear: the median does, its bound does not. `looks` is 1 for a cell that is judged once and 2 for
-/// both judgements of one that may be measured again: α is split between them.
+/// `alpha` / `cells`. Unclear: the median does, its bound does not. `looks`: how often the cell
+/// may be judged, as one that is unclear is measured again: α is split between them.
 TimeVerdict judgeTime(const std::vector<double>& logRatios, const TimeRule& rule, int cells, int looks);
 
 /// Whether no more rounds are needed to pass the cell: the one-sided upper bound of the median lies at or under the floor

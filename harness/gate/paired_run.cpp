@@ -15,7 +15,7 @@ namespace {
 constexpr double turnMilliseconds =
     4;                         // at least: what a process finds in the caches after the others' turns is then little of it
 constexpr int mostFrames = 16; // a turn
-constexpr int looks = 2;       // a cell may be judged twice, so each time at half the error
+constexpr int looks = 3;       // a cell may be judged three times, so each time at a third of the error
 
 enum Contestant : std::size_t { Base, Head, Control };
 
@@ -92,12 +92,23 @@ private:
     std::mt19937 random_;
 };
 
+void judgeWallTime(const PairedSamples& samples, TimeRule rule, int cells, TimeJudgement& judgement) {
+    rule.floor = rule.wallFloor;
+    const auto wall = [&](timing::FrameTime PairedRound::*who) { return logRatios(samples, who, &timing::FrameTime::wall); };
+    const std::vector<double> head = wall(&PairedRound::head);
+    judgement.wallRatio = std::exp(timing::median(head));
+    judgement.waits = judgement.verdict != TimeVerdict::Slower &&
+                      judgeTime(head, rule, cells, looks) == TimeVerdict::Slower &&
+                      !controlAlarms(wall(&PairedRound::control), rule, cells);
+}
+
 } // namespace
 
-std::vector<double> logRatios(const PairedSamples& samples, timing::FrameTime PairedRound::*who) {
+std::vector<double> logRatios(const PairedSamples& samples, timing::FrameTime PairedRound::*who,
+                              double timing::FrameTime::*clock) {
     std::vector<double> ratios;
     for (const auto& rounds : samples.restarts)
-        for (const PairedRound& round : rounds) ratios.push_back(std::log((round.*who).cpu / round.base.cpu));
+        for (const PairedRound& round : rounds) ratios.push_back(std::log((round.*who).*clock / round.base.*clock));
     return ratios;
 }
 
@@ -106,8 +117,9 @@ bool enough(const PairedSamples& samples, const PairedOptions& options, int cell
     if (done == 0) return false;
     const std::vector<double> head = logRatios(samples, &PairedRound::head);
     if (surelyNotSlower(head, options.rule)) return true;
-    if (done == options.restarts) return judgeTime(head, options.rule, cells, looks) != TimeVerdict::Unclear;
-    return done >= 2 * options.restarts;
+    if (done == options.restarts || done == 2 * options.restarts)
+        return judgeTime(head, options.rule, cells, looks) != TimeVerdict::Unclear;
+    return done >= 4 * options.restarts;
 }
 
 TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const PairedOptions& options, int cells) {
@@ -120,6 +132,7 @@ TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const P
     judgement.rounds = static_cast<int>(head.size());
     judgement.doubled = static_cast<int>(samples.restarts.size()) > options.restarts;
     judgement.controlAlarm = controlAlarms(logRatios(samples, &PairedRound::control), options.rule, cells);
+    judgeWallTime(samples, options.rule, cells, judgement);
     judgement.samples = std::move(samples);
     return judgement;
 }

@@ -21,8 +21,8 @@ struct TimedCell {
 struct PairedOptions {
     Profile profile = Profile::Gate;
     TimeRule rule;
-    int restarts = 5;       // of all workers, for where a process lies in memory moves its speed; as many again if unclear
-    int rounds = 20;        // a restart, one turn of each worker a round
+    int restarts = 5; // of all workers, for where a process lies in memory moves its speed; twice or four times if unclear
+    int rounds = 20;  // a restart, one turn of each worker a round
     std::uint32_t seed = 1; // of the order of turns, and of the techniques' pseudo-random choices
 };
 
@@ -36,8 +36,9 @@ struct PairedSamples {
     std::vector<std::vector<PairedRound>> restarts; // rounds of each
 };
 
-/// Logarithms of the CPU time of `who` over the base's, one a round.
-std::vector<double> logRatios(const PairedSamples& samples, timing::FrameTime PairedRound::*who);
+/// Logarithms of the time of `who` over the base's, one a round.
+std::vector<double> logRatios(const PairedSamples& samples, timing::FrameTime PairedRound::*who,
+                              double timing::FrameTime::*clock = &timing::FrameTime::cpu);
 
 struct TimeJudgement {
     TimedCell cell;
@@ -45,24 +46,27 @@ struct TimeJudgement {
     double ratio = 1;                           // head's CPU time over the base's, median of the rounds
     double lowerBound = 0;                      // one-sided, of `ratio`'s true value; 0 when there are too few rounds
     int rounds = 0;                             // in all
-    bool doubled = false;                       // measured again, for the first rounds left it unclear
+    bool doubled = false;                       // measured again, once or twice, for the first rounds left it unclear
     bool controlAlarm = false;                  // two equal programs were measured as different: inconclusive
+    double wallRatio = 1;                       // the same as `ratio`, of wall time
+    bool waits = false;                         // slower by wall time, for which equal programs show no difference
     PairedSamples samples;
 };
 
 /// Whether no more restarts are wanted of one of `cells` cells: it is surely not slower, or the options' restarts are done
-/// and leave nothing unclear, or twice as many are.
+/// or twice as many are, and leave nothing unclear, or four times as many are.
 bool enough(const PairedSamples& samples, const PairedOptions& options, int cells);
 
-/// The rule's judgement of a cell once its samples are enough.
+/// The rule's judgement of a cell once its samples are enough. A head that sleeps or waits takes no CPU time for it: its
+/// wall time is judged beside, by a floor of its own.
 TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const PairedOptions& options, int cells);
 
 /// Whether each cell is slower with the program `head` than with `base`, in the order of `cells`. Each restart starts three
 /// workers a scene on one core, base, head and base again as the control, which take all cells of the scene one after the
 /// other: warm up, then rounds of one turn each in an order that is drawn anew and then reversed. What is judged is CPU
 /// time, in which another process on the core does not count. A turn is as many frames as take the base some milliseconds,
-/// the same for all three. Takes one to twice `options.restarts` restarts a cell (see `enough`). Throws what the workers
-/// throw; `progress` stays at 1 while unclear cells are measured on.
+/// the same for all three. Takes one to four times `options.restarts` restarts a cell (see `enough`). Throws what the
+/// workers throw; `progress` stays at 1 while unclear cells are measured on.
 std::vector<TimeJudgement> judgePairedTime(const std::filesystem::path& base, const std::filesystem::path& head,
                                            const std::vector<TimedCell>& cells, const PairedOptions& options,
                                            const Progress& progress);

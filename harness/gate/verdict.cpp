@@ -9,7 +9,10 @@
 namespace shadowbench::gate {
 namespace {
 
-bool isCost(const Change& change) { return change.changeClass == Class::Instructions || change.changeClass == Class::Time; }
+bool isCost(const Change& change) {
+    return change.changeClass == Class::Work || change.changeClass == Class::Instructions ||
+           change.changeClass == Class::Time;
+}
 
 bool isWorse(const Change& change) { return change.direction == Direction::Worse; }
 
@@ -18,18 +21,22 @@ std::ptrdiff_t count(const std::vector<Change>& changes, Direction direction) {
 }
 
 std::string totals(const std::vector<Change>& changes) {
-    return fmt::format("{} worse, {} better, {} the same", count(changes, Direction::Worse),
-                       count(changes, Direction::Better), count(changes, Direction::Same));
+    std::string text = fmt::format("{} worse, {} better, {} the same", count(changes, Direction::Worse),
+                                   count(changes, Direction::Better), count(changes, Direction::Same));
+    if (const auto unclear = count(changes, Direction::Unclear)) text += fmt::format(", {} unclear", unclear);
+    if (const auto unjudged = count(changes, Direction::Unjudged)) text += fmt::format(", {} not judged", unjudged);
+    return text;
 }
 
-constexpr std::array headings{std::pair{Direction::Worse, "worse"}, std::pair{Direction::Better, "better"}};
+constexpr std::array headings{std::pair{Direction::Worse, "worse"}, std::pair{Direction::Unjudged, "not judged"},
+                              std::pair{Direction::Unclear, "unclear"}, std::pair{Direction::Better, "better"}};
 
 std::string asText(const std::vector<Change>& changes) {
     std::string text;
     for (const auto& [direction, heading] : headings)
         for (const Change& change : changes)
             if (change.direction == direction)
-                text += fmt::format("{:<7} {:<13} {}\n", heading, name(change.changeClass), change.sentence);
+                text += fmt::format("{:<10} {:<13} {}\n", heading, name(change.changeClass), change.sentence);
     return text + totals(changes) + "\n";
 }
 
@@ -66,19 +73,44 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-using Case = std::pair<std::string, std::string_view>; // variant, class
-using Cases = std::map<Case, std::string>;             // with the sentences of what is worse
+/// What became of one test case: the worst of its changes, with their sentences.
+struct Outcome {
+    std::string worse, unjudged, unclear;
+
+    /// JUnit's element for it; nothing for one that passed.
+    [[nodiscard]] std::string_view element() const {
+        if (!worse.empty()) return "failure";
+        if (!unjudged.empty()) return "error";
+        return unclear.empty() ? "" : "skipped";
+    }
+};
+
+using Case = std::pair<std::string, std::string>; // variant, class
+using Cases = std::map<Case, Outcome>;
+
+void add(const Change& change, Outcome& outcome) {
+    if (change.direction == Direction::Worse) outcome.worse += change.sentence + "\n";
+    if (change.direction == Direction::Unjudged) outcome.unjudged += change.sentence + "\n";
+    if (change.direction == Direction::Unclear) outcome.unclear += change.sentence + "\n";
+}
+
+std::string testCase(const std::string& scene, const Case& id, const Outcome& outcome) {
+    const std::string_view element = outcome.element();
+    const std::string name = id.first.empty() ? id.second : id.first + ": " + id.second;
+    const std::string begin = fmt::format("    <testcase classname=\"{}\" name=\"{}\"", escaped(scene), escaped(name));
+    if (element.empty()) return begin + "/>\n";
+    const std::string_view is = element == "failure" ? "is worse" : element == "error" ? "is not judged" : "is unclear";
+    return fmt::format("{}><{} message=\"{} {}\">{}</{}></testcase>\n", begin, element, escaped(id.second), is,
+                       escaped(outcome.worse + outcome.unjudged + outcome.unclear), element);
+}
 
 std::string suite(const std::string& scene, const Cases& cases) {
-    const auto failed = std::ranges::count_if(cases, [](const auto& c) { return !c.second.empty(); });
-    std::string xml =
-        fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n", escaped(scene), cases.size(), failed);
-    for (const auto& [id, failures] : cases) {
-        xml += fmt::format("    <testcase classname=\"{}\" name=\"{}: {}\"", escaped(scene), escaped(id.first), id.second);
-        xml += failures.empty() ? "/>\n"
-                                : fmt::format("><failure message=\"{} is worse\">{}</failure></testcase>\n", id.second,
-                                              escaped(failures));
-    }
+    const auto number = [&](std::string_view element) {
+        return std::ranges::count_if(cases, [&](const auto& c) { return c.second.element() == element; });
+    };
+    std::string xml = fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n",
+                                  escaped(scene), cases.size(), number("failure"), number("error"), number("skipped"));
+    for (const auto& [id, outcome] : cases) xml += testCase(scene, id, outcome);
     return xml + "  </testsuite>\n";
 }
 
@@ -87,19 +119,19 @@ std::string suite(const std::string& scene, const Cases& cases) {
 ExitCode verdictOf(const std::vector<Change>& changes) {
     if (std::ranges::any_of(changes, [](const Change& c) { return isWorse(c) && !isCost(c); }))
         return ExitCode::AccuracyRegression;
-    return std::ranges::any_of(changes, isWorse) ? ExitCode::CostRegression : ExitCode::Pass;
+    if (std::ranges::any_of(changes, isWorse)) return ExitCode::CostRegression;
+    return count(changes, Direction::Unjudged) > 0 ? ExitCode::Inconclusive : ExitCode::Pass;
 }
 
 std::string changesReport(const std::vector<Change>& changes, const std::string& format) {
     return format == "md" ? asMarkdown(changes) : asText(changes);
 }
 
-std::string junit(const std::vector<Change>& changes) {
+std::string junit(const std::vector<Change>& changes, const std::vector<std::string>& unjudged) {
     std::map<std::string, Cases> scenes;
-    for (const Change& change : changes) {
-        std::string& failures = scenes[change.scene][{change.variant, name(change.changeClass)}];
-        if (isWorse(change)) failures += change.sentence + "\n";
-    }
+    for (const Change& change : changes)
+        add(change, scenes[change.scene][{change.variant, std::string(name(change.changeClass))}]);
+    for (const std::string& sentence : unjudged) scenes["gate"][{"", sentence}].unjudged = sentence;
     std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"shadowbench\">\n";
     for (const auto& [scene, cases] : scenes) xml += suite(scene, cases);
     return xml + "</testsuites>\n";
@@ -110,6 +142,8 @@ std::string annotations(const std::vector<Change>& changes) {
     for (const Change& change : changes)
         if (isWorse(change))
             lines += fmt::format("::error title={} is worse::{}\n", name(change.changeClass), change.sentence);
+        else if (change.direction == Direction::Unjudged || change.direction == Direction::Unclear)
+            lines += fmt::format("::warning title={} is not judged::{}\n", name(change.changeClass), change.sentence);
     return lines;
 }
 

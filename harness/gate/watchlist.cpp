@@ -63,6 +63,11 @@ Watch readPlainWatch(const TomlValue& entry) {
     return readWatch(entry);
 }
 
+Anchor readAnchor(const TomlValue& entry) {
+    entry.only({"commit", "limit", "reason"});
+    return {entry.get("commit").text(), entry.get("limit").positive(), entry.get("reason").text()};
+}
+
 template <class Read>
 auto readList(const TomlValue& root, const char* key, Read read) {
     std::vector<decltype(read(root))> list;
@@ -91,9 +96,9 @@ bool anyMatches(const std::vector<std::string>& patterns, const std::string& var
 
 } // namespace
 
-bool Watch::covers(const std::string& variant) const {
-    return anyMatches(techniques, variant) && !anyMatches(except, variant);
-}
+bool Watch::covers(const std::string& variant) const { return anyMatches(techniques, variant) && !excludes(variant); }
+
+bool Watch::excludes(const std::string& variant) const { return anyMatches(except, variant); }
 
 std::vector<std::string> Watchlist::unknownScenes(const std::vector<std::string>& known) const {
     const std::vector<std::string> builtin = builtinScenes();
@@ -112,12 +117,18 @@ std::vector<std::string> Watchlist::unknownScenes(const std::vector<std::string>
 }
 
 Watchlist readWatchlist(const std::filesystem::path& file, Profile profile) {
-    const TomlSource source{file.string(), profileNames(), std::string(name(profile))};
-    const toml::table table = parseToml(readFile(file), source.file);
+    return parseWatchlist(readFile(file), file.string(), profile);
+}
+
+Watchlist parseWatchlist(const std::string& text, const std::string& file, Profile profile) {
+    const TomlSource source{file, profileNames(), std::string(name(profile))};
+    const toml::table table = parseToml(text, source.file);
     const TomlValue root(source, "", table);
-    root.only({"scene", "bound", "sweep", "count", "time"});
-    return {readList(root, "scene", readPlainWatch), readList(root, "bound", readBound), readList(root, "sweep", readSweep),
-            readList(root, "count", readPlainWatch), readList(root, "time", readPlainWatch)};
+    root.only({"scene", "bound", "sweep", "count", "time", "seeds", "choices", "anchor"});
+    return {readList(root, "scene", readPlainWatch),   readList(root, "bound", readBound),
+            readList(root, "sweep", readSweep),        readList(root, "count", readPlainWatch),
+            readList(root, "time", readPlainWatch),    readList(root, "seeds", readPlainWatch),
+            readList(root, "choices", readPlainWatch), readList(root, "anchor", readAnchor)};
 }
 
 } // namespace shadowbench::gate

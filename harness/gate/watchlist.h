@@ -18,6 +18,9 @@ struct Watch {
 
     /// Whether a technique's variant, by its canonical name, is meant.
     [[nodiscard]] bool covers(const std::string& variant) const;
+
+    /// Whether it is left out, as a variant or with all of its technique.
+    [[nodiscard]] bool excludes(const std::string& variant) const;
 };
 
 /// A score that a technique must keep on a scene, whatever the base does.
@@ -35,12 +38,22 @@ struct WatchedSweep {
     std::vector<double> values; // empty: the axis' own
 };
 
+/// A commit that the build is compared with beside its base, so that small changes cannot add up unseen.
+struct Anchor {
+    std::string commit; // as `--base` takes it
+    double limit = 1;   // of the drift since, in multiples of what one commit may change
+    std::string reason;
+};
+
 struct Watchlist {
     std::vector<Watch> scenes; // judged beside the standard ones when the user names none
     std::vector<Bound> bounds;
     std::vector<WatchedSweep> sweeps;
     std::vector<Watch> counted; // instructions
     std::vector<Watch> timed;   // in pairs
+    std::vector<Watch> seeds;   // measured with several seeds, for what chance does to them
+    std::vector<Watch> choices; // every two choices of their parameters together; the scene is a file beside the bounds
+    std::vector<Anchor> anchors;
 
     /// Scenes that are neither built in nor among `known`: misspelt, or a user's own.
     [[nodiscard]] std::vector<std::string> unknownScenes(const std::vector<std::string>& known) const;
@@ -49,5 +62,8 @@ struct Watchlist {
 /// Throws BadInput, with file and line, for what is no such file: unknown keys, metrics, axes or techniques, a missing
 /// reason. A scene may be one that only its user has: see `unknownScenes`.
 Watchlist readWatchlist(const std::filesystem::path& file, Profile profile);
+
+/// The same of its text; `file` is its name in errors.
+Watchlist parseWatchlist(const std::string& text, const std::string& file, Profile profile);
 
 } // namespace shadowbench::gate

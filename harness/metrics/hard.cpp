@@ -50,4 +50,11 @@ LabelErrors labelErrors(const ScoredFrame& frame) {
     return errors;
 }
 
+LabelledPixels labelledPixels(const ScoredFrame& frame) {
+    requireComparable(frame);
+    const HardTally counts = tally(frame);
+    const auto all = [](const Tally& t) { return static_cast<double>(t.all); };
+    return {all(counts.all), all(counts.lit), all(counts.shadowed), all(counts.offEdge)};
+}
+
 } // namespace shadowbench::metrics

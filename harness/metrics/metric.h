@@ -23,8 +23,10 @@ enum class Class {
     Flicker,      // stability over time
     Colour,       // of levels of detail, against the finest
     BreakPoint,   // stability over parameters
+    Work,         // cost: what is drawn and held, the same on every machine
     Instructions, // cost, the same in every run
     Time,         // cost, measured in pairs of frames
+    Figure,       // numbers that only the technique knows
     Status,       // a cell that is no longer scored, or no longer there
 };
 std::string_view name(Class c);
@@ -47,10 +49,12 @@ enum class TruthError { None, Mean, Rms };
 /// How much of a change from one commit to the next means nothing.
 struct Allowance {
     TruthError truth = TruthError::None;
-    double pixels = 0;      // so many pixels of the image may change
+    double pixels = 0;      // so many pixels may change …
+    std::string_view of{};  // … of the class whose size this metric is; "": of the image
     double relative = 0;    // so may this share of the former value
     double absolute = 0;    // so may this much, in the metric's unit
-    bool magnitude = false; // the sign does not count
+    bool magnitude = false; // the distance from 0 counts, and a sign that turns
+    double best = 0;        // the value of no error: what is compared is the distance from it
 };
 
 /// What a function has computed of one `Frame`, kept for the metrics that are parts of it: each function runs once.
@@ -179,6 +183,7 @@ struct Metric {
     std::optional<Class> about{};         // of a metric that is judged
     std::string_view bound{};             // its name in `[tolerance]`, `[expect]` and the gate's bounds; "": it takes none
     std::optional<Allowance> allowance{}; // of a metric that is compared from commit to commit; smaller is better
+    std::string_view unjudged{};          // of one that is not: why
     Computation computed = Measured{};
     std::string_view meaning;
 };

@@ -86,6 +86,11 @@ Image<std::uint8_t> penumbraOf(const ScoredFrame& frame) {
     return select(frame.truth, frame.mask, [](float exact) { return exact > 0 && exact < 1; });
 }
 
+/// Dark pixels away from any that is not.
+Image<std::uint8_t> umbraOf(const ScoredFrame& frame) {
+    return eroded(select(frame.truth, frame.mask, [](float exact) { return exact == 0; }));
+}
+
 /// The grey of a picture in which 0.3 of full light is ambient.
 long grey(double visibility) { return std::lround(255 * (0.3 + 0.7 * visibility)); }
 
@@ -119,13 +124,19 @@ std::optional<double> penumbraRmse(const ScoredFrame& frame) {
 
 std::optional<double> umbraLeak(const ScoredFrame& frame) {
     requireComparable(frame);
-    const Image<std::uint8_t> pixels = eroded(select(frame.truth, frame.mask, [](float exact) { return exact == 0; }));
+    const Image<std::uint8_t> pixels = umbraOf(frame);
     const std::size_t n = count(pixels);
     if (n == 0) return {};
     double sum = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i)
         if (pixels[i]) sum += frame.v[i];
     return sum / static_cast<double>(n);
+}
+
+GradedPixels gradedPixels(const ScoredFrame& frame) {
+    requireComparable(frame);
+    return {static_cast<double>(frame.mask.count), static_cast<double>(count(dilated(penumbraOf(frame), frame.mask))),
+            static_cast<double>(count(umbraOf(frame)))};
 }
 
 std::optional<Umbra> umbra(const ScoredFrame& frame) {

@@ -182,6 +182,19 @@ MovingErrors movingErrors(const MovingFrames& frames) {
     return {all.root(), disoccluded.root()};
 }
 
+MovingPixels movingPixels(const MovingFrames& frames) {
+    MovingPixels pixels;
+    for (const FramePair& pair : frames.pairs) {
+        pixels.compared += static_cast<double>(flips(pair).compared);
+        for (std::size_t i = 0; i < pair.warp.size(); ++i) {
+            if (!pair.now.mask.scored[i]) continue;
+            ++pixels.all;
+            if (!isSomewhere(pair.warp[i])) ++pixels.disoccluded;
+        }
+    }
+    return pixels;
+}
+
 std::optional<double> reuse(const MovingFrames& frames) {
     std::size_t surface = 0, seenBefore = 0;
     for (const FramePair& pair : frames.pairs)

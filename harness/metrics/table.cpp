@@ -7,6 +7,14 @@
 namespace shadowbench::metrics {
 namespace {
 
+// Every metric is compared, or says why not.
+static_assert(std::ranges::all_of(table, [](const Metric& m) { return m.allowance.has_value() == m.unjudged.empty(); }));
+
+// What an allowance counts pixels of has a line of its own.
+static_assert(std::ranges::all_of(table, [](const Metric& m) {
+    return !m.allowance || m.allowance->of.empty() || std::ranges::count(table, m.allowance->of, &Metric::path) == 1;
+}));
+
 // A metric that is compared or bounded says what it is about, and a name for bounds stands for one metric.
 static_assert(std::ranges::all_of(table, [](const Metric& m) { return m.about || (!m.allowance && m.bound.empty()); }));
 static_assert(std::ranges::all_of(table, [](const Metric& m) {
@@ -39,10 +47,14 @@ std::string_view name(Class c) {
         return "colour";
     case Class::BreakPoint:
         return "break point";
+    case Class::Work:
+        return "work";
     case Class::Instructions:
         return "instructions";
     case Class::Time:
         return "time";
+    case Class::Figure:
+        return "figure";
     case Class::Status:
         return "status";
     }
@@ -65,7 +77,11 @@ const std::vector<std::string>& boundedMetrics() {
 
 std::string describe(const Allowance& allowance) {
     std::vector<std::string> parts;
-    if (allowance.pixels > 0) parts.push_back(fmt::format("{} pixel{}", allowance.pixels, allowance.pixels == 1 ? "" : "s"));
+    if (allowance.pixels > 0) {
+        const std::string_view of = allowance.of.substr(allowance.of.rfind('.') + 1);
+        parts.push_back(
+            fmt::format("{}{}{} pixel{}", allowance.pixels, of.empty() ? "" : " ", of, allowance.pixels == 1 ? "" : "s"));
+    }
     if (allowance.truth != TruthError::None) parts.emplace_back("the truth's own error");
     if (allowance.absolute > 0) parts.push_back(fmt::format("{}", allowance.absolute));
     std::string text = fmt::format("{}", fmt::join(parts, " or "));

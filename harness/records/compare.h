@@ -1,6 +1,7 @@
 // What changed from one set of records to another. A change counts when it is larger than what the truth leaves open.
 #pragma once
 
+#include "harness/records/comparability.h"
 #include "harness/records/record.h"
 
 #include <optional>
@@ -13,13 +14,19 @@ namespace shadowbench::gate {
 using metrics::Class;
 using metrics::name;
 
-enum class Direction { Better, Same, Worse };
+enum class Direction {
+    Better,
+    Same,
+    Worse,
+    Unclear,  // measured, but not certain enough to call it worse
+    Unjudged, // could not be compared: inconclusive
+};
 
 /// What is compared of a metric that has an allowance; nothing where the record lacks it.
 std::optional<double> comparedValue(const metrics::Metric& metric, const Record& record);
 
 /// How much of a change in `metric` from `value` may be the truth's own error, a stray pixel or noise. Of `base` only image
-/// size and truth count.
+/// size, the sizes of its classes of pixels and the truth that judged the metric count.
 double allowanceOf(const metrics::Metric& metric, const Record& base, double value);
 
 /// Same up to the allowance.
@@ -28,12 +35,6 @@ Direction directionOf(double base, double head, double allowance);
 /// What makes two records of different commits records of the same cell.
 using CellKey = std::tuple<std::string, std::string, std::string, int, int, std::uint32_t, std::string, std::string, double>;
 CellKey cellOf(const Record& record);
-
-/// What an instruction count depends on beside the program; counts are compared where it is the same.
-std::string countingEnvironment(const Environment& environment);
-
-/// What a record was scored against; scores are compared where it is the same.
-std::string truthOf(const Record& record);
 
 struct Change {
     std::string scene, variant;
@@ -46,11 +47,24 @@ struct Change {
     std::string axis = {}; // of the sweep, for a break point
 };
 
-/// Every metric with an allowance of every cell of either set, in the order of `head`, then what only `base` holds, then the
-/// break points of sweeps: one that comes earlier along its axis is Worse. Cells are matched by scene, variant, profile,
-/// size, seed and place in a sweep. A metric or cell that only one side has is Worse when the head lost it and Same when it
-/// is new. Throws Inconclusive when instructions were counted in different environments (rasteriser, vector width, Valgrind,
-/// processor), and when matched cells were scored against different truths.
+/// Every metric with an allowance and every figure of every cell of either set, in the order of `head`, then what only
+/// `base` holds, then the break points of sweeps: one that comes earlier along its axis is Worse. Cells are matched by
+/// scene, variant, profile, size, seed and place in a sweep; one that was measured with several seeds on both sides is
+/// compared by its means, and what its seeds differ by is allowed. A metric or cell that only one side has is Worse when the
+/// head lost it and Same when it is new.
+///
+/// Unjudged are the scores of cells that cannot be compared (harness/records/comparability.h), and instructions counted in
+/// different surroundings. Where the metrics' code differs, both sides have scored the same images wherever a technique
+/// shows what it showed: there every difference is the code's, and Unjudged; elsewhere a metric is compared if all such
+/// cells score it alike, and Unjudged if one does not or there is none.
 std::vector<Change> compare(const std::vector<Record>& base, const std::vector<Record>& head);
+
+/// Why comparing the two decides nothing, as a sentence: they are of one program (which `sameProgramIsMeant` allows), or no
+/// cell is scored in both. Nothing where it decides something.
+std::optional<std::string> whyMeaningless(const std::vector<Record>& base, const std::vector<Record>& head,
+                                          bool sameProgramIsMeant);
+
+/// Whether all records of both are known to be of one program, though perhaps of different commits.
+bool sameProgram(const std::vector<Record>& base, const std::vector<Record>& head);
 
 } // namespace shadowbench::gate

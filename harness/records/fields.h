@@ -56,6 +56,9 @@ void fields(auto& visit, Is<Environment> auto& e) {
     visit("cpu", e.cpu);
     visit("compiler", e.compiler);
     visit("valgrind", e.valgrind);
+    visit.text("cpu_features", e.cpuFeatures);
+    visit.text("mesa", e.mesa);
+    visit.text("libraries", e.libraries);
 }
 
 void fields(auto& visit, Is<AreaInfo> auto& a) {
@@ -101,6 +104,9 @@ void fields(auto& visit, Is<Record> auto& r) {
     visit.text("cell", r.cell);
     visit("commit", r.commit);
     visit("dirty", r.dirty);
+    visit.text("program", r.program);
+    visit.text("metric_code", r.metricCode);
+    visit.text("images", r.images);
     visit("time", r.time);
     visit("environment", r.environment);
     visit("reference", r.reference);

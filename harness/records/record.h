@@ -23,6 +23,10 @@ struct Environment {
     int rasterThreads = 0;
     int vectorBits = 0;
     std::optional<std::string> valgrind;
+    // Empty in records that are older than these.
+    std::string cpuFeatures = {}; // family, model, stepping and a hash of what it can do: names are often generic
+    std::string mesa = {};        // the packages of rasteriser and its compiler, with their revisions
+    std::string libraries = {};   // C and C++, with their revisions
 };
 
 /// The exact visible fraction at every pixel, beside the sampled truth of an area light.
@@ -62,7 +66,10 @@ struct Record {
     std::string cell;   // hash of the cell's inputs: two records with one cell id measured the same thing
     std::string commit;
     bool dirty = false;
-    std::string time; // ISO 8601, UTC
+    std::string program;    // hash of the sources and the compiler it was built from; empty in older records
+    std::string metricCode; // of these, of what scores; empty in older records
+    std::string images;     // hash of all frames that were scored; empty in older records and where none was
+    std::string time;       // ISO 8601, UTC
     Environment environment;
     std::optional<ReferenceInfo> reference;
     std::optional<ReferenceInfo> softReference;  // the second truth of a hard technique on an area-light scene

@@ -33,6 +33,9 @@ constexpr const char* withoutMetrics = R"({
     "cell": {"type": "string", "description": "hash of the cell's inputs"},
     "commit": {"type": "string"},
     "dirty": {"type": "boolean"},
+    "program": {"type": "string", "description": "hash of the program's sources and compiler"},
+    "metric_code": {"type": "string", "description": "hash of the sources that score"},
+    "images": {"type": "string", "description": "hash of all frames that were scored"},
     "time": {"type": "string", "description": "ISO 8601, UTC"},
     "environment": {
       "type": "object",
@@ -45,7 +48,10 @@ constexpr const char* withoutMetrics = R"({
         "vector_bits": {"$ref": "#/definitions/count"},
         "cpu": {"type": "string"},
         "compiler": {"type": "string"},
-        "valgrind": {"type": "string"}
+        "valgrind": {"type": "string"},
+        "cpu_features": {"type": "string", "description": "family, model, stepping and a hash of the features"},
+        "mesa": {"type": "string", "description": "packages of the rasteriser, with their revisions"},
+        "libraries": {"type": "string", "description": "C and C++ library, with their revisions"}
       }
     },
     "reference": {"$ref": "#/definitions/reference"},

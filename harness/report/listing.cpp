@@ -78,12 +78,14 @@ Json metricsAsJson() {
                        {"class", metric.about ? name(*metric.about) : ""},
                        {"bound", metric.bound},
                        {"allowance", metric.allowance ? describe(*metric.allowance) : ""},
+                       {"not judged", metric.unjudged},
                        {"meaning", metric.meaning}});
     all.push_back({{"id", "figures.*"},
                    {"unit", ""},
-                   {"class", ""},
+                   {"class", name(metrics::Class::Figure)},
                    {"bound", ""},
-                   {"allowance", ""},
+                   {"allowance", "25 % either way"},
+                   {"not judged", ""},
                    {"meaning", "numbers of the scored frame that only the technique knows: see list techniques"}});
     return all;
 }

@@ -29,6 +29,7 @@ void fields(auto&& visit, auto& cell) {
     visit("images", cell.images);
     visit("commit", cell.commit);
     visit("dirty", cell.dirty);
+    visit("program", cell.program);
 }
 
 Json toJson(const ManifestCell& cell) {
@@ -84,6 +85,7 @@ std::vector<ManifestCell> plannedCells(const RunOptions& options) {
     cell.images = !options.measure.images.empty();
     cell.commit = commit.hash;
     cell.dirty = commit.dirty;
+    cell.program = programHash();
 
     const std::vector<techniques::Variant> variants = chosenVariants(options.techniques);
     const groundtruth::Cache noTruths{options.cache}; // ids need the truths' keys only

@@ -13,8 +13,8 @@ namespace shadowbench::shards {
 
 /// A line of the manifest: a cell by its inputs.
 struct ManifestCell {
-    std::string id; // 32 hex digits, the name of its file: hash of all below but `images`, `commit` and `dirty`, and of all
-                    // that its scores depend on (scene, truths, their tools)
+    std::string id; // 32 hex digits, the name of its file: hash of all below but `images`, `commit`, `dirty` and `program`,
+                    // and of all that its scores depend on (scene, truths, their tools)
     std::string scene, variant;
     std::string profile;
     std::uint32_t seed = 1;
@@ -22,6 +22,7 @@ struct ManifestCell {
     bool images = false;
     std::string commit; // of the program that measures
     bool dirty = false;
+    std::string program; // its hash
 
     bool operator==(const ManifestCell&) const = default;
 };

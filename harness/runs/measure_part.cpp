@@ -21,7 +21,7 @@ bool isValid(const std::filesystem::path& folder, const ManifestCell& cell) {
     try {
         const std::optional<MeasuredCell> known = readCell(folder, cell.id);
         return known && known->record.status != Status::Error && known->record.commit == cell.commit &&
-               known->record.dirty == cell.dirty;
+               known->record.program == cell.program;
     } catch (const BadInput&) {
         return false; // it is replaced
     }

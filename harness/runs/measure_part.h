@@ -16,7 +16,7 @@ struct Measured {
 };
 
 /// Measures the cells of `range` that have no valid file yet, each into its own. A file is valid if it is this cell's, of
-/// this program's commit, and no error. `manifest` is that of `options.out`. Throws InternalError when a file cannot be
+/// this program, and no error. `manifest` is that of `options.out`. Throws InternalError when a file cannot be
 /// written.
 Measured measureCells(const RunOptions& options, const std::vector<ManifestCell>& manifest, CellRange range);
 

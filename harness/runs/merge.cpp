@@ -1,6 +1,7 @@
 #include "harness/runs/merge.h"
 
 #include "base/files.h"
+#include "harness/records/comparability.h"
 #include "harness/runs/cell_file.h"
 #include "harness/runs/manifest.h"
 
@@ -31,8 +32,13 @@ std::vector<ManifestCell> commonManifest(const std::vector<fs::path>& folders) {
     return manifest;
 }
 
-void requireCommit(const Found& found, const ManifestCell& cell) {
+/// Trees with changes have their commit in common, and nothing else: their programs' hashes tell them apart.
+void requireProgram(const Found& found, const ManifestCell& cell) {
     const Record& record = found.cell.record;
+    if (record.commit == cell.commit && record.dirty == cell.dirty && record.program != cell.program)
+        throw Inconclusive(fmt::format("{} was measured by another program of commit {}{}: its sources or its compiler "
+                                       "differ; measure the cell again with one program",
+                                       found.file.string(), cell.commit, cell.dirty ? " with changes" : ""));
     if (record.commit == cell.commit && record.dirty == cell.dirty) return;
     throw Inconclusive(fmt::format("{} was measured by commit {}{}, the manifest is of {}{}; measure the cell again", //
                                    found.file.string(), record.commit, record.dirty ? " with changes" : "", cell.commit,
@@ -60,7 +66,7 @@ std::optional<Found> find(const std::vector<fs::path>& folders, const ManifestCe
             std::optional<MeasuredCell> measured = readCell(folder, cell.id);
             if (!measured) continue;
             const Found found{std::move(*measured), cellFile(folder, cell.id)};
-            requireCommit(found, cell);
+            requireProgram(found, cell);
             if (kept) requireSameScores(*kept, found);
             if (!kept || isEarlier(found, *kept)) kept = found;
         } catch (const BadInput& error) {
@@ -71,27 +77,13 @@ std::optional<Found> find(const std::vector<fs::path>& folders, const ManifestCe
     return kept;
 }
 
-/// The first member in which two environments differ, in words; Valgrind is no part of that of a cell without a count.
-std::optional<std::string> difference(const Environment& a, const Environment& b) {
-    const auto said = [](std::string_view what, const auto& x, const auto& y) {
-        return fmt::format("{} is \"{}\" and \"{}\"", what, x, y);
-    };
-    if (a.renderer != b.renderer) return said("renderer", a.renderer, b.renderer);
-    if (a.gl != b.gl) return said("gl", a.gl, b.gl);
-    if (a.rasterThreads != b.rasterThreads) return said("raster_threads", a.rasterThreads, b.rasterThreads);
-    if (a.vectorBits != b.vectorBits) return said("vector_bits", a.vectorBits, b.vectorBits);
-    if (a.cpu != b.cpu) return said("cpu", a.cpu, b.cpu);
-    if (a.compiler != b.compiler) return said("compiler", a.compiler, b.compiler);
-    if (a.valgrind && b.valgrind && *a.valgrind != *b.valgrind) return said("valgrind", *a.valgrind, *b.valgrind);
-    return {};
-}
-
 void requireOneEnvironment(const std::vector<Found>& cells) {
     const Found* counted = nullptr; // the first with a Valgrind
     for (const Found& found : cells) {
         if (counted == nullptr && found.cell.record.environment.valgrind) counted = &found;
         for (const Found* other : {&cells.front(), counted == nullptr ? &cells.front() : counted})
-            if (const auto differs = difference(other->cell.record.environment, found.cell.record.environment))
+            if (const auto differs =
+                    gate::difference(other->cell.record.environment, found.cell.record.environment, gate::Surroundings::All))
                 throw Inconclusive(fmt::format("cells were measured in different environments: {} in {} and {}; measure all "
                                                "of them on machines of one kind",
                                                *differs, other->file.string(), found.file.string()));

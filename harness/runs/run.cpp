@@ -19,7 +19,9 @@ std::vector<Record> finishedRecords(const RunOptions& options) {
     const std::filesystem::path file = options.out / "results.jsonl";
     if (!options.resume || !std::filesystem::exists(file)) return {};
     std::vector<Record> records = readRecords(file);
-    std::erase_if(records, [](const Record& r) { return r.status == Status::Error || r.commit != builtFrom().hash; });
+    std::erase_if(records, [](const Record& r) {
+        return r.status == Status::Error || r.commit != builtFrom().hash || r.program != programHash();
+    });
     return records;
 }
 

@@ -30,7 +30,7 @@ struct RunResult {
 };
 
 /// Runs every cell; after each one results.jsonl in `out` holds all finished ones. A cell that fails leaves an error record
-/// and the run goes on. With `resume`, cells that results.jsonl already holds (same inputs, same commit) are kept.
+/// and the run goes on. With `resume`, cells that results.jsonl already holds (same inputs, same program) are kept.
 RunResult run(const RunOptions& options);
 
 } // namespace shadowbench

@@ -45,7 +45,7 @@ TEST_F(Gate, InstructionCountsAreTheSameInEveryRunWhateverIsCountedBefore) {
         EXPECT_GT(a, 1e5) << one.variant; // a frame of 48² pixels, not an empty count
         EXPECT_FALSE(one.values["cost.time.median"]);
     }
-    EXPECT_EQ(compare("first", "second").code, 0);
+    EXPECT_EQ(compare("first", "second", "--aa").code, 0);
 }
 
 TEST_F(Gate, LevelsOfDetailAreCountedToo) {
@@ -57,7 +57,7 @@ TEST_F(Gate, LevelsOfDetailAreCountedToo) {
     ASSERT_TRUE(counted[0].values["cost.instructions"] && counted[1].values["cost.instructions"]);
     EXPECT_GT(*counted[1].values["cost.instructions"],
               *counted[0].values["cost.instructions"]); // it draws as much, and combines two buffers
-    EXPECT_EQ(compare("lod", "lod").code, 0);
+    EXPECT_EQ(compare("lod", "lod", "--aa").code, 0);
 }
 
 TEST_F(Gate, WithoutValgrindAnInstructionCountIsInconclusive) {
@@ -76,12 +76,19 @@ TEST_F(Gate, AWorseMapIsAnAccuracyRegressionThatEveryFormNames) {
     for (const metrics::Metric& line : metrics::linesOf("accuracy")) worse[0].values[line] = coarse.values[line];
     writeRecords(folder_ / "worse/results.jsonl", worse);
     const Outcome outcome = compare(
-        "base", "worse", "--annotations --junit " + (folder_ / "junit.xml") + " --summary " + (folder_ / "summary.md"));
+        "base", "worse", "--aa --annotations --junit " + (folder_ / "junit.xml") + " --summary " + (folder_ / "summary.md"));
     EXPECT_EQ(outcome.code, 4) << outcome.output;
     EXPECT_NE(outcome.output.find("::error title="), std::string::npos) << outcome.output;
     for (const char* file : {"junit.xml", "summary.md"})
         EXPECT_NE(readFile(folder_ / file).find("accuracy.mismatch"), std::string::npos) << file;
-    EXPECT_EQ(compare("base", "base").code, 0);
+    EXPECT_EQ(compare("base", "base", "--aa").code, 0);
+    const Outcome twice = compare("base", "base");
+    EXPECT_EQ(twice.code, 5) << twice.output;
+    EXPECT_NE(twice.output.find("records of one program"), std::string::npos) << twice.output;
+    std::vector<Record> renamed = records("base");
+    renamed[0].scene = "another";
+    writeRecords(folder_ / "renamed/results.jsonl", renamed);
+    EXPECT_EQ(compare("base", "renamed", "--aa").code, 5) << "nothing is in both";
     EXPECT_EQ(compare("base", "nowhere").code, 2);
 }
 

@@ -68,6 +68,18 @@ TEST_F(PairedTime, ASpeedUpAndASlowdownUnderTheFloorPass) {
     }
 }
 
+TEST_F(PairedTime, AHeadThatSleepsIsFoundByItsWallTime) {
+    const auto waiting = [&](const std::string& name, int wall) {
+        return program(name, fmt::format("echo $((count * 100)) $((count * {}))", wall));
+    };
+    const TimeJudgement sleeps = judge(waiting("base", 100), waiting("sleeps", 120))[0];
+    EXPECT_EQ(sleeps.verdict, TimeVerdict::Pass) << "it takes no CPU time for it";
+    EXPECT_TRUE(sleeps.waits);
+    EXPECT_NEAR(sleeps.wallRatio, 1.2, 1e-9);
+    EXPECT_FALSE(judge(waiting("base", 100), waiting("within", 104))[0].waits);
+    EXPECT_FALSE(judge(taking(100), taking(120))[0].waits) << "which is slower, and does not wait";
+}
+
 TEST_F(PairedTime, AnUnclearCellIsMeasuredOnceMore) {
     // Six rounds of a restart's twenty are as fast as the base's. P(Bin(40, ½) ≤ 12) = 0.008 does not lie below 0.01/2,
     // P(Bin(80, ½) ≤ 24) = 0.0002 does.

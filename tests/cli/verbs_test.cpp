@@ -126,6 +126,19 @@ TEST_F(Run, AResumedRunKeepsWhatIsFinished) {
     EXPECT_EQ(toJson(records()[0]), toJson(before)); // times and all: it was not run again
 }
 
+TEST_F(Run, AResumedRunKeepsNothingOfAnotherProgram) {
+    ASSERT_EQ(shell(command("--technique sm-uniform --cost none")).code, 0);
+    Record stale = records()[0];
+    const std::string program = stale.program;
+    EXPECT_EQ(program.size(), 32U);
+    stale.program = "another, of the same commit";
+    stale.values["accuracy.leak"] = 0.5;
+    writeRecords(folder_ / "out/results.jsonl", {stale});
+    ASSERT_EQ(shell(command("--resume --technique sm-uniform --cost none")).code, 0);
+    EXPECT_EQ(records()[0].program, program);
+    EXPECT_LT(*records()[0].values["accuracy.leak"], 0.5);
+}
+
 /// Kills the command as soon as the file has that many lines and some time has passed.
 Outcome killedAfter(std::size_t lines, const std::string& file, const std::string& seconds, const std::string& command) {
     return shell(command + " & pid=$!; while kill -0 $pid 2>/dev/null && [ \"$(cat " + file +

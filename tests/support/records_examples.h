@@ -40,9 +40,15 @@ inline Record hardRecord() {
     r.frames = 68;
     r.cell = "0123456789abcdef";
     r.commit = "c0ffee";
+    r.program = "9a55";
+    r.metricCode = "5c0e";
+    r.images = "1111";
     r.time = "2026-01-02T03:04:05Z";
     r.environment = {
         "llvmpipe (LLVM 15.0.6, 256 bits)", "4.5 (Core Profile) Mesa 22.3.6", "some cpu", "GCC 12.2.0", 0, 256, {}};
+    r.environment.cpuFeatures = "family 6, model 85, stepping 7, features 77aa";
+    r.environment.mesa = "libosmesa6 22.3.6-1, libllvm15 15.0.6-4";
+    r.environment.libraries = "libc 2.36, libstdc++6 12.2.0-14";
     r.reference = ReferenceInfo{"polygon", "feed", 0, 0, {{"CGAL", "5.5.1"}}};
     r.values["accuracy.mismatch"] = 0.0009;
     r.values["accuracy.mismatch_off_edge"] = 0.0001;
@@ -50,6 +56,10 @@ inline Record hardRecord() {
     r.values["accuracy.leak"] = 0.0004;
     setEdgeError(r, 0.4, 0.9, 1.7, -0.1);
     r.values["accuracy.primary_mismatch"] = 0.00002;
+    r.values["accuracy.pixels.labelled"] = 60000;
+    r.values["accuracy.pixels.lit"] = 50000;
+    r.values["accuracy.pixels.shadowed"] = 10000;
+    r.values["accuracy.pixels.off_edge"] = 59000;
     r.values["aliasing.median"] = 1.8;
     r.values["aliasing.p95"] = 4.2;
     r.values["aliasing.mapped"] = 0.97;
@@ -58,6 +68,9 @@ inline Record hardRecord() {
     r.values["stability.flip_rate"] = 0.0003;
     r.values["stability.moving_rmse"] = 0.03;
     r.values["stability.disocclusion_error"] = 0.07;
+    r.values["stability.pixels.compared"] = 230000;
+    r.values["stability.pixels.moving"] = 240000;
+    r.values["stability.pixels.disoccluded"] = 4000;
     r.values["stability.convergence"] = 31;
     r.values.list("stability.by_frame.mismatch") = {0.05, 0.01, 0.0009};
     r.values.list("stability.by_frame.changed") = {0.04, 0.008, 0};
@@ -149,6 +162,7 @@ inline Record unscored(Status status, const std::string& reason) {
     Record r = hardRecord();
     r.status = status;
     r.reason = reason;
+    r.images.clear();
     r.reference.reset();
     r.values = {};
     r.figures.clear();

@@ -12,8 +12,10 @@ namespace fs = std::filesystem;
 class EmbeddedVersion : public testing::Test {
 protected:
     EmbeddedVersion() {
-        for (const char* folder : {"base", "results/published", "results/reference"}) fs::create_directories(tree_ / folder);
-        for (const char* file : {"base/a.cpp", "results/published/report.md", "results/reference/simple.json"})
+        for (const char* folder : {"base", "harness/metrics", "results/published", "results/reference"})
+            fs::create_directories(tree_ / folder);
+        for (const char* file :
+             {"base/a.cpp", "harness/metrics/b.cpp", "results/published/report.md", "results/reference/simple.json"})
             tree_.write(file, "as committed\n");
         const Outcome made =
             shell("cd " + tree_ / "" + " && git init -q && git add . && git -c user.name=a -c user.email=a@b commit -qm a");
@@ -30,8 +32,27 @@ protected:
 
     static bool isDirty(const std::string& header) { return header.find("dirty = true") != std::string::npos; }
 
+    /// A text of the header, such as the hash `program`.
+    static std::string valueOf(const std::string& header, const std::string& name) {
+        const std::size_t begin = header.find(name + " = \"") + name.size() + 4;
+        return header.substr(begin, header.find('"', begin) - begin);
+    }
+
     Folder tree_, out_;
 };
+
+TEST_F(EmbeddedVersion, SourcesAreHashedWhateverTheCommit) {
+    const std::string before = embedded();
+    EXPECT_EQ(valueOf(before, "program").size(), 32U);
+    tree_.write("results/published/report.md", "made anew\n");
+    tree_.write("a page.md", "of the documentation\n");
+    EXPECT_EQ(valueOf(embedded(), "program"), valueOf(before, "program"));
+    tree_.write("base/a.cpp", "changed\n");
+    EXPECT_NE(valueOf(embedded(), "program"), valueOf(before, "program"));
+    EXPECT_EQ(valueOf(embedded(), "metric_code"), valueOf(before, "metric_code"));
+    tree_.write("harness/metrics/b.cpp", "changed\n");
+    EXPECT_NE(valueOf(embedded(), "metric_code"), valueOf(before, "metric_code"));
+}
 
 TEST_F(EmbeddedVersion, ACleanTreeIsItsCommit) {
     const std::string header = embedded();

@@ -4,6 +4,7 @@
 #include "tests/support/records_examples.h"
 
 #include <algorithm>
+#include <functional>
 #include <gtest/gtest.h>
 
 namespace shadowbench::gate {
@@ -41,7 +42,7 @@ TEST(Compare, ClassesAreNeverMerged) {
     EXPECT_EQ(onlyWorseClass(base, head), Class::FalseShadow);
 
     head = base;
-    head.values["accuracy.leak"] = 0.0005;
+    head.values["accuracy.leak"] = 0.0008;         // 4 of the shadowed pixels more
     head.values["accuracy.false_shadow"] = 0.0001; // better by more than the leak is worse
     EXPECT_EQ(onlyWorseClass(base, head), Class::Leak);
 
@@ -54,13 +55,18 @@ TEST(Compare, ClassesAreNeverMerged) {
     EXPECT_EQ(onlyWorseClass(base, head), Class::Flicker);
 }
 
-TEST(Compare, TwoPixelsOfExactLabelsMeanNothingThreeDo) {
-    const Record base = hardRecord();
-    Record head = base;
-    head.values["accuracy.leak"] = *base.values["accuracy.leak"] + 2.0 / (256 * 256);
-    EXPECT_TRUE(worse(base, head).empty());
-    head.values["accuracy.leak"] = *base.values["accuracy.leak"] + 3.0 / (256 * 256);
-    EXPECT_FALSE(worse(base, head).empty());
+TEST(Compare, TwoPixelsOfTheirClassMeanNothingThreeDo) {
+    Record base = hardRecord(); // 10,000 of its pixels are in shadow
+    const auto leaks = [&](double pixels, double all) {
+        Record head = base;
+        head.values["accuracy.leak"] = *base.values["accuracy.leak"] + pixels / all;
+        return !worse(base, head).empty();
+    };
+    EXPECT_FALSE(leaks(2, 10000));
+    EXPECT_TRUE(leaks(3, 10000));
+    base.values["accuracy.pixels.shadowed"].reset(); // of a record that does not say
+    EXPECT_FALSE(leaks(2, 256 * 256));
+    EXPECT_TRUE(leaks(3, 256 * 256));
 }
 
 TEST(Compare, GradedErrorsAreComparedInUnitsOfTheTruthsOwn) {
@@ -115,13 +121,45 @@ TEST(Compare, ALostCellOrMetricIsWorseANewOneIsNot) {
     EXPECT_EQ(onlyWorseClass(hardRecord(), head), Class::Flicker);
 }
 
-TEST(Compare, CountsOfDifferentEnvironmentsAndScoresOfDifferentTruthsAreNotCompared) {
-    Record head = softRecord();
-    head.environment.valgrind = "3.20.0";
-    EXPECT_THROW(compare({softRecord()}, {head}), Inconclusive);
-    head = hardRecord();
-    head.reference->key = "other";
-    EXPECT_THROW(compare({hardRecord()}, {head}), Inconclusive);
+/// What could not be judged.
+std::vector<Change> unjudged(const Record& base, const Record& head) {
+    std::vector<Change> changes = compare({base}, {head});
+    std::erase_if(changes, [](const Change& c) { return c.direction != Direction::Unjudged; });
+    return changes;
+}
+
+TEST(Compare, InstructionsCountedInDifferentEnvironmentsAreNotJudgedScoresAre) {
+    for (const auto& change : std::vector<std::function<void(Environment&)>>{
+             [](Environment& e) { e.valgrind = "3.20.0"; }, [](Environment& e) { e.cpu = "another"; },
+             [](Environment& e) { e.cpuFeatures = "family 26"; }, [](Environment& e) { e.libraries = "libc 2.40"; }}) {
+        Record head = softRecord();
+        change(head.environment);
+        head.values["accuracy.rmse"] = 0.04;
+        ASSERT_EQ(unjudged(softRecord(), head).size(), 1U);
+        EXPECT_EQ(unjudged(softRecord(), head)[0].metric, "cost.instructions");
+        EXPECT_EQ(onlyWorseClass(softRecord(), head), Class::Penumbra);
+    }
+}
+
+TEST(Compare, ScoresOfWhatIsNotComparableAreNotJudged) {
+    for (const auto& change : std::vector<std::function<void(Record&)>>{
+             [](Record& r) { r.reference->key = "other"; }, [](Record& r) { r.parameters[1].second = "2048"; },
+             [](Record& r) { r.frames = 12; }, [](Record& r) { r.environment.renderer = "softpipe"; },
+             [](Record& r) { r.environment.mesa = "libosmesa6 22.3.6-2"; }}) {
+        Record head = hardRecord();
+        change(head);
+        EXPECT_TRUE(worse(hardRecord(), head).empty());
+        ASSERT_EQ(unjudged(hardRecord(), head).size(), 1U);
+        EXPECT_EQ(verdictOf(compare({hardRecord()}, {head})), ExitCode::Inconclusive);
+        EXPECT_NE(unjudged(hardRecord(), head)[0].sentence.find("cannot be compared: "), std::string::npos);
+    }
+    Record older = hardRecord(); // which does not say
+    older.environment.mesa.clear();
+    older.environment.libraries.clear();
+    EXPECT_EQ(verdictOf(compare({older}, {hardRecord()})), ExitCode::Pass);
+    Record newer = hardRecord();
+    newer.parameters.emplace_back("cascades", "4"); // a parameter that the base had not
+    EXPECT_EQ(verdictOf(compare({hardRecord()}, {newer})), ExitCode::Pass);
 }
 
 std::vector<Record> sweepThatBreaksAt(std::optional<double> point) {
@@ -151,7 +189,9 @@ TEST(Verdict, JUnitNamesTheFailureAndEscapesWhatXmlWouldMistake) {
     Record head = base;
     head.values["accuracy.leak"] = 0.1;
     const std::string xml = junit(compare({base}, {head}));
-    EXPECT_NE(xml.find("<testsuite name=\"dueling-frusta\" tests=\"5\" failures=\"1\">"), std::string::npos) << xml;
+    EXPECT_NE(xml.find("<testsuite name=\"dueling-frusta\" tests=\"7\" failures=\"1\" errors=\"0\" skipped=\"0\">"),
+              std::string::npos)
+        << xml;
     EXPECT_NE(xml.find("name=\"sm&lt;&amp;&quot;&gt;: leak\"><failure message=\"leak is worse\">"), std::string::npos)
         << xml;
 }

@@ -15,7 +15,7 @@ namespace {
 using test::hardRecord;
 using test::softRecord;
 
-constexpr double pixel = 1.0 / (256 * 256); // of the example records
+constexpr double pixel = 1.0 / 10000; // of the shadowed ones of the example records
 
 std::string hashOf(std::size_t index) { return std::string(40, static_cast<char>('a' + index)); }
 

@@ -51,10 +51,19 @@ TEST(MetricsTable, AGroupIsWhatItsPathBeginsWith) {
 }
 
 TEST(Allowance, IsDescribedInWords) {
-    EXPECT_EQ(describe(*metricAt("stability.flip_rate")->allowance), "2 pixels + 1 %");
+    EXPECT_EQ(describe(*metricAt("stability.flip_rate")->allowance), "2 compared pixels + 1 %");
     EXPECT_EQ(describe(*metricAt("accuracy.rmse")->allowance), "the truth's own error");
     EXPECT_EQ(describe(*metricAt("accuracy.edge_error.mean")->allowance), "0.002 + 1 %");
-    EXPECT_EQ(describe(*metricAt("stability.convergence")->allowance), "none");
+    EXPECT_EQ(describe(*metricAt("stability.convergence")->allowance), "1 + 5 %");
+    EXPECT_EQ(describe(*metricAt("cost.work.draws")->allowance), "none");
+    EXPECT_EQ(describe(*metricAt("accuracy.leak")->allowance), "2 shadowed pixels");
+}
+
+TEST(MetricsTable, EveryNumberIsJudgedOrSaysWhyNot) {
+    for (const Metric& line : table) {
+        EXPECT_EQ(line.allowance.has_value(), line.unjudged.empty()) << line.path;
+        EXPECT_TRUE(!line.allowance || line.about) << line.path;
+    }
 }
 
 TEST(MetricValues, AreComputedForAllLinesOfAKindAndNoOthers) {

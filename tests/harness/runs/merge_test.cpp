@@ -31,6 +31,7 @@ protected:
             cell.profile = record.profile;
             cell.cost = {"time"};
             cell.commit = record.commit;
+            cell.program = record.program;
             manifest_.push_back(cell);
         }
     }
@@ -159,6 +160,16 @@ TEST_F(Merge, RefusesCellsOfAnotherCommit) {
     other.commit = "decaf";
     put(a, 2, other);
     EXPECT_TRUE(names(refusal<Inconclusive>({a}), {"decaf", "c0ffee", manifest_[2].id}));
+}
+
+TEST_F(Merge, RefusesCellsOfAnotherTreeWithChanges) {
+    for (std::size_t i = 0; i < 3; ++i) manifest_[i].dirty = records_[i].dirty = true;
+    const fs::path a = folder("a", {0, 1, 2});
+    EXPECT_TRUE(merge({a}).missing.empty()) << "one tree";
+    Record other = records_[2];
+    other.program = "abcd";
+    put(a, 2, other);
+    EXPECT_TRUE(names(refusal<Inconclusive>({a}), {"another program of commit c0ffee with changes", manifest_[2].id}));
 }
 
 TEST_F(Merge, RefusesFoldersOfDifferentRuns) {

@@ -1,0 +1,85 @@
+#include "harness/records/comparability.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace shadowbench::gate {
+namespace {
+
+template <typename T>
+std::optional<std::string> differs(std::string_view what, const T& a, const T& b) {
+    if (a == b) return {};
+    return fmt::format("{} is \"{}\" and \"{}\"", what, a, b);
+}
+
+/// The same of a text that one of both may not state.
+std::optional<std::string> stated(std::string_view what, const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() ? std::nullopt : differs(what, a, b);
+}
+
+std::optional<std::string> first(std::initializer_list<std::optional<std::string>> differences) {
+    for (const std::optional<std::string>& difference : differences)
+        if (difference) return difference;
+    return {};
+}
+
+std::optional<std::string> rasteriserDifference(const Environment& a, const Environment& b) {
+    return first({differs("renderer", a.renderer, b.renderer), differs("gl", a.gl, b.gl),
+                  differs("raster_threads", a.rasterThreads, b.rasterThreads),
+                  differs("vector_bits", a.vectorBits, b.vectorBits), stated("mesa", a.mesa, b.mesa)});
+}
+
+std::optional<std::string> countDifference(const Environment& a, const Environment& b) {
+    return first({differs("cpu", a.cpu, b.cpu), stated("cpu_features", a.cpuFeatures, b.cpuFeatures),
+                  stated("libraries", a.libraries, b.libraries),
+                  a.valgrind && b.valgrind ? differs("valgrind", *a.valgrind, *b.valgrind) : std::nullopt});
+}
+
+/// A new parameter, and one that is gone, leave the variant what it was; another value of one does not.
+std::optional<std::string> parameterDifference(const Record& base, const Record& head) {
+    for (const auto& [name, value] : head.parameters) {
+        const auto before = std::ranges::find(base.parameters, name, [](const auto& p) { return p.first; });
+        if (before != base.parameters.end() && before->second != value)
+            return fmt::format("its parameter {} was {} and is {}", name, before->second, value);
+    }
+    return {};
+}
+
+std::string keyOf(const std::optional<ReferenceInfo>& reference) { return reference ? reference->key : ""; }
+
+} // namespace
+
+std::optional<std::string> difference(const Environment& a, const Environment& b, Surroundings what) {
+    if (auto found = rasteriserDifference(a, b)) return found;
+    if (what == Surroundings::OfScores) return {};
+    if (auto found = countDifference(a, b)) return found;
+    return what == Surroundings::All ? differs("compiler", a.compiler, b.compiler) : std::nullopt;
+}
+
+std::string countingEnvironment(const Environment& e) {
+    std::string text = fmt::format("{}, {}, {} raster threads, {} bits, {}, {}", e.renderer, e.gl, e.rasterThreads,
+                                   e.vectorBits, e.valgrind.value_or("no Valgrind"), e.cpu);
+    for (const std::string& more : {e.cpuFeatures, e.mesa, e.libraries})
+        if (!more.empty()) text += ", " + more;
+    return text;
+}
+
+std::string truthOf(const Record& record) { return keyOf(record.reference) + " " + keyOf(record.softReference); }
+
+std::optional<std::string> whyIncomparable(const Record& base, const Record& head) {
+    if (truthOf(base) != truthOf(head))
+        return "it was scored against different truths: the scene or the ground truth changed";
+    if (auto parameters = parameterDifference(base, head)) return parameters;
+    if (base.frames != head.frames) return fmt::format("it had {} frames and has {}", base.frames, head.frames);
+    if (const auto rasteriser = difference(base.environment, head.environment, Surroundings::OfScores))
+        return fmt::format("it was drawn by different rasterisers: {}", *rasteriser);
+    return {};
+}
+
+bool sameMetricCode(const Record& base, const Record& head) {
+    return base.metricCode.empty() || head.metricCode.empty() || base.metricCode == head.metricCode;
+}
+
+bool sameImages(const Record& base, const Record& head) { return !base.images.empty() && base.images == head.images; }
+
+} // namespace shadowbench::gate

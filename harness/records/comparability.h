@@ -1,0 +1,34 @@
+// Whether two records may be compared: what besides the program decides a figure must be the same.
+#pragma once
+
+#include "harness/records/record.h"
+
+#include <optional>
+#include <string>
+
+namespace shadowbench::gate {
+
+/// What decides scores, what also decides instruction counts, and all of it. Members that one of two environments does not
+/// state, as older records do not, are no difference.
+enum class Surroundings { OfScores, OfCounts, All };
+
+/// The first member in which two environments differ, in words: `cpu is "x" and "y"`; nothing if they are the same.
+std::optional<std::string> difference(const Environment& a, const Environment& b, Surroundings what);
+
+/// What an instruction count depends on beside the program.
+std::string countingEnvironment(const Environment& environment);
+
+/// What a record was scored against; scores are compared where it is the same.
+std::string truthOf(const Record& record);
+
+/// Why the scores of two records of one cell cannot be compared, as the end of a sentence: another truth, parameters that
+/// both have with other values, another number of frames, another rasteriser. Nothing where they can.
+std::optional<std::string> whyIncomparable(const Record& base, const Record& head);
+
+/// Whether both were scored by the same code, as far as they say.
+bool sameMetricCode(const Record& base, const Record& head);
+
+/// Whether both are known to show the same, to the bit, in all frames that were scored.
+bool sameImages(const Record& base, const Record& head);
+
+} // namespace shadowbench::gate

@@ -1,0 +1,177 @@
+// Whose policy judges, what drifts since an anchor, and which choices are tried.
+#include "base/error.h"
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "harness/gate/anchor.h"
+#include "harness/gate/choices.h"
+#include "harness/gate/judged_cells.h"
+#include "harness/gate/policy.h"
+#include "techniques/catalog.h"
+#include "tests/support/records_examples.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace shadowbench::gate {
+namespace {
+
+Bound leakBelow(double value) { return {{"trees", {"pcf", "sm-uniform"}, {}, "a test"}, "leak", value, true}; }
+
+Policy policyWith(const Bound& bound) {
+    Policy policy;
+    policy.standard = {"trees"};
+    policy.watchlist.bounds = {bound};
+    return policy;
+}
+
+TEST(GatePolicy, ALooserBoundIsListedAndAStricterOneIsNot) {
+    const Policy base = policyWith(leakBelow(0.1));
+    EXPECT_TRUE(sentencesOf(loosened(base, base)).empty());
+    EXPECT_TRUE(sentencesOf(loosened(base, policyWith(leakBelow(0.05)))).empty());
+    const std::vector<std::string> sentences = sentencesOf(loosened(base, policyWith(leakBelow(0.2))));
+    ASSERT_EQ(sentences.size(), 1U);
+    EXPECT_NE(sentences[0].find("pcf, sm-uniform on trees: leak below 0.1"), std::string::npos) << sentences[0];
+    Bound above = leakBelow(0.1), lower = leakBelow(0.05);
+    above.below = lower.below = false;
+    EXPECT_EQ(sentencesOf(loosened(policyWith(above), policyWith(lower))).size(), 1U) << "an expected failure";
+    Bound fewer = leakBelow(0.1), except = leakBelow(0.1);
+    fewer.cells.techniques = {"pcf"};
+    except.cells.except = {"pcf"};
+    EXPECT_EQ(sentencesOf(loosened(base, policyWith(fewer))).size(), 1U);
+    EXPECT_EQ(sentencesOf(loosened(base, policyWith(except))).size(), 1U);
+}
+
+TEST(GatePolicy, EveryKindOfEntryThatIsGoneIsListedAndJudgesOn) {
+    Policy base = policyWith(leakBelow(0.1));
+    const Watch watch{"trees", {"*"}, {}, "a test"};
+    base.watchlist.scenes = base.watchlist.counted = base.watchlist.timed = base.watchlist.seeds = {watch};
+    base.watchlist.sweeps = {{watch, "map", {}}};
+    base.watchlist.anchors = {{"v1", 2, "a test"}};
+    Policy head;
+    const Policy more = loosened(base, head);
+    EXPECT_EQ(sentencesOf(more).size(), 8U) << "and the standard scene";
+    add(more, head);
+    EXPECT_EQ(head.standard, base.standard);
+    EXPECT_EQ(head.watchlist.bounds.size(), 1U);
+    EXPECT_EQ(head.watchlist.timed.size(), 1U);
+    EXPECT_TRUE(head.watchlist.anchors.empty()) << "the head's own anchor judges";
+}
+
+TEST(GatePolicy, IsReadAsItIsWrittenAndMayNameWhatThisBuildLacks) {
+    Identity identity{"c0ffee", true, "9a55", policyWith(leakBelow(0.1))};
+    identity.policy.watchlist.bounds[0].metric = "a-metric-to-come";
+    identity.policy.watchlist.bounds[0].cells.techniques = {"a-technique-to-come"};
+    identity.policy.watchlist.anchors = {{"v1", 2, "a test"}};
+    const Identity read = identityFrom(toJson(identity));
+    EXPECT_EQ(toJson(read), toJson(identity));
+    EXPECT_THROW(identityFrom("{}"), BadInput);
+    Policy head;
+    add(read.policy, head);
+    EXPECT_TRUE(head.watchlist.bounds.empty());
+}
+
+TEST(GatePolicy, OfThisBuildIsThatOfTheCommittedFile) {
+    const Policy file = readPolicy(std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml", Profile::Gate);
+    const Policy own = ownIdentity().policy;
+    EXPECT_TRUE(sentencesOf(loosened(own, file)).empty());
+    EXPECT_TRUE(sentencesOf(loosened(file, own)).empty());
+    EXPECT_FALSE(own.standard.empty());
+}
+
+class GateUnion : public testing::Test {
+protected:
+    GateUnion() {
+        writeFile(folder_.path() / "bounds.toml", "");
+        options_.bounds = folder_.path() / "bounds.toml";
+    }
+
+    TemporaryFolder folder_;
+    GateOptions options_;
+};
+
+TEST_F(GateUnion, TheBasesScenesAndVariantsAreJudgedToo) {
+    Policy base;
+    base.watchlist.scenes = {{"colonnade", {"pcf"}, {}, "a test"}};
+    const JudgedCells cells(options_, base, {"pcf:kernel=5,map=333", "sm-uniform"});
+    EXPECT_TRUE(cells.chooses("colonnade", "pcf"));
+    EXPECT_TRUE(cells.chooses("trees", techniques::parseVariant("pcf:kernel=5,map=333").name));
+    EXPECT_EQ(cells.loosened.size(), 2U);
+    EXPECT_TRUE(cells.gone.empty());
+}
+
+TEST_F(GateUnion, ARenamedSceneOrTechniqueIsNamed) {
+    Policy base;
+    base.standard = {"treees"};
+    const JudgedCells cells(options_, base, {"sm-unifrom"});
+    ASSERT_EQ(cells.gone.size(), 2U);
+    EXPECT_NE((cells.gone[0] + cells.gone[1]).find("the scene treees, which the base judges, no longer exists"),
+              std::string::npos);
+    EXPECT_NE((cells.gone[0] + cells.gone[1]).find("sm-unifrom, which the base shows, no longer exists"), std::string::npos);
+}
+
+Record counted(double instructions) {
+    Record record = test::softRecord();
+    record.values["cost.instructions"] = instructions;
+    return record;
+}
+
+TEST(GateAnchor, SmallChangesThatAddUpAreARegression) {
+    const Anchor anchor{"v1", 4, "a test"}; // 4 × 0.5 %
+    EXPECT_TRUE(judgeDrift(anchor, {counted(1e6)}, {counted(1.019e6)}).changes.empty());
+    const AnchorJudgement judged = judgeDrift(anchor, {counted(1e6)}, {counted(1.024e6)}); // six commits of 0.4 %
+    ASSERT_EQ(judged.changes.size(), 1U);
+    EXPECT_EQ(judged.changes[0].direction, Direction::Worse);
+    EXPECT_EQ(judged.changes[0].metric, "cost.instructions");
+    EXPECT_NE(judged.changes[0].sentence.find("since the anchor v1"), std::string::npos);
+    EXPECT_GT(judged.compared, 10U);
+}
+
+TEST(GateAnchor, WhatCannotBeComparedIsNotedOnce) {
+    Record other = counted(1e6), another = counted(1e6);
+    other.reference->key = another.reference->key = "other";
+    another.variant = "pcf";
+    Record old = counted(1e6);
+    old.variant = "pcf";
+    const AnchorJudgement judged = judgeDrift({"v1", 4, ""}, {counted(1e6), old}, {other, another});
+    EXPECT_EQ(judged.compared, 0U);
+    ASSERT_EQ(judged.notes.size(), 1U);
+    EXPECT_TRUE(judged.notes[0].starts_with("2 comparisons with the anchor v1")) << judged.notes[0];
+}
+
+TEST(GateChoices, EveryTwoChoicesComeTogether) {
+    const std::vector<std::size_t> sizes{3, 2, 4, 2, 2};
+    const auto rows = pairwiseRows(sizes);
+    std::set<std::vector<std::size_t>> pairs;
+    for (const auto& row : rows)
+        for (std::size_t a = 0; a < row.size(); ++a)
+            for (std::size_t b = a + 1; b < row.size(); ++b) pairs.insert({a, row[a], b, row[b]});
+    EXPECT_EQ(pairs.size(), 3U * 2 + 3 * 4 + 3 * 2 * 2 + 2 * 4 + 2 * 2 * 2 + 4 * 2 * 2 + 2 * 2);
+    EXPECT_LE(rows.size(), 15U) << "of 96; 12 pairs of the two longest columns are the least";
+    EXPECT_EQ(pairwiseRows({3}).size(), 3U);
+    EXPECT_TRUE(pairwiseRows({}).empty());
+}
+
+/// Every word that a parameter takes, of all techniques, is in a variant of the gate's choices.
+TEST(GateChoices, HoldEveryChoiceOfEveryTechnique) {
+    GateOptions options;
+    options.bounds = std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml";
+    const JudgedCells cells(options);
+    std::set<std::string> tried; // "pcf kernel=9"
+    for (const JudgedScene& scene : cells.scenes)
+        for (const std::string& name : scene.variants) {
+            const techniques::Variant variant = techniques::parseVariant(name);
+            for (const auto& [parameter, value] : variant.parameters.all())
+                tried.insert(variant.entry->id + " " + parameter + "=" + value);
+        }
+    for (const techniques::Entry& entry : techniques::catalog())
+        for (const techniques::Parameter& parameter : entry.parameters) {
+            if (!std::holds_alternative<techniques::OneOf>(parameter.domain)) continue;
+            for (const std::string& word : choicesOf(parameter))
+                EXPECT_TRUE(tried.contains(entry.id + " " + parameter.name + "=" + word))
+                    << entry.id << ":" << parameter.name << "=" << word;
+        }
+}
+
+} // namespace
+} // namespace shadowbench::gate

@@ -1,0 +1,189 @@
+// What an audit of the gate found, replayed on records: what once passed and must not, and what once failed and must pass.
+#include "harness/gate/verdict.h"
+#include "tests/support/records_examples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace shadowbench::gate {
+namespace {
+
+using test::hardRecord;
+using test::softRecord;
+
+/// A hard technique on an area light: labels by an exact truth, graded visibility by a soft one.
+Record hardOnAreaLight() {
+    Record record = hardRecord();
+    record.softReference = ReferenceInfo{"povray", "beef", 1024, 0.02, {}};
+    record.values["accuracy.rmse"] = 0.2;
+    record.values["accuracy.pixels.graded"] = 60000;
+    record.values["accuracy.pixels.penumbra"] = 600;
+    return record;
+}
+
+ExitCode verdict(const Record& base, const Record& head) { return verdictOf(compare({base}, {head})); }
+
+Record times(Record record, const char* path, double factor) {
+    const metrics::Metric& metric = *metrics::metricAt(path);
+    record.values[metric] = *record.values[metric] * factor;
+    return record;
+}
+
+TEST(FalseGreens, EveryScoreIsWatched) {
+    for (const auto& [metric, factor] : std::vector<std::pair<const char*, double>>{{"accuracy.ssim", 0.5},
+                                                                                    {"accuracy.bad8", 3},
+                                                                                    {"accuracy.mae", 2},
+                                                                                    {"accuracy.penumbra_width_error", 4},
+                                                                                    {"accuracy.umbra_leak", 3},
+                                                                                    {"stability.disocclusion_error", 2},
+                                                                                    {"stability.moving_rmse", 2}})
+        EXPECT_EQ(verdict(softRecord(), times(softRecord(), metric, factor)), ExitCode::AccuracyRegression) << metric;
+    EXPECT_EQ(verdict(hardRecord(), times(hardRecord(), "accuracy.edge_error.p95", 5)), ExitCode::AccuracyRegression);
+    EXPECT_EQ(verdict(hardRecord(), times(hardRecord(), "accuracy.edge_error.signed", -1)), ExitCode::AccuracyRegression);
+}
+
+TEST(FalseGreens, WorkAndFiguresAreWatched) {
+    for (const char* metric :
+         std::vector<const char*>{"cost.work.fragments", "cost.work.draws", "cost.work.passes", "cost.work.bytes"})
+        EXPECT_EQ(verdict(hardRecord(), times(hardRecord(), metric, 10)), ExitCode::CostRegression);
+    Record head = hardRecord();
+    head.figures["tiles"] = 60;
+    EXPECT_EQ(verdict(hardRecord(), head), ExitCode::AccuracyRegression);
+    head.figures.erase("tiles");
+    EXPECT_EQ(verdict(hardRecord(), head), ExitCode::AccuracyRegression);
+}
+
+TEST(FalseGreens, TheSignOfAnEdgesErrorMayTurnOnlyWhereItShrinks) {
+    EXPECT_EQ(verdict(hardRecord(), times(hardRecord(), "accuracy.edge_error.signed", -0.5)), ExitCode::Pass);
+    EXPECT_EQ(verdict(hardRecord(), times(hardRecord(), "accuracy.edge_error.signed", -1)), ExitCode::AccuracyRegression);
+}
+
+TEST(FalseGreens, ASoftTruthsUncertaintyExcusesNothingThatItDidNotJudge) {
+    const Record base = hardOnAreaLight();
+    EXPECT_EQ(verdict(base, times(base, "stability.moving_rmse", 1.2)), ExitCode::AccuracyRegression);
+    EXPECT_EQ(verdict(base, times(base, "stability.flicker.mean", 1.2)), ExitCode::AccuracyRegression);
+    // Of rmse, over all pixels, only those of the penumbra are uncertain: √(0.2² + 0.02² · 0.01) − 0.2 = 1e-5.
+    Record head = base;
+    head.values["accuracy.rmse"] = 0.2 + 0.8e-5;
+    EXPECT_EQ(verdict(base, head), ExitCode::Pass);
+    head.values["accuracy.rmse"] = 0.2 + 1.2e-5;
+    EXPECT_EQ(verdict(base, head), ExitCode::AccuracyRegression);
+}
+
+/// The same records, made by a program whose code of metrics differs.
+Record rescored(Record record, double factor) {
+    record.metricCode = "another";
+    for (const char* metric : {"accuracy.mismatch", "accuracy.leak", "accuracy.false_shadow", "stability.flicker.mean"}) {
+        std::optional<double>& value = record.values[*metrics::metricAt(metric)];
+        value = *value * factor;
+    }
+    return record;
+}
+
+TEST(FalseGreens, MetricsThatScoreTheSameImagesDifferentlyAreNoImprovement) {
+    const std::vector<Change> changes = compare({hardRecord()}, {rescored(hardRecord(), 0.5)});
+    EXPECT_EQ(verdictOf(changes), ExitCode::Inconclusive);
+    EXPECT_EQ(std::ranges::count(changes, Direction::Better, &Change::direction), 0);
+    EXPECT_EQ(std::ranges::count(changes, Direction::Unjudged, &Change::direction), 4) << "each is listed";
+}
+
+TEST(FalseGreens, MetricsThatScoreTheSameImagesAlikeAreTheSameCode) {
+    Record other = hardRecord(), changed = hardRecord();
+    other.variant = changed.variant = "sm-uniform";
+    changed.images = "2222";
+    EXPECT_EQ(verdictOf(compare({hardRecord(), other}, {rescored(hardRecord(), 1), rescored(changed, 1)})), ExitCode::Pass);
+    EXPECT_EQ(verdictOf(compare({hardRecord(), other}, {rescored(hardRecord(), 1), rescored(changed, 2)})),
+              ExitCode::AccuracyRegression);
+    EXPECT_EQ(verdictOf(compare({other}, {rescored(changed, 1)})), ExitCode::Inconclusive) << "no image is the same";
+    EXPECT_EQ(verdictOf(compare({hardRecord(), other}, {rescored(hardRecord(), 2), rescored(changed, 1)})),
+              ExitCode::Inconclusive);
+}
+
+TEST(FalseGreens, AWiderToleranceMovesNoBreakPoint) {
+    std::vector<Record> base, head;
+    for (const double value : {1.0, 0.1, 0.01}) {
+        Record record = hardRecord();
+        record.sweep = SweepStep{"near-plane", "m", "sm-psm", value, 0.1};
+        base.push_back(record);
+        record.sweep->breakPoint.reset();
+        record.tolerance = 0.05;
+        head.push_back(record);
+    }
+    EXPECT_EQ(verdictOf(compare(base, head)), ExitCode::Inconclusive);
+}
+
+TEST(FalseGreens, OneProgramTwiceAndNothingInBothDecideNothing) {
+    Record other = hardRecord();
+    other.commit = "decaf";
+    EXPECT_TRUE(whyMeaningless({hardRecord()}, {hardRecord()}, false));
+    EXPECT_FALSE(whyMeaningless({hardRecord()}, {hardRecord()}, true));
+    EXPECT_FALSE(whyMeaningless({hardRecord()}, {other}, false));
+    EXPECT_TRUE(sameProgram({hardRecord()}, {other}));
+    Record changed = hardRecord();
+    changed.dirty = true;
+    changed.program = "other";
+    EXPECT_FALSE(whyMeaningless({hardRecord()}, {changed}, false)) << "the commit, and a tree with changes";
+    EXPECT_FALSE(sameProgram({hardRecord()}, {changed}));
+    EXPECT_TRUE(whyMeaningless({hardRecord()}, {softRecord()}, true));
+    EXPECT_TRUE(whyMeaningless({hardRecord()}, {}, true));
+    EXPECT_TRUE(whyMeaningless({other}, {test::unscored(Status::Error, "it failed")}, true));
+}
+
+TEST(FalseGreens, JUnitShowsWhatCouldNotBeJudged) {
+    Record head = hardRecord();
+    head.reference->key = "other";
+    const std::string xml = junit(compare({hardRecord()}, {head}), {"a technique no longer exists"});
+    EXPECT_NE(xml.find("failures=\"0\" errors=\"1\" skipped=\"0\""), std::string::npos) << xml;
+    EXPECT_NE(xml.find("<error message=\"status is not judged\">"), std::string::npos) << xml;
+    EXPECT_NE(xml.find("<testsuite name=\"gate\""), std::string::npos) << xml;
+    const Change unclear{"trees", "pcf", "time.ratio", Class::Time, 1, 1.02, 0.01, Direction::Unclear, "perhaps slower"};
+    EXPECT_NE(junit({unclear}).find("<skipped message=\"time is unclear\">perhaps slower"), std::string::npos);
+    EXPECT_EQ(verdictOf({unclear}), ExitCode::Pass);
+}
+
+TEST(FalseReds, OneMoreLeakedPixelIsNoRegression) {
+    Record head = hardRecord();
+    head.values["accuracy.leak"] = *head.values["accuracy.leak"] + 1.0 / 10000;
+    EXPECT_EQ(verdict(hardRecord(), head), ExitCode::Pass);
+}
+
+TEST(FalseReds, AChangedSceneHidesNoOtherCell) {
+    Record changed = softRecord(), slower = hardRecord();
+    changed.reference->key = "other";
+    slower.values["accuracy.leak"] = 0.1;
+    const std::vector<Change> changes = compare({softRecord(), hardRecord()}, {changed, slower});
+    EXPECT_EQ(std::ranges::count(changes, Direction::Unjudged, &Change::direction), 1);
+    EXPECT_EQ(verdictOf(changes), ExitCode::AccuracyRegression);
+}
+
+TEST(FalseReds, AHistoryMayConvergeAFrameLater) {
+    const auto after = [](double frames) {
+        Record head = hardRecord();
+        head.values["stability.convergence"] = *head.values["stability.convergence"] + frames;
+        return verdict(hardRecord(), head);
+    };
+    EXPECT_EQ(after(1), ExitCode::Pass);
+    EXPECT_EQ(after(4), ExitCode::AccuracyRegression);
+}
+
+/// Eight seeds of a stochastic technique whose leak is `leak` and varies by some pixels.
+std::vector<Record> seeds(double leak, double shift) {
+    std::vector<Record> records;
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+        Record record = hardRecord();
+        record.seed = seed;
+        record.values["accuracy.leak"] = leak + 0.001 * ((seed + shift) * 5 / 8 - std::floor((seed + shift) * 5 / 8));
+        records.push_back(record);
+    }
+    return records;
+}
+
+TEST(FalseReds, AnotherChoiceOfPseudoRandomNumbersIsNoRegression) {
+    EXPECT_NE(verdict(seeds(0.01, 0)[0], seeds(0.01, 0.5)[3]), ExitCode::Pass) << "which one seed would say";
+    EXPECT_EQ(verdictOf(compare(seeds(0.01, 0), seeds(0.01, 0.5))), ExitCode::Pass);
+    EXPECT_EQ(verdictOf(compare(seeds(0.01, 0), seeds(0.012, 0.5))), ExitCode::AccuracyRegression);
+}
+
+} // namespace
+} // namespace shadowbench::gate
