@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "groundtruth/certify/agreement.h"
 #include "groundtruth/certify/certificate.h"
 #include "groundtruth/cgal/area/area.h"
 #include "groundtruth/cgal/geometry/triangles.h"
@@ -169,12 +170,15 @@ Reference hardReference(const Request& request, const Progress& progress) {
 
     Reference reference =
         polygonOnly ? withoutLabels(primary, planes) : byRays(request, scene, primary, part(progress, 0.3, 0.6));
+    const Reference rays = reference;
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const double step = 0.4 / static_cast<double>(planes.size());
         const double from = 0.6 + step * static_cast<double>(i);
         scene.labelByPolygon(request.size, primary, planes[i], reference, part(progress, from, from + step));
     }
+    reference.provenance.oracle = "polygon";
     const Image<std::uint8_t> held = onPlanes(primary, planes);
+    if (!polygonOnly) requireSameLabels(rays, reference, held);
     const auto receivers = std::ranges::count(primary.surface, Surface::Receiver);
     const bool all = polygonOnly || (!planes.empty() && std::ranges::count(held, 1) == receivers);
     reference.provenance.oracle = all ? "polygon" : planes.empty() ? "rays" : "polygon+rays";
@@ -205,6 +209,7 @@ Tools toolVersions(const Request& request) {
     if (!light.isArea() && !light.isEnvironment()) return tools;
     if (light.isArea()) tools["area"] = std::to_string(area::codeVersion);
     if (request.oracle == Oracle::Area) return tools;
+    if (light.isArea()) tools["certificate"] = std::to_string(certificateVersion);
     tools["povray"] = povray::version();
     if (light.isEnvironment()) tools["povray sky"] = std::to_string(povray::skyCodeVersion);
     tools["povray recipe"] = std::to_string(povray::codeVersion);

@@ -11,7 +11,8 @@ namespace shadowbench::groundtruth {
 /// Computes a reference, without looking at a cache. Visibility is 0 off the receivers. With an explicit `Polygon` or
 /// `Plan`, receivers that are not planar (horizontal) become OnEdge: there is no label for them. Throws BadInput for an
 /// oracle that cannot answer for this light or scene (`Polygon` with no planar receiver), Inconclusive if a tool is missing
-/// or fails or its render is not certified, InternalError if two oracles see different geometry.
+/// or fails, its render is not certified or two exact oracles contradict each other, InternalError if two oracles see
+/// different geometry.
 Reference compute(const Request& request, const Progress& progress = {});
 
 /// Versions of all that decides the reference's numbers. Throws Inconclusive if POV-Ray is needed and missing.

@@ -50,7 +50,7 @@ MeasuredSky measuredSky(const Request& request, int points, const povray::SkyRec
 }
 
 Reference skyReference(const Request& request, const Progress& progress) {
-    MeasuredSky result = measuredSky(request, certificatePointCount, {}, progress);
+    MeasuredSky result = measuredSky(request, skyCertificatePointCount, {}, progress);
     requireSkyCertified(result.certificate, request.samples);
     return std::move(result.reference);
 }

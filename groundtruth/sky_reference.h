@@ -16,7 +16,7 @@ struct MeasuredSky {
 MeasuredSky measuredSky(const Request& request, int points, const povray::SkyRecipe& recipe = {},
                         const Progress& progress = {});
 
-/// The same with certificatePointCount points. Throws BadInput for a scene that the camera's planes cut, Inconclusive if
+/// The same with skyCertificatePointCount points. Throws BadInput for a scene that the camera's planes cut, Inconclusive if
 /// POV-Ray is missing or fails or its render is not certified, InternalError if its camera is misaligned.
 Reference skyReference(const Request& request, const Progress& progress = {});
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <fmt/format.h>
 #include <limits>
 #include <optional>
 
@@ -110,6 +111,19 @@ void countLabels(const Reference& a, const Reference& b, const Image<std::uint8_
         agreement.onEdge += onA && onB;
         agreement.onOneEdge += onA != onB;
         agreement.differing += !onA && !onB && a.visibility[i] != b.visibility[i];
+    }
+}
+
+void requireSameLabels(const Reference& a, const Reference& b, const Image<std::uint8_t>& compared) {
+    for (int y = 0; y < compared.height(); ++y) {
+        for (int x = 0; x < compared.width(); ++x) {
+            const bool edge = a.surface(x, y) == Surface::OnEdge || b.surface(x, y) == Surface::OnEdge;
+            if (compared(x, y) == 0 || edge || a.visibility(x, y) == b.visibility(x, y)) continue;
+            throw Inconclusive(fmt::format("two exact oracles contradict each other at pixel ({}, {}): {} says {}, {} says "
+                                           "{}; one of them is wrong, so there is no truth: report this scene",
+                                           x, y, a.provenance.oracle, a.visibility(x, y) > 0 ? "lit" : "shadowed",
+                                           b.provenance.oracle, b.visibility(x, y) > 0 ? "lit" : "shadowed"));
+        }
     }
 }
 

@@ -28,6 +28,10 @@ struct Agreement {
 /// (hard::ExactScene::planarReceivers). plan and polygon (plan-view scenes): the labels on those that are horizontal.
 std::vector<Agreement> oracleAgreement(const Request& request, const Progress& progress = {});
 
+/// Throws Inconclusive, naming a pixel, where `compared` is not 0 and two exact oracles have contradicting labels: one of
+/// them is wrong. Pixels that either finds on an edge do not count.
+void requireSameLabels(const Reference& a, const Reference& b, const Image<std::uint8_t>& compared);
+
 /// Counts `pixels`, `differing`, `onEdge` and `onOneEdge` where `compared` is not 0. Labels are exact: Receiver or OnEdge
 /// and 0 or 1.
 void countLabels(const Reference& a, const Reference& b, const Image<std::uint8_t>& compared, Agreement& agreement);

@@ -3,17 +3,24 @@
 #pragma once
 
 #include "base/progress.h"
+#include "groundtruth/certify/honest_renders.h"
 #include "groundtruth/cgal/area/area.h"
 #include "groundtruth/povray/povray.h"
 
+#include <cstdint>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 namespace shadowbench::groundtruth {
 
-/// Points that each reference is certified at: the rms error is then known to some 4 %.
-constexpr int certificatePointCount = 512;
+/// Raise it with every change of what is refused: what an older program certified counts no longer.
+constexpr int certificateVersion = 1;
+
+/// Points that each reference under an area light is certified at, as many as take about a second: the rms error is then
+/// known to 2 %, and a fault in a hundredth of the fully lit pixels escapes one certificate in two hundred.
+constexpr int certificatePointCount = 4096;
 
 /// Errors are render − exact (the middle of a disk's bracket), in visible fraction, over the points in the penumbra: where
 /// the render or the exact fraction is neither 0 nor 1. All are 0 if there is none.
@@ -30,6 +37,8 @@ struct Certificate {
     double uneven = 0;      // furthest of a rendered value from a whole number of samples, in samples; 0 to ½
     double bracket = 0;     // half the widest bracket of an exact fraction; 0 but for disks
     double sigma = 0;       // rms of povray::samplingUncertainty at the same points, for calibrated
+    double replayed = 0; // mean distance of a rendered value from what the render's own samples see, in samples; 0 for skies
+    std::optional<HonestBounds> honest; // with 32 points or more that are partly lit; none for skies
 };
 
 /// The exact visible fraction at a pixel that sees a receiver.
@@ -46,9 +55,11 @@ std::vector<glm::ivec2> certificatePoints(const povray::Render& image, const Pri
 Certificate certify(const povray::Render& image, const PrimaryHits& primary, int samples, int points, int threads,
                     const ExactFraction& exact, const Progress& progress = {});
 
-/// The same against the exact oracle, `scene` being that of the request.
+/// The same against the exact oracle, `scene` being that of the request, with what renders of other sample sets leave there.
+/// `set` of povray::lightSample: what the render was made of.
 Certificate certify(const area::AreaScene& scene, const Request& request, const povray::Render& image,
-                    const PrimaryHits& primary, int points, int threads, const Progress& progress = {});
+                    const PrimaryHits& primary, int points, int threads, const Progress& progress = {},
+                    std::uint32_t set = 0);
 
 /// The same for a scene that is prepared for this only.
 Certificate certify(const Request& request, const povray::Render& image, const PrimaryHits& primary, int points, int threads,
@@ -58,17 +69,16 @@ Certificate certify(const Request& request, const povray::Render& image, const P
 /// occluder of this share of the light, 4 N^(−¾) (the discrepancy of nets for convex sets), and no larger one.
 double resolvedTolerance(int samples);
 
-/// Throws Inconclusive, with what is wrong in a sentence, unless the certificate is that of a valid render. The bounds
-/// leave room above the errors of valid renders of straight edges, bars, combs and foliage on squares and disks:
+/// Throws Inconclusive, with what is wrong in a sentence, unless the certificate is that of a valid render:
 /// * no fully lit or umbra pixel is wrong;
 /// * every value is a whole number of samples, to a quarter (16-bit files round by at most an eighth): else the samples have
 ///   different weights, an error too small to be distinguished from that of sampling;
-/// * the rms error is at most 1.5 times that of independent samples, the bias at most half of it;
-/// * the error falls from the first quarter of the samples to all: to 0.75 times, as both rms are single draws, or to two
-///   thirds of the error of independent samples where that is more (the pixels of a comb all see the same pattern, and a
-///   quarter of the samples may fit it by luck).
-/// 1/N and the bracket are added to each bound. With fewer than 32 points in the penumbra only the first two are required:
-/// there is too little to judge by, and little that could be wrong.
+/// * over the penumbra, values differ by a quarter of a sample at most, on average, from what the render's own samples see
+///   exactly: a light moved by 1/(4N) of its side is beyond that;
+/// * the mean error, the rms error and its fall from the first quarter of the samples to all are those of honest renders of
+///   this scene: each within a quantile of them that one in 100,000 exceeds, and the quarter of a sample beside. So a sample
+///   set that is worse than the recipe's is refused even if the render equals it. With fewer than 32 points in the penumbra
+///   this is not required: there is too little to judge by, and little that could be wrong.
 void requireCertified(const Certificate& certificate, int samples);
 
 /// `sigma` (povray::samplingUncertainty) scaled so that its rms over the penumbra points is the rms error measured there,

@@ -40,8 +40,9 @@ struct Provenance {
     /// "scale" (POV-Ray units per world unit), and its errors against the exact visible fraction, members of Certificate
     /// (groundtruth/certify/certificate.h): "certificate_points", "…_penumbra" and "…_wrong" (how many), "…_bias", "…_rms"
     /// and "…_largest" (over the penumbra points), "…_rms_half" and "…_rms_quarter" (with the first half and quarter of the
-    /// samples), "…_independent" (what independent random samples would leave), "…_uneven", "…_bracket". Under an
-    /// environment light, which has no "light_mismatch", also "…_directions" (exact ones at each point).
+    /// samples), "…_independent" (what independent random samples would leave), "…_uneven", "…_bracket", "…_replayed", and
+    /// what honest renders leave, "…_most_bias", "…_most_rms" and "…_most_fall". Under an environment light, which has no
+    /// "light_mismatch", also "…_directions" (exact ones at each point).
     std::map<std::string, double> measured;
 };
 

@@ -77,6 +77,10 @@ ContentHashes contentHashes(const Reference& reference) {
             hashOf(reference.edgeDistance)};
 }
 
+std::string contentOf(const ContentHashes& hashes) {
+    return hash128(fmt::format("{} {} {} {}", hashes.visibility, hashes.surface, hashes.id, hashes.edgeDistance)).text();
+}
+
 Difference difference(const Reference& before, const Reference& after) {
     Difference result;
     result.size = !before.visibility.sameSize(after.visibility);

@@ -16,6 +16,10 @@ struct ContentHashes {
 };
 ContentHashes contentHashes(const Reference& reference);
 
+/// One hash, 32 hex digits, of those images that scores are computed from: visibility, surface, ids and edge distance. σ, an
+/// estimate that no score depends on, is left out.
+std::string contentOf(const ContentHashes& hashes);
+
 /// How the images of two references differ. Pixels count where the values are not equal.
 struct Difference {
     bool size = false;      // of the images; nothing else is compared then

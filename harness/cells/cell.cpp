@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "groundtruth/area_comparison.h"
 #include "harness/cells/environment.h"
 #include "harness/measure/frame_cost.h"
 #include "harness/metrics/frames.h"
@@ -22,7 +23,7 @@ using techniques::Answer;
 
 constexpr double primaryLimit = 0.001; // docs/metrics.md, "Notation": above this a cell is an error, not a score
 
-ReferenceInfo describe(const Reference& reference) {
+ReferenceInfo describe(const Reference& reference, const std::string& content) {
     double sum = 0;
     std::size_t penumbra = 0;
     for (std::size_t i = 0; i < reference.sigma.size(); ++i) {
@@ -32,8 +33,17 @@ ReferenceInfo describe(const Reference& reference) {
         ++penumbra;
     }
     const auto& provenance = reference.provenance;
-    return {provenance.oracle, provenance.key, provenance.samples,
-            penumbra > 0 ? std::sqrt(sum / static_cast<double>(penumbra)) : 0, provenance.tools};
+    return {provenance.oracle,  provenance.key,
+            provenance.samples, penumbra > 0 ? std::sqrt(sum / static_cast<double>(penumbra)) : 0,
+            provenance.tools,   content};
+}
+
+/// How far the frame's soft truth, and the technique's `v`, are from the exact visible fraction.
+AreaInfo besideArea(Truths& truths, int frame, const Image<float>& v, const metrics::Drawn& drawn, const glm::dvec3& eye) {
+    const Reference& exact = truths.at(Truth::Area, frame);
+    const Mask mask = metrics::receiverMask(exact, drawn, eye);
+    const double rms = groundtruth::penumbraError(truths.at(Truth::Soft, frame), exact).rms;
+    return {exact.provenance.key, truths.content(Truth::Area, frame), rms, metrics::rmse({v, exact, mask}).value_or(0)};
 }
 
 /// Metrics of one frame against one truth, of those kinds that fit it.
@@ -50,13 +60,14 @@ void scoreStillFrame(const Scene& scene, Truths& truths, const techniques::Varia
     const int frame = scene.timeline.still - 1;
     const auto scoreSoft = [&](std::optional<ReferenceInfo>& reference) {
         const Reference& soft = truths.at(Truth::Soft, frame);
-        reference = describe(soft);
+        reference = describe(soft, truths.content(Truth::Soft, frame));
+        if (scene.light.isArea()) reference->area = besideArea(truths, frame, v, drawn, eye);
         score<metrics::OfVisibility>({v, soft, metrics::receiverMask(soft, drawn, eye)}, record);
     };
     if (mainTruth(scene, variant) == Truth::Soft) return scoreSoft(record.reference);
     const Reference& hard = truths.at(Truth::Hard, frame);
     const Mask mask = metrics::receiverMask(hard, drawn, eye);
-    record.reference = describe(hard);
+    record.reference = describe(hard, truths.content(Truth::Hard, frame));
     score<metrics::OfLabels>({v, hard, mask}, record);
     if (scene.light.isArea())
         scoreSoft(record.softReference);

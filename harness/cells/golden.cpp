@@ -21,13 +21,14 @@ using groundtruth::Reference;
 struct Wanted {
     const Scene* scene;
     GoldenName name;
-    [[nodiscard]] bool isScored() const { return name.frame == scene->timeline.still - 1; }
+    bool hasImages = false; // else the hashes are all that is kept
 };
 
 class Selection {
 public:
     explicit Selection(const GoldenOptions& options) : options_(options) {
-        const std::vector<std::string> ids = options.scenes.empty() ? standardScenes() : options.scenes;
+        std::vector<std::string> ids = options.scenes.empty() ? standardScenes() : options.scenes;
+        if (options.scenes.empty()) ids.insert(ids.end(), options.judged.begin(), options.judged.end());
         for (const std::string& id : ids) scenes_.push_back(loadScene(id, options.profile, metrics::boundedMetrics()));
         for (const Scene& scene : scenes_) add(scene);
         std::ranges::sort(wanted_, {}, &Wanted::name);
@@ -49,11 +50,16 @@ public:
 
 private:
     void add(const Scene& scene) {
-        for (const int frame : scoredFrames(scene))
-            for (const Truth truth : truthsOf(scene.light)) {
-                const GoldenName name{scene.id, truth, frame};
-                if (holds(name)) wanted_.push_back({&scene, name});
-            }
+        for (const auto& [truth, frame] : askedTruths(scene)) {
+            const GoldenName name{scene.id, truth, frame};
+            const bool hasImages = !isJudgedBeside(scene) && truth != Truth::Area && frame == scene.timeline.still - 1;
+            if (holds(name)) wanted_.push_back({&scene, name, hasImages});
+        }
+    }
+
+    /// Every clone pays for images, and hashes suffice where nobody looks at them.
+    [[nodiscard]] bool isJudgedBeside(const Scene& scene) const {
+        return std::ranges::find(options_.judged, scene.id) != options_.judged.end();
     }
 
     [[nodiscard]] bool holds(const GoldenName& name) const {
@@ -81,7 +87,7 @@ GoldenEntry entryOf(const Wanted& wanted, const Reference& reference) {
     entry.provenance = reference.provenance;
     entry.provenance.seconds = 0;
     entry.hashes = contentHashes(reference);
-    if (wanted.isScored()) entry.file = fmt::format("{}-{}.exr", entry.name.scene, name(entry.name.truth));
+    if (wanted.hasImages) entry.file = fmt::format("{}-{}.exr", entry.name.scene, name(entry.name.truth));
     return entry;
 }
 
@@ -210,7 +216,7 @@ std::vector<GoldenResult> acceptGolden(const GoldenOptions& options) {
         Reference reference = computed(wanted, progress);
         accepted.push_back(entryOf(wanted, reference));
         results.push_back(compare(lock.find(wanted.name), accepted.back(), reference, options.folder));
-        if (wanted.isScored() && results.back().status != GoldenStatus::Identical)
+        if (wanted.hasImages && results.back().status != GoldenStatus::Identical)
             images.emplace_back(accepted.back().file, std::move(reference));
     });
 

@@ -10,11 +10,12 @@
 
 namespace shadowbench {
 
-/// Which references; by default all that a run of the standard scenes asks for.
+/// Which references; by default all that a run of the gate asks for.
 struct GoldenOptions {
     std::filesystem::path folder = "results/reference"; // of lock.json and the images
     Profile profile = Profile::Gate;
-    std::vector<std::string> scenes; // ids or files; empty: the standard scenes
+    std::vector<std::string> scenes; // ids or files; empty: the standard scenes and those that are judged beside them
+    std::vector<std::string> judged; // the latter
     std::optional<Truth> truth;
     std::optional<int> frame;
     bool quiet = false;
@@ -41,8 +42,8 @@ struct GoldenResult {
 std::vector<GoldenResult> verifyGolden(const GoldenOptions& options);
 
 /// Computes the references anew and makes them the golden ones; returns how they differ from those before. The images of
-/// the last still frame are written, of moving frames the hashes alone. Nothing is written before all are computed. Throws
-/// what computing throws.
+/// the standard scenes' last still frame are written, of all others the hashes alone. Nothing is written before all are
+/// computed. Throws what computing throws.
 std::vector<GoldenResult> acceptGolden(const GoldenOptions& options);
 
 } // namespace shadowbench

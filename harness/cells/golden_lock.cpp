@@ -78,14 +78,15 @@ const GoldenEntry* GoldenLock::find(const GoldenName& wanted) const {
 
 std::filesystem::path lockFile(const std::filesystem::path& folder) { return folder / "lock.json"; }
 
-GoldenLock readLock(const std::filesystem::path& folder) {
-    const std::string text = readFile(lockFile(folder));
+GoldenLock readLock(const std::filesystem::path& folder) { return parseLock(readFile(lockFile(folder)), lockFile(folder)); }
+
+GoldenLock parseLock(const std::string& text, const std::filesystem::path& file) {
     try {
         return lockFrom(Json::parse(text));
     } catch (const Json::exception& error) {
-        throw BadInput(fmt::format("{} is no lock file of golden references: {}", lockFile(folder).string(), error.what()));
+        throw BadInput(fmt::format("{} is no lock file of golden references: {}", file.string(), error.what()));
     } catch (const BadInput& error) {
-        throw BadInput(fmt::format("{} is no lock file of golden references: {}", lockFile(folder).string(), error.what()));
+        throw BadInput(fmt::format("{} is no lock file of golden references: {}", file.string(), error.what()));
     }
 }
 

@@ -44,6 +44,9 @@ std::filesystem::path lockFile(const std::filesystem::path& folder);
 /// Throws BadInput, naming the file, when it cannot be read or is no lock file.
 GoldenLock readLock(const std::filesystem::path& folder);
 
+/// The same of a lock file's text; `file` is what errors name.
+GoldenLock parseLock(const std::string& text, const std::filesystem::path& file);
+
 /// Entries are written by name. Throws InternalError when the file cannot be written.
 void writeLock(const GoldenLock& lock, const std::filesystem::path& folder);
 

@@ -89,6 +89,39 @@ std::uint64_t bytesOf(std::unique_ptr<LodTechnique> technique) {
     return with - gl::Context::current().tally().bytes;
 }
 
+/// Everything that the pictures of a variant along the scene's walk depend on.
+std::string walkOf(const Scene& scene, const std::string& variant) {
+    std::string inputs =
+        fmt::format("schema 1\nlod\n{}\n{}\nframes {}\nband {}\n", scene.id, variant, scene.lod->frames, scene.lod->band);
+    for (const Object& object : scene.objects)
+        for (const Level& level : object.levels) {
+            const glm::vec3 colour = level.colour.value_or(object.colour);
+            inputs += fmt::format("{} until {} colour {} {} {}\n", level.mesh->triangles.size(), level.until, colour.x,
+                                  colour.y, colour.z);
+        }
+    // The keys of these two hold cameras, placements and meshes.
+    Scene walk = scene;
+    walk.timeline = {1, scene.lod->frames - 1};
+    walk.eye = scene.lod->eye;
+    walk.target = scene.lod->target;
+    for (const int frame : {0, scene.lod->frames - 1}) {
+        groundtruth::Request request;
+        request.snapshot = snapshot(walk, frame);
+        request.size = scene.size;
+        inputs += groundtruth::key(request) + "\n";
+    }
+    return inputs;
+}
+
+/// The truth of such a cell: the same walk at the finest levels, drawn by the rasteriser that draws the cell.
+ReferenceInfo describe(const LodReference& reference, const Scene& scene) {
+    ReferenceInfo info;
+    info.oracle = "lod-full";
+    info.key = hash128(walkOf(scene, info.oracle)).text();
+    info.content = reference.content;
+    return info;
+}
+
 } // namespace
 
 LodStage& LodScene::stage() {
@@ -115,26 +148,7 @@ std::optional<std::string> notApplicable(const Scene& scene) {
 }
 
 std::string lodCellId(const Scene& scene, const techniques::Variant& variant) {
-    std::string inputs = fmt::format("schema 1\nlod\n{}\n{}\nframes {}\nband {}\n", scene.id, variant.name,
-                                     scene.lod->frames, scene.lod->band);
-    for (const Object& object : scene.objects)
-        for (const Level& level : object.levels) {
-            const glm::vec3 colour = level.colour.value_or(object.colour);
-            inputs += fmt::format("{} until {} colour {} {} {}\n", level.mesh->triangles.size(), level.until, colour.x,
-                                  colour.y, colour.z);
-        }
-    // The keys of these two hold cameras, placements and meshes.
-    Scene walk = scene;
-    walk.timeline = {1, scene.lod->frames - 1};
-    walk.eye = scene.lod->eye;
-    walk.target = scene.lod->target;
-    for (const int frame : {0, scene.lod->frames - 1}) {
-        groundtruth::Request request;
-        request.snapshot = snapshot(walk, frame);
-        request.size = scene.size;
-        inputs += groundtruth::key(request) + "\n";
-    }
-    return hash128(inputs).text();
+    return hash128(walkOf(scene, variant.name)).text();
 }
 
 void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const MeasureOptions& options, Record& record,
@@ -178,6 +192,7 @@ void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const Me
     busiest.bytes = bytesOf(std::move(technique));
     setWork(record, busiest);
     record.frames = frames;
+    record.reference = describe(reference, lodScene.scene());
     record.status = Status::Scored;
 }
 

@@ -1,11 +1,21 @@
 #include "harness/cells/lod_reference.h"
 
+#include "base/hash.h"
 #include "techniques/catalog.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace shadowbench::lod {
+namespace {
+
+std::string contentOf(const std::vector<metrics::ColourImage>& pictures) {
+    Hasher128 hash;
+    for (const metrics::ColourImage& picture : pictures) hash.add(picture.data(), picture.size() * sizeof(glm::u8vec3));
+    return hash.digest().text();
+}
+
+} // namespace
 
 LodReference drawReference(LodStage& stage, int frames, const Progress& progress) {
     const techniques::Variant full = techniques::parseVariant("lod-full");
@@ -27,6 +37,7 @@ LodReference drawReference(LodStage& stage, int frames, const Progress& progress
         reference.maskPixels += static_cast<std::size_t>(std::ranges::count_if(mask, [](unsigned id) { return id != 0; }));
         reference.transitions.push_back(stage.shown().inTransition());
     }
+    reference.content = contentOf(reference.pictures);
     reference.busiest =
         static_cast<std::size_t>(std::ranges::max_element(reference.transitions) - reference.transitions.begin());
     return reference;

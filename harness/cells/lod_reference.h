@@ -5,6 +5,7 @@
 #include "harness/render/lod_stage.h"
 #include "techniques/gl/counters.h"
 
+#include <string>
 #include <vector>
 
 namespace shadowbench::lod {
@@ -18,6 +19,7 @@ struct LodReference {
     std::size_t maskPixels = 0;                 // in all masks
     std::vector<std::size_t> transitions;       // instances in transition by frame
     std::size_t busiest = 0;                    // the frame with most of them
+    std::string content;                        // hash of all pictures
 };
 
 /// Draws the whole walk of the stage's scene.

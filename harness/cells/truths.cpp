@@ -1,20 +1,26 @@
 #include "harness/cells/truths.h"
 
 #include "base/error.h"
+#include "groundtruth/area_comparison.h"
+#include "groundtruth/store/golden.h"
 
 #include <fmt/format.h>
 
 namespace shadowbench {
 
-std::string_view name(Truth truth) { return truth == Truth::Hard ? "hard" : "soft"; }
+std::string_view name(Truth truth) {
+    if (truth == Truth::Area) return "area";
+    return truth == Truth::Hard ? "hard" : "soft";
+}
 
-Truth truthNamed(std::string_view name) {
-    if (name == "hard") return Truth::Hard;
-    if (name == "soft") return Truth::Soft;
-    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard and soft", name));
+Truth truthNamed(std::string_view text) {
+    for (const Truth truth : {Truth::Hard, Truth::Soft, Truth::Area})
+        if (text == name(truth)) return truth;
+    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard, soft and area", text));
 }
 
 bool hasTruth(const Light& light, Truth truth) {
+    if (truth == Truth::Area) return light.isArea();
     return truth == Truth::Hard ? !light.isEnvironment() : light.isArea() || light.isEnvironment();
 }
 
@@ -34,6 +40,7 @@ groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame
     request.size = scene.size;
     request.samples = frame < scene.timeline.still ? scene.referenceSamples : scene.movingReferenceSamples;
     if (truth == Truth::Hard) request.snapshot.light = request.snapshot.light.centreOnly();
+    if (truth == Truth::Area) request.oracle = groundtruth::Oracle::Area;
     return request;
 }
 
@@ -43,17 +50,37 @@ std::vector<int> scoredFrames(const Scene& scene) {
     return frames;
 }
 
+std::vector<std::pair<Truth, int>> askedTruths(const Scene& scene) {
+    std::vector<std::pair<Truth, int>> asked;
+    for (const int frame : scoredFrames(scene))
+        for (const Truth truth : truthsOf(scene.light)) asked.emplace_back(truth, frame);
+    if (hasTruth(scene.light, Truth::Area)) asked.emplace_back(Truth::Area, scene.timeline.still - 1);
+    return asked;
+}
+
 const groundtruth::ReferenceKey& Truths::keyOf(Truth truth, int frame) const {
     groundtruth::ReferenceKey& key = keys_[{truth, frame}];
     if (key.text.empty()) key = groundtruth::referenceKey(request(truth, frame));
     return key;
 }
 
-const groundtruth::Reference& Truths::at(Truth truth, int frame, const Progress& progress) {
+const Truths::Known& Truths::known(Truth truth, int frame, const Progress& progress) {
     const auto found = known_.find({truth, frame});
     if (found != known_.end()) return found->second;
-    groundtruth::Reference reference = groundtruth::cached(cache_, request(truth, frame), keyOf(truth, frame), progress);
-    return known_.emplace(std::pair{truth, frame}, std::move(reference)).first->second;
+    Known made{groundtruth::cached(cache_, request(truth, frame), keyOf(truth, frame), progress), ""};
+    made.content = contentOf(contentHashes(made.reference));
+    requireGolden(golden_, key(truth, frame), made.content);
+    const bool sampled = truth == Truth::Soft && scene_.light.isArea();
+    if (sampled && frame == scene_.timeline.still - 1) requireNearArea(made.reference, frame, progress);
+    return known_.emplace(std::pair{truth, frame}, std::move(made)).first->second;
+}
+
+void Truths::requireNearArea(const groundtruth::Reference& soft, int frame, const Progress& progress) {
+    try {
+        groundtruth::requireNearExact(soft, at(Truth::Area, frame, progress));
+    } catch (const Inconclusive& error) {
+        throw Inconclusive(fmt::format("scene {} frame {}: {}", scene_.id, frame, error.what()));
+    }
 }
 
 } // namespace shadowbench

@@ -3,6 +3,7 @@
 
 #include "groundtruth/oracle.h"
 #include "groundtruth/store/cache.h"
+#include "harness/cells/golden_contents.h"
 #include "scene/scene.h"
 
 #include <map>
@@ -14,15 +15,16 @@
 namespace shadowbench {
 
 /// Exact truth of the light's centre, or soft truth of the whole light: the visible fraction of an area light, the share of
-/// an environment's irradiance that arrives.
-enum class Truth { Hard, Soft };
-std::string_view name(Truth truth);      // "hard", "soft"
-Truth truthNamed(std::string_view name); // throws BadInput naming both
+/// an environment's irradiance that arrives. Area is the exact visible fraction of an area light at every pixel: what its
+/// soft truth, which POV-Ray samples, is held to.
+enum class Truth { Hard, Soft, Area };
+std::string_view name(Truth truth);      // "hard", "soft", "area"
+Truth truthNamed(std::string_view name); // throws BadInput naming all
 
 /// Whether a scene's light has that truth: an environment, all around, has no hard one, and only it and area lights have a
 /// soft one.
 bool hasTruth(const Light& light, Truth truth);
-std::vector<Truth> truthsOf(const Light& light); // hard before soft
+std::vector<Truth> truthsOf(const Light& light); // that cells are scored by: hard before soft
 
 /// The request for one frame's truth; moving frames of an area light take fewer samples. Throws BadInput for a truth that
 /// the scene's light does not have.
@@ -31,9 +33,14 @@ groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame
 /// Frames that are scored: the last still one and the moving ones.
 std::vector<int> scoredFrames(const Scene& scene);
 
+/// All that a run of the scene asks for: truthsOf its light for each scored frame, and Area for the last still one.
+std::vector<std::pair<Truth, int>> askedTruths(const Scene& scene);
+
 class Truths {
 public:
-    Truths(const Scene& scene, const groundtruth::Cache& cache) : scene_(scene), cache_(cache) {}
+    /// What `golden` names must have the content that it says.
+    Truths(const Scene& scene, const groundtruth::Cache& cache, const GoldenContents& golden = committedContents())
+        : scene_(scene), cache_(cache), golden_(golden) {}
 
     /// As the functions above, of this object's scene.
     [[nodiscard]] groundtruth::Request request(Truth truth, int frame) const {
@@ -44,15 +51,29 @@ public:
     /// groundtruth::key of that request, computed once: it hashes every mesh and asks the tools for their versions.
     [[nodiscard]] const std::string& key(Truth truth, int frame) const { return keyOf(truth, frame).text; }
 
-    /// The reference, valid as long as this object.
-    const groundtruth::Reference& at(Truth truth, int frame, const Progress& progress = {});
+    /// The reference, valid as long as this object. Throws what computing throws, and Inconclusive for one that has the key
+    /// of a golden reference and another content, and for the soft truth of an area light, in the last still frame, whose
+    /// rms error against Area is not what its certificate says.
+    const groundtruth::Reference& at(Truth truth, int frame, const Progress& progress = {}) {
+        return known(truth, frame, progress).reference;
+    }
+
+    /// groundtruth::contentOf of that reference.
+    const std::string& content(Truth truth, int frame) { return known(truth, frame, {}).content; }
 
 private:
+    struct Known {
+        groundtruth::Reference reference;
+        std::string content;
+    };
     [[nodiscard]] const groundtruth::ReferenceKey& keyOf(Truth truth, int frame) const;
+    const Known& known(Truth truth, int frame, const Progress& progress);
+    void requireNearArea(const groundtruth::Reference& soft, int frame, const Progress& progress);
 
     const Scene& scene_;
     const groundtruth::Cache& cache_;
-    std::map<std::pair<Truth, int>, groundtruth::Reference> known_;
+    const GoldenContents& golden_;
+    std::map<std::pair<Truth, int>, Known> known_;
     mutable std::map<std::pair<Truth, int>, groundtruth::ReferenceKey> keys_;
 };
 

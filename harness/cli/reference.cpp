@@ -4,6 +4,7 @@
 #include "groundtruth/cgal/hard/exact.h"
 #include "groundtruth/cgal/plan/polygon_files.h"
 #include "groundtruth/contract/reference_files.h"
+#include "groundtruth/store/golden.h"
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
 #include "harness/metrics/table.h"
@@ -81,6 +82,7 @@ ExitCode computeReference(const ReferenceOptions& options) {
     const groundtruth::Reference computed =
         groundtruth::compute(named.request, [&](double share, std::string_view what) { line.show(0, share, what); });
     line.show(1, 0, "");
+    requireGolden(committedContents(), computed.provenance.key, contentOf(contentHashes(computed)));
     groundtruth::writeReference(computed, options.out);
     fmt::print("{} frame {} by {}: {}\n", named.scene, named.frame, computed.provenance.oracle,
                (options.out / "visibility.exr").string());
@@ -102,7 +104,8 @@ void addReference(CLI::App& app, Action& action) {
         "  shadowbench reference --verify --truth hard\n  shadowbench reference --accept --scene simple\n"
         "  shadowbench reference --report results/truth");
     verb->add_option("--scene", options.scenes,
-                     "Scene id or file; with --verify, --accept and --report repeatable (default: the standard scenes)");
+                     "Scene id or file; with --verify, --accept and --report repeatable (default: the standard scenes, and "
+                     "of golden references those that the gate judges beside them)");
     verb->add_option("--frame", words->frame, "Frame number (default: the scored one; of golden references all)")
         ->check(CLI::NonNegativeNumber);
     CLI::Option* oracle =
@@ -125,7 +128,7 @@ void addReference(CLI::App& app, Action& action) {
     CLI::Option* verify = verb->add_flag("--verify", words->verify, "Compute the golden references again and compare");
     CLI::Option* accept =
         verb->add_flag("--accept", words->accept, "Compute the golden references again, say what changed, and keep them");
-    verb->add_option("--truth", words->truth, "Golden references of one truth only: hard or soft");
+    verb->add_option("--truth", words->truth, "Golden references of one truth only: hard, soft or area");
     verb->add_option("--golden", options.golden, "Folder of the golden references")->capture_default_str();
     verb->add_flag("--json", options.json, "What --verify, --accept and --certify found, for machines");
     verb->add_flag("--quiet", options.quiet, "No progress");

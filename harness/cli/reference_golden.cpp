@@ -1,5 +1,7 @@
 #include "harness/cells/golden.h"
 #include "harness/cli/reference.h"
+#include "harness/gate/gate.h"
+#include "harness/gate/watchlist.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -8,8 +10,19 @@
 namespace shadowbench {
 namespace {
 
+/// Of the gate's own file, where the program runs in the tree that has it.
+std::vector<std::string> judgedBeside(Profile profile) {
+    const std::filesystem::path file = gate::GateOptions().bounds;
+    std::vector<std::string> scenes;
+    if (!std::filesystem::exists(file)) return scenes;
+    for (const gate::Watch& watch : gate::readWatchlist(file, profile).scenes)
+        if (std::ranges::find(scenes, watch.scene) == scenes.end()) scenes.push_back(watch.scene);
+    return scenes;
+}
+
 GoldenOptions goldenOptions(const ReferenceOptions& options) {
-    return {options.golden, options.profile, options.scenes, options.truth, options.frame, options.quiet};
+    return {options.golden, options.profile, options.scenes, judgedBeside(options.profile),
+            options.truth,  options.frame,   options.quiet};
 }
 
 std::size_t count(const std::vector<GoldenResult>& results, GoldenStatus status) {

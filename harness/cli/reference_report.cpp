@@ -5,6 +5,7 @@
 #include "base/progress_line.h"
 #include "groundtruth/certify/agreement.h"
 #include "groundtruth/store/cache.h"
+#include "groundtruth/store/golden.h"
 #include "harness/cli/written_report.h"
 #include "harness/report/truth_report.h"
 
@@ -26,6 +27,8 @@ report::TruthOfScene truthOf(const Scene& scene, int frame, const groundtruth::C
         const groundtruth::Request request = referenceRequest(scene, truth, frame);
         const std::string kind(name(truth));
         result.references.push_back({kind, groundtruth::cached(cache, request, step(kind + " reference"))});
+        const groundtruth::Reference& reference = result.references.back().reference;
+        requireGolden(committedContents(), reference.provenance.key, contentOf(contentHashes(reference)));
         for (groundtruth::Agreement& agreement : groundtruth::oracleAgreement(request, step("agreement on " + kind)))
             result.agreements.push_back(std::move(agreement));
     }

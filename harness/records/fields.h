@@ -61,12 +61,21 @@ void fields(auto& visit, Is<Environment> auto& e) {
     visit.text("libraries", e.libraries);
 }
 
+void fields(auto& visit, Is<AreaInfo> auto& a) {
+    visit("key", a.key);
+    visit("content", a.content);
+    visit("rms", a.rms);
+    visit("rmse", a.rmse);
+}
+
 void fields(auto& visit, Is<ReferenceInfo> auto& r) {
     visit("oracle", r.oracle);
     visit("key", r.key);
     visit("samples", r.samples);
     visit("sigma", r.sigma);
     visit("tools", r.tools);
+    visit.text("content", r.content);
+    visit("area", r.area);
 }
 
 void fields(auto& visit, Is<SweepStep> auto& s) {

@@ -29,11 +29,20 @@ struct Environment {
     std::string libraries = {};   // C and C++, with their revisions
 };
 
+/// The exact visible fraction at every pixel, beside the sampled truth of an area light.
+struct AreaInfo {
+    std::string key, content;
+    double rms = 0;  // of the sampled truth against it, over the penumbra
+    double rmse = 0; // of the cell against it, over the scored pixels, as "accuracy.rmse" is against the sampled truth
+};
+
 struct ReferenceInfo {
     std::string oracle, key;
     int samples = 0;
     double sigma = 0; // rms over penumbra pixels; 0 for exact
     std::map<std::string, std::string> tools;
+    std::string content = {};          // hash of the pixels, whatever they were made by; "" in records of older programs
+    std::optional<AreaInfo> area = {}; // of a sampled truth of an area light, where the exact one was computed beside it
 };
 
 /// The place of a record on a curve over one quantity (`sweep`). All records of a curve have the same scene, axis and curve.

@@ -103,7 +103,20 @@ constexpr const char* withoutMetrics = R"({
         "key": {"type": "string"},
         "samples": {"$ref": "#/definitions/count"},
         "sigma": {"$ref": "#/definitions/size"},
-        "tools": {"type": "object", "additionalProperties": {"type": "string"}}
+        "tools": {"type": "object", "additionalProperties": {"type": "string"}},
+        "content": {"type": "string", "description": "hash of the truth's pixels", "minLength": 1},
+        "area": {
+          "type": "object",
+          "description": "the exact visible fraction of the same frame; rms: of the sampled truth against it, over the penumbra; rmse: of the cell against it",
+          "additionalProperties": false,
+          "required": ["key", "content", "rms", "rmse"],
+          "properties": {
+            "key": {"type": "string"},
+            "content": {"type": "string"},
+            "rms": {"$ref": "#/definitions/size"},
+            "rmse": {"$ref": "#/definitions/size"}
+          }
+        }
       }
     }
   }

@@ -54,6 +54,16 @@ TEST_P(LodScenes, TheFinestLevelIsItsOwnReference) {
     EXPECT_EQ(*full["lod.noise"], 0);
 }
 
+TEST_P(LodScenes, RecordsNameTheWalkThatTheyAreComparedWith) {
+    const Record &full = lodCell(GetParam(), "lod-full"), &other = lodCell(GetParam(), "lod-switch");
+    ASSERT_TRUE(full.reference && other.reference);
+    EXPECT_EQ(other.reference->oracle, "lod-full");
+    EXPECT_EQ(other.reference->key.size(), 32U);
+    EXPECT_EQ(other.reference->key, full.reference->key);
+    EXPECT_EQ(other.reference->content.size(), 32U);
+    EXPECT_EQ(other.reference->content, full.reference->content);
+}
+
 /// K19, replayed without drawing: triangles of the levels that instances show, those in transition at one of their two
 /// levels, in turn. An instance that begins its transition shows the level that is wholly visible then (dissertation 5.1.2).
 std::vector<double> trianglesOfFrameSequentialWalk(const Scene& scene) {

@@ -1,11 +1,16 @@
 // Golden references: the committed ones, and the commands that verify and replace them.
+#include "base/error.h"
 #include "base/files.h"
 #include "harness/cells/golden_lock.h"
+#include "harness/gate/gate.h"
+#include "harness/gate/watchlist.h"
+#include "harness/metrics/table.h"
 #include "scene/load/load.h"
 #include "tests/support/program.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace shadowbench {
 namespace {
@@ -27,22 +32,64 @@ TEST(GoldenReferences, CommittedImagesAreWhatTheLockSays) {
     EXPECT_LT(bytes, 3U << 20); // every clone pays for them
 }
 
-TEST(GoldenReferences, AreAllThatARunOfTheStandardScenesAsksFor) {
+/// The standard scenes and those that the gate judges beside them.
+std::set<std::string> judgedScenes(Profile profile) {
+    const std::vector<std::string> standard = standardScenes();
+    std::set<std::string> scenes(standard.begin(), standard.end());
+    const fs::path bounds = fs::path(SOURCE_FOLDER) / gate::GateOptions().bounds;
+    for (const gate::Watch& watch : gate::readWatchlist(bounds, profile).scenes) scenes.insert(watch.scene);
+    return scenes;
+}
+
+TEST(GoldenReferences, AreAllThatTheGateAsksFor) {
     const GoldenLock lock = readLock(committed);
     std::size_t asked = 0;
-    for (const std::string& id : standardScenes()) {
-        const Scene scene = loadScene(id, lock.profile);
-        for (const int frame : scoredFrames(scene)) {
-            for (const Truth truth : {Truth::Hard, Truth::Soft}) {
-                if (truth == Truth::Soft && !scene.light.isArea()) continue;
-                ++asked;
-                const GoldenEntry* entry = lock.find({id, truth, frame});
-                ASSERT_NE(entry, nullptr) << id << " " << name(truth) << " frame " << frame;
-                EXPECT_EQ(entry->file.empty(), frame != scene.timeline.still - 1) << id;
-            }
+    for (const std::string& id : judgedScenes(lock.profile)) {
+        const Scene scene = loadScene(id, lock.profile, metrics::boundedMetrics());
+        for (const auto& [truth, frame] : askedTruths(scene)) {
+            ++asked;
+            const GoldenEntry* entry = lock.find({id, truth, frame});
+            ASSERT_NE(entry, nullptr) << id << " " << name(truth) << " frame " << frame;
+            const bool standard = std::ranges::count(standardScenes(), id) > 0;
+            EXPECT_EQ(!entry->file.empty(), standard && truth != Truth::Area && frame == scene.timeline.still - 1) << id;
         }
     }
     EXPECT_EQ(asked, lock.entries.size());
+}
+
+TEST(GoldenContents, ATruthWithALockedKeyAndOtherPixelsIsInconclusive) {
+    const Folder folder;
+    const Scene scene = loadScene(folder.write("tiny.toml", tinyScene()), Profile::Gate);
+    const groundtruth::Cache cache(folder / "cache");
+    GoldenContents golden;
+    Truths unlocked(scene, cache, golden);
+    const std::string key = unlocked.key(Truth::Hard, 2), content = unlocked.content(Truth::Hard, 2);
+    golden[key] = {"tiny", "hard", 2, content};
+    EXPECT_EQ(Truths(scene, cache, golden).content(Truth::Hard, 2), content);
+
+    golden[key].content[0] = content[0] == '0' ? '1' : '0';
+    try {
+        Truths(scene, cache, golden).at(Truth::Hard, 2);
+        ADD_FAILURE() << "a truth that is not the golden one is given";
+    } catch (const Inconclusive& error) {
+        for (const char* part : {"hard truth of tiny frame 2", "reference --verify --scene tiny", "cache prune --all"})
+            EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+}
+
+TEST(GoldenContents, ARunAgainstAWrongTruthInTheCacheEndsAsInconclusive) {
+    const Folder folder;
+    const Scene scene = loadScene("simple", Profile::Gate, metrics::boundedMetrics());
+    const groundtruth::Cache cache(folder / "cache");
+    groundtruth::Reference wrong =
+        groundtruth::cached(cache, referenceRequest(scene, Truth::Hard, scene.timeline.still - 1));
+    for (int x = 100; x < 110; ++x) wrong.visibility(x, 200) = 1 - wrong.visibility(x, 200);
+    cache.store(wrong);
+    const Outcome outcome = shell("shadowbench run --quiet --scene simple --technique none --cost none --cache " +
+                                  folder / "cache" + " --out " + folder / "out");
+    EXPECT_EQ(outcome.code, 5) << outcome.output;
+    EXPECT_NE(outcome.output.find("the hard truth of simple frame 59 is not the golden one"), std::string::npos)
+        << outcome.output;
 }
 
 /// Those that take a second each; the soft ones take POV-Ray a minute.

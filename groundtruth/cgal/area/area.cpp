@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "groundtruth/cgal/area/area_exact.h"
+#include "groundtruth/cgal/area/area_points.h"
 #include "groundtruth/cgal/area/area_shape.h"
 #include "groundtruth/cgal/area/area_sweep.h"
 #include "groundtruth/cgal/geometry/primary.h"
@@ -38,6 +39,13 @@ BoundedFraction areaFraction(const std::vector<CoverEdge>& edges, const LightSha
     return {enclosedFraction(swept.areas, shape), error};
 }
 
+/// What hides the light, and the fraction that it leaves.
+struct Hidden {
+    std::vector<CoverEdge> edges;       // of a rectangle or disk
+    std::vector<CoverInterval> parts{}; // of a line
+    BoundedFraction left{};
+};
+
 BoundedFraction lengthFraction(const std::vector<CoverInterval>& hidden) {
     if (hidden.empty()) return {fullyLit, 0};
     const VisibleLength length = visibleLength(hidden);
@@ -69,22 +77,26 @@ struct AreaScene::Data {
     }
 
     /// Nothing where the light is seen edge-on.
-    [[nodiscard]] std::optional<BoundedFraction> fraction(const SurfacePoint& point) const {
-        std::optional<BoundedFraction> found;
+    [[nodiscard]] std::optional<Hidden> hidden(const SurfacePoint& point) const {
+        std::optional<Hidden> found;
         for (const double tolerance : tolerances) {
-            found = fraction(point, tolerance);
-            if (!found || found->error <= wantedError) break;
+            found = hidden(point, tolerance);
+            if (!found || found->left.error <= wantedError) break;
         }
         return found;
     }
 
-    [[nodiscard]] std::optional<BoundedFraction> fraction(const SurfacePoint& point, double tolerance) const {
+    [[nodiscard]] std::optional<Hidden> hidden(const SurfacePoint& point, double tolerance) const {
         if (light.kind == LightKind::Line) {
-            const auto hidden = coverIntervals(*triangles, light, point, tolerance);
-            return hidden ? std::optional(lengthFraction(*hidden)) : std::nullopt;
+            auto parts = coverIntervals(*triangles, light, point, tolerance);
+            if (!parts) return std::nullopt;
+            const BoundedFraction left = lengthFraction(*parts);
+            return Hidden{{}, std::move(*parts), left};
         }
-        const auto edges = coverEdges(*triangles, light, point, tolerance);
-        return edges ? std::optional(areaFraction(*edges, shape)) : std::nullopt;
+        auto edges = coverEdges(*triangles, light, point, tolerance);
+        if (!edges) return std::nullopt;
+        const BoundedFraction left = areaFraction(*edges, shape);
+        return Hidden{std::move(*edges), {}, left};
     }
 };
 
@@ -99,8 +111,20 @@ AreaScene::AreaScene(const Snapshot& snapshot, std::shared_ptr<const SceneTriang
 AreaScene::~AreaScene() = default;
 
 VisibleFraction AreaScene::fraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const {
-    const std::optional<BoundedFraction> found = data_->fraction(data_->surfacePoint(pixel, size, primary));
-    return found ? found->fraction : VisibleFraction{0, 1};
+    const std::optional<Hidden> found = data_->hidden(data_->surfacePoint(pixel, size, primary));
+    return found ? found->left.fraction : VisibleFraction{0, 1};
+}
+
+SampledFraction AreaScene::sampledFraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary,
+                                           const LightPoints& points) const {
+    const std::optional<Hidden> found = data_->hidden(data_->surfacePoint(pixel, size, primary));
+    const std::vector<int> none(points.sizes().size(), 0);
+    if (!found) return {{0, 1}, none};
+    const VisibleFraction& fraction = found->left.fraction;
+    if (fraction.low == 1) return {fraction, points.sizes()};
+    if (fraction.high == 0) return {fraction, none};
+    const bool line = data_->light.kind == LightKind::Line;
+    return {fraction, line ? points.visible(found->parts) : points.visible(found->edges)};
 }
 
 VisibleFraction AreaScene::exactFraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const {
@@ -119,14 +143,14 @@ void AreaScene::label(glm::ivec2 size, const PrimaryHits& primary, Reference& ou
     inParallel(size.y, data_->threads, progress, "visible fractions", [&](int y) {
         for (int x = 0; x < size.x; ++x) {
             if (primary.surface(x, y) != Surface::Receiver) continue;
-            const auto found = data_->fraction(data_->surfacePoint({x, y}, size, primary));
+            const auto found = data_->hidden(data_->surfacePoint({x, y}, size, primary));
             if (!found) {
                 out.surface(x, y) = Surface::OnEdge;
                 continue;
             }
-            const VisibleFraction& f = found->fraction;
+            const VisibleFraction& f = found->left.fraction;
             out.visibility(x, y) = static_cast<float>(0.5 * (f.low + f.high));
-            out.sigma(x, y) = static_cast<float>(0.5 * (f.high - f.low) + found->error);
+            out.sigma(x, y) = static_cast<float>(0.5 * (f.high - f.low) + found->left.error);
         }
     });
 }

@@ -11,6 +11,7 @@
 #include "groundtruth/contract/reference.h"
 
 #include <memory>
+#include <vector>
 
 namespace shadowbench::groundtruth::geometry {
 class SceneTriangles; // groundtruth/cgal/geometry/triangles.h
@@ -26,6 +27,14 @@ constexpr int codeVersion = 1;
 /// line) sees the light edge-on and has no fraction: low = 0, high = 1.
 struct VisibleFraction {
     double low, high;
+};
+
+class LightPoints; // groundtruth/cgal/area/area_points.h
+
+/// Beside the fraction, how many points of each set of LightPoints are visible (none where the light is seen edge-on).
+struct SampledFraction {
+    VisibleFraction fraction{0, 1};
+    std::vector<int> visible;
 };
 
 /// A snapshot prepared for queries; const use is thread-safe.
@@ -44,7 +53,12 @@ public:
     /// else InternalError.
     [[nodiscard]] VisibleFraction fraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const;
 
-    /// The same by another derivation in rational numbers (clipped triangles in one arrangement), rounded at the end:
+    /// The same with what the surface point sees of single points of the light: what a render that samples the light at them
+    /// must show.
+    [[nodiscard]] SampledFraction sampledFraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary,
+                                                  const LightPoints& points) const;
+
+    /// `fraction` by another derivation in rational numbers (clipped triangles in one arrangement), rounded at the end:
     /// checks `fraction`. Too slow for whole images.
     [[nodiscard]] VisibleFraction exactFraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const;
 

@@ -1,5 +1,6 @@
 #include "groundtruth/cgal/area/area_view.h"
 
+#include "groundtruth/cgal/area/area_double_double.h"
 #include "groundtruth/cgal/area/area_light_map.h"
 #include "groundtruth/cgal/area/area_rough.h"
 #include "groundtruth/cgal/geometry/arithmetic.h"
@@ -25,6 +26,22 @@ Interval toInterval(const Rational& value) {
     return {bounds.first, bounds.second};
 }
 
+Interval toInterval(const DoubleDouble& value) {
+    const double slack = (std::abs(value.low) + value.error) * (1 + 0x1p-40);
+    if (slack == 0) return value.high;
+    return {std::nextafter(value.high - slack, -INFINITY), std::nextafter(value.high + slack, INFINITY)};
+}
+
+using geometry::signOf;
+
+/// As those of groundtruth/cgal/geometry/arithmetic.h.
+int signOf(const DoubleDouble& value) {
+    const double least = std::abs(value.high) * (1 - 0x1p-40);
+    if (!(least > value.error) && !(value.high == 0 && value.error == 0))
+        throw CGAL::Uncertain_conversion_exception("the sign of a double-double number is open");
+    return value.high > 0 ? 1 : value.high < 0 ? -1 : 0;
+}
+
 LightMap<Interval> intervalMap(const ReceiverPoint& point, const ReceiverPoint::Remainder& rest, const Light& light,
                                int sense) {
     return {vector<Interval>(point.rounded()),
@@ -33,11 +50,13 @@ LightMap<Interval> intervalMap(const ReceiverPoint& point, const ReceiverPoint::
             sense};
 }
 
-LightMap<Rational> rationalMap(const SurfacePoint& point, const Light& light, int sense) {
-    const Vector<Rational> corner = vector<Rational>(point.receiver[0]), across = normal<Rational>(point.receiver);
-    const Vector<Rational> origin = vector<Rational>(point.ray.origin), direction = vector<Rational>(point.ray.direction);
-    const Rational depth = dot(across, corner - origin) / dot(across, direction);
-    return {origin + depth * direction, vector<Rational>(glm::dvec3(0)), light, sense};
+/// In rational or double-double numbers.
+template <typename Number>
+LightMap<Number> mapFrom(const SurfacePoint& point, const Light& light, int sense) {
+    const Vector<Number> corner = vector<Number>(point.receiver[0]), across = normal<Number>(point.receiver);
+    const Vector<Number> origin = vector<Number>(point.ray.origin), direction = vector<Number>(point.ray.direction);
+    const Number depth = dot(across, corner - origin) / dot(across, direction);
+    return {origin + depth * direction, vector<Number>(glm::dvec3(0)), light, sense};
 }
 
 /// A vertex of something clipped. On the window's borders its coordinates are known: column or row −1 or 1.
@@ -53,7 +72,8 @@ Corner<Number> between(const Corner<Number>& a, const Corner<Number>& b, const N
     return {a.at + share * (b.at - a.at), a.column == b.column ? a.column : 0, a.row == b.row ? a.row : 0};
 }
 
-/// The exact view of the light's plane from one point, in intervals and, made when first needed, in rational numbers.
+/// The exact view of the light's plane from one point, in intervals and, made when first needed, in double-double and in
+/// rational numbers.
 class View {
 public:
     View(const Light& light, const SurfacePoint& point, const ReceiverPoint& receiver)
@@ -66,8 +86,8 @@ public:
     /// 1 if u × v points away from the surface point, −1 if towards it, 0 if the point lies in the light's plane.
     [[nodiscard]] int sense() const { return sense_; }
 
-    /// Runs `construct(map)` in intervals, and again in rational numbers where those leave a decision open or yield a result
-    /// for which `tooWide` holds.
+    /// Runs `construct(map)` in intervals, again in double-double numbers and at last in rational ones, where those before
+    /// leave a decision open or yield a result for which `tooWide` holds.
     template <typename Construct, typename TooWide>
     auto filtered(const Construct& construct, const TooWide& tooWide) {
         try {
@@ -77,7 +97,14 @@ public:
         } catch (const CGAL::Uncertain_conversion_exception&) {
             // decided below
         }
-        if (!rationals_) rationals_.emplace(rationalMap(point_, light_, sense_));
+        try {
+            if (!doubleDoubles_) doubleDoubles_.emplace(mapFrom<DoubleDouble>(point_, light_, sense_));
+            auto result = construct(*doubleDoubles_);
+            if (!tooWide(result)) return result;
+        } catch (const CGAL::Uncertain_conversion_exception&) {
+            // decided below
+        }
+        if (!rationals_) rationals_.emplace(mapFrom<Rational>(point_, light_, sense_));
         return construct(*rationals_);
     }
 
@@ -87,7 +114,7 @@ private:
             const Interval::Protector rounding;
             return signOf(intervalMap(receiver, rest_, light_, 1).distance);
         } catch (const CGAL::Uncertain_conversion_exception&) {
-            return signOf(rationalMap(point_, light_, 1).distance);
+            return signOf(mapFrom<Rational>(point_, light_, 1).distance);
         }
     }
 
@@ -96,6 +123,7 @@ private:
     ReceiverPoint::Remainder rest_;
     int sense_;
     std::optional<LightMap<Interval>> intervals_;
+    std::optional<LightMap<DoubleDouble>> doubleDoubles_;
     std::optional<LightMap<Rational>> rationals_;
 };
 

@@ -1,4 +1,6 @@
 #include "groundtruth/certify/agreement.h"
+
+#include "base/error.h"
 #include "scene/load/load.h"
 #include "scene/scene.h"
 #include "tests/support/povray_scene.h"
@@ -46,6 +48,28 @@ TEST(OracleAgreement, IsEmptyWhereNoTwoOraclesApply) {
     ball.snapshot.batches.clear();
     ball.snapshot.batches.push_back(placed(sphere(1.0, 5000), at({0, 1, 0}), 1));
     EXPECT_TRUE(oracleAgreement(ball).empty()) << "no plane";
+}
+
+TEST(OracleAgreement, AContradictionOffTheEdgesIsInconclusiveAndNamesItsPixel) {
+    Reference a, b;
+    a.visibility = b.visibility = Image<float>(3, 2, 1);
+    a.surface = b.surface = Image<Surface>(3, 2, Surface::Receiver);
+    a.provenance.oracle = "rays";
+    b.provenance.oracle = "polygon";
+    Image<std::uint8_t> compared(3, 2, 1);
+    b.visibility(0, 0) = 0;
+    compared(0, 0) = 0;
+    b.visibility(1, 0) = 0;
+    a.surface(1, 0) = Surface::OnEdge;
+    requireSameLabels(a, b, compared);
+    b.visibility(2, 1) = 0;
+    try {
+        requireSameLabels(a, b, compared);
+        ADD_FAILURE() << "a contradiction passes";
+    } catch (const Inconclusive& error) {
+        EXPECT_NE(std::string(error.what()).find("pixel (2, 1): rays says lit, polygon says shadowed"), std::string::npos)
+            << error.what();
+    }
 }
 
 TEST(OracleAgreement, CountsContradictionsAndEdgesApart) {

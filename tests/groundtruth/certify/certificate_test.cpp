@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "groundtruth/certify/certificate.h"
 #include "groundtruth/povray/uncertainty.h"
+#include "tests/support/certificates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ povray::Render honest() {
     return render([](int x, int y) { return ((x + y) % 2 == 0 ? 1.0 : -1.0) * glm::dvec3(2, 3, 5); });
 }
 
-Certificate certified(const povray::Render& image, int points = certificatePointCount) {
+Certificate certified(const povray::Render& image, int points = 512) {
     return certify(image, ground(), samples, points, 1, exactRamp);
 }
 
@@ -149,23 +150,29 @@ TEST(Certificate, RejectsSamplesOfUnequalWeight) {
     expectRejected(render([](int, int) { return glm::dvec3(0.4); }), "weights");
 }
 
-TEST(Certificate, RejectsErrorsBeyondThoseOfRandomSamples) {
-    expectRejected(render([](int x, int y) { return ((x + y) % 2 == 0 ? 1.0 : -1.0) * glm::dvec3(21, 40, 80); }),
-                   "random samples would leave"); // 0.0128, and 1.5 times that and 1/N are allowed
+/// A certificate that meets its bounds: half of each.
+Certificate withinBounds() {
+    Certificate c;
+    c.points = c.penumbra = 512;
+    c.honest = HonestBounds{0.001, 0.004, 0.5};
+    c.bias = 0.0005;
+    c.rms = 0.002;
+    c.rmsQuarter = 0.008;
+    return c;
 }
 
-TEST(Certificate, RejectsABias) {
-    expectRejected(render([](int, int) { return glm::dvec3(10, 20, 40); }), "mean error"); // bound 0.0074
-}
+TEST(Certificate, PassesWithinTheBoundsOfHonestRenders) { requireCertified(withinBounds(), samples); }
 
-TEST(Certificate, RejectsAnErrorThatDoesNotFall) {
-    const auto falling = [](double quarter) {
-        return render([quarter](int x, int y) {
-            return ((x + y) % 2 == 0 ? 1.0 : -1.0) * glm::dvec3(11, 11, quarter); // above two thirds of 0.0128
-        });
+TEST(Certificate, RejectsWhatOtherSampleSetsDoNotLeave) {
+    const auto refused = [](auto&& change) {
+        Certificate c = withinBounds();
+        change(c);
+        return rejection(requireCertified, c, samples);
     };
-    expectRejected(falling(11), "does not fall");
-    requireCertified(certified(falling(22)), samples); // halves
+    EXPECT_NE(refused([](Certificate& c) { c.bias = -0.0013; }).find("mean error of -0.00130"), std::string::npos);
+    EXPECT_NE(refused([](Certificate& c) { c.rms = 0.0043; }).find("is more than other sets"), std::string::npos);
+    EXPECT_NE(refused([](Certificate& c) { c.rmsQuarter = 0.0034; }).find("does not fall"), std::string::npos);
+    EXPECT_NE(refused([](Certificate& c) { c.replayed = 0.26; }).find("differ by 0.26 of 1024 samples"), std::string::npos);
 }
 
 TEST(Certificate, DoesNotJudgeByAFewPenumbraPixels) {
