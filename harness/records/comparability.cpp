@@ -47,6 +47,11 @@ std::optional<std::string> parameterDifference(const Record& base, const Record&
 
 std::string keyOf(const std::optional<ReferenceInfo>& reference) { return reference ? reference->key : ""; }
 
+/// Whether one of two truths of one key was computed otherwise; older records do not say.
+bool otherContent(const std::optional<ReferenceInfo>& base, const std::optional<ReferenceInfo>& head) {
+    return base && head && stated("content", base->content, head->content);
+}
+
 } // namespace
 
 std::optional<std::string> difference(const Environment& a, const Environment& b, Surroundings what) {
@@ -69,6 +74,8 @@ std::string truthOf(const Record& record) { return keyOf(record.reference) + " "
 std::optional<std::string> whyIncomparable(const Record& base, const Record& head) {
     if (truthOf(base) != truthOf(head))
         return "it was scored against different truths: the scene or the ground truth changed";
+    if (otherContent(base.reference, head.reference) || otherContent(base.softReference, head.softReference))
+        return "it was scored against truths of one key with other pixels: the ground truth's code or tools changed";
     if (auto parameters = parameterDifference(base, head)) return parameters;
     if (base.frames != head.frames) return fmt::format("it had {} frames and has {}", base.frames, head.frames);
     if (const auto rasteriser = difference(base.environment, head.environment, Surroundings::OfScores))

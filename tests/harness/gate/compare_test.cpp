@@ -143,8 +143,9 @@ TEST(Compare, InstructionsCountedInDifferentEnvironmentsAreNotJudgedScoresAre) {
 
 TEST(Compare, ScoresOfWhatIsNotComparableAreNotJudged) {
     for (const auto& change : std::vector<std::function<void(Record&)>>{
-             [](Record& r) { r.reference->key = "other"; }, [](Record& r) { r.parameters[1].second = "2048"; },
-             [](Record& r) { r.frames = 12; }, [](Record& r) { r.environment.renderer = "softpipe"; },
+             [](Record& r) { r.reference->key = "other"; }, [](Record& r) { r.reference->content = "other"; },
+             [](Record& r) { r.parameters[1].second = "2048"; }, [](Record& r) { r.frames = 12; },
+             [](Record& r) { r.environment.renderer = "softpipe"; },
              [](Record& r) { r.environment.mesa = "libosmesa6 22.3.6-2"; }}) {
         Record head = hardRecord();
         change(head);
