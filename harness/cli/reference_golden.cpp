@@ -2,26 +2,39 @@
 #include "harness/cli/reference.h"
 #include "harness/gate/gate.h"
 #include "harness/gate/watchlist.h"
+#include "scene/load/load.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace shadowbench {
 namespace {
 
-/// Of the gate's own file, where the program runs in the tree that has it.
-std::vector<std::string> judgedBeside(Profile profile) {
-    const std::filesystem::path file = gate::GateOptions().bounds;
-    std::vector<std::string> scenes;
-    if (!std::filesystem::exists(file)) return scenes;
-    for (const gate::Watch& watch : gate::readWatchlist(file, profile).scenes)
-        if (std::ranges::find(scenes, watch.scene) == scenes.end()) scenes.push_back(watch.scene);
+/// The scenes that the gate's own file names; outside of the tree, which has it, those of the lock.
+std::set<std::string> judged(const ReferenceOptions& options) {
+    std::set<std::string> scenes;
+    const std::filesystem::path bounds = gate::GateOptions().bounds;
+    if (std::filesystem::exists(bounds))
+        for (const gate::Watch& watch : gate::readWatchlist(bounds, options.profile).scenes) scenes.insert(watch.scene);
+    else if (std::filesystem::exists(lockFile(options.golden)))
+        for (const GoldenEntry& entry : readLock(options.golden).entries) scenes.insert(entry.name.scene);
     return scenes;
 }
 
+/// Of them, the built-in ones that are no standard scenes.
+std::vector<std::string> judgedBeside(const ReferenceOptions& options) {
+    const std::set<std::string> scenes = judged(options);
+    const std::vector<std::string> standard = standardScenes();
+    std::vector<std::string> beside;
+    for (const std::string& id : builtinScenes())
+        if (scenes.contains(id) && std::ranges::find(standard, id) == standard.end()) beside.push_back(id);
+    return beside;
+}
+
 GoldenOptions goldenOptions(const ReferenceOptions& options) {
-    return {options.golden, options.profile, options.scenes, judgedBeside(options.profile),
+    return {options.golden, options.profile, options.scenes, judgedBeside(options),
             options.truth,  options.frame,   options.quiet};
 }
 

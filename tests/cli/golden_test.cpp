@@ -203,10 +203,11 @@ TEST_F(GoldenVerb, AMissingToolIsInconclusiveAndTheOthersAreVerifiedAllTheSame) 
                            tinyScene("{ kind = \"rectangle\", centre = [0.2, 6, 0.3], u = [1, 0, 0], v = [0, 0, 1] }"));
     ASSERT_EQ(reference("--accept --truth hard").code, 0);
     ASSERT_EQ(reference("--accept --truth pixel-area").code, 0);
+    ASSERT_EQ(reference("--accept --truth area").code, 0);
     const Outcome verified = shell("PATH=/nonexistent shadowbench reference --quiet --verify --scene " + scene_ +
                                    " --golden " + folder_ / "golden");
     EXPECT_EQ(verified.code, 5) << verified.output;
-    EXPECT_NE(verified.output.find("4 identical, 2 unverified"), std::string::npos) << verified.output;
+    EXPECT_NE(verified.output.find("5 identical, 2 unverified"), std::string::npos) << verified.output;
     EXPECT_NE(verified.output.find("apt-get install povray"), std::string::npos) << verified.output;
 }
 
