@@ -69,14 +69,16 @@ private:
 /// What scoring such a technique throws; "" if nothing.
 std::string refusalOf(float value) {
     CellScene& cells = stillScene("contact", 1);
-    techniques::Entry entry;
-    entry.id = "constant";
+    techniques::Variant variant = techniques::parseVariant("none");
+    techniques::Entry entry = *variant.entry;
     entry.make = [value](const techniques::Parameters&) { return std::make_unique<Constant>(value); };
+    variant.entry = &entry;
+    variant.name = "constant:value";
     Record record;
     CellImages images;
     try {
-        runCell(cells.scene(), cells.stage(), cells.truths(), {&entry, {}, "constant:value"}, {.seed = 1, .time = false},
-                record, images);
+        runCell(cells.scene(), cells.stage(), cells.truths(), variant, {.seed = 1, .time = false, .images = {}}, record,
+                images);
     } catch (const InternalError& error) {
         return error.what();
     }
