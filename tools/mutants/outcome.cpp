@@ -153,13 +153,9 @@ std::string verdict(const Outcome& outcome) {
 Outcome outcomeOf(const Mutant& mutant, const Trial& base, const Trial& head) {
     Outcome outcome{mutant, {}, {}, head.refused};
     if (!mutant.makesRecords() || !head.refused.empty()) return outcome;
-    std::vector<Change> changes;
-    try {
-        changes = gate::compare(base.records, head.records);
-    } catch (const Inconclusive& error) { // of other truths or environments: never a silent pass
-        outcome.refused = error.what();
-    }
-    for (Change& change : changes) {
+    for (Change& change : gate::compare(base.records, head.records)) {
+        // Other truths, environments or metrics' code: never a silent pass.
+        if (change.direction == gate::Direction::Unjudged && outcome.refused.empty()) outcome.refused = change.sentence;
         if (change.changeClass == Class::Instructions && change.base && change.head) {
             const double slowdown = *change.head / *change.base - 1;
             outcome.slowdown = std::max(outcome.slowdown.value_or(slowdown), slowdown);
