@@ -52,8 +52,7 @@ private:
     void add(const Scene& scene) {
         for (const auto& [truth, frame] : askedTruths(scene)) {
             const GoldenName name{scene.id, truth, frame};
-            const bool hasImages = !isJudgedBeside(scene) && (truth == Truth::Hard || truth == Truth::Soft) &&
-                                   frame == scene.timeline.still - 1;
+            const bool hasImages = !isJudgedBeside(scene) && truth != Truth::Area && frame == scene.timeline.still - 1;
             if (holds(name)) wanted_.push_back({&scene, name, hasImages});
         }
     }

@@ -42,10 +42,10 @@ TEST(EnvironmentCells, HaveNoHardTruth) {
     }
     Scene point = scene;
     point.light = Light{};
-    EXPECT_EQ(truthsOf(point.light), std::vector{Truth::Hard});
+    EXPECT_EQ(truthsOf(point.light), (std::vector{Truth::Hard, Truth::PixelArea}));
     EXPECT_THROW(static_cast<void>(referenceRequest(point, Truth::Soft, 0)), BadInput);
     point.light.kind = LightKind::Disk;
-    EXPECT_EQ(truthsOf(point.light), (std::vector{Truth::Hard, Truth::Soft}));
+    EXPECT_EQ(truthsOf(point.light), (std::vector{Truth::Hard, Truth::Soft, Truth::PixelArea}));
 }
 
 TEST(EnvironmentCells, KeepTheirTruthOnMovingFrames) {

@@ -94,7 +94,7 @@ TEST(BadCommand, WrongArgumentsOfReferenceEndInOneLine) {
         {"--scene simple --scene trees", "one scene"},
         {"--scene simple --frame 99", "frames 0 to 63"},
         {"--scene simple --truth hard", "--verify or --accept"},
-        {"--verify --truth fuzzy", "hard, soft and area"},
+        {"--verify --truth fuzzy", "hard, soft, pixel-area and area"},
         {"--verify --accept", "excludes"},
         {"--verify --samples 64", "excludes"},
         {"--report /tmp/x --out /tmp/y", "excludes"},

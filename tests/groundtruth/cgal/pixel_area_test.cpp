@@ -109,7 +109,7 @@ void expectAgreement(const Snapshot& snapshot, double mostRms) {
             sum += error;
             ++partly;
         }
-    ASSERT_GT(partly, 20U);
+    ASSERT_GT(partly, 10U);
     EXPECT_LT(std::sqrt(squares / static_cast<double>(partly)), mostRms);
     EXPECT_LT(std::abs(sum) / static_cast<double>(partly), 0.5 * mostRms);
 }
