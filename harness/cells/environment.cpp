@@ -68,7 +68,9 @@ std::string revisionsOf(const std::map<std::string, std::string>& installed, con
 std::string libraryVersion() {
     std::string text(64, '\0');
     const std::size_t length = confstr(_CS_GNU_LIBC_VERSION, text.data(), text.size());
-    return length == 0 ? "unknown C library" : std::string(text.c_str());
+    if (length == 0) return "unknown C library";
+    text.resize(length - 1); // without the zero that confstr counts
+    return text;
 }
 
 /// The parts that are the same as long as the program runs.

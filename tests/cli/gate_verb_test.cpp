@@ -53,8 +53,8 @@ public:
 
     [[nodiscard]] std::string program() const {
         const std::string said = folder_.write("identity.json", identity.dump(1));
-        const std::string file = folder_.write("base-program", "#!/bin/sh\nif [ \"$1\" = policy ]; then cat " + said +
-                                                                   "; else exec " PROGRAM " \"$@\"; fi\n");
+        std::string file = folder_.write("base-program", "#!/bin/sh\nif [ \"$1\" = policy ]; then cat " + said +
+                                                             "; else exec " PROGRAM " \"$@\"; fi\n");
         fs::permissions(file, fs::perms::owner_exec, fs::perm_options::add);
         return file;
     }

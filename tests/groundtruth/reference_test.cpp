@@ -41,7 +41,7 @@ TEST(Reference, OnSilhouettesOfATinyImageAFewHitsMayDiffer) {
     povray::Render image;
     image.hit = Image<std::uint8_t>(request.size.x, request.size.y, 0);
     for (std::size_t i = 0; i < exact.id.size(); ++i) image.hit[i] = exact.id[i] != 0;
-    const auto flipped = [&](std::vector<glm::ivec2> pixels) {
+    const auto flipped = [&](const std::vector<glm::ivec2>& pixels) {
         povray::Render changed = image;
         for (const glm::ivec2 p : pixels) changed.hit(p.x, p.y) ^= 1;
         requireSamePrimaryHits(request, changed, primaryMismatch(changed, exact));

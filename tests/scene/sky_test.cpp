@@ -19,8 +19,6 @@
 namespace shadowbench {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kPi = std::numbers::pi;
 
 /// ∫ f dω by the midpoint rule in height and longitude, both of which divide the sphere evenly.
@@ -81,7 +79,7 @@ TEST(SphericalHarmonics, ObeyTheAdditionTheorem) {
         const std::vector<double> values = harmonics(anyDirection(random), kBands);
         for (int l = 0; l < kBands; ++l) { // Σ_m Y² = (2l + 1)/4π in every direction
             double sum = 0;
-            for (int m = -l; m <= l; ++m) sum += std::pow(values[static_cast<std::size_t>(l * (l + 1) + m)], 2);
+            for (int m = -l; m <= l; ++m) sum += std::pow(values[static_cast<std::size_t>(l) * (l + 1) + m], 2);
             EXPECT_NEAR(sum, (2 * l + 1) / (4 * kPi), 1e-12) << l;
         }
     }

@@ -52,7 +52,7 @@ inline std::string changeOfSample(Wrapper wrapper, const Light& light, int sampl
 /// Writes the script `povray` into `folder`; give the folder to PATH or the file to povray::Options.
 inline std::filesystem::path writeWrapper(const std::filesystem::path& folder, Wrapper wrapper, const Light& light,
                                           int samples, double scale) {
-    const std::filesystem::path file = folder / "povray";
+    std::filesystem::path file = folder / "povray";
     writeFile(file, "#!/bin/sh\n"
                     "if [ -f scene.pov ]; then\n"
                     "  awk '/^light_source/ { split($0, part, /[<,>]/); x = part[2]; y = part[3]; z = part[4]; " +
