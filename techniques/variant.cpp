@@ -18,6 +18,8 @@ std::vector<std::string> ids() {
 
 Variant make(const Entry& entry, std::string_view assignments) {
     Parameters parameters = parseParameters(assignments, entry.parameters, entry.id);
+    if (const auto why = entry.contradiction ? entry.contradiction(parameters) : std::nullopt)
+        throw BadInput(fmt::format("{}: {}", entry.id, *why));
     std::string name = canonicalVariant(entry.id, parameters, entry.parameters);
     return {&entry, std::move(parameters), std::move(name)};
 }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <functional>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -38,6 +39,8 @@ public:
         return gained;
     }
 
+    void giveUpFirst() { pairs_.erase(pairs_.begin()); }
+
     void cover(const Row& row) {
         for (std::size_t a = 0; a < row.size(); ++a)
             for (std::size_t b = a + 1; b < row.size(); ++b) pairs_.erase({a, row[a], b, row[b]});
@@ -47,21 +50,42 @@ private:
     std::set<Pair> pairs_;
 };
 
-/// The row of one open pair, with what gains most in every other column.
-Row nextRow(const std::vector<std::size_t>& sizes, const Uncovered& uncovered) {
-    Row row(sizes.size(), open);
-    const auto& [a, i, b, k] = uncovered.first();
-    row[a] = i;
-    row[b] = k;
-    for (std::size_t column = 0; column < sizes.size(); ++column) {
-        if (row[column] != open) continue;
-        std::size_t best = 0;
-        for (std::size_t choice = 1; choice < sizes[column]; ++choice)
-            if (uncovered.gain(row, column, choice) > uncovered.gain(row, column, best)) best = choice;
-        row[column] = best;
+/// Finds the row of one open pair with what gains most in every other column, as far as the choices go together.
+class RowSearch {
+public:
+    RowSearch(const std::vector<std::size_t>& sizes, const Uncovered& uncovered, const GoTogether& goTogether)
+        : sizes_(sizes), uncovered_(uncovered), goTogether_(goTogether), row_(sizes.size(), open) {}
+
+    /// Nothing if the pair is in no row whose choices go together.
+    std::optional<Row> ofFirstPair() {
+        const auto& [a, i, b, k] = uncovered_.first();
+        row_[a] = i;
+        row_[b] = k;
+        return complete(0) ? std::optional(row_) : std::nullopt;
     }
-    return row;
-}
+
+private:
+    /// Fills in the open columns from `column` on; leaves them open where that cannot be done.
+    bool complete(std::size_t column) {
+        while (column < row_.size() && row_[column] != open) ++column;
+        if (column == row_.size()) return goTogether_(row_);
+        std::vector<std::pair<std::size_t, std::size_t>> choices; // gain, choice
+        for (std::size_t choice = 0; choice < sizes_[column]; ++choice)
+            choices.emplace_back(uncovered_.gain(row_, column, choice), choice);
+        std::ranges::stable_sort(choices, std::greater(), &std::pair<std::size_t, std::size_t>::first);
+        for (const auto& [gain, choice] : choices) {
+            row_[column] = choice;
+            if (complete(column + 1)) return true;
+        }
+        row_[column] = open;
+        return false;
+    }
+
+    const std::vector<std::size_t>& sizes_;
+    const Uncovered& uncovered_;
+    const GoTogether& goTogether_;
+    Row row_;
+};
 
 struct Choices {
     std::vector<std::string> operator()(const techniques::OneOf& words) const { return words.values; }
@@ -78,12 +102,19 @@ struct Choices {
 
 } // namespace
 
-std::vector<std::vector<std::size_t>> pairwiseRows(const std::vector<std::size_t>& sizes) {
+std::vector<std::vector<std::size_t>> pairwiseRows(const std::vector<std::size_t>& sizes, const GoTogether& goTogether) {
     std::vector<Row> rows;
     if (sizes.size() == 1)
-        for (std::size_t choice = 0; choice < sizes[0]; ++choice) rows.push_back({choice});
-    for (Uncovered uncovered(sizes); !uncovered.empty(); uncovered.cover(rows.back()))
-        rows.push_back(nextRow(sizes, uncovered));
+        for (std::size_t choice = 0; choice < sizes[0]; ++choice)
+            if (goTogether({choice})) rows.push_back({choice});
+    for (Uncovered uncovered(sizes); !uncovered.empty();) {
+        if (const auto row = RowSearch(sizes, uncovered, goTogether).ofFirstPair()) {
+            rows.push_back(*row);
+            uncovered.cover(*row);
+        } else {
+            uncovered.giveUpFirst();
+        }
+    }
     return rows;
 }
 
@@ -99,12 +130,15 @@ std::vector<std::string> pairwiseVariants(const techniques::Entry& entry) {
         sizes.push_back(choices.back().size());
     }
     if (sizes.empty()) return {entry.id};
+    const auto chosen = [&](const Row& row) {
+        std::vector<std::pair<std::string, std::string>> values;
+        for (std::size_t i = 0; i < row.size(); ++i) values.emplace_back(entry.parameters[i].name, choices[i][row[i]]);
+        return techniques::Parameters(std::move(values));
+    };
+    const auto goTogether = [&](const Row& row) { return !entry.contradiction || !entry.contradiction(chosen(row)); };
     std::vector<std::string> variants;
-    for (const Row& row : pairwiseRows(sizes)) {
-        std::vector<std::string> words;
-        for (std::size_t i = 0; i < row.size(); ++i)
-            words.push_back(fmt::format("{}={}", entry.parameters[i].name, choices[i][row[i]]));
-        const std::string text = fmt::format("{}:{}", entry.id, fmt::join(words, ","));
+    for (const Row& row : pairwiseRows(sizes, goTogether)) {
+        const std::string text = techniques::canonicalVariant(entry.id, chosen(row), entry.parameters);
         const std::string name = techniques::parseVariant(text).name;
         if (std::ranges::find(variants, name) == variants.end()) variants.push_back(name);
     }

@@ -152,7 +152,7 @@ private:
     void requireEveryCell(const std::vector<Record>& before, const std::vector<Record>& now,
                           const std::vector<Step>& steps) {
         for (const Record& record : now)
-            if (record.status == Status::Error && !isRefusedByBoth(record, before))
+            if (record.status == Status::Error)
                 result_.unjudged.push_back(fmt::format("{} on {}: {}", record.variant, record.scene, record.reason));
         std::set<std::pair<std::string, std::string>> there;
         for (const Record& record : now)
@@ -184,15 +184,6 @@ private:
                     fmt::format("nothing can be compared with the anchor {}: name a younger commit in {}", anchor.commit,
                                 options_.bounds.string()));
         }
-    }
-
-    /// Choices that do not fit each other, which base and head refuse with the same sentence.
-    [[nodiscard]] bool isRefusedByBoth(const Record& record, const std::vector<Record>& before) const {
-        const auto scene = std::ranges::find(cells_.scenes, record.scene, &JudgedScene::id);
-        if (scene == cells_.scenes.end() || !scene->ofChoices) return false;
-        return std::ranges::any_of(before, [&](const Record& r) {
-            return r.status == Status::Error && r.reason == record.reason && cellOf(r) == cellOf(record);
-        });
     }
 
     void noteUnknownScenes() {

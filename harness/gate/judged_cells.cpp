@@ -159,7 +159,6 @@ void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::
     for (const Watch& watch : watchlist.choices) {
         const std::string file = (options.bounds.parent_path() / watch.scene).string();
         JudgedScene judged = loadJudged(file, profile);
-        judged.ofChoices = true;
         const Scene scene = loadScene(file, profile);
         const auto isChosen = [&](const std::string& id) {
             return watch.covers(id) &&

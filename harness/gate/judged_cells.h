@@ -17,7 +17,6 @@ struct JudgedScene {
     std::string content;  // of the file; empty for a built-in scene
     std::string truths;   // their keys: what a kept record was scored against must be what is scored against now
     std::vector<std::string> variants; // that are judged there, by their canonical names
-    bool ofChoices = false;            // some of them are refused: choices that do not fit each other
 };
 
 struct JudgedCells {

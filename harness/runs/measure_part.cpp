@@ -6,6 +6,7 @@
 #include "harness/cells/scene_cells.h"
 #include "harness/measure/callgrind.h"
 #include "harness/metrics/table.h"
+#include "harness/render/shared_shaders.h"
 #include "harness/runs/cell_file.h"
 #include "scene/load/load.h"
 #include "techniques/gl/context.h"
@@ -58,7 +59,7 @@ private:
         if (open.empty()) return;
 
         const Scene loaded = loadScene(names_[scene], options_.profile, metrics::boundedMetrics());
-        if (!context_) context_ = gl::Context::create();
+        if (!context_) context_ = contextOfRun(cache_.folder(), options_.measure.time);
         SceneCells cells(loaded, cache_, options_.measure);
         ProgressLine line(loaded.id, static_cast<int>(open.size()), options_.quiet);
         int done = 0;

@@ -6,6 +6,7 @@
 #include "harness/cells/instruction_costs.h"
 #include "harness/cells/scene_cells.h"
 #include "harness/measure/callgrind.h"
+#include "harness/render/shared_shaders.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ public:
         : options_(options), variants_(chosenVariants(options.techniques)),
           scenes_(chosenScenes(options.scenes, options.profile)), finished_(finishedRecords(options)),
           cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache),
-          context_(gl::Context::create()) {
+          context_(contextOfRun(cache_.folder(), options.measure.time)) {
         if (options.instructions) timing::valgrindVersion(); // to fail before the long part
         std::error_code failed;
         std::filesystem::create_directories(options.out, failed);

@@ -59,6 +59,8 @@ struct Entry {
     /// an answer for.
     std::function<std::optional<std::string>(const Scene&)> notApplicable = {};
     std::vector<Parameter> parameters;
+    /// Why these values, each allowed alone, do not go together; nothing if they do. Empty: all go together.
+    std::function<std::optional<std::string>(const Parameters&)> contradiction = {};
     std::vector<Figure> figures = {};
     std::vector<std::string> variants; // those that a run of all techniques renders: parameter strings, "" = all defaults
     /// The variant that this one's cost is compared with beside sm-uniform's, such as the map under a history. Empty: none.

@@ -14,9 +14,9 @@ namespace shadowbench::techniques {
 template <class Map>
 class MicroquadTechnique final : public Technique {
 public:
-    /// `p` hold microquadParameters and depthMapParameters; `layers`: of the map. Throws as Microquads does.
-    MicroquadTechnique(const std::string& id, const Parameters& p, int layers, Map map)
-        : microquads_(id, p, layers), map_(std::move(map)), pyramid_(p.integer("map"), nodeEnds(p), layers) {}
+    /// `p` hold microquadParameters and depthMapParameters; `layers`: of the map.
+    MicroquadTechnique(const Parameters& p, int layers, Map map)
+        : microquads_(p, layers), map_(std::move(map)), pyramid_(p.integer("map"), nodeEnds(p), layers) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         view_ = fitToScene(frame.snapshot.light, frame.snapshot);

@@ -6,7 +6,6 @@
 // frame to frame; only placements whose box meets a page are drawn into it.
 // It costs a pass a page: `pages` bounds them. Where they do not suffice, those pages stay coarse whose texels are
 // too long by the least, summed over their pixels.
-#include "base/error.h"
 #include "techniques/contract/entry.h"
 #include "techniques/maps/sm-adaptive/refinement.h"
 #include "techniques/shared/maps/tiled_map.h"
@@ -16,18 +15,16 @@
 namespace shadowbench::techniques {
 namespace {
 
-/// `page` checked against the map that must hold at least one.
-int pageSide(const Parameters& p) {
+std::optional<std::string> pageBeyondMap(const Parameters& p) {
     const int page = p.integer("page"), map = p.integer("map");
-    if (page <= map) return page;
-    throw BadInput(fmt::format(
-        "sm-adaptive: a page of {0}² texels does not fit into a map of {1}²: page must be at most map", page, map));
+    if (page <= map) return std::nullopt;
+    return fmt::format("a page of {0}² texels does not fit into a map of {1}²: page must be at most map", page, map);
 }
 
 class Adaptive final : public Technique {
 public:
     explicit Adaptive(const Parameters& p)
-        : limits_{pageSide(p), p.integer("levels"), p.integer("pages"), p.real("density")},
+        : limits_{p.integer("page"), p.integer("levels"), p.integer("pages"), p.real("density")},
           columns_(p.integer("map") / limits_.texels), cells_(1 << limits_.levels),
           maps_(p.integer("map"), cells_, static_cast<float>(limits_.texels) * static_cast<float>(cells_), biasFrom(p)) {}
 
@@ -88,6 +85,7 @@ Entry smAdaptive() {
             .source = {Document::Dissertation, "2.2.2, Subdivision"},
             .answer = Answer::Hard,
             .parameters = std::move(parameters),
+            .contradiction = pageBeyondMap,
             .figures = {{"pages", "pages drawn, one pass each"},
                         {"fillings", "times that the map was filled with pages"},
                         effectiveResolutionFigure()},

@@ -1,6 +1,5 @@
 #include "techniques/shared/filters/microquads.h"
 
-#include "base/error.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/sampling/light_samples.h"
 
@@ -13,13 +12,7 @@
 namespace shadowbench::techniques {
 namespace {
 
-/// Samples per side, from `samples`, which must fit into `bits`.
-int sampleSide(const std::string& technique, const Parameters& p) {
-    const int samples = std::stoi(p.text("samples")), bits = std::stoi(p.text("bits"));
-    if (samples <= bits) return static_cast<int>(std::lround(std::sqrt(samples)));
-    throw BadInput(
-        fmt::format("{}: {} samples do not fit into {} bits, one each: choose bits={}", technique, samples, bits, samples));
-}
+int samplesPerSide(const Parameters& p) { return static_cast<int>(std::lround(std::sqrt(std::stoi(p.text("samples"))))); }
 
 } // namespace
 
@@ -34,6 +27,12 @@ std::vector<Parameter> microquadParameters() {
         flatParameter()};
 }
 
+std::optional<std::string> moreSamplesThanBits(const Parameters& p) {
+    const int samples = std::stoi(p.text("samples")), bits = std::stoi(p.text("bits"));
+    if (samples <= bits) return std::nullopt;
+    return fmt::format("{} samples do not fit into {} bits, one each: choose bits={}", samples, bits, samples);
+}
+
 NodeEnds nodeEnds(const Parameters& p) { return p.text("window") == "all" ? NodeEnds::Shared : NodeEnds::Apart; }
 
 std::optional<std::string> lightWithoutSurface(const Scene& scene) {
@@ -41,8 +40,8 @@ std::optional<std::string> lightWithoutSurface(const Scene& scene) {
     return fmt::format("samples the surface of a light; the light of {} is a line", scene.id);
 }
 
-Microquads::Microquads(const std::string& technique, const Parameters& p, int layers)
-    : window_(p.text("window")), side_(sampleSide(technique, p)), bits_(std::stoi(p.text("bits"))), layers_(layers),
+Microquads::Microquads(const Parameters& p, int layers)
+    : window_(p.text("window")), side_(samplesPerSide(p)), bits_(std::stoi(p.text("bits"))), layers_(layers),
       followPlane_(p.text("bias") == "slope"), flatness_(static_cast<float>(p.real("flat"))), resolve_(program({})) {}
 
 gl::Program Microquads::program(gl::Defines defines) const {

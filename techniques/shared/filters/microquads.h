@@ -16,6 +16,9 @@ namespace shadowbench::techniques {
 /// `window`, `samples`, `bits` and `flat`.
 std::vector<Parameter> microquadParameters();
 
+/// Why `samples` and `bits` do not go together; nothing if they do.
+std::optional<std::string> moreSamplesThanBits(const Parameters& parameters);
+
 /// Of the pyramid over the map that microquads are made of, as `window` needs it.
 NodeEnds nodeEnds(const Parameters& parameters);
 
@@ -25,9 +28,8 @@ std::optional<std::string> lightWithoutSurface(const Scene& scene);
 /// The pass that turns a map of linear depths into visibility (shared/filters/microquads.frag).
 class Microquads {
 public:
-    /// `layers`: channels of the map, each of them a layer. Throws BadInput naming `technique` if there are more samples
-    /// than bits.
-    Microquads(const std::string& technique, const Parameters& parameters, int layers);
+    /// `layers`: channels of the map, each of them a layer.
+    Microquads(const Parameters& parameters, int layers);
 
     /// As the pass "resolve". `depths`: the map drawn with `view`, of which `pyramid` is.
     void resolve(const Frame& frame, const LightView& view, const gl::Texture& depths, const MinMaxPyramid& pyramid,

@@ -29,11 +29,12 @@ Entry backprojectionPeeled() {
             .answer = Answer::Soft,
             .notApplicable = lightWithoutSurface,
             .parameters = withDepthMapParameters(std::move(own)),
+            .contradiction = moreSamplesThanBits,
             .figures = {{"quads", "microquads that a receiver's pixel projects onto the light, of all layers, in the mean"}},
             .variants = {"", "window=12,samples=256,bits=256"},
             .make = [](const Parameters& p) {
                 const int layers = p.integer("layers");
-                return std::make_unique<MicroquadTechnique<PeeledMap>>("backprojection-peeled", p, layers,
+                return std::make_unique<MicroquadTechnique<PeeledMap>>(p, layers,
                                                                        PeeledMap(p.integer("map"), layers, biasFrom(p)));
             }};
 }

@@ -32,10 +32,11 @@ Entry bitmask() {
             .answer = Answer::Soft,
             .notApplicable = lightWithoutSurface,
             .parameters = withDepthMapParameters(microquadParameters()),
+            .contradiction = moreSamplesThanBits,
             .figures = {{"quads", "microquads that a receiver's pixel projects onto the light, in the mean"}},
             .variants = {"", "window=12,samples=256,bits=256"},
             .make = [](const Parameters& p) {
-                return std::make_unique<MicroquadTechnique<LinearDepthMap>>("bitmask", p, 1,
+                return std::make_unique<MicroquadTechnique<LinearDepthMap>>(p, 1,
                                                                             LinearDepthMap(p.integer("map"), biasFrom(p)));
             }};
 }

@@ -141,15 +141,28 @@ TEST(GateAnchor, WhatCannotBeComparedIsNotedOnce) {
 
 TEST(GateChoices, EveryTwoChoicesComeTogether) {
     const std::vector<std::size_t> sizes{3, 2, 4, 2, 2};
-    const auto rows = pairwiseRows(sizes);
+    const auto always = [](const std::vector<std::size_t>& /*row*/) { return true; };
+    const auto rows = pairwiseRows(sizes, always);
     std::set<std::vector<std::size_t>> pairs;
     for (const auto& row : rows)
         for (std::size_t a = 0; a < row.size(); ++a)
             for (std::size_t b = a + 1; b < row.size(); ++b) pairs.insert({a, row[a], b, row[b]});
     EXPECT_EQ(pairs.size(), 3U * 2 + 3 * 4 + 3 * 2 * 2 + 2 * 4 + 2 * 2 * 2 + 4 * 2 * 2 + 2 * 2);
     EXPECT_LE(rows.size(), 15U) << "of 96; 12 pairs of the two longest columns are the least";
-    EXPECT_EQ(pairwiseRows({3}).size(), 3U);
-    EXPECT_TRUE(pairwiseRows({}).empty());
+    EXPECT_EQ(pairwiseRows({3}, always).size(), 3U);
+    EXPECT_TRUE(pairwiseRows({}, always).empty());
+}
+
+TEST(GateChoices, WhatCannotBeMadeTakesNoOtherPairWithIt) {
+    const std::vector<std::size_t> sizes{3, 2, 3};
+    const auto goTogether = [](const std::vector<std::size_t>& row) { return row[0] != 0 || row[1] != 1; };
+    std::set<std::vector<std::size_t>> pairs;
+    for (const auto& row : pairwiseRows(sizes, goTogether)) {
+        EXPECT_TRUE(goTogether(row));
+        for (std::size_t a = 0; a < row.size(); ++a)
+            for (std::size_t b = a + 1; b < row.size(); ++b) pairs.insert({a, row[a], b, row[b]});
+    }
+    EXPECT_EQ(pairs.size(), 3U * 2 - 1 + 3 * 3 + 2 * 3) << "all but the one that cannot be made";
 }
 
 /// Every word that a parameter takes, of all techniques, is in a variant of the gate's choices.

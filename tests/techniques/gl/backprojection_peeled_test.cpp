@@ -103,9 +103,7 @@ TEST(BackProjectionPeeled, TheLayersOfAMapAreTheTopsOfTheCastersInOrder) {
 TEST(BackProjectionPeeled, RefusesLayersThatAMapHasNoChannelFor) {
     EXPECT_THROW(techniques::parseVariant("backprojection-peeled:layers=5"), BadInput);
     EXPECT_THROW(techniques::parseVariant("backprojection-peeled:layers=0"), BadInput);
-    const techniques::Variant variant = techniques::parseVariant("backprojection-peeled:samples=256");
-    testContext();
-    EXPECT_THROW(variant.entry->make(variant.parameters), BadInput);
+    EXPECT_THROW(techniques::parseVariant("backprojection-peeled:samples=256"), BadInput); // in 64 bits
 }
 
 } // namespace
