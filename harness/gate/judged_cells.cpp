@@ -91,6 +91,8 @@ std::vector<std::string> those(const std::vector<std::string>& all, const Predic
     return some;
 }
 
+std::string techniqueOf(const std::string& variant) { return variant.substr(0, variant.find(':')); }
+
 /// A run or sweep of one scene, without its techniques.
 std::vector<std::string> arguments(const char* verb, const JudgedScene& scene, Profile profile, std::uint32_t seed,
                                    const std::vector<std::string>& more) {
@@ -134,9 +136,24 @@ JudgedCells::JudgedCells(const GateOptions& options, const std::optional<Policy>
         if (!judged.variants.empty()) scenes.push_back(std::move(judged));
     };
     for (const std::string& scene : options.scenes.empty() ? policy.standard : options.scenes) addScene(scene, nullptr);
-    if (!options.scenes.empty()) return;
-    for (const Watch& watch : watchlist.scenes) addScene(watch.scene, &watch);
-    addChoices(options, chosen);
+    if (options.scenes.empty()) {
+        for (const Watch& watch : watchlist.scenes) addScene(watch.scene, &watch);
+        addChoices(options, chosen);
+    }
+    addCounted(chosen);
+}
+
+void JudgedCells::addCounted(const std::vector<std::string>& chosen) {
+    for (const Watch& watch : watchlist.counted) {
+        const auto scene = std::ranges::find(scenes, watch.scene, &JudgedScene::id);
+        if (scene == scenes.end()) continue;
+        for (const std::string& variant : watch.named()) {
+            const bool isOfChosen = std::ranges::any_of(
+                chosen, [&](const std::string& other) { return techniqueOf(other) == techniqueOf(variant); });
+            if (isOfChosen && std::ranges::find(scene->variants, variant) == scene->variants.end())
+                scene->variants.push_back(variant);
+        }
+    }
 }
 
 std::vector<std::string> JudgedCells::chosenVariants(const GateOptions& options,
@@ -162,7 +179,7 @@ void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::
         const Scene scene = loadScene(file, profile);
         const auto isChosen = [&](const std::string& id) {
             return watch.covers(id) &&
-                   std::ranges::any_of(chosen, [&](const std::string& v) { return v.substr(0, v.find(':')) == id; });
+                   std::ranges::any_of(chosen, [&](const std::string& v) { return techniqueOf(v) == id; });
         };
         for (const techniques::Entry& entry : techniques::catalog())
             if (isChosen(entry.id))

@@ -48,6 +48,8 @@ private:
     [[nodiscard]] std::vector<std::string> chosenVariants(const GateOptions& options,
                                                           const std::vector<std::string>& baseVariants);
     void addChoices(const GateOptions& options, const std::vector<std::string>& chosen);
+    /// Variants that are named to be counted and shown by nobody: cheaper ones that run the code of those that are.
+    void addCounted(const std::vector<std::string>& chosen);
     void addSteps(const MeasuredProgram& program, const JudgedScene& scene, bool instructions,
                   std::vector<Step>& steps) const;
 };

@@ -85,8 +85,10 @@ std::optional<std::string> canonical(const std::string& variant) {
     }
 }
 
+bool isGlob(const std::string& pattern) { return pattern.find_first_of("*?[") != std::string::npos; }
+
 bool matches(const std::string& pattern, const std::string& variant) {
-    if (pattern.find_first_of("*?[") == std::string::npos) return canonical(pattern) == variant;
+    if (!isGlob(pattern)) return canonical(pattern) == variant;
     return fnmatch(pattern.c_str(), variant.substr(0, variant.find(':')).c_str(), 0) == 0;
 }
 
@@ -99,6 +101,14 @@ bool anyMatches(const std::vector<std::string>& patterns, const std::string& var
 bool Watch::covers(const std::string& variant) const { return anyMatches(techniques, variant) && !excludes(variant); }
 
 bool Watch::excludes(const std::string& variant) const { return anyMatches(except, variant); }
+
+std::vector<std::string> Watch::named() const {
+    std::vector<std::string> names;
+    for (const std::string& pattern : techniques)
+        if (!isGlob(pattern))
+            if (auto name = canonical(pattern)) names.push_back(*std::move(name));
+    return names;
+}
 
 std::vector<std::string> Watchlist::unknownScenes(const std::vector<std::string>& known) const {
     const std::vector<std::string> builtin = builtinScenes();

@@ -21,6 +21,9 @@ struct Watch {
 
     /// Whether it is left out, as a variant or with all of its technique.
     [[nodiscard]] bool excludes(const std::string& variant) const;
+
+    /// Canonical names of the variants that are named one by one, not by a glob.
+    [[nodiscard]] std::vector<std::string> named() const;
 };
 
 /// A score that a technique must keep on a scene, whatever the base does.

@@ -43,6 +43,13 @@ class CountedScene {
 public:
     CountedScene(const Scene& scene, std::uint32_t seed) : scene_(scene), seed_(seed) {}
 
+    /// Draws without shadows and counts nothing: Valgrind translates the rasteriser's and its compiler's code, which takes
+    /// longer than a short frame.
+    void warmUp() {
+        const techniques::Variant none = techniques::parseVariant("none");
+        drawWarmFrames(*none.entry->make(none.parameters));
+    }
+
     void countFrame(const techniques::Variant& variant) {
         if (variant.isLod())
             countWalkFrame(variant);
@@ -52,17 +59,22 @@ public:
 
 private:
     void countShadowFrame(const techniques::Variant& variant) {
+        const auto technique = variant.entry->make(variant.parameters);
+        drawWarmFrames(*technique);
+        count(variant, [&] { draw(*technique, warmFrames); });
+    }
+
+    void drawWarmFrames(techniques::Technique& technique) {
         if (!stage_) {
             stage_.emplace(scene_);
             stage_->show(scene_.timeline.still - 1);
         }
-        const auto technique = variant.entry->make(variant.parameters);
-        const auto frame = [&](int number) {
-            stage_->redraw();
-            stage_->render(*technique, scene_.timeline.still + number, seed_);
-        };
-        for (int i = 0; i < warmFrames; ++i) frame(i);
-        count(variant, [&] { frame(warmFrames); });
+        for (int i = 0; i < warmFrames; ++i) draw(technique, i);
+    }
+
+    void draw(techniques::Technique& technique, int number) {
+        stage_->redraw();
+        stage_->render(technique, scene_.timeline.still + number, seed_);
     }
 
     /// A frame of the walk, without the choice of levels, which is the same for all techniques.
@@ -83,8 +95,8 @@ private:
     std::optional<lod::LodStage> walk_;
 };
 
-/// Counts one variant and says so. In a process of its own, forked before there is a rasteriser: what is counted before it
-/// in the same run cannot move the count.
+/// Counts one variant and says so. In a process of its own, forked from one that has always done the same: what is counted
+/// before it in the same run cannot move the count. The rasteriser starts no thread that the fork would lose.
 void countAlone(const Scene& scene, std::uint32_t seed, const std::string& name) {
     try {
         const auto context = gl::Context::create();
@@ -100,6 +112,10 @@ void countAlone(const Scene& scene, std::uint32_t seed, const std::string& name)
 
 void renderCountedFrames(const CountJob& job, const std::filesystem::path& variants) {
     const Scene scene = loadScene(job.scene, job.profile);
+    {
+        const auto context = gl::Context::create();
+        CountedScene(scene, job.seed).warmUp();
+    }
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> list(std::fopen(variants.c_str(), "r"), std::fclose);
     if (!list) throw BadInput(fmt::format("reading {} failed: {}", variants.string(), std::strerror(errno)));
     // Nothing on the heap grows with the list: what a child finds there is the same whatever else is counted.

@@ -165,6 +165,36 @@ TEST(GateChoices, WhatCannotBeMadeTakesNoOtherPairWithIt) {
     EXPECT_EQ(pairs.size(), 3U * 2 - 1 + 3 * 3 + 2 * 3) << "all but the one that cannot be made";
 }
 
+/// A technique that gets slower is seen only where its instructions are counted.
+TEST(GateCounts, HoldEveryTechnique) {
+    GateOptions options;
+    options.bounds = std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml";
+    const JudgedCells cells(options);
+    std::set<std::string> counted;
+    for (const JudgedScene& scene : cells.scenes)
+        for (const std::string& name : scene.variants)
+            for (const Watch& watch : cells.watchlist.counted)
+                if (watch.scene == scene.id && watch.covers(name)) counted.insert(techniques::parseVariant(name).entry->id);
+    for (const techniques::Entry& entry : techniques::catalog()) EXPECT_TRUE(counted.contains(entry.id)) << entry.id;
+}
+
+TEST(GateCounts, AVariantThatIsNamedIsMeasuredWhereItsTechniqueIsChosen) {
+    const TemporaryFolder folder;
+    GateOptions options;
+    options.bounds = folder.path() / "bounds.toml";
+    writeFile(options.bounds, R"([[count]]
+scene = "dueling-frusta"
+techniques = ["sm-*", "vsm:map=512"]
+except = ["vsm"]
+reason = "cheaper"
+)");
+    options.scenes = {"dueling-frusta"};
+    options.techniques = {"vsm"};
+    EXPECT_EQ(JudgedCells(options).scenes.front().variants, (std::vector<std::string>{"vsm", "vsm:map=512"}));
+    options.techniques = {"sm-uniform"};
+    EXPECT_EQ(JudgedCells(options).scenes.front().variants, std::vector<std::string>{"sm-uniform"});
+}
+
 /// Every word that a parameter takes, of all techniques, is in a variant of the gate's choices.
 TEST(GateChoices, HoldEveryChoiceOfEveryTechnique) {
     GateOptions options;
