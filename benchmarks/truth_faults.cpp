@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace shadowbench::groundtruth {
@@ -23,7 +24,8 @@ namespace {
 struct Options {
     std::vector<std::string> scenes;
     std::vector<int> frames; // empty: the last still one and the last moving one
-    int seeds = 200;
+    int seeds = 200, renders = 5;
+    bool locked = false;
 };
 
 std::string refusal(const Certificate& certificate, int samples) {
@@ -74,6 +76,23 @@ public:
         fmt::print("    other seeds: {} of {} certified\n", passed, seeds);
     }
 
+    /// Renders of POV-Ray's with other sample sets, each certified as what it is made of.
+    void printOtherSets(int sets) const {
+        int passed = 0;
+        for (int set = 1; set <= sets; ++set) {
+            const TemporaryFolder folder;
+            povray::Options options;
+            options.threads = hardwareThreads();
+            options.program = writeWrapperOfSet(folder.path(), request_.snapshot.light, request_.samples,
+                                                povray::scaleOf(request_.snapshot), static_cast<std::uint32_t>(set));
+            const povray::Render image = povray::render(request_.snapshot, request_.size, request_.samples, options);
+            const Certificate c = certify(scene_, request_, image, primary_, certificatePointCount, hardwareThreads(), {},
+                                          static_cast<std::uint32_t>(set));
+            passed += refusal(c, request_.samples) == "certified" ? 1 : 0;
+        }
+        fmt::print("    other seeds by POV-Ray: {} of {} certified\n", passed, sets);
+    }
+
     void printFault(Wrapper wrapper, const povray::Render& honest) const {
         const povray::Render image = render(wrapper);
         Certificate c = certificate(image);
@@ -92,16 +111,43 @@ private:
     area::AreaScene scene_;
 };
 
+/// What a run says of the soft truth that the wrapped POV-Ray, found on the path, renders without a cache.
+std::string refusalOfRun(const Scene& scene, int frame, Wrapper wrapper) {
+    const TemporaryFolder folder;
+    const Request request = referenceRequest(scene, Truth::Soft, frame);
+    writeWrapper(folder.path(), wrapper, request.snapshot.light, request.samples, povray::scaleOf(request.snapshot));
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", (folder.path().string() + ":" + path).c_str(), 1);
+    std::string said = "accepted";
+    try {
+        const Cache cache(folder.path() / "references");
+        Truths(scene, cache).at(Truth::Soft, frame);
+    } catch (const Inconclusive& error) {
+        said = std::string("refused: ") + error.what();
+    }
+    setenv("PATH", path.c_str(), 1);
+    return said;
+}
+
 void judge(const std::string& id, const Options& options) {
     const Scene scene = loadScene(id, Profile::Gate, metrics::boundedMetrics());
     std::vector<int> frames = options.frames;
     if (frames.empty()) frames = {scene.timeline.still - 1, scene.timeline.frames() - 1};
     frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
     for (const int frame : frames) {
+        if (options.locked) {
+            fmt::print("{} frame {}\n  {}: {}\n", id, frame, name(Wrapper::Honest),
+                       refusalOfRun(scene, frame, Wrapper::Honest));
+            for (const Wrapper wrapper : faultyWrappers)
+                fmt::print("  {}: {}\n", name(wrapper), refusalOfRun(scene, frame, wrapper));
+            std::fflush(stdout);
+            continue;
+        }
         const Judge judge(referenceRequest(scene, Truth::Soft, frame));
         fmt::print("{} frame {}\n", id, frame);
         const povray::Render honest = judge.render(Wrapper::Honest);
         judge.printHonest(honest, options.seeds);
+        judge.printOtherSets(options.renders);
         for (const Wrapper wrapper : faultyWrappers) judge.printFault(wrapper, honest);
         std::fflush(stdout);
     }
@@ -117,6 +163,8 @@ int main(int argc, char** argv) {
     app.add_option("--scene", options.scenes, "Scene ids with area lights")->required();
     app.add_option("--frame", options.frames, "Frames (default: the last still one and the last moving one)");
     app.add_option("--seeds", options.seeds, "Other sample sets by the N-sample oracle")->capture_default_str();
+    app.add_option("--renders", options.renders, "Other sample sets by POV-Ray")->capture_default_str();
+    app.add_flag("--locked", options.locked, "Ask as a run does, with the golden references locked, for the faults only");
     CLI11_PARSE(app, argc, argv);
     try {
         for (const std::string& scene : options.scenes) groundtruth::judge(scene, options);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/files.h"
+#include "groundtruth/povray/povray.h"
 #include "scene/camera.h"
 
 #include <array>
@@ -49,21 +50,38 @@ inline std::string changeOfSample(Wrapper wrapper, const Light& light, int sampl
     return "";
 }
 
+/// A script that changes scene.pov by `awk`, its program and what it reads first.
+inline std::filesystem::path writePovray(const std::filesystem::path& folder, const std::string& awk) {
+    std::filesystem::path file = folder / "povray";
+    writeFile(file, "#!/bin/sh\nif [ -f scene.pov ]; then\n  awk " + awk +
+                        " scene.pov > changed.pov && mv changed.pov scene.pov\nfi\nexec /usr/bin/povray \"$@\"\n");
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+    return file;
+}
+
+/// POV-Ray without a fault, with the samples of another set of povray::lightSample.
+inline std::filesystem::path writeWrapperOfSet(const std::filesystem::path& folder, const Light& light, int samples,
+                                               double scale, std::uint32_t set) {
+    std::string positions;
+    for (int i = 0; i < samples; ++i) {
+        const glm::dvec3 p = scale * light.sample(povray::lightSample(i, samples, set));
+        positions += fmt::format("{:.17g}, {:.17g}, {:.17g}\n", p.x, p.y, p.z);
+    }
+    const std::filesystem::path list = folder / "samples";
+    writeFile(list, positions);
+    return writePovray(folder, "'NR == FNR { at[FNR - 1] = $0; next } /^light_source/ { rest = $0; sub(/^[^>]*>/, \"\", "
+                               "rest); print \"light_source { <\" at[n++] \">\" rest; next } { print }' " +
+                                   list.string());
+}
+
 /// Writes the script `povray` into `folder`; give the folder to PATH or the file to povray::Options.
 inline std::filesystem::path writeWrapper(const std::filesystem::path& folder, Wrapper wrapper, const Light& light,
                                           int samples, double scale) {
-    std::filesystem::path file = folder / "povray";
-    writeFile(file, "#!/bin/sh\n"
-                    "if [ -f scene.pov ]; then\n"
-                    "  awk '/^light_source/ { split($0, part, /[<,>]/); x = part[2]; y = part[3]; z = part[4]; " +
-                        changeOfSample(wrapper, light, samples, scale) +
-                        " rest = $0; sub(/^[^>]*>/, \"\", rest);"
-                        " printf \"light_source { <%.17g,%.17g,%.17g>%s\\n\", x, y, z, rest; ++n; next } { print }'"
-                        " scene.pov > changed.pov && mv changed.pov scene.pov\n"
-                        "fi\n"
-                        "exec /usr/bin/povray \"$@\"\n");
-    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
-    return file;
+    return writePovray(folder, "'/^light_source/ { split($0, part, /[<,>]/); x = part[2]; y = part[3]; z = part[4]; " +
+                                   changeOfSample(wrapper, light, samples, scale) +
+                                   " rest = $0; sub(/^[^>]*>/, \"\", rest);"
+                                   " printf \"light_source { <%.17g,%.17g,%.17g>%s\\n\", x, y, z, rest; ++n; next } "
+                                   "{ print }'");
 }
 
 } // namespace shadowbench::groundtruth
