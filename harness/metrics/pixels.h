@@ -2,7 +2,7 @@
 #pragma once
 
 #include "harness/metrics/frames.h"
-#include "harness/metrics/table.h"
+#include "harness/metrics/scores.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // Scores of a level-of-detail technique over its pictures (Scherzer and Wimmer 2008, 5.2).
 #include "harness/metrics/frames.h"
-#include "harness/metrics/table.h"
+#include "harness/metrics/scores.h"
 
 #include <algorithm>
 #include <cmath>
