@@ -47,8 +47,11 @@ TEST_F(EmbeddedVersion, SourcesAreHashedWhateverTheCommit) {
     tree_.write("results/published/report.md", "made anew\n");
     tree_.write("a page.md", "of the documentation\n");
     EXPECT_EQ(valueOf(embedded(), "program"), valueOf(before, "program"));
+    tree_.write("results/reference/lock.json", "another truth is the right one\n");
+    const std::string locked = embedded();
+    EXPECT_NE(valueOf(locked, "program"), valueOf(before, "program")) << "the lock is built in";
     tree_.write("base/a.cpp", "changed\n");
-    EXPECT_NE(valueOf(embedded(), "program"), valueOf(before, "program"));
+    EXPECT_NE(valueOf(embedded(), "program"), valueOf(locked, "program"));
     EXPECT_EQ(valueOf(embedded(), "metric_code"), valueOf(before, "metric_code"));
     tree_.write("harness/metrics/b.cpp", "changed\n");
     EXPECT_NE(valueOf(embedded(), "metric_code"), valueOf(before, "metric_code"));
