@@ -109,10 +109,6 @@ bool belongsTo(const Scene& scene, const std::string& name) {
     return !notApplicable(scene, variant) && (!scene.light.isArea() || variant.entry->answer == techniques::Answer::Soft);
 }
 
-/// Seeds that a cell is measured with where chance plays a part: as many as the allowance for it counts on
-/// (harness/records/compare.cpp).
-constexpr std::uint32_t seedsOfChance = 8;
-
 } // namespace
 
 JudgedCells::JudgedCells(const GateOptions& options, const std::optional<Policy>& base,
@@ -201,9 +197,7 @@ void JudgedCells::addSteps(const MeasuredProgram& program, const JudgedScene& sc
     };
     add(scene.id, seed, "none", those(known, [&](const auto& v) { return std::ranges::find(counted, v) == counted.end(); }));
     add(scene.id + ", instructions", seed, "instructions", counted);
-    const std::vector<std::string> byChance = those(known, [&](const auto& v) {
-        return std::ranges::any_of(watchlist.seeds, [&](const Watch& w) { return w.scene == scene.id && w.covers(v); });
-    });
+    const std::vector<std::string> byChance = those(known, [&](const auto& v) { return watchlist.isByChance(scene.id, v); });
     for (std::uint32_t other = seed + 1; other < seed + seedsOfChance; ++other)
         add(fmt::format("{}, seed {}", scene.id, other), other, "none", byChance);
 }

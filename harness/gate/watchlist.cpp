@@ -110,6 +110,10 @@ std::vector<std::string> Watch::named() const {
     return names;
 }
 
+bool Watchlist::isByChance(const std::string& scene, const std::string& variant) const {
+    return std::ranges::any_of(seeds, [&](const Watch& w) { return w.scene == scene && w.covers(variant); });
+}
+
 std::vector<std::string> Watchlist::unknownScenes(const std::vector<std::string>& known) const {
     const std::vector<std::string> builtin = builtinScenes();
     std::vector<std::string> named;

@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -48,6 +49,10 @@ struct Anchor {
     std::string reason;
 };
 
+/// Seeds that a cell is measured with where chance plays a part: as many as the allowance for it counts on
+/// (harness/records/compare.cpp).
+inline constexpr std::uint32_t seedsOfChance = 8;
+
 struct Watchlist {
     std::vector<Watch> scenes; // judged beside the standard ones when the user names none
     std::vector<Bound> bounds;
@@ -57,6 +62,9 @@ struct Watchlist {
     std::vector<Watch> seeds;   // measured with several seeds, for what chance does to them
     std::vector<Watch> choices; // every two choices of their parameters together; the scene is a file beside the bounds
     std::vector<Anchor> anchors;
+
+    /// Whether chance plays a part in a variant, by its canonical name, on a scene.
+    [[nodiscard]] bool isByChance(const std::string& scene, const std::string& variant) const;
 
     /// Scenes that are neither built in nor among `known`: misspelt, or a user's own.
     [[nodiscard]] std::vector<std::string> unknownScenes(const std::vector<std::string>& known) const;

@@ -106,11 +106,17 @@ std::vector<Mutant> readMutants(const std::filesystem::path& file) {
 
 std::vector<Mutant> onTheGatesScenes(std::vector<Mutant> mutants, const gate::Watchlist& watchlist) {
     for (Mutant& mutant : mutants) {
-        if (!mutant.makesRecords() || !mutant.scenes.empty()) continue;
-        mutant.scenes = standardScenes();
-        for (const gate::Watch& watch : watchlist.scenes)
-            if (std::ranges::all_of(mutant.techniques, [&](const std::string& t) { return watch.covers(t); }))
-                mutant.scenes.push_back(watch.scene);
+        if (!mutant.makesRecords()) continue;
+        if (mutant.scenes.empty()) {
+            mutant.scenes = standardScenes();
+            for (const gate::Watch& watch : watchlist.scenes)
+                if (std::ranges::all_of(mutant.techniques, [&](const std::string& t) { return watch.covers(t); }))
+                    mutant.scenes.push_back(watch.scene);
+        }
+        if (mutant.isSlowdown() || mutant.sweep) continue;
+        for (const std::string& scene : mutant.scenes)
+            for (const std::string& variant : mutant.techniques)
+                if (watchlist.isByChance(scene, variant)) mutant.byChance.push_back(scene + " " + variant);
     }
     return mutants;
 }

@@ -38,6 +38,7 @@ struct Mutant {
     std::optional<Sweep> sweep;
     std::optional<gate::Class> expected; // of Gate: in which it must be detected; nothing for a benign change
     bool benign = false;                 // no fault: nothing may be worse
+    std::vector<std::string> byChance;   // "scene variant": cells that the gate measures with several seeds
     std::string survives;                // why it is not detected, or why a benign change is, if that is known
 
     [[nodiscard]] bool isSlowdown() const { return expected == gate::Class::Instructions; }
@@ -47,7 +48,8 @@ struct Mutant {
 /// Throws BadInput, naming file, line and key, for what is no list of mutants with distinct ids.
 std::vector<Mutant> readMutants(const std::filesystem::path& file);
 
-/// The mutants, each that names no scenes now with the standard ones and those that the gate judges all its techniques on.
+/// The mutants, each that names no scenes now with the standard ones and those that the gate judges all its techniques on;
+/// and with its cells that the gate measures with several seeds, unless instructions alone tell.
 std::vector<Mutant> onTheGatesScenes(std::vector<Mutant> mutants, const gate::Watchlist& watchlist);
 
 /// The mutants whose id matches one of the globs; all without a glob. Throws BadInput for a glob that matches none.

@@ -54,6 +54,7 @@ Trials::Trials(const TreeCopy& tree, std::filesystem::path kept)
 
 std::string Trials::key(const Mutant& mutant) const {
     std::vector<std::string> words = arguments(mutant);
+    std::ranges::copy(mutant.byChance, std::back_inserter(words));
     for (const std::string& source : sourcesThatMatter(mutant, tree_.files(), layers_))
         words.insert(words.end(), {source, tree_.read(source)});
     return hashOf(words);
@@ -106,15 +107,24 @@ Trial Trials::run(const Mutant& mutant) const {
 Trial Trials::runProgram(const Mutant& mutant) const {
     tree_.build("shadowbench");
     const std::filesystem::path out = tree_.folder() / "running", own = tree_.folder() / "references";
-    std::filesystem::remove_all(out);
     std::filesystem::remove_all(own);
     const std::filesystem::path cache = mayTouchTruths(mutant) ? own : groundtruth::defaultCacheFolder();
-    std::vector<std::string> words = arguments(mutant);
-    words.insert(words.end(), {"--out", out.string(), "--cache", cache.string()});
-    const ToolResult result = tryTool(tree_.program(), words, tree_.folder());
-    const std::filesystem::path records = out / (mutant.sweep ? "sweep.jsonl" : "results.jsonl");
-    if (std::filesystem::exists(records)) return {readRecords(records), ""}; // cells in error among them
-    return {{}, result.succeeded ? "the program left no records" : result.complaint()};
+    Trial trial;
+    const std::uint32_t seeds = mutant.byChance.empty() ? 1 : gate::seedsOfChance;
+    for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+        std::filesystem::remove_all(out);
+        std::vector<std::string> words = arguments(mutant);
+        words.insert(words.end(), {"--seed", std::to_string(seed), "--out", out.string(), "--cache", cache.string()});
+        const ToolResult result = tryTool(tree_.program(), words, tree_.folder());
+        const std::filesystem::path file = out / (mutant.sweep ? "sweep.jsonl" : "results.jsonl");
+        if (!std::filesystem::exists(file))
+            return {{}, result.succeeded ? "the program left no records" : result.complaint()};
+        for (Record& record : readRecords(file)) // cells in error among them
+            if (seed == 1 ||
+                std::ranges::find(mutant.byChance, record.scene + " " + record.variant) != mutant.byChance.end())
+                trial.records.push_back(std::move(record));
+    }
+    return trial;
 }
 
 } // namespace shadowbench::mutants
