@@ -4,23 +4,23 @@
 #include "shared/sampling/light_samples.glsl"
 
 uniform sampler2D normals;
-uniform sampler2D linearDepth; // LAYERS channels, nearest first; negative: moving caster
-uniform float sampleCount;     // on the light
+uniform sampler2D linearDepth;  // LAYERS channels, nearest first; negative: moving caster
+uniform float sampleCount;      // on the light
 
-layout(std430, binding = 5) readonly buffer Outside { uint outside[WORDS]; }; // bits without a sample on the light
+layout(std430, binding = 5) readonly buffer Outside { uint outside[WORDS]; };  // bits without a sample on the light
 
 out float visibility;
 
 struct Field {
     uint bits[WORDS];
-    float quads; // back-projected
+    float quads;  // back-projected
 };
 
 /// A texel, or a square of 2^level texels, that may be the corner of microquads.
 struct Corner {
-    vec2 seenAt; // its centre on the light
+    vec2 seenAt;  // its centre on the light
     bool blocks;
-    bool fresh; // in this layer; else the last occluder before it stands in
+    bool fresh;   // in this layer; else the last occluder before it stands in
 };
 
 /// 1 / depth of what is nearest to the light in a square of texels.
@@ -59,8 +59,8 @@ void hideRow(inout Field field, QuadEdges edges, ivec2 rows, int row) {
     for (int i = 0; i < WORDS; ++i) field.bits[i] |= i == row * SAMPLES >> 5 ? run : 0u;
 }
 
-/// Sets the bits of the samples behind all four edges of an occluder. One that is folded, its corners on different
-/// occluders, may have none: what it would hide is hidden by its neighbours.
+/// Sets the bits of the samples behind all four edges of an occluder. One that is folded, its corners on different occluders, may have
+/// none: what it would hide is hidden by its neighbours.
 void hide(inout Field field, Corner a, Corner b, Corner c, Corner d) {
     QuadEdges edges = edgesOf(a.seenAt, b.seenAt, c.seenAt, d.seenAt);
     ivec2 rows = isOccluder(a, b, c, d) ? rowsOf(edges) : ivec2(SAMPLES, -1);
@@ -102,8 +102,8 @@ void addOccluders(inout Field field, SearchArea area, int layer, LightReceiver r
     }
 }
 #else
-/// Texels per side of the search area, at most. llvmpipe ends all loops of a pixel after 65,535 turns together: (192 / 2)²
-/// nodes with four microquads each, and the nodes above them, stay below.
+/// Texels per side of the search area, at most. llvmpipe ends all loops of a pixel after 65,535 turns together: (192 / 2)² nodes with four
+/// microquads each, and the nodes above them, stay below.
 const int widest = 192;
 
 void addRoot(inout Field field, ivec2 root, Roots roots, int layer, LightReceiver r) {
