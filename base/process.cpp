@@ -1,5 +1,6 @@
 #include "base/process.h"
 
+#include "base/descriptor.h"
 #include "base/error.h"
 #include "base/interrupts.h"
 
@@ -28,38 +29,11 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t longestLine = 4096; // a child that never ends a line must not fill our memory
 constexpr rlim_t mostOpenFiles = 64;      // its own, its libraries' and a few of its work
 
-/// A file descriptor that closes itself.
-class Descriptor {
-public:
-    explicit Descriptor(int fd) : fd_(fd) {}
-    ~Descriptor() { close(); }
-    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    Descriptor& operator=(Descriptor&&) = delete;
-
-    [[nodiscard]] int get() const { return fd_; }
-    void close() {
-        if (fd_ >= 0) ::close(std::exchange(fd_, -1));
-    }
-
-private:
-    int fd_;
-};
-
 std::string reason(int error) { return std::generic_category().message(error); }
 
 std::pair<Descriptor, Descriptor> makePipe() {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Inconclusive("cannot start a program: " + reason(errno));
-    return {Descriptor(ends[0]), Descriptor(ends[1])};
-}
-
-/// Like a pipe, but writing to one whose other end is closed is an error and no signal.
-std::pair<Descriptor, Descriptor> makeSockets() {
-    std::array<int, 2> ends{};
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-        throw Inconclusive("cannot start a program: " + reason(errno));
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
@@ -344,7 +318,7 @@ struct Dialogue::Running {
 
 Dialogue::Dialogue(const Command& command) {
     const Launch launch(command);
-    auto [input, inputEnd] = makeSockets();
+    auto [input, inputEnd] = makeSockets(); // writing to one whose other end is closed can be an error and no signal
     auto [output, outputEnd] = makePipe();
     Descriptor errors = openNameless(command.folder);
     const pid_t pid = start(launch, input.get(), outputEnd.get(), errors.get());

@@ -36,17 +36,17 @@ ReferenceInfo describe(const Reference& reference, const std::string& content) {
             provenance.tools,   content};
 }
 
-/// How far the frame's soft truth, and the technique's `v`, are from the exact visible fraction.
-AreaInfo besideArea(Truths& truths, int frame, const Image<float>& v, const metrics::Drawn& drawn, const glm::dvec3& eye) {
-    const Reference& exact = truths.at(Truth::Area, frame);
-    const Mask mask = metrics::receiverMask(exact, drawn, eye);
-    const double rms = groundtruth::penumbraError(truths.at(Truth::Soft, frame), exact).rms;
-    return {exact.provenance.key, truths.content(Truth::Area, frame), rms, metrics::rmse({v, exact, mask}).value_or(0)};
+/// How far the shown frame's soft truth, and the technique's `v`, are from the exact visible fraction.
+AreaInfo besideArea(SceneFrames& frames, const Image<float>& v) {
+    const Reference& exact = frames.truth(Truth::Area);
+    const double rms = groundtruth::penumbraError(frames.truth(Truth::Soft), exact).rms;
+    return {exact.provenance.key, frames.truths().content(Truth::Area, frames.scored()), rms,
+            metrics::rmse({v, exact, frames.mask(Truth::Area)}).value_or(0)};
 }
 
 /// The receivers of what is shown. Throws InternalError where rasteriser and truth see other surfaces.
-Mask alignedMask(const Reference& truth, const metrics::Drawn& drawn, const glm::dvec3& eye, int frame) {
-    Mask mask = metrics::receiverMask(truth, drawn, eye);
+const Mask& alignedMask(SceneFrames& frames, Truth truth, int frame) {
+    const Mask& mask = frames.mask(truth);
     if (mask.aligned) return mask;
     throw InternalError(
         fmt::format("the rasteriser and the ground truth disagree on the primary hit of {:.2f} % of the pixels of frame {} "
@@ -62,29 +62,29 @@ void score(const metrics::ScoredFrame& frame, Record& record) {
     worst = std::max(worst.value_or(0), frame.mask.primaryMismatch);
 }
 
-/// The last still frame against every truth it is scored by (docs/metrics.md, "Which truth a cell is scored against").
-void scoreStillFrame(const Scene& scene, Truths& truths, const techniques::Variant& variant, const Image<float>& v,
-                     const metrics::Drawn& drawn, const glm::dvec3& eye, Record& record) {
-    const int frame = scene.timeline.still - 1;
+/// The last still frame, which is shown, against every truth it is scored by (docs/metrics.md, "Which truth a cell is scored
+/// against").
+void scoreStillFrame(SceneFrames& frames, const techniques::Variant& variant, const Image<float>& v, Record& record) {
+    const Scene& scene = frames.scene();
+    const int frame = frames.scored();
+    const auto described = [&](Truth truth) { return describe(frames.truth(truth), frames.truths().content(truth, frame)); };
     const auto scoreSoft = [&](std::optional<ReferenceInfo>& reference) {
-        const Reference& soft = truths.at(Truth::Soft, frame);
-        reference = describe(soft, truths.content(Truth::Soft, frame));
-        if (scene.light.isArea()) reference->area = besideArea(truths, frame, v, drawn, eye);
-        score<metrics::OfVisibility>({v, soft, alignedMask(soft, drawn, eye, frame)}, record);
+        reference = described(Truth::Soft);
+        if (scene.light.isArea()) reference->area = besideArea(frames, v);
+        score<metrics::OfVisibility>({v, frames.truth(Truth::Soft), alignedMask(frames, Truth::Soft, frame)}, record);
     };
     if (mainTruth(scene, variant) == Truth::Soft) return scoreSoft(record.reference);
-    const Reference& hard = truths.at(Truth::Hard, frame);
-    const Mask mask = alignedMask(hard, drawn, eye, frame);
-    record.reference = describe(hard, truths.content(Truth::Hard, frame));
-    score<metrics::OfLabels>({v, hard, mask}, record);
+    const metrics::ScoredFrame labels{v, frames.truth(Truth::Hard), alignedMask(frames, Truth::Hard, frame)};
+    record.reference = described(Truth::Hard);
+    score<metrics::OfLabels>(labels, record);
     if (scene.light.isArea())
         scoreSoft(record.softReference);
     else if (variant.entry->answer == Answer::Filtered || variant.entry->temporal)
-        score<metrics::OfVisibility>({v, hard, mask}, record);
+        score<metrics::OfVisibility>(labels, record);
     if (!usesPixelAreas(scene, variant)) return;
-    const Reference& areas = truths.at(Truth::PixelArea, frame);
-    record.pixelReference = describe(areas, truths.content(Truth::PixelArea, frame));
-    if (!scene.light.isArea()) score<metrics::OfPixelAreas>({v, areas, metrics::receiverMask(areas, drawn, eye)}, record);
+    record.pixelReference = described(Truth::PixelArea);
+    if (!scene.light.isArea())
+        score<metrics::OfPixelAreas>({v, frames.truth(Truth::PixelArea), frames.mask(Truth::PixelArea)}, record);
 }
 
 /// The still frames from an empty history. Labels are compared with the technique's own truth, graded visibility with the
@@ -118,12 +118,14 @@ private:
 /// The frames that are scored one after the other, the last still one and the moving ones, against one truth.
 class MovingFrameScores {
 public:
-    void add(const Snapshot& shown, const Reference& truth, const Image<float>& v, Mask mask) {
-        const Kept& now = kept_.emplace_back(Kept{v, truth, std::move(mask)});
+    explicit MovingFrameScores(Truth truth) : truth_(truth) {}
+
+    /// Adds what is shown, of which `v` is the technique's answer.
+    void add(SceneFrames& frames, const Image<float>& v) {
+        const Kept& now = kept_.emplace_back(Kept{v, frames.truth(truth_), frames.mask(truth_)});
         if (kept_.size() == 1) return;
         const Kept& before = kept_[kept_.size() - 2];
-        Image<glm::vec2> warp = metrics::warp(shown, {now.v.width(), now.v.height()}, truth, before.truth);
-        frames_.pairs.push_back({{now.v, now.truth, now.mask}, {before.v, before.truth, before.mask}, std::move(warp)});
+        frames_.pairs.push_back({{now.v, now.truth, now.mask}, {before.v, before.truth, before.mask}, frames.warp(truth_)});
     }
 
     template <class Kind>
@@ -135,8 +137,9 @@ private:
     struct Kept {
         Image<float> v;
         const Reference& truth;
-        Mask mask;
+        const Mask& mask;
     };
+    Truth truth_;
     std::deque<Kept> kept_; // the pairs refer to its elements
     metrics::MovingFrames frames_;
 };
@@ -152,9 +155,10 @@ void requireAnswers(const Image<float>& v, const Mask& mask, const std::string& 
     }
 }
 
-void measureAliasing(const techniques::Technique& technique, const Stage& stage, const Mask& mask, Record& record) {
+void measureAliasing(const techniques::Technique& technique, SceneFrames& frames, const Mask& mask, Record& record) {
     const metrics::MapPoint mapPoint = [&](const glm::dvec3& world) { return technique.mapPoint(world); };
-    const metrics::MappedFrame frame{stage.shown().camera, stage.drawn().position, stage.normals(), mask, mapPoint};
+    const metrics::MappedFrame frame{frames.stage().shown().camera, frames.drawn().position, frames.stage().normals(), mask,
+                                     mapPoint};
     metrics::compute<metrics::OfMap>(frame, record.values);
 }
 
@@ -212,58 +216,65 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
     return std::nullopt;
 }
 
-void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
-             const MeasureOptions& options, Record& record, CellImages& images) {
+void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record,
+               CellImages& images) {
+    const Scene& scene = frames.scene();
+    Stage& stage = frames.stage();
     const Truth kind = mainTruth(scene, variant);
-    const int scored = scene.timeline.still - 1;
+    const int scored = frames.scored();
     const bool temporal = variant.entry->temporal;
-    stage.show(temporal ? -scene.timeline.approach
-                        : scored); // the scene's own buffers, made for the first cell, are not the technique's
+    // The scene's own buffers, made for the first cell, are not the technique's.
+    frames.show(temporal ? -scene.timeline.approach : scored);
     const std::uint64_t bytesBefore = gl::Context::current().tally().bytes;
     const auto technique = variant.entry->make(variant.parameters);
 
-    const bool soft = hasTruth(scene.light, Truth::Soft);
-    const Reference& graded = truths.at(soft ? Truth::Soft : Truth::Hard, scored);
-    StillFrameScores still(truths.at(kind, scored), graded, kind == Truth::Hard);
-    const bool usesAreas = usesPixelAreas(scene, variant);
-    MovingFrameScores moving, movingAreas;
+    const Truth graded = hasTruth(scene.light, Truth::Soft) ? Truth::Soft : Truth::Hard;
+    StillFrameScores still(frames.truths().at(kind, scored), frames.truths().at(graded, scored), kind == Truth::Hard);
+    MovingFrameScores moving(kind), movingAreas(usesPixelAreas(scene, variant) ? Truth::PixelArea : kind);
     Hasher128 shown;
     std::uint64_t bytes = 0;
     const int first = -scene.timeline.approach;
     for (int frame = temporal ? first : scored; frame < scene.timeline.frames(); ++frame) {
-        if (frame <= 1 || frame >= scored) stage.show(frame); // the still frames between are all the same
-        stage.render(*technique, frame - first, options.seed);
+        if (frame <= 1 || frame >= scored) frames.show(frame); // the still frames between are all the same
+        stage.render(*technique, frame - first, seed);
         if (frame < 0) continue;
-        Image<float> v = stage.visibility();
+        const Image<float> v = stage.visibility();
         shown.add(v.data(), v.size() * sizeof(float));
-        const Reference& truth = truths.at(kind, std::max(frame, scored));
-        Mask mask = alignedMask(truth, stage.drawn(), stage.shown().camera.eye, frame);
+        const Mask& mask = alignedMask(frames, kind, frame);
         requireAnswers(v, mask, variant.name, frame);
-        if (temporal && frame <= scored)
-            still.add(v, mask, metrics::receiverMask(graded, stage.drawn(), stage.shown().camera.eye), record.values);
+        if (temporal && frame <= scored) still.add(v, mask, frames.mask(graded), record.values);
         if (frame < scored) continue;
         if (frame == scored) {
             if (temporal) still.finish(mask, record.values);
-            scoreStillFrame(scene, truths, variant, v, stage.drawn(), stage.shown().camera.eye, record);
+            scoreStillFrame(frames, variant, v, record);
             record.figures =
-                techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame - first, options.seed)));
-            measureAliasing(*technique, stage, mask, record);
-            images = {v, soft ? &truths.at(Truth::Soft, frame) : &truth};
+                techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame - first, seed)));
+            measureAliasing(*technique, frames, mask, record);
+            images = {v, &frames.truth(graded)};
             bytes = gl::Context::current().tally().bytes - bytesBefore;
         }
-        const Reference& areas = usesAreas ? truths.at(Truth::PixelArea, frame) : truth;
-        movingAreas.add(stage.shown(), areas, v, metrics::receiverMask(areas, stage.drawn(), stage.shown().camera.eye));
-        moving.add(stage.shown(), truth, v, std::move(mask));
+        movingAreas.add(frames, v);
+        moving.add(frames, v);
     }
     moving.finish<metrics::OfMovingFrames>(record.values);
     movingAreas.finish<metrics::OfMovingAreas>(record.values);
     record.images = shown.digest().text();
 
-    stage.show(scored);
+    frames.show(scored);
     const int next = scene.timeline.frames() - first; // of the technique's sequence
-    setWork(record, timing::measureWork(stage, *technique, bytes, next, options.seed));
-    if (options.time) setTime(record, timing::measureTime(stage, variant, *technique, next + 1, options.seed));
+    setWork(record, timing::measureWork(stage, *technique, bytes, next, seed));
     record.status = Status::Scored;
+}
+
+void timeCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record) {
+    const auto technique = variant.entry->make(variant.parameters);
+    const int first = -frames.scene().timeline.approach;
+    int number = 0; // of the technique's sequence
+    for (int frame = variant.entry->temporal ? first : frames.scored(); frame <= frames.scored(); ++frame) {
+        if (frame <= 1 || frame == frames.scored()) frames.show(frame);
+        frames.stage().render(*technique, number++, seed);
+    }
+    setTime(record, timing::measureTime(frames.stage(), variant, *technique, number, seed));
 }
 
 } // namespace shadowbench

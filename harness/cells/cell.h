@@ -1,10 +1,9 @@
 // One cell: a technique variant on a scene. Renders its frames, scores them against the truth, measures their cost.
 #pragma once
 
-#include "harness/cells/measure_options.h"
+#include "harness/cells/scene_frames.h"
 #include "harness/cells/truths.h"
 #include "harness/records/record.h"
-#include "harness/render/stage.h"
 #include "techniques/contract/entry.h"
 
 #include <optional>
@@ -33,9 +32,14 @@ std::string cellId(const Truths& truths, const Scene& scene, const techniques::V
 /// Why the variant does not apply to the scene; nothing if it does.
 std::optional<std::string> notApplicable(const Scene& scene, const techniques::Variant& variant);
 
-/// Fills in status, references, accuracy, stability and cost. Throws what rendering or the truth throws, and InternalError
-/// when more than 0.1 % of the primary hits disagree with the truth's: that is an error of the set-up, not a score.
-void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques::Variant& variant,
-             const MeasureOptions& options, Record& record, CellImages& images);
+/// Fills in status, references, accuracy, stability and work of a blank record. Throws what rendering or the truth throws,
+/// and InternalError when more than 0.1 % of the primary hits disagree with the truth's: that is an error of the set-up, not
+/// a score.
+void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record,
+               CellImages& images);
+
+/// Fills in the time of the frame that is scored, with a history as full as it is there. Beside a program that keeps the
+/// processor busy it says little.
+void timeCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record);
 
 } // namespace shadowbench

@@ -151,8 +151,8 @@ std::string lodCellId(const Scene& scene, const techniques::Variant& variant) {
     return hash128(walkOf(scene, variant.name)).text();
 }
 
-void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const MeasureOptions& options, Record& record,
-                const Progress& progress, const KeepPicture& keep) {
+void scoreLodCell(LodScene& lodScene, const techniques::Variant& variant, Record& record, const Progress& progress,
+                  const KeepPicture& keep) {
     const int frames = lodScene.scene().lod->frames;
     const LodReference& reference = lodScene.reference(progress);
     LodStage& stage = lodScene.stage();
@@ -183,17 +183,18 @@ void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const Me
     record.values.list("lod.by_frame.pop") = walk.standingChange;
     record.values.list("lod.by_frame.walk_pop") = walk.change;
     record.values.list("lod.by_frame.primitives") = walk.primitives;
-    if (options.time) {
-        const LodCost cost = measureLodCost(stage, *technique, frames);
-        setTime(record, cost.time);
-        record.values.list("lod.by_frame.milliseconds") = cost.milliseconds;
-    }
     record.images = shown.digest().text();
     busiest.bytes = bytesOf(std::move(technique));
     setWork(record, busiest);
     record.frames = frames;
     record.reference = describe(reference, lodScene.scene());
     record.status = Status::Scored;
+}
+
+void timeLodCell(LodScene& lodScene, const techniques::Variant& variant, Record& record) {
+    const LodCost cost = measureLodCost(lodScene.stage(), *make(variant), lodScene.scene().lod->frames);
+    setTime(record, cost.time);
+    record.values.list("lod.by_frame.milliseconds") = cost.milliseconds;
 }
 
 } // namespace shadowbench::lod

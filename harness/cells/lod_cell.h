@@ -2,7 +2,6 @@
 #pragma once
 
 #include "harness/cells/lod_reference.h"
-#include "harness/cells/measure_options.h"
 #include "harness/records/record.h"
 #include "techniques/contract/entry.h"
 
@@ -34,9 +33,13 @@ std::optional<std::string> notApplicable(const Scene& scene);
 /// Hash of everything a cell's scores depend on.
 std::string lodCellId(const Scene& scene, const techniques::Variant& variant);
 
-/// Fills in status, frames, lod and cost. Pictures of the walk go to `keep` frame by frame, if it is set.
+/// Fills in status, frames, work and the scores of a blank record. Pictures of the walk go to `keep` frame by frame, if it
+/// is set.
 using KeepPicture = std::function<void(int frame, const metrics::ColourImage& picture)>;
-void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const MeasureOptions& options, Record& record,
-                const Progress& progress, const KeepPicture& keep);
+void scoreLodCell(LodScene& lodScene, const techniques::Variant& variant, Record& record, const Progress& progress,
+                  const KeepPicture& keep);
+
+/// Fills in the times of a scored record.
+void timeLodCell(LodScene& lodScene, const techniques::Variant& variant, Record& record);
 
 } // namespace shadowbench::lod

@@ -36,7 +36,7 @@ void markExpectedFailure(const Scene& scene, const techniques::Variant& variant,
 } // namespace
 
 SceneCells::SceneCells(const Scene& scene, const groundtruth::Cache& cache, MeasureOptions options)
-    : scene_(scene), options_(std::move(options)), truths_(scene, cache), lodScene_(scene) {}
+    : scene_(scene), options_(std::move(options)), cache_(cache), truths_(scene, cache), lodScene_(scene) {}
 
 std::optional<std::string> SceneCells::notApplicable(const techniques::Variant& variant) const {
     return variant.isLod() ? lod::notApplicable(scene_) : shadowbench::notApplicable(scene_, variant);
@@ -63,37 +63,65 @@ Record SceneCells::failed(const techniques::Variant& variant, const std::string&
     return record;
 }
 
-void SceneCells::measure(const techniques::Variant& variant, Record& record, const Progress& progress) {
-    if (variant.isLod()) return measureLod(variant, record, progress);
-    computeTruths(variant, progress);
+std::vector<std::pair<Truth, int>> SceneCells::truthsOf(const techniques::Variant& variant) const {
+    std::vector<std::pair<Truth, int>> truths;
+    if (variant.isLod()) return truths;
+    const int still = scene_.timeline.still - 1;
+    for (const int frame : truths_.scoredFrames()) {
+        truths.emplace_back(mainTruth(scene_, variant), frame);
+        if (usesPixelAreas(scene_, variant)) truths.emplace_back(Truth::PixelArea, frame);
+        if (frame == still && hasTruth(scene_.light, Truth::Soft)) truths.emplace_back(Truth::Soft, frame);
+        if (frame == still && hasTruth(scene_.light, Truth::Area)) truths.emplace_back(Truth::Area, frame);
+    }
+    return truths;
+}
+
+bool SceneCells::isKept(Truth truth, int frame) const {
+    return std::filesystem::exists(cache_.entry(truths_.key(truth, frame)));
+}
+
+void SceneCells::computeTruth(Truth truth, int frame, const Progress& progress) {
+    const std::string what = fmt::format("{} truth of frame {}", name(truth), frame);
+    truths_.at(truth, frame, [&](double share, std::string_view) { progress(share, what); });
+}
+
+SceneFrames& SceneCells::frames() {
+    if (!frames_) frames_.emplace(scene_, truths_);
+    return *frames_;
+}
+
+void SceneCells::score(const techniques::Variant& variant, Record& record, const Progress& progress) {
+    if (variant.isLod()) return scoreLod(variant, record, progress);
+    for (const auto& [truth, frame] : truthsOf(variant)) computeTruth(truth, frame, progress);
     progress(0, variant.name);
     CellImages images;
-    if (!stage_) stage_.emplace(scene_);
-    runCell(scene_, *stage_, truths_, variant, options_, record, images);
+    scoreCell(frames(), variant, options_.seed, record, images);
     markExpectedFailure(scene_, variant, record);
     if (!options_.images.empty()) writeCellImages(imageFolder(variant), images);
 }
 
-void SceneCells::measureLod(const techniques::Variant& variant, Record& record, const Progress& progress) {
+void SceneCells::scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress) {
     lod::KeepPicture keep;
     std::optional<lod::LodImages> images;
     if (!options_.images.empty()) {
         images.emplace(lodScene_.reference(progress));
         keep = [&images](int frame, const metrics::ColourImage& picture) { images->keep(frame, picture); };
     }
-    lod::runLodCell(lodScene_, variant, options_, record, progress, keep);
+    lod::scoreLodCell(lodScene_, variant, record, progress, keep);
     markExpectedFailure(scene_, variant, record);
     if (images) images->write(imageFolder(variant));
 }
 
-void SceneCells::computeTruths(const techniques::Variant& variant, const Progress& progress) {
-    for (const int frame : truths_.scoredFrames()) {
-        const std::string what = fmt::format("truth of frame {}", frame);
-        const auto show = [&](double share, std::string_view) { progress(share, what); };
-        truths_.at(mainTruth(scene_, variant), frame, show);
-        if (usesPixelAreas(scene_, variant)) truths_.at(Truth::PixelArea, frame, show);
-        if (hasTruth(scene_.light, Truth::Soft) && frame == scene_.timeline.still - 1) truths_.at(Truth::Soft, frame, show);
-    }
+void SceneCells::time(const techniques::Variant& variant, Record& record) {
+    if (variant.isLod())
+        lod::timeLodCell(lodScene_, variant, record);
+    else
+        timeCell(frames(), variant, options_.seed, record);
+}
+
+void SceneCells::measure(const techniques::Variant& variant, Record& record, const Progress& progress) {
+    score(variant, record, progress);
+    if (options_.time) time(variant, record);
 }
 
 std::filesystem::path SceneCells::imageFolder(const techniques::Variant& variant) const {

@@ -4,14 +4,16 @@
 #include "base/error.h"
 #include "harness/cells/lod_cell.h"
 #include "harness/cells/measure_options.h"
+#include "harness/cells/scene_frames.h"
 #include "harness/cells/truths.h"
 #include "harness/records/record.h"
-#include "harness/render/stage.h"
 #include "techniques/contract/entry.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace shadowbench {
 
@@ -34,20 +36,36 @@ public:
     /// The record of a cell that `error` ended.
     [[nodiscard]] Record failed(const techniques::Variant& variant, const std::string& cell, const Error& error) const;
 
-    /// Fills in the blank record of a variant that applies, and writes the images. Truths come first, with their own
-    /// progress: they are the long part of an empty cache. Throws what rendering and truths throw.
+    /// The truths that the variant's scores need, frame by frame; none of a level-of-detail technique.
+    [[nodiscard]] std::vector<std::pair<Truth, int>> truthsOf(const techniques::Variant& variant) const;
+
+    /// Whether the cache holds a truth, which may be damaged.
+    [[nodiscard]] bool isKept(Truth truth, int frame) const;
+
+    /// Makes sure that it does. Needs no GL context.
+    void computeTruth(Truth truth, int frame, const Progress& progress);
+
+    /// Fills in the blank record of a variant that applies, all but times, and writes the images. Truths come first, with
+    /// their own progress: they are the long part of an empty cache. Throws what rendering and truths throw.
+    void score(const techniques::Variant& variant, Record& record, const Progress& progress);
+
+    /// Fills in the times of a scored record, which want a processor of their own.
+    void time(const techniques::Variant& variant, Record& record);
+
+    /// Both, of which `options` leaves out the second where no time is asked for.
     void measure(const techniques::Variant& variant, Record& record, const Progress& progress);
 
 private:
-    void measureLod(const techniques::Variant& variant, Record& record, const Progress& progress);
-    void computeTruths(const techniques::Variant& variant, const Progress& progress);
+    void scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress);
+    SceneFrames& frames();
     [[nodiscard]] std::filesystem::path imageFolder(const techniques::Variant& variant) const;
 
     const Scene& scene_;
     MeasureOptions options_;
+    const groundtruth::Cache& cache_;
     Truths truths_;
     lod::LodScene lodScene_;
-    std::optional<Stage> stage_;
+    std::optional<SceneFrames> frames_;
 };
 
 } // namespace shadowbench

@@ -94,6 +94,10 @@ void addRun(CLI::App& app, Action& action) {
         ->delimiter(',')
         ->check(CLI::IsMember({"time", "instructions", "none"}))
         ->capture_default_str();
+    verb->add_option("--jobs", options->jobs,
+                     "Processes that score cells at the same time (default: one a processor); times are taken one after the "
+                     "other")
+        ->check(CLI::Range(1, 1024));
     CLI::Option* shard = verb->add_option("--shard", part->shard,
                                           "Measure part i of n of the cells only, each into a file of --out; `merge` joins "
                                           "them");

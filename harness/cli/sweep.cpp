@@ -1,10 +1,8 @@
 #include "harness/studies/sweep/sweep.h"
 
 #include "base/files.h"
-#include "groundtruth/store/cache.h"
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
-#include "harness/render/shared_shaders.h"
 #include "harness/report/charts.h"
 #include "harness/report/lod_report.h"
 #include "harness/report/run_report.h"
@@ -35,7 +33,6 @@ ExitCode viewportsAndPrint(const SweepOptions& options, const std::filesystem::p
 
 ExitCode sweepAndPrint(const SweepOptions& options, const std::filesystem::path& out) {
     if (options.axis == lod::viewportAxis) return viewportsAndPrint(options, out);
-    const auto context = contextOfRun(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache, false);
     const SweepResult result = sweep(options);
     const std::filesystem::path records = out / "sweep.jsonl", page = out / "sweep.md", chart = out / "sweep.svg";
     writeRecords(records, result.records);

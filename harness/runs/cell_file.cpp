@@ -21,29 +21,39 @@ MeasuredCell parse(const std::string& text) {
 
 } // namespace
 
+std::string text(const MeasuredCell& cell) {
+    const Json json{
+        {"id", cell.id}, {"exit_code", static_cast<int>(cell.code)}, {"record", Json::parse(toJson(cell.record))}};
+    return json.dump();
+}
+
+MeasuredCell measuredCell(const std::string& text) {
+    try {
+        return parse(text);
+    } catch (const Json::exception& error) {
+        throw BadInput(error.what());
+    }
+}
+
 std::filesystem::path cellFile(const std::filesystem::path& folder, const std::string& id) {
     return folder / "cells" / (id + ".json");
 }
 
 void writeCell(const std::filesystem::path& folder, const MeasuredCell& cell) {
-    const Json json{
-        {"id", cell.id}, {"exit_code", static_cast<int>(cell.code)}, {"record", Json::parse(toJson(cell.record))}};
-    writeFile(cellFile(folder, cell.id), json.dump() + "\n");
+    writeFile(cellFile(folder, cell.id), text(cell) + "\n");
 }
 
 std::optional<MeasuredCell> readCell(const std::filesystem::path& folder, const std::string& id) {
     const std::filesystem::path file = cellFile(folder, id);
     if (!std::filesystem::exists(file)) return {};
-    const std::string text = readFile(file);
+    const std::string content = readFile(file);
     const auto refuse = [&](std::string_view reason) {
         return BadInput(fmt::format("{} holds no measured cell: {}", file.string(), reason));
     };
     try {
-        MeasuredCell cell = parse(text);
+        MeasuredCell cell = measuredCell(content);
         if (cell.id != id) throw refuse("its id is " + cell.id);
         return cell;
-    } catch (const Json::exception& error) {
-        throw refuse(error.what());
     } catch (const BadInput& error) {
         throw refuse(error.what());
     }

@@ -11,10 +11,14 @@
 namespace shadowbench::shards {
 
 struct MeasuredCell {
-    std::string id; // ManifestCell::id
+    std::string id; // ManifestCell::id; "" outside of manifests
     Record record;
     ExitCode code = ExitCode::Pass; // what a whole run would end with for it: other than Pass with an error record only
 };
+
+/// As JSON on one line, and back. The latter throws BadInput when the text is none.
+std::string text(const MeasuredCell& cell);
+MeasuredCell measuredCell(const std::string& text);
 
 std::filesystem::path cellFile(const std::filesystem::path& folder, const std::string& id);
 

@@ -1,19 +1,32 @@
 #include "harness/runs/run.h"
 
+#include "base/parallel.h"
 #include "base/progress_line.h"
+#include "base/worker_processes.h"
 #include "harness/cells/cell_selection.h"
 #include "harness/cells/environment.h"
 #include "harness/cells/instruction_costs.h"
 #include "harness/cells/scene_cells.h"
 #include "harness/measure/callgrind.h"
 #include "harness/render/shared_shaders.h"
+#include "harness/runs/cell_file.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
+#include <functional>
+#include <map>
+#include <memory>
+#include <new>
+#include <optional>
+#include <set>
+#include <utility>
 
 namespace shadowbench {
 namespace {
+
+using shards::MeasuredCell;
 
 /// The records of an unfinished run that need not be made again.
 std::vector<Record> finishedRecords(const RunOptions& options) {
@@ -26,13 +39,28 @@ std::vector<Record> finishedRecords(const RunOptions& options) {
     return records;
 }
 
+bool isTimed(const Record& record) { return record.values["cost.time.median"] || record.values["lod.time.median"]; }
+
+/// Calls `work`; what it throws becomes the record of a failed cell.
+MeasuredCell tried(const SceneCells& cells, const techniques::Variant& variant, Record record,
+                   const std::function<void(Record&)>& work) {
+    try {
+        work(record);
+        return {"", std::move(record), ExitCode::Pass};
+    } catch (const Error& error) {
+        return {"", cells.failed(variant, record.cell, error), error.code()};
+    } catch (const std::bad_alloc&) {
+        const InternalError error("there was not enough memory; run fewer cells at once with --jobs");
+        return {"", cells.failed(variant, record.cell, error), error.code()};
+    }
+}
+
 class Runner {
 public:
     explicit Runner(const RunOptions& options)
         : options_(options), variants_(chosenVariants(options.techniques)),
           scenes_(chosenScenes(options.scenes, options.profile)), finished_(finishedRecords(options)),
-          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache),
-          context_(contextOfRun(cache_.folder(), options.measure.time)) {
+          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), known_(cellCount()) {
         if (options.instructions) timing::valgrindVersion(); // to fail before the long part
         std::error_code failed;
         std::filesystem::create_directories(options.out, failed);
@@ -42,36 +70,142 @@ public:
     }
 
     RunResult all() {
-        for (const Scene& scene : scenes_) runScene(scene);
+        computeTruths();
+        scoreCells();
+        if (options_.measure.time) timeCells();
         if (options_.instructions) addInstructions();
-        return std::move(result_);
+        return {records(), code_};
     }
 
 private:
-    void runScene(const Scene& scene) {
-        ProgressLine line(scene.id, static_cast<int>(variants_.size()), options_.quiet);
-        SceneCells cells(scene, cache_, options_.measure);
-        int done = 0;
-        for (const techniques::Variant& variant : variants_) {
-            line.show(done, 0, variant.name);
-            keep(cell(cells, variant, [&](double share, std::string_view what) { line.show(done, share, what); }));
-            ++done;
-        }
-        line.show(done, 0, "");
+    [[nodiscard]] std::size_t cellCount() const { return scenes_.size() * variants_.size(); }
+    [[nodiscard]] const Scene& sceneOf(std::size_t cell) const { return scenes_[cell / variants_.size()]; }
+    [[nodiscard]] const techniques::Variant& variantOf(std::size_t cell) const { return variants_[cell % variants_.size()]; }
+    [[nodiscard]] std::string nameOf(std::size_t cell) const { return sceneOf(cell).id + " " + variantOf(cell).name; }
+    [[nodiscard]] int workers() const { return options_.jobs > 0 ? options_.jobs : hardwareThreads(); }
+
+    /// What cells of `scene` share in this process: made for the first, kept until another scene is asked for.
+    SceneCells& cellsOf(const Scene& scene) {
+        if (shared_ && shared_->first == &scene) return shared_->second;
+        shared_.reset();
+        return shared_
+            .emplace(std::piecewise_construct, std::forward_as_tuple(&scene),
+                     std::forward_as_tuple(scene, cache_, options_.measure))
+            .second;
     }
 
-    Record cell(SceneCells& cells, const techniques::Variant& variant, const Progress& progress) {
-        Record record = cells.blank(variant);
-        if (record.status == Status::NotApplicable) return record;
-        try {
-            record.cell = cells.id(variant);
-            if (const Record* same = finishedAlready(record.cell)) return *same;
-            cells.measure(variant, record, progress);
-            return record;
-        } catch (const Error& error) {
-            if (result_.code == ExitCode::Pass) result_.code = error.code();
-            return cells.failed(variant, record.cell, error);
+    /// The long part of an empty cache: each truth by one process, while others compute others.
+    void computeTruths() {
+        struct Asked {
+            const Scene* scene;
+            Truth truth;
+            int frame;
+        };
+        std::vector<Asked> asked;
+        for (const Scene& scene : scenes_) {
+            std::set<std::pair<Truth, int>> ofScene;
+            const SceneCells& cells = cellsOf(scene);
+            for (const techniques::Variant& variant : variants_)
+                if (!cells.notApplicable(variant)) ofScene.merge(missingTruths(cells, variant));
+            for (const auto& [truth, frame] : ofScene) asked.push_back({&scene, truth, frame});
         }
+        shared_.reset();
+        if (asked.empty()) return;
+        ProgressLine line("truths", static_cast<int>(asked.size()), options_.quiet);
+        int done = 0;
+        SharedWork work;
+        work.items = asked.size();
+        work.work = [&](std::size_t item, const Progress& progress) {
+            try {
+                cellsOf(*asked[item].scene).computeTruth(asked[item].truth, asked[item].frame, progress);
+            } catch (const std::exception&) { // the cells that need it will meet it, too, and say so
+            }
+            return std::string();
+        };
+        work.progress = [&](std::size_t item, double share, std::string_view what) {
+            line.show(done, share, fmt::format("{} {}", asked[item].scene->id, what));
+        };
+        work.finished = [&](std::size_t, const std::string&) { ++done; };
+        work.lost = [&](std::size_t, const std::string&) { ++done; };
+        shareAmongProcesses(workers(), work);
+    }
+
+    [[nodiscard]] std::set<std::pair<Truth, int>> missingTruths(const SceneCells& cells,
+                                                                const techniques::Variant& variant) const {
+        std::set<std::pair<Truth, int>> missing;
+        for (const auto& [truth, frame] : cells.truthsOf(variant))
+            if (!cells.isKept(truth, frame)) missing.emplace(truth, frame);
+        return missing;
+    }
+
+    /// Everything but costs that other programs would disturb, in as many processes as the machine runs at once.
+    void scoreCells() {
+        ProgressLine line("cells", static_cast<int>(cellCount()), options_.quiet);
+        int done = 0;
+        SharedWork work;
+        work.items = cellCount();
+        work.work = [this](std::size_t cell, const Progress& progress) { return shards::text(scored(cell, progress)); };
+        work.leave = [this] {
+            shared_.reset();
+            context_.reset();
+        };
+        work.progress = [&](std::size_t cell, double share, std::string_view what) {
+            line.show(done, share, what.empty() ? nameOf(cell) : fmt::format("{} {}", sceneOf(cell).id, what));
+        };
+        work.finished = [&](std::size_t cell, const std::string& answer) {
+            ++done;
+            keep(cell, shards::measuredCell(answer));
+        };
+        work.lost = [&](std::size_t cell, const std::string& how) {
+            ++done;
+            lost_.emplace(cell, how);
+        };
+        shareAmongProcesses(workers(), work);
+        line.show(done, 0, "");
+        for (const auto& [cell, how] : lost_) keep(cell, lostCell(cell, how));
+    }
+
+    /// In a worker.
+    MeasuredCell scored(std::size_t cell, const Progress& progress) {
+        makeContext();
+        SceneCells& cells = cellsOf(sceneOf(cell));
+        const techniques::Variant& variant = variantOf(cell);
+        Record blank = cells.blank(variant);
+        if (blank.status == Status::NotApplicable) return {"", std::move(blank), ExitCode::Pass};
+        return tried(cells, variant, std::move(blank), [&](Record& record) {
+            record.cell = cells.id(variant);
+            if (const Record* same = finishedAlready(record.cell))
+                record = *same;
+            else
+                cells.score(variant, record, progress);
+        });
+    }
+
+    MeasuredCell lostCell(std::size_t cell, const std::string& how) {
+        makeContext();
+        const InternalError error(fmt::format("the process that rendered it {}", how));
+        return {"", cellsOf(sceneOf(cell)).failed(variantOf(cell), "", error), error.code()};
+    }
+
+    /// One after the other: a frame's time wants the machine for itself.
+    void timeCells() {
+        std::vector<std::size_t> untimed;
+        for (std::size_t cell = 0; cell < known_.size(); ++cell)
+            if (wasScored(known_[cell]->status) && !isTimed(*known_[cell])) untimed.push_back(cell);
+        if (untimed.empty()) return;
+        makeContext();
+        ProgressLine line("times", static_cast<int>(untimed.size()), options_.quiet);
+        for (int done = 0; const std::size_t cell : untimed) {
+            line.show(done++, 0, nameOf(cell));
+            SceneCells& cells = cellsOf(sceneOf(cell));
+            const techniques::Variant& variant = variantOf(cell);
+            keep(cell, tried(cells, variant, *known_[cell], [&](Record& record) { cells.time(variant, record); }));
+        }
+        line.show(static_cast<int>(untimed.size()), 0, "");
+    }
+
+    void makeContext() {
+        if (!context_) context_ = contextOfRun(cache_.folder(), false);
     }
 
     const Record* finishedAlready(const std::string& cell) const {
@@ -83,27 +217,40 @@ private:
         InstructionOptions options{{}, options_.profile, options_.quiet};
         const std::vector<std::string> names = chosenSceneNames(options_.scenes);
         for (std::size_t i = 0; i < scenes_.size(); ++i) options.scenes[scenes_[i].id] = names[i];
-        countInstructions(result_.records, options, [this] { writeAll(); });
-        const bool failed = std::any_of(result_.records.begin(), result_.records.end(),
-                                        [](const Record& r) { return r.status == Status::Error; });
-        if (failed && result_.code == ExitCode::Pass) result_.code = ExitCode::Internal;
+        std::vector<Record> counted = records();
+        countInstructions(counted, options, [&] { writeRecords(resultsFile(), withEarlier(counted)); });
+        for (std::size_t cell = 0; cell < known_.size(); ++cell) known_[cell] = counted[cell];
+        const bool failed =
+            std::any_of(counted.begin(), counted.end(), [](const Record& r) { return r.status == Status::Error; });
+        if (failed && code_ == ExitCode::Pass) code_ = ExitCode::Internal;
     }
 
-    /// Every finished cell is on disk before the next one starts.
-    void keep(Record record) {
-        result_.records.push_back(std::move(record));
-        writeAll();
+    /// Every finished cell is on disk before the next one is kept.
+    void keep(std::size_t cell, MeasuredCell measured) {
+        if (measured.code != ExitCode::Pass && code_ == ExitCode::Pass) code_ = measured.code;
+        known_[cell] = std::move(measured.record);
+        writeRecords(resultsFile(), withEarlier(records()));
     }
 
-    void writeAll() const {
-        std::vector<Record> all = result_.records;
+    [[nodiscard]] std::filesystem::path resultsFile() const { return options_.out / "results.jsonl"; }
+
+    /// Of the cells that are known, in order.
+    [[nodiscard]] std::vector<Record> records() const {
+        std::vector<Record> records;
+        for (const std::optional<Record>& record : known_)
+            if (record) records.push_back(*record);
+        return records;
+    }
+
+    /// With what an unfinished run has left of other cells.
+    [[nodiscard]] std::vector<Record> withEarlier(std::vector<Record> all) const {
         for (const Record& earlier : finished_) {
             const bool again = std::any_of(all.begin(), all.end(), [&](const Record& r) {
                 return r.scene == earlier.scene && r.variant == earlier.variant && r.profile == earlier.profile;
             });
             if (!again) all.push_back(earlier);
         }
-        writeRecords(options_.out / "results.jsonl", all);
+        return all;
     }
 
     RunOptions options_;
@@ -111,8 +258,11 @@ private:
     std::vector<Scene> scenes_;
     std::vector<Record> finished_;
     groundtruth::Cache cache_;
-    std::unique_ptr<gl::Context> context_;
-    RunResult result_;
+    std::vector<std::optional<Record>> known_; // of each cell, once it is known
+    ExitCode code_ = ExitCode::Pass;
+    std::map<std::size_t, std::string> lost_; // cells whose process ended, and how
+    std::unique_ptr<gl::Context> context_;    // of a worker, later of this process
+    std::optional<std::pair<const Scene*, SceneCells>> shared_;
 };
 
 } // namespace

@@ -21,6 +21,7 @@ struct RunOptions {
     MeasureOptions measure; // of every cell
     bool resume = false;
     bool instructions = false; // counted of a steady frame, under Callgrind
+    int jobs = 0;              // processes that score cells at the same time; 0: as many as the machine runs at once
     bool quiet = false;
 };
 
@@ -29,8 +30,9 @@ struct RunResult {
     ExitCode code = ExitCode::Pass; // of the first cell that ended in an error
 };
 
-/// Runs every cell; after each one results.jsonl in `out` holds all finished ones. A cell that fails leaves an error record
-/// and the run goes on. With `resume`, cells that results.jsonl already holds (same inputs, same program) are kept.
+/// Runs every cell: scores them in several processes, then times one after the other. After each one results.jsonl in `out`
+/// holds all finished ones. A cell that fails leaves an error record and the run goes on. With `resume`, what results.jsonl
+/// already holds of cells (same inputs, same program) is kept. Must be called without a GL context.
 RunResult run(const RunOptions& options);
 
 } // namespace shadowbench

@@ -20,10 +20,9 @@ public:
 
     const Record& scored(const std::string& variant) {
         if (const auto found = records_.find(variant); found != records_.end()) return found->second;
-        const MeasureOptions options{.seed = 1, .time = false, .images = {}};
         const auto silent = [](double, std::string_view) {};
         Record record;
-        lod::runLodCell(cells_, techniques::parseVariant(variant), options, record, silent, {});
+        lod::scoreLodCell(cells_, techniques::parseVariant(variant), record, silent, {});
         return records_.emplace(variant, std::move(record)).first->second;
     }
 

@@ -77,8 +77,7 @@ std::string refusalOf(float value) {
     Record record;
     CellImages images;
     try {
-        runCell(cells.scene(), cells.stage(), cells.truths(), variant, {.seed = 1, .time = false, .images = {}}, record,
-                images);
+        scoreCell(cells.frames(), variant, 1, record, images);
     } catch (const InternalError& error) {
         return error.what();
     }

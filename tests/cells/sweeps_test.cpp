@@ -40,7 +40,6 @@ std::vector<Case> everyExpectedSweep() {
 }
 
 std::vector<Record> swept(const std::string& scene, const std::string& axis, std::vector<std::string> techniques) {
-    testContext();
     SweepOptions options;
     options.scene = scene;
     options.axis = axis;

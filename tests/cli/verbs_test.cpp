@@ -1,5 +1,6 @@
 // The verbs as documented: what they print, what they write, what they return.
 #include "harness/records/record.h"
+#include "harness/runs/merge.h"
 #include "techniques/catalog.h"
 #include "tests/support/program.h"
 
@@ -146,10 +147,22 @@ Outcome killedAfter(std::size_t lines, const std::string& file, const std::strin
                  "; kill -KILL $pid; wait $pid");
 }
 
+/// Expects that what `before` holds of cells is still there: times, too, once they were taken.
+void expectKept(const std::vector<Record>& before, const std::vector<Record>& after) {
+    for (const Record& record : before) {
+        const auto same = std::ranges::find(after, record.variant, &Record::variant);
+        ASSERT_NE(same, after.end()) << record.variant << " was lost";
+        if (record.values["cost.time.median"])
+            EXPECT_EQ(toJson(*same), toJson(record)) << "it was run again";
+        else
+            EXPECT_EQ(toJson(shards::withoutTimings(*same)), toJson(shards::withoutTimings(record)));
+    }
+}
+
 TEST_F(Run, KilledAtAnyMomentItLeavesWholeRecordsAndResumes) {
     const std::string all = command("--resume --technique sm-uniform --technique 'sm-h*' --technique pcf");
     const std::string file = folder_ / "out/results.jsonl";
-    std::vector<std::string> before;
+    std::vector<Record> before;
     for (const auto& [lines, seconds] :
          std::vector<std::pair<std::size_t, std::string>>{{0, "0.1"}, {1, "0"}, {2, "0.05"}, {4, "0.02"}}) {
         const Outcome killed = killedAfter(lines, file, seconds, all);
@@ -157,14 +170,24 @@ TEST_F(Run, KilledAtAnyMomentItLeavesWholeRecordsAndResumes) {
         if (lines == 0 && !fs::exists(file)) continue;
         const std::vector<Record> whole = records();
         EXPECT_GE(whole.size(), lines);
-        EXPECT_LT(whole.size(), 6U);
-        for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(toJson(whole.at(i)), before[i]) << "it was run again";
-        before.clear();
-        for (const Record& record : whole) before.push_back(toJson(record));
+        expectKept(before, whole);
+        before = whole;
     }
     ASSERT_EQ(shell(all).code, 0);
     EXPECT_EQ(records().size(), 6U); // a map, four variants of history, pcf
-    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(toJson(records().at(i)), before[i]) << "it was run again";
+    expectKept(before, records());
+    for (const Record& record : records()) EXPECT_TRUE(record.values["cost.time.median"]) << record.variant;
+}
+
+TEST_F(Run, ScoresAreTheSameHoweverManyProcessesShareThem) {
+    std::string first;
+    for (const std::string jobs : {"1", "2", "5"}) {
+        ASSERT_EQ(shell(command("--technique 'sm-*' --technique 'pcf*' --cost none --jobs " + jobs)).code, 0);
+        std::string lines;
+        for (Record record : records()) lines += toJson(shards::withoutTimings(record)) + "\n";
+        if (first.empty()) first = lines;
+        EXPECT_EQ(lines, first) << jobs;
+    }
 }
 
 TEST_F(Run, ADamagedCacheEntryIsReplaced) {

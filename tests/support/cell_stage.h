@@ -3,7 +3,6 @@
 
 #include "harness/cells/cell.h"
 #include "harness/cells/truths.h"
-#include "harness/render/stage.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
 #include "tests/support/test_context.h"
@@ -23,28 +22,28 @@ inline groundtruth::Cache testCache() {
 /// A scene whose cells are scored once each, without measuring time.
 class CellScene {
 public:
-    explicit CellScene(Scene scene) : scene_(std::move(scene)), stage_(scene_), truths_(scene_, cache_) {}
+    explicit CellScene(Scene scene) : scene_(std::move(scene)) {}
     CellScene(const CellScene&) = delete;
     CellScene& operator=(const CellScene&) = delete;
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
-    Stage& stage() { return stage_; }
+    SceneFrames& frames() { return frames_; }
+    Stage& stage() { return frames_.stage(); }
     Truths& truths() { return truths_; }
 
     const Record& scored(const std::string& variant) {
         if (const auto found = records_.find(variant); found != records_.end()) return found->second;
-        const MeasureOptions options{.seed = 1, .time = false, .images = {}};
         Record record;
         CellImages images;
-        runCell(scene_, stage_, truths_, techniques::parseVariant(variant), options, record, images);
+        scoreCell(frames_, techniques::parseVariant(variant), 1, record, images);
         return records_.emplace(variant, std::move(record)).first->second;
     }
 
 private:
     Scene scene_;
     groundtruth::Cache cache_ = testCache();
-    Stage stage_;
-    Truths truths_;
+    Truths truths_{scene_, cache_};
+    SceneFrames frames_{scene_, truths_};
     std::map<std::string, Record> records_;
 };
 

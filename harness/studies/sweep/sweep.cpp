@@ -1,17 +1,23 @@
 #include "harness/studies/sweep/sweep.h"
 
+#include "base/parallel.h"
 #include "base/progress_line.h"
+#include "base/worker_processes.h"
 #include "groundtruth/store/cache.h"
 #include "harness/cells/cell.h"
 #include "harness/metrics/table.h"
+#include "harness/render/shared_shaders.h"
 #include "harness/studies/sweep/axis.h"
 #include "harness/studies/sweep/variants.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
+#include "techniques/gl/context.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <memory>
+#include <sstream>
 
 namespace shadowbench {
 namespace {
@@ -46,7 +52,9 @@ public:
         : options_(options), axis_(axisNamed(options.axis)), variants_(chosenVariants(options, axis_)),
           scene_(atRest(loadScene(options.scene, options.profile, metrics::boundedMetrics()))),
           values_(options.values.empty() ? axis_.valuesFor(scene_) : options.values),
-          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), curves_(variants_.size()) {
+          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache),
+          curves_(variants_.size(), std::vector<Record>(values_.size())) {
+        const auto context = gl::Context::create(); // until what follows is known: workers make their own
         for (const double value : values_) {
             if (axis_.whole && value != std::floor(value))
                 throw BadInput(fmt::format("axis {} takes whole numbers; {:g} is none", axis_.id, value));
@@ -56,10 +64,22 @@ public:
 
     SweepResult all() {
         ProgressLine line(fmt::format("{} over {}", scene_.id, axis_.id), static_cast<int>(values_.size()), options_.quiet);
-        for (std::size_t i = 0; i < values_.size(); ++i) {
-            const auto show = [&](double share, std::string_view what) { line.show(static_cast<int>(i), share, what); };
-            step(values_[i], show);
-        }
+        int done = 0;
+        SharedWork work;
+        work.items = values_.size();
+        work.work = [this](std::size_t i, const Progress& progress) { return answerOf(i, progress); };
+        work.leave = [this] { context_.reset(); };
+        work.progress = [&](std::size_t i, double share, std::string_view what) {
+            line.show(done, share, what.empty() ? fmt::format("{}", values_[i]) : what);
+        };
+        work.finished = [&](std::size_t i, const std::string& answer) {
+            ++done;
+            keep(i, answer);
+        };
+        work.lost = [&](std::size_t i, const std::string& how) {
+            throw InternalError(fmt::format("the process that scored {} at {:g} {}", axis_.id, values_[i], how));
+        };
+        shareAmongProcesses(hardwareThreads(), work);
         line.show(static_cast<int>(values_.size()), 0, "");
         for (std::vector<Record>& curve : curves_) {
             const std::optional<double> point = breakPoint(curve);
@@ -92,7 +112,34 @@ private:
         throw BadInput(reason);
     }
 
-    void step(double value, const Progress& progress) {
+    /// In a worker: the exit code and the records of value `i`, a line each; instead of these what cannot be scored at all.
+    std::string answerOf(std::size_t i, const Progress& progress) {
+        if (!context_) context_ = contextOfRun(cache_.folder(), false);
+        result_.code = ExitCode::Pass;
+        std::string lines;
+        try {
+            for (const Record& record : scoredAt(values_[i], progress)) lines += toJson(record) + "\n";
+        } catch (const Error& error) {
+            return fmt::format("{}\nerror {}", static_cast<int>(error.code()), error.what());
+        }
+        return fmt::format("{}\n{}", static_cast<int>(result_.code), lines);
+    }
+
+    void keep(std::size_t i, const std::string& answer) {
+        std::istringstream lines(answer);
+        std::string line;
+        std::getline(lines, line);
+        const auto code = static_cast<ExitCode>(std::stoi(line));
+        if (result_.code == ExitCode::Pass) result_.code = code;
+        for (std::vector<Record>& curve : curves_) {
+            std::getline(lines, line);
+            if (line.starts_with("error ")) throw Error(code, line.substr(6));
+            curve[i] = parseRecord(line);
+        }
+    }
+
+    /// All variants where the axis has `value`.
+    std::vector<Record> scoredAt(double value, const Progress& progress) {
         Scene scene = scene_;
         if (!axis_.isParameter()) axis_.move(scene, value);
         std::string unsound;
@@ -101,8 +148,9 @@ private:
         } catch (const BadInput& error) {
             unsound = error.what();
         }
-        Stage stage(scene);
         Truths truths(scene, cache_);
+        SceneFrames frames(scene, truths);
+        std::vector<Record> records;
         for (std::size_t i = 0; i < variants_.size(); ++i) {
             Variant variant = variants_[i];
             std::string reason = unsound;
@@ -111,24 +159,24 @@ private:
                      fmt::format("{} {}", value, variant.name));
             Record record = blankRecord(scene, variant, options_.seed);
             record.sweep = SweepStep{axis_.id, axis_.unit, variants_[i].name, value, {}};
-            score(scene, stage, truths, variant, reason, record);
-            curves_[i].push_back(std::move(record));
+            score(frames, variant, reason, record);
+            records.push_back(std::move(record));
         }
+        return records;
     }
 
     /// `excluded`: why there is nothing to score; empty if there is.
-    void score(const Scene& scene, Stage& stage, Truths& truths, const Variant& variant, const std::string& excluded,
-               Record& record) {
+    void score(SceneFrames& frames, const Variant& variant, const std::string& excluded, Record& record) {
+        const Scene& scene = frames.scene();
         if (const auto reason = excluded.empty() ? notApplicable(scene, variant) : std::optional(excluded)) {
             record.status = Status::NotApplicable;
             record.reason = *reason;
             return;
         }
         try {
-            record.cell = cellId(truths, scene, variant, options_.seed);
+            record.cell = cellId(frames.truths(), scene, variant, options_.seed);
             CellImages images;
-            const MeasureOptions measure{.seed = options_.seed, .time = false, .images = {}};
-            runCell(scene, stage, truths, variant, measure, record, images);
+            scoreCell(frames, variant, options_.seed, record, images);
         } catch (const Error& error) {
             Record failed = blankRecord(scene, variant, options_.seed);
             failed.sweep = record.sweep;
@@ -145,8 +193,9 @@ private:
     Scene scene_;
     std::vector<double> values_;
     groundtruth::Cache cache_;
-    std::vector<std::vector<Record>> curves_;
+    std::vector<std::vector<Record>> curves_; // of each variant, by value
     SweepResult result_;
+    std::unique_ptr<gl::Context> context_; // of a worker
 };
 
 } // namespace

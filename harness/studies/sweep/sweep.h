@@ -31,7 +31,8 @@ struct SweepResult {
 
 /// Scores the last still frame of every technique at every value; lights and casters stand still, nothing is timed. A value
 /// at which the scene has no sound set-up (the light inside a mesh) or a technique does not apply gives a record that says
-/// so. Throws BadInput for an unknown scene, axis or technique, and for an axis that the scene or all techniques lack.
+/// so. Values are scored in as many processes as the machine runs at once: must be called without a GL context. Throws
+/// BadInput for an unknown scene, axis or technique, and for an axis that the scene or all techniques lack.
 SweepResult sweep(const SweepOptions& options);
 
 /// The first value of a curve, in order, at which the scene's tolerance is exceeded; nothing if it never is, or the scene

@@ -60,7 +60,8 @@ SweepResult viewportCurve(const SweepOptions& options, int frames) {
             Record& record = curves[i].emplace_back(blankRecord(scene, variants[i], options.seed));
             record.cell = lodCellId(scene, variants[i]);
             record.sweep = SweepStep{viewportAxis, "pixels", variants[i].name, size, {}};
-            runLodCell(lodScene, variants[i], {}, record, show, {});
+            scoreLodCell(lodScene, variants[i], record, show, {});
+            timeLodCell(lodScene, variants[i], record);
             ++done;
         }
     }

@@ -1,0 +1,206 @@
+#include "base/worker_processes.h"
+
+#include "base/descriptor.h"
+#include "base/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <poll.h>
+#include <string_view>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace shadowbench {
+namespace {
+
+constexpr std::size_t noMore = std::numeric_limits<std::size_t>::max(); // sent instead of an item
+constexpr std::chrono::milliseconds pause{200};                         // between two reports of progress
+
+/// What a worker sends: this, and as many bytes of text.
+struct Message {
+    bool isAnswer = false; // else of progress
+    double done = 0;
+    std::size_t length = 0;
+};
+
+/// Whether all bytes went through; they do not when the other end has closed.
+bool sendAll(int fd, const void* bytes, std::size_t count) {
+    const char* next = static_cast<const char*>(bytes);
+    while (count > 0) {
+        const ssize_t sent = send(fd, next, count, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR) continue;
+        if (sent <= 0) return false;
+        next += sent;
+        count -= static_cast<std::size_t>(sent);
+    }
+    return true;
+}
+
+bool receiveAll(int fd, void* bytes, std::size_t count) {
+    char* next = static_cast<char*>(bytes);
+    while (count > 0) {
+        const ssize_t received = recv(fd, next, count, 0);
+        if (received < 0 && errno == EINTR) continue;
+        if (received <= 0) return false;
+        next += received;
+        count -= static_cast<std::size_t>(received);
+    }
+    return true;
+}
+
+bool sendMessage(int socket, Message message, std::string_view text) {
+    message.length = text.size();
+    return sendAll(socket, &message, sizeof message) && sendAll(socket, text.data(), text.size());
+}
+
+/// Progress that is sent now and then.
+Progress progressThrough(int socket) {
+    using Clock = std::chrono::steady_clock;
+    return [socket, last = Clock::time_point()](double done, std::string_view what) mutable {
+        if (Clock::now() - last < pause) return;
+        last = Clock::now();
+        sendMessage(socket, {.isAnswer = false, .done = done}, what);
+    };
+}
+
+/// The worker's half: receives the numbers of items and answers each.
+[[noreturn]] void answerItems(int socket, pid_t parent, const SharedWork& work) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM); // not SIGKILL: the tools that it runs have folders to remove
+    if (getppid() != parent) _exit(1);
+    std::size_t item = noMore;
+    while (receiveAll(socket, &item, sizeof item) && item != noMore) {
+        const std::string answer = work.work(item, progressThrough(socket));
+        if (!sendMessage(socket, {.isAnswer = true}, answer)) break;
+    }
+    if (work.leave) work.leave();
+    std::fflush(nullptr);
+    _exit(0); // without what the parent would do at its end
+}
+
+class Worker {
+public:
+    explicit Worker(const SharedWork& work) : Worker(work, makeSockets()) {}
+    ~Worker() {
+        if (process_ > 0) end(SIGTERM);
+    }
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
+    [[nodiscard]] int socket() const { return socket_.get(); }
+    [[nodiscard]] std::size_t item() const { return item_; } // that it was given last
+
+    void give(std::size_t item) {
+        item_ = item;
+        sendAll(socket(), &item, sizeof item); // that it has ended is noticed when its answer is received
+    }
+
+    /// Waits for what it says next; nothing when it has ended.
+    std::optional<std::pair<Message, std::string>> next() {
+        Message message;
+        if (!receiveAll(socket(), &message, sizeof message)) return std::nullopt;
+        std::string text(message.length, '\0');
+        if (!receiveAll(socket(), text.data(), text.size())) return std::nullopt;
+        return std::pair(message, std::move(text));
+    }
+
+    /// Lets it end once it has left, and says how it did.
+    std::string finish() {
+        sendAll(socket(), &noMore, sizeof noMore);
+        const int status = end(0);
+        return WIFSIGNALED(status) ? fmt::format("was killed by signal {}", WTERMSIG(status))
+                                   : fmt::format("ended with exit code {}", WEXITSTATUS(status));
+    }
+
+private:
+    Worker(const SharedWork& work, std::pair<Descriptor, Descriptor> ends) : socket_(std::move(ends.first)) {
+        std::fflush(nullptr); // or what is buffered would be written by the worker as well
+        const pid_t parent = getpid();
+        process_ = fork();
+        if (process_ == 0) answerItems(ends.second.get(), parent, work);
+        const int reason = errno;
+        if (process_ < 0)
+            throw InternalError("starting another process failed: " + std::generic_category().message(reason),
+                                failureOf(reason));
+    }
+
+    int end(int signal) {
+        int status = 0;
+        if (signal != 0) kill(process_, signal);
+        while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+        process_ = -1;
+        return status;
+    }
+
+    Descriptor socket_;
+    pid_t process_ = -1;
+    std::size_t item_ = noMore;
+};
+
+class Sharing {
+public:
+    explicit Sharing(const SharedWork& work) : work_(work) {}
+
+    void all(int workers) {
+        for (int i = 0; i < workers && next_ < work_.items; ++i) startWorker();
+        while (!workers_.empty()) {
+            std::vector<pollfd> watched;
+            for (const auto& worker : workers_) watched.push_back({worker->socket(), POLLIN, 0});
+            if (poll(watched.data(), watched.size(), -1) < 0) continue; // a signal that something else handles
+            for (std::size_t i = watched.size(); i-- > 0;)
+                if (watched[i].revents != 0) listenTo(i);
+        }
+    }
+
+private:
+    void startWorker() {
+        workers_.push_back(std::make_unique<Worker>(work_));
+        giveNext(*workers_.back());
+    }
+
+    void giveNext(Worker& worker) {
+        if (work_.progress) work_.progress(next_, 0, "");
+        worker.give(next_++);
+    }
+
+    void listenTo(std::size_t i) {
+        Worker& worker = *workers_[i];
+        const std::size_t item = worker.item();
+        auto said = worker.next();
+        if (said && !said->first.isAnswer) {
+            if (work_.progress) work_.progress(item, said->first.done, said->second);
+            return;
+        }
+        if (said && next_ < work_.items) {
+            giveNext(worker);
+            return work_.finished(item, std::move(said->second));
+        }
+        const std::string how = worker.finish();
+        workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
+        if (said) return work_.finished(item, std::move(said->second));
+        if (next_ < work_.items) startWorker();
+        work_.lost(item, how);
+    }
+
+    const SharedWork& work_;
+    std::size_t next_ = 0;
+    std::vector<std::unique_ptr<Worker>> workers_;
+};
+
+} // namespace
+
+void shareAmongProcesses(int workers, const SharedWork& work) { Sharing(work).all(workers); }
+
+} // namespace shadowbench

@@ -1,0 +1,36 @@
+// Work that several processes share: for what keeps one state per process, as a GL context does, and so cannot be spread
+// over threads (base/parallel.h).
+#pragma once
+
+#include "base/progress.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace shadowbench {
+
+struct SharedWork {
+    std::size_t items = 0;
+
+    // In a worker:
+    /// Does item i < items and returns what `finished` is given. A worker keeps what it made for earlier items; the items
+    /// that it is given rise. Must not throw.
+    std::function<std::string(std::size_t item, const Progress& progress)> work;
+    /// Gives back what it has kept, after the last item; may be empty.
+    std::function<void()> leave = {};
+
+    // In this process, one call at a time:
+    std::function<void(std::size_t item, double done, std::string_view what)> progress = {}; // of `work`; may be empty
+    std::function<void(std::size_t item, std::string answer)> finished;
+    std::function<void(std::size_t item, const std::string& how)> lost; // its worker "was killed by signal 9"
+};
+
+/// Does every item once, in rising order as workers become free, and returns when all are finished or lost. The workers are
+/// copies of this process as it is when they are started (fork), which therefore must not hold a GL context and must run no
+/// other thread; they end with it. One that has ended before its time is replaced. Throws InternalError when none can be
+/// started, and what `finished` and `lost` throw.
+void shareAmongProcesses(int workers, const SharedWork& work);
+
+} // namespace shadowbench

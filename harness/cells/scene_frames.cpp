@@ -1,0 +1,31 @@
+#include "harness/cells/scene_frames.h"
+
+#include <algorithm>
+
+namespace shadowbench {
+
+void SceneFrames::show(int index) {
+    stage_.show(index);
+    shown_ = index;
+    drawn_.reset();
+}
+
+const metrics::Drawn& SceneFrames::drawn() {
+    if (!drawn_) drawn_ = stage_.drawn();
+    return *drawn_;
+}
+
+const metrics::Mask& SceneFrames::mask(Truth kind) {
+    const std::pair key(kind, std::max(shown_, scored_));
+    if (const auto found = masks_.find(key); found != masks_.end()) return found->second;
+    return masks_.emplace(key, metrics::receiverMask(truth(kind), drawn(), stage_.shown().camera.eye)).first->second;
+}
+
+const Image<glm::vec2>& SceneFrames::warp(Truth kind) {
+    const std::pair key(kind, shown_);
+    if (const auto found = warps_.find(key); found != warps_.end()) return found->second;
+    const groundtruth::Reference& before = truths_.at(kind, shown_ - 1);
+    return warps_.emplace(key, metrics::warp(stage_.shown(), scene_.size, truth(kind), before)).first->second;
+}
+
+} // namespace shadowbench
