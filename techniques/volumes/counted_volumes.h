@@ -10,8 +10,7 @@ public:
     explicit CountedVolumes(VolumeTest test) : volumes_(test) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        volumes_.render(frame, frame.hardLight.homogeneous(), glm::mat4(frame.clipFromWorld), frame.gbuffer.depthStencil(),
-                        visibility);
+        volumes_.render(frame, frame.hardLight.homogeneous(), frame.gbuffer.depthStencil(), visibility);
     }
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {

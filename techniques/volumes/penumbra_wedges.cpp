@@ -32,6 +32,14 @@ void endAdding() {
 // How far the depth test reaches beyond a surface: far above the rounding of depths, which so decides nothing.
 constexpr float slopes = 1, units = 1024;
 
+/// Corners of the parallelogram that bounds a light.
+std::array<glm::dvec4, 4> cornersOf(const Light& light) {
+    std::array<glm::dvec4, 4> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        corners[i] = {light.centre + (i % 2 == 0 ? -0.5 : 0.5) * light.u + (i < 2 ? -0.5 : 0.5) * light.v, 1};
+    return corners;
+}
+
 } // namespace
 
 glm::dmat4 unitLightFromWorld(const Light& light) {
@@ -59,14 +67,19 @@ std::map<std::string, double> WedgeCount::figures() const {
 PenumbraWedges::PenumbraWedges(Silhouettes silhouettes)
     : silhouettes_(silhouettes), quad_("volumes/shadow_quad.vert", "volumes/shadow_quad.frag") {}
 
+/// What a caster hides of the light it hides within its volume: where no pixel's ray meets that, the caster changes nothing.
 void PenumbraWedges::build(const Frame& frame, const Light& light) {
     const auto pass = frame.pass("silhouette edges");
+    const Camera& camera = frame.snapshot.camera;
+    const ViewPyramid view(camera, frame.aspect(), camera.far);
+    const std::array<glm::dvec4, 4> corners = cornersOf(light);
     light_ = light;
     eyeLayers_ = 0;
     edges_.clear();
     for (const Batch& batch : frame.snapshot.batches) {
         const EdgeMesh& mesh = meshes_.of(batch.mesh);
         for (const Placement& placement : batch.placements) {
+            if (!VolumeBounds(mesh.bounds(), placement.world, corners).mayMeet(view)) continue;
             const glm::dmat4 objectFromWorld = glm::inverse(placement.world);
             const glm::dvec4 middle = objectFromWorld * glm::dvec4(light.centre, 1);
             const glm::dvec4 eye = objectFromWorld * glm::dvec4(frame.snapshot.camera.eye, 1);
@@ -103,10 +116,7 @@ std::vector<LayerEdge> PenumbraWedges::edgesOf(const EdgeMesh& mesh, const std::
                                                const glm::dmat4& objectFromWorld) const {
     if (silhouettes_ == Silhouettes::OfMiddle) return layerEdges(mesh, facing);
     std::vector<std::vector<bool>> facingCorners;
-    for (const double s : {-0.5, 0.5})
-        for (const double t : {-0.5, 0.5})
-            facingCorners.push_back(
-                mesh.facing(objectFromWorld * glm::dvec4(light_.centre + s * light_.u + t * light_.v, 1)));
+    for (const glm::dvec4& corner : cornersOf(light_)) facingCorners.push_back(mesh.facing(objectFromWorld * corner));
     return layerEdges(mesh, facing, facingCorners);
 }
 

@@ -5,6 +5,7 @@
 #include "techniques/contract/entry.h"
 #include "techniques/gl/program.h"
 #include "techniques/shared/casters/edge_meshes.h"
+#include "techniques/shared/casters/volume_bounds.h"
 #include "techniques/shared/casters/wedges.h"
 
 #include <array>
@@ -38,7 +39,8 @@ class PenumbraWedges {
 public:
     explicit PenumbraWedges(Silhouettes silhouettes);
 
-    /// Finds the edges of all placements for `light`, a rectangle or a disk, and builds their wedges.
+    /// Finds the edges of all placements for `light`, a rectangle or a disk, and builds their wedges. Casters that hide the
+    /// light from nothing that the camera sees are left out.
     void build(const Frame& frame, const Light& light);
 
     /// Writes to each pixel how many layers (`layerEdges`) hide the light's middle from its surface point.

@@ -4,10 +4,14 @@
 #include "techniques/contract/entry.h"
 #include "techniques/gl/program.h"
 #include "techniques/shared/casters/shadow_volume.h"
+#include "techniques/shared/casters/volume_bounds.h"
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -18,20 +22,30 @@ namespace shadowbench::techniques {
 enum class VolumeTest {
     DepthFail,   // those behind the pixel's surface: back faces + 1, front faces − 1; the volume is closed by caps
     DepthPass,   // those before it: front faces + 1, back faces − 1; needs no caps
+    PerCaster,   // as DepthPass where that is certain to count the same, else as DepthFail (Everitt–Kilgard 3.4)
     ExclusiveOr, // those before it invert one bit
 };
+
+/// How far volumes are drawn and seen.
+enum class FarPlane {
+    OfCamera,   // depth is clamped there
+    AtInfinity, // P_inf (Everitt–Kilgard 3.2.1)
+};
+
+/// The camera's projection · view with that far plane.
+glm::dmat4 clipFromWorld(const Frame& frame, FarPlane far);
 
 /// What every technique over `StencilVolumes` reports of a frame.
 std::vector<Figure> volumeFigures();
 
 class StencilVolumes {
 public:
-    explicit StencilVolumes(VolumeTest test);
+    explicit StencilVolumes(VolumeTest test, FarPlane far = FarPlane::OfCamera);
 
     /// Writes 0 where the pixel's surface lies in the shadow volume of a placement, else 1. `light` is homogeneous.
-    /// `depthStencil` holds the depth of what `clipFromWorld` shows; its stencil is overwritten.
-    void render(const Frame& frame, const glm::dvec4& light, const glm::mat4& clipFromWorld, const gl::Texture& depthStencil,
-                const gl::Texture& visibility);
+    /// `depthStencil` holds the depth of what `clipFromWorld(frame, far)` shows; its stencil is overwritten. Volumes that
+    /// no pixel's ray meets are left out.
+    void render(const Frame& frame, const glm::dvec4& light, const gl::Texture& depthStencil, const gl::Texture& visibility);
 
     /// `volumeFigures` of the frame rendered last, against the same depth: its volumes are drawn again, and change nothing.
     [[nodiscard]] std::map<std::string, double> figures(const gl::Texture& depthStencil) const;
@@ -49,22 +63,36 @@ private:
     /// The volume of one placement, as a range of `corners_`: its caps, then its sides.
     struct Draw {
         const VolumeMesh* mesh;
+        std::size_t placement; // its number in the snapshot
+        VolumeTest test;       // never PerCaster
         std::size_t first, caps, sides;
+    };
+    using Draws = std::span<const Draw>;
+
+    /// Where the pixels' rays run from the eye to the far plane, and to the near plane.
+    struct View {
+        ViewPyramid seen, beforeNear;
     };
 
     const VolumeMesh& volumeMesh(const std::shared_ptr<const Mesh>& mesh, const gl::SceneBuffers& scene);
     void buildVolumes(const Frame& frame, const glm::dvec4& light);
-    void count(const Frame& frame, std::size_t first, std::size_t last) const;
-    void drawVolumes(std::size_t first, std::size_t last) const;
-    [[nodiscard]] std::uint64_t fragmentsPassing(unsigned depthFunction, const gl::Texture& depthStencil) const;
-    void drawCaps(const Draw& draw, std::size_t placement) const;
-    void drawCorners(std::size_t first, std::size_t count, std::size_t placement) const;
+    [[nodiscard]] std::optional<VolumeTest> testFor(const EdgeMesh& mesh, const VolumeBounds& volume,
+                                                    const View& view) const;
+    void appendVolume(const VolumeMesh& mesh, std::size_t placement, VolumeTest test, const glm::dvec4& objectLight);
+    [[nodiscard]] static std::array<Draws, 2> byTest(Draws draws);
+    void count(const Frame& frame, Draws draws) const;
+    void drawVolumes(Draws draws) const;
+    [[nodiscard]] std::uint64_t fragmentsPassing(unsigned depthFunction, Draws draws, const gl::Texture& depthStencil) const;
+    void drawCaps(const Draw& draw) const;
+    void drawCorners(const Draw& draw, std::size_t first, std::size_t count) const;
     void darken(const Frame& frame, const gl::RenderTarget& target) const;
 
     VolumeTest test_;
+    FarPlane far_;
     gl::Program volume_, shadowed_;
     std::unordered_map<const Mesh*, std::unique_ptr<VolumeMesh>> meshes_;
-    std::vector<Draw> draws_; // of the frame rendered last
+    std::vector<Draw> draws_; // of the frame rendered last, those of one test together
+    std::size_t culled_ = 0;  // volumes that it left out
     std::vector<std::uint32_t> corners_;
     gl::Buffer indices_;
 };

@@ -64,25 +64,23 @@ TEST_P(LodScenes, RecordsNameTheWalkThatTheyAreComparedWith) {
 }
 
 /// K19, replayed without drawing: triangles of the levels that instances show, those in transition at one of their two
-/// levels, in turn. An instance that begins its transition shows the level that is wholly visible then (dissertation 5.1.2).
+/// levels, in turn; odd instances the other way round than even ones. An instance that begins its transition shows the level
+/// that is wholly visible then (dissertation 5.1.2), but in the first frame, which fills both buffers, one with each level.
 std::vector<double> trianglesOfFrameSequentialWalk(const Scene& scene) {
-    std::map<std::uint32_t, std::pair<int, bool>>
-        shown; // by instance in transition: the finer level; whether the coarser was drawn
+    std::map<std::uint32_t, int> shown; // the finer level of each instance in transition
     std::vector<double> triangles;
     const double aspect = static_cast<double>(scene.size.x) / scene.size.y;
     for (int frame = 0; frame < scene.lod->frames; ++frame) {
-        std::map<std::uint32_t, std::pair<int, bool>> now;
+        std::map<std::uint32_t, int> now;
         double sum = 0;
         for (const techniques::LodInstance& instance : lod::walkFrame(scene, frame, aspect).instances) {
             const std::vector<Level>& levels = scene.objects[instance.chain].levels;
             auto [level, progress] = instance.selection;
             if (progress > 0) {
                 const auto before = shown.find(instance.id);
-                const bool goesOn = before != shown.end() && before->second.first == level;
-                // The first frame fills both buffers, one with each level; the second one goes on from the other level.
-                const bool coarser = goesOn ? !before->second.second : (progress >= 0.5) != (frame == 0);
-                now[instance.id] = {level, coarser};
-                if (coarser) ++level;
+                const bool inTurn = frame == 0 || (before != shown.end() && before->second == level);
+                now[instance.id] = level;
+                if (inTurn ? (instance.id + static_cast<unsigned>(frame)) % 2 == 1 : progress >= 0.5) ++level;
             }
             sum += static_cast<double>(levels[static_cast<std::size_t>(level)].mesh->triangles.size());
         }

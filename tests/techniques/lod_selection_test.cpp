@@ -1,16 +1,22 @@
-// Which level an instance shows, how much of it is seen, and in which frame.
+// Which level an instance shows, how much of it is seen, in which frame, and where two frames are combined.
 #include "base/error.h"
+#include "base/random.h"
 #include "harness/measure/lod_cost.h"
 #include "harness/render/walk.h"
 #include "scene/load/load.h"
 #include "scene/meshes/primitives.h"
 #include "techniques/lod/lod-frame-sequential/alternation.h"
+#include "techniques/lod/lod-frame-sequential/combined_tiles.h"
 #include "techniques/lod/lod-frame-sequential/visibility_texture.h"
 #include "techniques/lod/transition.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <map>
 #include <set>
+#include <utility>
 
 namespace shadowbench::lod {
 namespace {
@@ -60,7 +66,7 @@ std::vector<LodInstance> instancesAt(std::initializer_list<LodSelection> selecti
     return instances;
 }
 
-TEST(LodAlternation, StartsWithTheWholeLevelAndThenAlternates) {
+TEST(LodAlternation, ShowsTheLevelsInTurnOddAndEvenInstancesTheOtherWayRound) {
     Alternation alternation;
     const auto instances = instancesAt({{0, 0}, {0, 0.2}, {1, 0.7}});
     for (int frame = 0; frame < 4; ++frame) {
@@ -69,24 +75,137 @@ TEST(LodAlternation, StartsWithTheWholeLevelAndThenAlternates) {
         EXPECT_EQ(draws[0].level, 0);
         EXPECT_EQ(draws[0].id, 0U); // not in transition
         EXPECT_EQ(draws[0].visibility, 1);
-        EXPECT_EQ(draws[1].level, frame % 2);
-        EXPECT_FLOAT_EQ(draws[1].visibility, frame % 2 == 0 ? 1.0F : 0.4F);
-        EXPECT_EQ(draws[2].level, frame % 2 == 0 ? 2 : 1); // the second half: the coarser one is whole
-        EXPECT_FLOAT_EQ(draws[2].visibility, frame % 2 == 0 ? 1.0F : 0.6F);
-        EXPECT_EQ(draws[2].id, 3U);
+        EXPECT_EQ(draws[1].level, frame % 2 == 0 ? 1 : 0);
+        EXPECT_FLOAT_EQ(draws[1].visibility, frame % 2 == 0 ? 0.4F : 1.0F);
+        EXPECT_EQ(draws[2].level, frame % 2 == 0 ? 1 : 2);
+        EXPECT_FLOAT_EQ(draws[2].visibility, frame % 2 == 0 ? 0.6F : 1.0F); // the second half: the coarser one is whole
+        EXPECT_EQ(draws[1].id, 1U);
+        EXPECT_EQ(draws[2].id, 2U);
     }
 }
 
-TEST(LodAlternation, AnInstanceThatWasOutOfViewOrInAnotherTransitionStartsAgain) {
+TEST(LodAlternation, AnEvenNumberOfLikeInstancesDrawsAsMuchInEveryFrame) { // dissertation 5.2
     Alternation alternation;
-    const auto inTransition = instancesAt({{0, 0.2}});
-    EXPECT_EQ(alternation.next(inTransition)[0].level, 0);
-    EXPECT_EQ(alternation.next(inTransition)[0].level, 1);
+    const std::vector<LodInstance> instances = [] {
+        std::vector<LodInstance> result;
+        for (std::uint32_t id = 7; id < 7 + 40; ++id) result.push_back({id, 0, {}, {}, {0, 0.3}});
+        return result;
+    }();
+    for (int frame = 0; frame < 6; ++frame)
+        EXPECT_EQ(std::ranges::count(alternation.next(instances), 1, &LevelDraw::level), 20) << frame;
+}
+
+TEST(LodAlternation, AnInstanceThatComesIntoViewOrIntoATransitionStartsWithTheWholeLevel) {
+    Alternation alternation;
+    const auto inTransition = instancesAt({{0, 0.2}, {0, 0.2}});
+    const auto levels = [&](const std::vector<LodInstance>& instances) {
+        const auto draws = alternation.next(instances);
+        return std::pair{draws[0].level, draws[1].level};
+    };
+    EXPECT_EQ(levels(inTransition), (std::pair{0, 1})); // the first frame fills both buffers
+    EXPECT_EQ(levels(inTransition), (std::pair{1, 0}));
     EXPECT_TRUE(alternation.next({}).empty()); // culled
-    EXPECT_EQ(alternation.next(inTransition)[0].level, 0);
-    EXPECT_EQ(alternation.next(instancesAt({{1, 0.2}}))[0].level, 1); // the next transition: whole is its finer level
+    EXPECT_EQ(levels(inTransition), (std::pair{0, 0}));
+    EXPECT_EQ(levels(inTransition), (std::pair{0, 1})); // whose turn it is not shows the whole level once more
+    EXPECT_EQ(levels(inTransition), (std::pair{1, 0}));
+    EXPECT_EQ(levels(instancesAt({{1, 0.2}, {1, 0.8}})),
+              (std::pair{1, 2})); // the next transition: whole is finer, then coarser
     alternation.reset();
-    EXPECT_EQ(alternation.next(inTransition)[0].level, 0);
+    EXPECT_EQ(levels(inTransition), (std::pair{0, 1}));
+}
+
+TEST(LodAlternation, IdsAreDistinctOverTwoFramesForAsManyAsThereAre) {
+    Alternation alternation;
+    Random random(3);
+    std::map<std::uint32_t, std::uint32_t> before; // by instance
+    for (int frame = 0; frame < 20; ++frame) {
+        std::vector<LodInstance> instances;
+        for (std::uint32_t id = 1; id <= 1000; ++id)
+            if (random.uniform() < 0.1) instances.push_back({60000 + id, 0, {}, {}, {0, 0.5}});
+        std::map<std::uint32_t, std::uint32_t> now;
+        std::set<std::uint32_t> inBefore, inNow;
+        for (const auto& [instance, id] : before) inBefore.insert(id);
+        for (const LevelDraw& draw : alternation.next(instances)) {
+            ASSERT_TRUE(1 <= draw.id && draw.id <= 255);
+            if (const auto shown = before.find(draw.instance->id); shown != before.end())
+                EXPECT_EQ(draw.id, shown->second);
+            else
+                EXPECT_FALSE(inBefore.contains(draw.id));
+            EXPECT_TRUE(now.emplace(draw.instance->id, draw.id).second);
+            inNow.insert(draw.id);
+        }
+        EXPECT_EQ(inNow.size(), now.size());
+        before = std::move(now);
+    }
+}
+
+TEST(LodAlternation, MoreThanThereAreIdsShareThem) {
+    Alternation alternation;
+    std::vector<LodInstance> instances;
+    for (std::uint32_t id = 1; id <= 300; ++id) instances.push_back({id, 0, {}, {}, {0, 0.5}});
+    std::set<std::uint32_t> ids;
+    for (const LevelDraw& draw : alternation.next(instances)) ids.insert(draw.id);
+    EXPECT_EQ(ids.size(), 255U);
+    EXPECT_EQ(*ids.begin(), 1U);
+    EXPECT_EQ(*ids.rbegin(), 255U);
+}
+
+/// Share of the screen that rectangles cover, each counted for itself.
+double area(const std::vector<glm::vec4>& rectangles) {
+    double sum = 0;
+    for (const glm::vec4& r : rectangles) sum += 0.25 * (r.z - r.x) * (r.w - r.y);
+    return sum;
+}
+
+TEST(CombinedTiles, AreAllThatARectangleTouchesEachOnce) {
+    CombinedTiles tiles({16, 10}); // 4 × 3 tiles, the top ones half as high
+    EXPECT_TRUE(tiles.rectangles().empty());
+    tiles.mark({{-0.9, -0.9}, {-0.4, -0.9}}); // two tiles at the bottom
+    ASSERT_EQ(tiles.rectangles().size(), 1U);
+    EXPECT_EQ(tiles.rectangles()[0], glm::vec4(-1, -1, 0, 2.0F * 4 / 10 - 1));
+    tiles.mark({{-0.9, -0.9}, {-0.4, -0.9}});
+    tiles.mark({{0.6, 0.9}, {5, 7}}); // the last one at the top
+    EXPECT_EQ(tiles.rectangles().size(), 2U);
+    EXPECT_FLOAT_EQ(static_cast<float>(area(tiles.rectangles())), (2.0F * 4 * 4 + 4 * 2) / (16 * 10));
+    tiles.mark({{1.1, -1}, {2, 1}}); // beside the screen
+    EXPECT_EQ(tiles.rectangles().size(), 2U);
+    tiles.mark({{-0.9, -0.9}, {-0.4, 0.9}}); // all above the first two
+    EXPECT_EQ(tiles.rectangles().size(), 2U);
+    tiles.mark({{-1, -1}, {1, 1}});
+    ASSERT_EQ(tiles.rectangles().size(), 1U);
+    EXPECT_EQ(tiles.rectangles()[0], glm::vec4(-1, -1, 1, 1));
+}
+
+TEST(CombinedTiles, HoldAllThatAnotherCameraSeesBehindABox) {
+    Random random(11);
+    const auto within = [&](double reach) {
+        return glm::dvec3(random.uniform(-reach, reach), random.uniform(-reach, reach), random.uniform(-reach, reach));
+    };
+    int inside = 0, whole = 0;
+    for (int i = 0; i < 500; ++i) {
+        const Camera one{within(3), within(3) - glm::dvec3(0, 0, 20), {0, 1, 0}, 40, 0.5, 100};
+        Camera other = one;
+        other.eye += within(1);
+        other.target += within(1);
+        const glm::dmat4 projection = one.projection(1.5), view = one.view(),
+                         otherClip = other.projection(1.5) * other.view();
+        const glm::dvec3 at = within(4) - glm::dvec3(0, 0, 10), half = glm::abs(within(1)) + 0.1;
+        const SeenBox box = seenBox({at - half, at + half}, projection * view, {300, 200});
+        const ScreenRectangle seen = rectangleBehind(box, projection, otherClip * glm::inverse(projection * view));
+        whole += seen.low == glm::dvec2(-1) && seen.high == glm::dvec2(1) ? 1 : 0;
+        for (int sample = 0; sample < 50; ++sample) {
+            const glm::dvec3 inBox = at + half * within(1);
+            const glm::dvec3 behind = one.eye + (inBox - one.eye) / random.uniform(0.01, 1);
+            const glm::dvec4 clip = otherClip * glm::dvec4(behind, 1);
+            if (clip.w <= 0 || std::abs(clip.x) > clip.w || std::abs(clip.y) > clip.w) continue;
+            ++inside;
+            EXPECT_TRUE(clip.x >= seen.low.x * clip.w && clip.x <= seen.high.x * clip.w && clip.y >= seen.low.y * clip.w &&
+                        clip.y <= seen.high.y * clip.w)
+                << i;
+        }
+    }
+    EXPECT_GT(inside, 10000);
+    EXPECT_LT(whole, 50);
 }
 
 TEST(VisibilityTexture, ShowsTheShareOfTexelsThatTheThresholdSays) {

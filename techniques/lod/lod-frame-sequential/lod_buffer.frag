@@ -1,8 +1,8 @@
-// One LOD buffer: colour, depth and instance id (listing 5.1). TRANSITION: instances whose fragments the visibility texture picks.
+// One LOD buffer: colour, and in alpha the instance's id (listing 5.1). TRANSITION: instances whose fragments the visibility texture
+// picks; all others have id 0.
 #include "lod/shading.glsl"
 
 layout(location = 0) out vec4 colour;
-layout(location = 1) out uint depthAndId;  // a 16-bit float and, above it, 16 bits of id
 
 #ifdef TRANSITION
 in vec3 object;
@@ -22,10 +22,8 @@ const uint id = 0u;
 #endif
 
 void main() {
-    colour = vec4(shaded(), 1.0);
+    colour = vec4(shaded(), float(id) / 255.0);
 #ifdef TRANSITION
     if (visibilityAt(object) > visibility) discard;  // eq. 5.1
 #endif
-    float depth = 1.0 / gl_FragCoord.w;  // along the view direction, metres
-    depthAndId = packHalf2x16(vec2(depth, 0.0)) | id << 16;
 }

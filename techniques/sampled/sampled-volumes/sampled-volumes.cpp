@@ -62,8 +62,7 @@ private:
     }
 
     void drawSample(const Frame& frame, const glm::dvec3& point) const {
-        volumes_.render(frame, glm::dvec4(point, 1), glm::mat4(frame.clipFromWorld), frame.gbuffer.depthStencil(),
-                        images_->lit);
+        volumes_.render(frame, glm::dvec4(point, 1), frame.gbuffer.depthStencil(), images_->lit);
     }
 
     void addSample(const Frame& frame) {

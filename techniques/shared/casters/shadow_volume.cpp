@@ -5,7 +5,7 @@
 
 namespace shadowbench::techniques {
 
-EdgeMesh::EdgeMesh(const Mesh& mesh) : mesh_(&mesh) {
+EdgeMesh::EdgeMesh(const Mesh& mesh) : mesh_(&mesh), bounds_(mesh.bounds()) {
     // A directed edge waits here until the triangle on its other side brings the opposite one.
     std::unordered_map<std::uint64_t, std::uint32_t> open;
     const auto key = [](std::uint32_t a, std::uint32_t b) { return (static_cast<std::uint64_t>(a) << 32) | b; };

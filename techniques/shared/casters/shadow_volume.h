@@ -12,7 +12,7 @@
 
 namespace shadowbench::techniques {
 
-/// A mesh with its edges: made once per mesh.
+/// A mesh with its edges and its box: made once per mesh.
 class EdgeMesh {
 public:
     explicit EdgeMesh(const Mesh& mesh);
@@ -26,6 +26,7 @@ public:
 
     [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
     [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; } // of the mesh
 
     /// For each triangle whether it faces the homogeneous light `light` (object space): A·L > 0 with the triangle's plane A.
     /// Edge-on counts as facing away.
@@ -33,6 +34,7 @@ public:
 
 private:
     const Mesh* mesh_;
+    Bounds bounds_;
     std::vector<Edge> edges_;
 };
 

@@ -1,4 +1,5 @@
 // Shadow volumes counted in the stencil buffer: where each way of counting is exact, and where it is known to break.
+#include "base/random.h"
 #include "tests/support/ground_labels.h"
 #include "tests/support/ground_score.h"
 
@@ -136,6 +137,83 @@ TEST(VolumeZfail, LeaksWhereAnOpenMeshLeavesItsVolumeOpenAtInfinity) { // course
     EXPECT_EQ(compareOnGround(scene, stage, rendered(stage, "volume-zpass"), shadowed).mismatch(), 0);
 }
 
+Mesh rounded(Mesh mesh) {
+    for (glm::vec3& position : mesh.positions) position = glm::round(1024.0F * position) / 1024.0F;
+    return mesh;
+}
+
+/// The slab under casters of all kinds, some beyond the far plane and behind the eye, from a place among them.
+Scene crowdScene(Random& random) {
+    Scene scene = groundScene(96);
+    const auto grid = [&](double reach) { return std::round(64 * random.uniform(-reach, reach)) / 64; };
+    for (int i = 0; i < 24; ++i) {
+        // On multiples of 1/64 m, where 32-bit sums are exact.
+        const glm::dvec3 at(grid(6), 1 + std::abs(grid(3)), grid(6));
+        scene.objects.push_back(object(i % 3 == 0 ? rounded(bumpy(0.4, 0.2, 200, 3)) : box({0.5, 0.25, 0.75}), at));
+    }
+    scene.light.centre = {grid(5), 6 + grid(1), grid(5)};
+    if (random.uniform() < 0.5)
+        scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(grid(1), -1, grid(1))), {}, {}};
+    scene.camera.eye = {grid(5), 0.25 + std::abs(grid(2)), grid(5)};
+    scene.camera.target = {grid(5), 0, grid(5)};
+    scene.camera.near = random.uniform() < 0.5 ? 0.01 : 1.5;
+    scene.camera.far = random.uniform() < 0.5 ? 4 : 40;
+    return scene;
+}
+
+/// The same surfaces as one mesh, whose volume is never left out.
+Scene asOneCaster(const Scene& scene) {
+    Mesh all;
+    for (const Object& object : scene.objects) {
+        const Mesh& mesh = *object.levels.front().mesh;
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        for (const glm::vec3& position : mesh.positions)
+            all.positions.push_back(position + glm::vec3(object.instances.front().place[3]));
+        for (const glm::uvec3& triangle : mesh.triangles) all.triangles.push_back(triangle + first);
+    }
+    all.closed = true;
+    Scene one = scene;
+    one.objects = {object(all, {0, 0, 0})};
+    return one;
+}
+
+TEST(Volumes, ThatAreLeftOutAndTheChoiceOfTestChangeNoPixel) {
+    Random random(5);
+    double culled = 0, byDepthFail = 0, byDepthPass = 0;
+    for (int i = 0; i < 40; ++i) {
+        const Scene scene = crowdScene(random), one = asOneCaster(scene);
+        Stage stage(scene), whole(one);
+        stage.show(0);
+        whole.show(0);
+        for (const std::string far : {"clamp", "infinity"}) {
+            const Image<float> all = rendered(whole, "volume-zfail:test=zfail,far=" + far);
+            EXPECT_EQ(rendered(stage, "volume-zfail:test=zfail,far=" + far), all) << i;
+            EXPECT_EQ(rendered(stage, "volume-zfail:far=" + far), all) << i;
+        }
+        for (const char* variant : {"volume-zpass", "volume-xor"})
+            EXPECT_EQ(rendered(stage, variant), rendered(whole, variant)) << variant << " " << i;
+        const auto figures = figuresOf(stage, "volume-zfail");
+        culled += figures.at("volumes_culled");
+        byDepthFail += figures.at("volumes_by_depth_fail");
+        byDepthPass += 25 - figures.at("volumes_culled") - figures.at("volumes_by_depth_fail");
+    }
+    EXPECT_GT(culled, 300); // of 40 · 25
+    EXPECT_GT(byDepthFail, 10);
+    EXPECT_GT(byDepthPass, 200);
+}
+
+TEST(VolumeZfail, CountsByDepthPassButForCastersWhoseShadowTheNearPlaneCuts) { // course, Everitt–Kilgard 3.4
+    const Scene lit = boxScene(), shaded = eyeInShadow();
+    Stage outside(lit), inside(shaded);
+    outside.show(0);
+    inside.show(0);
+    EXPECT_EQ(figuresOf(outside, "volume-zfail").at("volumes_by_depth_fail"), 0);
+    EXPECT_EQ(figuresOf(outside, "volume-zfail:test=zfail").at("volumes_by_depth_fail"), 2);
+    EXPECT_EQ(figuresOf(outside, "volume-zfail").at("volume_fragments"),
+              figuresOf(outside, "volume-zpass").at("volume_fragments"));
+    EXPECT_EQ(figuresOf(inside, "volume-zfail").at("volumes_by_depth_fail"), 1); // the box, not the slab
+}
+
 /// The box right below the eye, under a light from straight above: volumes' sides run from the outlines of the slab, which
 /// is larger than the image, and of the box to the image's middle, and are hidden by slab and box.
 Scene sceneFromAbove() {
@@ -152,7 +230,7 @@ TEST(VolumeFigures, CountEveryFragmentAndTheUpdatesAmongThem) {
     const metrics::Drawn drawn = stage.drawn();
     const auto ofBox = std::count(drawn.id.begin(), drawn.id.end(), 2U);
     const double sides = static_cast<double>(drawn.id.size()) + static_cast<double>(ofBox); // each covers its outline once
-    const auto pass = figuresOf(stage, "volume-zpass"), fail = figuresOf(stage, "volume-zfail");
+    const auto pass = figuresOf(stage, "volume-zpass"), fail = figuresOf(stage, "volume-zfail:test=zfail");
     EXPECT_EQ(pass.at("volume_triangles"), 8); // a triangle a top edge: the volumes end in a point
     EXPECT_EQ(pass.at("volume_fragments"), sides);
     EXPECT_EQ(pass.at("stencil_updates"), 0);
@@ -167,7 +245,7 @@ TEST(VolumeFigures, LeaveTheImageAndTheNextOneAsTheyAre) {
     const Scene scene = boxScene();
     Stage stage(scene);
     stage.show(0);
-    for (const char* name : {"volume-zpass", "volume-zfail", "volume-zfail:far=infinity", "volume-xor"}) {
+    for (const char* name : {"volume-zpass", "volume-zfail", "volume-zfail:test=zfail,far=infinity", "volume-xor"}) {
         const Image<float> untouched = rendered(stage, name);
         const auto figures = figuresOf(stage, name);
         EXPECT_EQ(stage.visibility(), untouched) << name;
