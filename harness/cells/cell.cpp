@@ -118,6 +118,8 @@ private:
 /// The frames that are scored one after the other, the last still one and the moving ones, against one truth.
 class MovingFrameScores {
 public:
+    explicit MovingFrameScores(bool remembers) { frames_.remembers = remembers; }
+
     void add(const Snapshot& shown, const Reference& truth, const Image<float>& v, Mask mask) {
         const Kept& now = kept_.emplace_back(Kept{v, truth, std::move(mask)});
         if (kept_.size() == 1) return;
@@ -140,6 +142,29 @@ private:
     std::deque<Kept> kept_; // the pairs refer to its elements
     metrics::MovingFrames frames_;
 };
+
+/// The last still frame as a seed draws it, from an empty history.
+Image<float> stillFrame(const Scene& scene, Stage& stage, const techniques::Variant& variant, std::uint32_t seed) {
+    const int scored = scene.timeline.still - 1, first = -scene.timeline.approach;
+    const auto technique = variant.entry->make(variant.parameters);
+    for (int frame = variant.entry->temporal ? first : scored; frame <= scored; ++frame) {
+        if (frame <= 1 || frame == scored) stage.show(frame); // the still frames between are all the same
+        stage.render(*technique, frame - first, seed);
+    }
+    return stage.visibility();
+}
+
+/// The split of the error over `options.seeds` seeds, of which `v` is the first; nothing if they all draw the same.
+void scoreSeeds(const Scene& scene, Stage& stage, const techniques::Variant& variant, const MeasureOptions& options,
+                const Image<float>& v, const Reference& truth, Record& record) {
+    std::vector<Image<float>> images{v};
+    for (int i = 1; i < options.seeds; ++i) {
+        images.push_back(stillFrame(scene, stage, variant, options.seed + static_cast<std::uint32_t>(i)));
+        if (i == 1 && std::ranges::equal(images[0], images[1])) return;
+    }
+    const Mask mask = metrics::receiverMask(truth, stage.drawn(), stage.shown().camera.eye);
+    metrics::compute<metrics::OfSeeds>(metrics::SeedFrames{images, truth, mask}, record.values);
+}
 
 /// Throws InternalError for a receiver pixel without an answer.
 void requireAnswers(const Image<float>& v, const Mask& mask, const std::string& variant, int frame) {
@@ -195,10 +220,12 @@ bool usesPixelAreas(const Scene& scene, const techniques::Variant& variant) {
     return scene.timeline.moving > 0 || !scene.light.isArea();
 }
 
-std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed) {
+std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed,
+                   int seeds) {
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
                                      scene.timeline.still, scene.timeline.moving);
     if (scene.timeline.approach > 0) inputs += fmt::format("approach {}\n", scene.timeline.approach);
+    if (seeds > 1) inputs += fmt::format("seeds {}\n", seeds);
     for (const int frame : truths.scoredFrames()) {
         inputs += truths.key(mainTruth(scene, variant), frame) + "\n";
         if (usesPixelAreas(scene, variant)) inputs += truths.key(Truth::PixelArea, frame) + "\n";
@@ -226,7 +253,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     const Reference& graded = truths.at(soft ? Truth::Soft : Truth::Hard, scored);
     StillFrameScores still(truths.at(kind, scored), graded, kind == Truth::Hard);
     const bool usesAreas = usesPixelAreas(scene, variant);
-    MovingFrameScores moving, movingAreas;
+    MovingFrameScores moving(temporal), movingAreas(temporal);
     Hasher128 shown;
     std::uint64_t bytes = 0;
     const int first = -scene.timeline.approach;
@@ -263,6 +290,7 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
     const int next = scene.timeline.frames() - first; // of the technique's sequence
     setWork(record, timing::measureWork(stage, *technique, bytes, next, options.seed));
     if (options.time) setTime(record, timing::measureTime(stage, variant, *technique, next + 1, options.seed));
+    if (options.seeds > 1) scoreSeeds(scene, stage, variant, options, images.visibility, graded, record);
     record.status = Status::Scored;
 }
 

@@ -27,8 +27,9 @@ Truth mainTruth(const Scene& scene, const techniques::Variant& variant);
 /// what changes from frame to frame.
 bool usesPixelAreas(const Scene& scene, const techniques::Variant& variant);
 
-/// Hash of everything a cell's scores depend on: truths (hence the scene), variant, frames, seed, schema.
-std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed);
+/// Hash of everything a cell's scores depend on: truths (hence the scene), variant, frames, seeds, schema.
+std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed,
+                   int seeds = 1);
 
 /// Why the variant does not apply to the scene; nothing if it does.
 std::optional<std::string> notApplicable(const Scene& scene, const techniques::Variant& variant);

@@ -43,7 +43,8 @@ std::optional<std::string> SceneCells::notApplicable(const techniques::Variant& 
 }
 
 std::string SceneCells::id(const techniques::Variant& variant) const {
-    return variant.isLod() ? lod::lodCellId(scene_, variant) : cellId(truths_, scene_, variant, options_.seed);
+    return variant.isLod() ? lod::lodCellId(scene_, variant)
+                           : cellId(truths_, scene_, variant, options_.seed, options_.seeds);
 }
 
 Record SceneCells::blank(const techniques::Variant& variant) const {

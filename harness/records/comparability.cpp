@@ -80,7 +80,8 @@ std::string countingEnvironment(const Environment& e) {
 
 const std::optional<ReferenceInfo>& truthOf(const metrics::Metric& metric, const Record& record) {
     const std::optional<ReferenceInfo>* beside = nullptr;
-    if (isOneOf<metrics::OfVisibility, metrics::VisibilityByFrame>(metric.computed)) beside = &record.softReference;
+    if (isOneOf<metrics::OfVisibility, metrics::VisibilityByFrame, metrics::OfSeeds>(metric.computed))
+        beside = &record.softReference;
     if (isOneOf<metrics::OfPixelAreas, metrics::OfMovingAreas>(metric.computed)) beside = &record.pixelReference;
     return beside != nullptr && *beside ? *beside : record.reference;
 }
