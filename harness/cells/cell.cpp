@@ -203,10 +203,7 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
     record.metricCode = metricCodeHash();
     record.time = timeNow();
     record.environment = environmentOf(gl::Context::current().info());
-    if (!scene.tolerance.empty() && !variant.isLod()) { // it is about shadows
-        record.toleranceMetric = scene.tolerance.begin()->first;
-        record.tolerance = scene.tolerance.begin()->second;
-    }
+    if (!variant.isLod()) record.tolerances = scene.tolerance; // they are about shadows
     return record;
 }
 

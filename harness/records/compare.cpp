@@ -211,8 +211,10 @@ struct Curve {
         const auto& point = first->sweep->breakPoint;
         return point ? fmt::format("breaks at {:g} {}", *point, first->sweep->unit) : "does not break";
     }
+    /// The first one decides where a curve breaks.
     [[nodiscard]] std::string toleranceText() const {
-        return fmt::format("{} ≤ {}", first->toleranceMetric, first->tolerance);
+        const auto& all = first->tolerances;
+        return all.empty() ? "none" : fmt::format("{} ≤ {}", all.begin()->first, all.begin()->second);
     }
 };
 

@@ -156,9 +156,9 @@ TEST(FalseGreens, ImagesScoredByAnotherTruthSayNothingOfMetricsCode) {
     head[2].images = "2222";
     EXPECT_EQ(unjudgedMetrics(compare({base[1], base[2]}, {head[1], head[2]})), std::set<std::string>());
     for (const Change& change : compare(base, head))
-        EXPECT_EQ(change.direction == Direction::Unjudged, change.variant == "other-truth" &&
-                                                               (change.metric == "stability.flicker.mean" ||
-                                                                change.metric == "accuracy.pixel_area.rmse"))
+        EXPECT_EQ(change.direction == Direction::Unjudged,
+                  change.variant == "other-truth" &&
+                      (change.metric == "stability.flicker.mean" || change.metric == "accuracy.pixel_area.rmse"))
             << change.sentence;
 }
 
@@ -169,7 +169,7 @@ TEST(FalseGreens, AWiderToleranceMovesNoBreakPoint) {
         record.sweep = SweepStep{"near-plane", "m", "sm-psm", value, 0.1};
         base.push_back(record);
         record.sweep->breakPoint.reset();
-        record.tolerance = 0.05;
+        record.tolerances["mismatch"] = 0.05;
         head.push_back(record);
     }
     EXPECT_EQ(verdictOf(compare(base, head)), ExitCode::Inconclusive);
