@@ -118,7 +118,8 @@ private:
 /// The frames that are scored one after the other, the last still one and the moving ones, against one truth.
 class MovingFrameScores {
 public:
-    explicit MovingFrameScores(Truth truth) : truth_(truth) {}
+    /// `remembers`: the technique has a history.
+    MovingFrameScores(Truth truth, bool remembers) : truth_(truth) { frames_.remembers = remembers; }
 
     /// Adds what is shown, of which `v` is the technique's answer.
     void add(SceneFrames& frames, const Image<float>& v) {
@@ -143,6 +144,22 @@ private:
     std::deque<Kept> kept_; // the pairs refer to its elements
     metrics::MovingFrames frames_;
 };
+
+/// What visibility is graded against, whatever the technique's own truth.
+Truth gradedTruth(const Scene& scene) { return hasTruth(scene.light, Truth::Soft) ? Truth::Soft : Truth::Hard; }
+
+/// Renders the last still frame from an empty history. Returns the number of frames that the technique has rendered.
+int renderScored(SceneFrames& frames, const techniques::Variant& variant, techniques::Technique& technique,
+                 std::uint32_t seed) {
+    int number = 0;
+    const int first = -frames.scene().timeline.approach;
+    for (int frame = variant.entry->temporal ? first : frames.scored(); frame <= frames.scored(); ++frame) {
+        if (frame <= 1 || frame == frames.scored()) frames.show(frame); // the still frames between are all the same
+        frames.stage().render(technique, frame - first, seed);
+        number = frame - first + 1;
+    }
+    return number;
+}
 
 /// Throws InternalError for a receiver pixel without an answer.
 void requireAnswers(const Image<float>& v, const Mask& mask, const std::string& variant, int frame) {
@@ -182,10 +199,7 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
     record.metricCode = metricCodeHash();
     record.time = timeNow();
     record.environment = environmentOf(gl::Context::current().info());
-    if (!scene.tolerance.empty() && !variant.isLod()) { // it is about shadows
-        record.toleranceMetric = scene.tolerance.begin()->first;
-        record.tolerance = scene.tolerance.begin()->second;
-    }
+    if (!variant.isLod()) record.tolerances = scene.tolerance; // they are about shadows
     return record;
 }
 
@@ -199,10 +213,12 @@ bool usesPixelAreas(const Scene& scene, const techniques::Variant& variant) {
     return scene.timeline.moving > 0 || !scene.light.isArea();
 }
 
-std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed) {
+std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed,
+                   int seeds) {
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
                                      scene.timeline.still, scene.timeline.moving);
     if (scene.timeline.approach > 0) inputs += fmt::format("approach {}\n", scene.timeline.approach);
+    if (seeds > 1) inputs += fmt::format("seeds {}\n", seeds);
     for (const int frame : truths.scoredFrames()) {
         inputs += truths.key(mainTruth(scene, variant), frame) + "\n";
         if (usesPixelAreas(scene, variant)) inputs += truths.key(Truth::PixelArea, frame) + "\n";
@@ -228,9 +244,10 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     const std::uint64_t bytesBefore = gl::Context::current().tally().bytes;
     const auto technique = variant.entry->make(variant.parameters);
 
-    const Truth graded = hasTruth(scene.light, Truth::Soft) ? Truth::Soft : Truth::Hard;
+    const Truth graded = gradedTruth(scene);
     StillFrameScores still(frames.truths().at(kind, scored), frames.truths().at(graded, scored), kind == Truth::Hard);
-    MovingFrameScores moving(kind), movingAreas(usesPixelAreas(scene, variant) ? Truth::PixelArea : kind);
+    MovingFrameScores moving(kind, temporal);
+    MovingFrameScores movingAreas(usesPixelAreas(scene, variant) ? Truth::PixelArea : kind, temporal);
     Hasher128 shown;
     std::uint64_t bytes = 0;
     const int first = -scene.timeline.approach;
@@ -266,15 +283,24 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     record.status = Status::Scored;
 }
 
+void splitErrorOverSeeds(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, int seeds,
+                         const Image<float>& v, Record& record) {
+    std::vector<Image<float>> images{v};
+    for (int i = 1; i < seeds; ++i) {
+        const auto technique = variant.entry->make(variant.parameters);
+        renderScored(frames, variant, *technique, seed + static_cast<std::uint32_t>(i));
+        images.push_back(frames.stage().visibility());
+        if (i == 1 && std::ranges::equal(images[0], images[1])) return;
+    }
+    const Truth graded = gradedTruth(frames.scene());
+    metrics::compute<metrics::OfSeeds>(metrics::SeedFrames{images, frames.truth(graded), frames.mask(graded)},
+                                       record.values);
+}
+
 void timeCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record) {
     const auto technique = variant.entry->make(variant.parameters);
-    const int first = -frames.scene().timeline.approach;
-    int number = 0; // of the technique's sequence
-    for (int frame = variant.entry->temporal ? first : frames.scored(); frame <= frames.scored(); ++frame) {
-        if (frame <= 1 || frame == frames.scored()) frames.show(frame);
-        frames.stage().render(*technique, number++, seed);
-    }
-    setTime(record, timing::measureTime(frames.stage(), variant, *technique, number, seed));
+    const int next = renderScored(frames, variant, *technique, seed);
+    setTime(record, timing::measureTime(frames.stage(), variant, *technique, next, seed));
 }
 
 } // namespace shadowbench

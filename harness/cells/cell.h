@@ -26,8 +26,9 @@ Truth mainTruth(const Scene& scene, const techniques::Variant& variant);
 /// what changes from frame to frame.
 bool usesPixelAreas(const Scene& scene, const techniques::Variant& variant);
 
-/// Hash of everything a cell's scores depend on: truths (hence the scene), variant, frames, seed, schema.
-std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed);
+/// Hash of everything a cell's scores depend on: truths (hence the scene), variant, frames, seeds, schema.
+std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed,
+                   int seeds = 1);
 
 /// Why the variant does not apply to the scene; nothing if it does.
 std::optional<std::string> notApplicable(const Scene& scene, const techniques::Variant& variant);
@@ -37,6 +38,11 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
 /// a score.
 void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record,
                CellImages& images);
+
+/// Splits the error of the scored frame, of which `v` is the image that `seed` drew, over `seeds` ≥ 2 of them from `seed` on
+/// into what all have in common and noise; of a variant that draws the same with all it says nothing.
+void splitErrorOverSeeds(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, int seeds,
+                         const Image<float>& v, Record& record);
 
 /// Fills in the time of the frame that is scored, with a history as full as it is there. Beside a program that keeps the
 /// processor busy it says little.

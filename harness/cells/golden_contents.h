@@ -9,7 +9,7 @@ namespace shadowbench {
 struct GoldenLock; // harness/cells/golden_lock.h
 
 struct GoldenContent {
-    std::string scene, truth; // id; "hard" or "soft"
+    std::string scene, truth; // id; name of the Truth
     int frame = 0;
     std::string content; // groundtruth::contentOf
 };

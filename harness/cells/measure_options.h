@@ -8,6 +8,7 @@ namespace shadowbench {
 
 struct MeasureOptions {
     std::uint32_t seed = 1;
+    int seeds = 1;                // from it on; with two or more the error of what depends on the seed is split
     bool time = true;             // wall time
     std::filesystem::path images; // folder of <scene>/<variant>/; empty: no images are written
 };

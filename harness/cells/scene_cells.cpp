@@ -43,7 +43,8 @@ std::optional<std::string> SceneCells::notApplicable(const techniques::Variant& 
 }
 
 std::string SceneCells::id(const techniques::Variant& variant) const {
-    return variant.isLod() ? lod::lodCellId(scene_, variant) : cellId(truths_, scene_, variant, options_.seed);
+    return variant.isLod() ? lod::lodCellId(scene_, variant)
+                           : cellId(truths_, scene_, variant, options_.seed, options_.seeds);
 }
 
 Record SceneCells::blank(const techniques::Variant& variant) const {
@@ -96,6 +97,7 @@ void SceneCells::score(const techniques::Variant& variant, Record& record, const
     progress(0, variant.name);
     CellImages images;
     scoreCell(frames(), variant, options_.seed, record, images);
+    if (options_.seeds > 1) splitErrorOverSeeds(frames(), variant, options_.seed, options_.seeds, images.visibility, record);
     markExpectedFailure(scene_, variant, record);
     if (!options_.images.empty()) writeCellImages(imageFolder(variant), images);
 }

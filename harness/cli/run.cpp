@@ -86,6 +86,11 @@ void addRun(CLI::App& app, Action& action) {
     verb->add_option("--cache", options->cache,
                      "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     addSeedOption(*verb, options->measure.seed);
+    verb->add_option("--seeds", options->measure.seeds,
+                     "Draw what depends on the seed with so many, from --seed on, and split its error into what all have in "
+                     "common and noise (stability.seeds)")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
     verb->add_flag("--resume", options->resume, "Keep the cells that --out already holds of this program, run the rest");
     verb->add_flag("--images", *images, "Write visibility, reference and error of each cell as EXR and PNG");
     verb->add_option("--cost", *cost,

@@ -42,14 +42,16 @@ std::vector<Figure> figuresOf(const Record& record) {
     std::vector<Figure> figures;
     if (scored || error) figures.push_back({errorMetric, Class::Status, false, error ? 1.0 : 0.0, 0, ""});
     if (!scored) return figures;
-    const std::string scoredIn =
-        fmt::format("{}; truth {}", rasteriser(record.environment), gate::truthOf(record)); // both decide a score
+    const auto scoredIn = [&](const metrics::Metric& metric) { // rasteriser and truth decide a score
+        const std::optional<ReferenceInfo>& truth = gate::truthOf(metric, record);
+        return fmt::format("{}; truth {}", rasteriser(record.environment), truth ? truth->key : "");
+    };
     for (const metrics::Metric& metric : metrics::table) {
         const std::optional<double> value = gate::comparedValue(metric, record);
         if (!value) continue;
         const bool counted = metric.about == Class::Instructions;
         figures.push_back({metric.path, *metric.about, false, *value, gate::allowanceOf(metric, record, *value),
-                           counted ? gate::countingEnvironment(record.environment) : scoredIn});
+                           counted ? gate::countingEnvironment(record.environment) : scoredIn(metric)});
     }
     for (const metrics::Metric& metric : metrics::table) {
         const std::optional<double>& value = record.values[metric];

@@ -71,6 +71,14 @@ struct FramePair {
 };
 struct MovingFrames {
     std::vector<FramePair> pairs;
+    bool remembers = false; // the technique keeps a history
+};
+
+/// The last still frame, drawn from an empty history with one seed after the other. M is the same for all.
+struct SeedFrames {
+    const std::vector<Image<float>>& images;
+    const groundtruth::Reference& truth;
+    const Mask& mask;
 };
 
 /// Where each pixel of `now` was in the previous frame, by exact reprojection of the truth's primary hits (moving placements

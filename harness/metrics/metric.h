@@ -107,6 +107,7 @@ struct ScoredFrame;
 struct MappedFrame;
 struct StillFrames;
 struct MovingFrames;
+struct SeedFrames;
 struct Walk;
 
 // How a metric comes by its value: the harness computes all that are of one kind in one call (`compute` in values.h).
@@ -149,6 +150,11 @@ struct OfMovingAreas {
     Value<MovingFrames> value;
 };
 
+/// Of the last still frame by several seeds, against graded visibility.
+struct OfSeeds {
+    Value<SeedFrames> value;
+};
+
 /// Of the pictures of a level-of-detail technique.
 struct OfWalk {
     Value<Walk> value;
@@ -170,7 +176,7 @@ struct ByStillFrame {
 };
 
 using Computation = std::variant<Measured, OfLabels, OfVisibility, OfPixelAreas, OfMap, OfStillFrames, OfMovingFrames,
-                                 OfMovingAreas, OfWalk, LabelsByFrame, VisibilityByFrame, ByStillFrame>;
+                                 OfMovingAreas, OfSeeds, OfWalk, LabelsByFrame, VisibilityByFrame, ByStillFrame>;
 
 /// A line of the table.
 struct Metric {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 namespace shadowbench::metrics {
 
@@ -76,6 +77,15 @@ bool Bilinear::within(const Mask& mask, const Image<std::uint32_t>& ids, std::ui
         if (!ids.contains(p.x, p.y) || !mask.scored(p.x, p.y) || ids(p.x, p.y) != id) return false;
     }
     return true;
+}
+
+bool isSomewhere(glm::vec2 position) { return std::isfinite(position.x) && std::isfinite(position.y); }
+
+std::optional<glm::ivec2> nearestPixel(const ScoredFrame& frame, glm::vec2 position, std::uint32_t id) {
+    const glm::ivec2 pixel(glm::floor(position));
+    if (!frame.v.contains(pixel.x, pixel.y) || !frame.mask.scored(pixel.x, pixel.y)) return {};
+    if (frame.truth.id(pixel.x, pixel.y) != id) return {};
+    return pixel;
 }
 
 double quantile(std::vector<double>& values, double q) {

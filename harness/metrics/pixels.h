@@ -4,6 +4,7 @@
 #include "harness/metrics/frames.h"
 #include "harness/metrics/scores.h"
 
+#include <optional>
 #include <vector>
 
 namespace shadowbench::metrics {
@@ -35,6 +36,12 @@ struct Bilinear {
     /// Every pixel with a weight lies in M on surface `id`.
     [[nodiscard]] bool within(const Mask& mask, const Image<std::uint32_t>& ids, std::uint32_t id) const;
 };
+
+/// Whether a warp leads to somewhere in the frame before.
+bool isSomewhere(glm::vec2 position);
+
+/// The pixel that contains an image position, if it is in M on surface `id`.
+std::optional<glm::ivec2> nearestPixel(const ScoredFrame& frame, glm::vec2 position, std::uint32_t id);
 
 /// How V and V* changed at a pixel from the frame before.
 struct Change {

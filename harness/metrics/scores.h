@@ -129,6 +129,18 @@ struct Aliasing {
 /// no map, or edge-on to eye or light, are not `mapped`; absent if none is.
 std::optional<Aliasing> aliasing(const MappedFrame& frame);
 
+/// The error of the last still frame over pixels and seeds. rmse² is systematic² + noise² but for the last digits.
+struct SeedErrors {
+    double rmse = 0;       // root mean square of V − V*
+    double bias = 0;       // mean of V − V*
+    double systematic = 0; // rms over M of what all seeds have in common: the mean over seeds without end, less V*
+    double noise = 0;      // root of the mean over M of the variance over the seeds
+};
+
+/// Both parts are unbiased as squares: the variance of a pixel is taken with n − 1, and what the mean over n seeds keeps of
+/// it does not count as systematic. Absent with fewer than two seeds.
+std::optional<SeedErrors> seedErrors(const SeedFrames& frames);
+
 /// Number of the first frame, counted from 1, from which the error stays ≤ 1.05 × its steady state, the mean of the last
 /// tenth of the frames (at least one). Absent without frames and for an error still restless at the end.
 std::optional<int> convergence(const StillFrames& frames);
@@ -154,6 +166,14 @@ struct MovingErrors {
     std::optional<double> all, disoccluded;
 };
 MovingErrors movingErrors(const MovingFrames& frames);
+
+/// Frames after which what a history still shows of shadows that came or went has halved. A pixel counts from the frame in
+/// which V* jumps by more than ½, at it and at its eight neighbours, for as long as V* then rests; where it was before is
+/// followed by reprojection. Of all pixels of one age the image shows the share g of the old shadow that makes
+/// V* + g (V*before − V*) nearest to V. Between two ages g falls exponentially; where it has not halved by the last age, it
+/// goes on as from the first age to the last. Absent where the technique keeps no history, no ghost is seen (g < 0.05 in the
+/// first frame, fewer than 32 pixels) or it does not fade.
+std::optional<double> ghostHalfLife(const MovingFrames& frames);
 
 /// How many pixels flipRate compares and movingErrors are over.
 struct MovingPixels {

@@ -46,21 +46,11 @@ glm::vec2 previousPosition(const glm::dvec3& point, std::uint32_t id, const Came
     return nowhere;
 }
 
-bool isSomewhere(glm::vec2 position) { return std::isfinite(position.x) && std::isfinite(position.y); }
-
 void requireOneSize(const FramePair& pair) {
     requireComparable(pair.now);
     requireComparable(pair.before);
     if (!pair.warp.sameSize(pair.now.v) || !pair.now.v.sameSize(pair.before.v))
         throw InternalError("comparing frames of different sizes; render both at one size");
-}
-
-/// The pixel that contains an image position, if it is in M on surface `id`.
-std::optional<glm::ivec2> nearestPixel(const ScoredFrame& frame, glm::vec2 position, std::uint32_t id) {
-    const glm::ivec2 pixel(glm::floor(position));
-    if (!frame.v.contains(pixel.x, pixel.y) || !frame.mask.scored(pixel.x, pixel.y)) return {};
-    if (frame.truth.id(pixel.x, pixel.y) != id) return {};
-    return pixel;
 }
 
 /// V and V* of the previous frame at a reprojected position.

@@ -26,6 +26,7 @@ inline constexpr double strayWidth = 0.004; // two points in a thousand, each of
 // Why lines are not judged, where several have one reason.
 inline constexpr std::string_view noisyTime = "another run gives another value: frames in turns are judged instead";
 inline constexpr std::string_view behindScores = "the numbers behind scores that are judged";
+inline constexpr std::string_view onDemand = "measured by `run --seeds` alone: accuracy.rmse is judged";
 inline constexpr std::string_view classSize = "what shares are of: a property of scene and truth";
 
 // A line states what differs from the columns' defaults in metric.h; clang-format would give each column a line.
@@ -250,6 +251,22 @@ inline constexpr auto table = std::to_array<Metric>({
      .bound = "disocclusion_error", .allowance = Allowance{.truth = TruthError::Rms, .of = "stability.pixels.disoccluded", .relative = 0.01},
      .computed = OfMovingFrames{part<movingErrors, &MovingErrors::disoccluded>},
      .meaning = "the same over the pixels in their first frame"},
+    {.path = "stability.ghost_half_life", .unit = "frames", .range = range::size, .optional = true, .about = Class::Flicker,
+     .bound = "ghost_half_life", .allowance = Allowance{.relative = 0.05, .absolute = 0.05},
+     .computed = OfMovingFrames{of<ghostHalfLife>},
+     .meaning = "frames after which what a history still shows of shadows that came or went has halved"},
+    {.path = "stability.seeds.rmse", .unit = "1", .range = range::size, .optional = true, .unjudged = onDemand,
+     .computed = OfSeeds{part<seedErrors, &SeedErrors::rmse>},
+     .meaning = "root mean square of V − V* over pixels and seeds, of what depends on the seed"},
+    {.path = "stability.seeds.bias", .unit = "1", .optional = true, .unjudged = onDemand,
+     .computed = OfSeeds{part<seedErrors, &SeedErrors::bias>},
+     .meaning = "the same, mean of V − V*: too bright or too dark"},
+    {.path = "stability.seeds.systematic", .unit = "1", .range = range::size, .optional = true, .unjudged = onDemand,
+     .computed = OfSeeds{part<seedErrors, &SeedErrors::systematic>},
+     .meaning = "the same, what all seeds have in common: more samples of the same kind leave it"},
+    {.path = "stability.seeds.noise", .unit = "1", .range = range::size, .optional = true, .unjudged = onDemand,
+     .computed = OfSeeds{part<seedErrors, &SeedErrors::noise>},
+     .meaning = "the same, standard deviation of a pixel over the seeds"},
     {.path = "stability.reuse", .unit = "share", .range = range::share, .optional = true,
      .unjudged = "a property of the camera's path",
      .computed = OfMovingFrames{of<reuse>}, .meaning = "surface pixels of the moving frames that the frame before saw, too"},

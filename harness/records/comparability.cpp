@@ -47,9 +47,18 @@ std::optional<std::string> parameterDifference(const Record& base, const Record&
 
 std::string keyOf(const std::optional<ReferenceInfo>& reference) { return reference ? reference->key : ""; }
 
-/// Whether one of two truths of one key was computed otherwise; older records do not say.
-bool otherContent(const std::optional<ReferenceInfo>& base, const std::optional<ReferenceInfo>& head) {
-    return base && head && stated("content", base->content, head->content);
+/// Why what was scored against two truths cannot be compared. Older records do not say what pixels a truth had.
+std::optional<std::string> truthDifference(const std::optional<ReferenceInfo>& base,
+                                           const std::optional<ReferenceInfo>& head) {
+    if (keyOf(base) != keyOf(head)) return "it was scored against different truths: the scene or the ground truth changed";
+    if (base && stated("content", base->content, head->content))
+        return "it was scored against truths of one key with other pixels: the ground truth's code or tools changed";
+    return {};
+}
+
+template <class... Kinds>
+bool isOneOf(const metrics::Computation& computed) {
+    return (std::holds_alternative<Kinds>(computed) || ...);
 }
 
 } // namespace
@@ -69,18 +78,25 @@ std::string countingEnvironment(const Environment& e) {
     return text;
 }
 
-std::string truthOf(const Record& record) { return keyOf(record.reference) + " " + keyOf(record.softReference); }
+const std::optional<ReferenceInfo>& truthOf(const metrics::Metric& metric, const Record& record) {
+    const std::optional<ReferenceInfo>* beside = nullptr;
+    if (isOneOf<metrics::OfVisibility, metrics::VisibilityByFrame, metrics::OfSeeds>(metric.computed))
+        beside = &record.softReference;
+    if (isOneOf<metrics::OfPixelAreas, metrics::OfMovingAreas>(metric.computed)) beside = &record.pixelReference;
+    return beside != nullptr && *beside ? *beside : record.reference;
+}
 
 std::optional<std::string> whyIncomparable(const Record& base, const Record& head) {
-    if (truthOf(base) != truthOf(head))
-        return "it was scored against different truths: the scene or the ground truth changed";
-    if (otherContent(base.reference, head.reference) || otherContent(base.softReference, head.softReference))
-        return "it was scored against truths of one key with other pixels: the ground truth's code or tools changed";
+    if (auto truth = truthDifference(base.reference, head.reference)) return truth;
     if (auto parameters = parameterDifference(base, head)) return parameters;
     if (base.frames != head.frames) return fmt::format("it had {} frames and has {}", base.frames, head.frames);
     if (const auto rasteriser = difference(base.environment, head.environment, Surroundings::OfScores))
         return fmt::format("it was drawn by different rasterisers: {}", *rasteriser);
     return {};
+}
+
+std::optional<std::string> whyIncomparable(const metrics::Metric& metric, const Record& base, const Record& head) {
+    return truthDifference(truthOf(metric, base), truthOf(metric, head));
 }
 
 bool sameMetricCode(const Record& base, const Record& head) {

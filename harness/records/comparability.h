@@ -18,12 +18,16 @@ std::optional<std::string> difference(const Environment& a, const Environment& b
 /// What an instruction count depends on beside the program.
 std::string countingEnvironment(const Environment& environment);
 
-/// What a record was scored against; scores are compared where it is the same.
-std::string truthOf(const Record& record);
+/// The truth that a metric was computed from, of up to three that a record has; `reference` for what no truth decides, too.
+const std::optional<ReferenceInfo>& truthOf(const metrics::Metric& metric, const Record& record);
 
-/// Why the scores of two records of one cell cannot be compared, as the end of a sentence: another truth, parameters that
-/// both have with other values, another number of frames, another rasteriser. Nothing where they can.
+/// Why the figures of two records of one cell cannot be compared, as the end of a sentence: another truth of what the
+/// technique answers (the scene or the ground truth changed), parameters that both have with other values, another number of
+/// frames, another rasteriser. Nothing where they can.
 std::optional<std::string> whyIncomparable(const Record& base, const Record& head);
+
+/// Why one metric of two records that can be compared cannot: the truth that it was computed from is another one.
+std::optional<std::string> whyIncomparable(const metrics::Metric& metric, const Record& base, const Record& head);
 
 /// Whether both were scored by the same code, as far as they say.
 bool sameMetricCode(const Record& base, const Record& head);

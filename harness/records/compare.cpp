@@ -96,7 +96,7 @@ public:
 private:
     void take(const Record& base, const Record& head) {
         for (const metrics::Metric& metric : metrics::table)
-            if (base.values[metric] || head.values[metric])
+            if ((base.values[metric] || head.values[metric]) && !whyIncomparable(metric, base, head))
                 (base.values[metric] == head.values[metric] ? alike_ : unlike_).insert(metric.path);
     }
 
@@ -162,7 +162,9 @@ private:
         if (metric.about == Class::Instructions)
             if (const auto differs = difference(base.environment, head.environment, Surroundings::OfCounts))
                 return "counted in different environments, " + *differs + "; count both on one machine";
-        if (!isScore(metric) || cell.is(sameMetricCode)) return {};
+        if (!isScore(metric)) return {};
+        if (auto why = whyIncomparable(metric, base, head)) return why;
+        if (cell.is(sameMetricCode)) return {};
         if (cell.is(sameImages)) {
             if (values.base == values.head) return {};
             return "the images are the same, so the code of the metrics changed";
@@ -209,8 +211,10 @@ struct Curve {
         const auto& point = first->sweep->breakPoint;
         return point ? fmt::format("breaks at {:g} {}", *point, first->sweep->unit) : "does not break";
     }
+    /// The first one decides where a curve breaks.
     [[nodiscard]] std::string toleranceText() const {
-        return fmt::format("{} ≤ {}", first->toleranceMetric, first->tolerance);
+        const auto& all = first->tolerances;
+        return all.empty() ? "none" : fmt::format("{} ≤ {}", all.begin()->first, all.begin()->second);
     }
 };
 

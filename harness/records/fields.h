@@ -5,7 +5,7 @@
 // visit.group(key, has, inner)  an object of the record that is no struct here; `has`: there is something in it
 // visit.metric(key, line, values) the value or list of a line of the table of metrics
 // visit.text(key, member)       text that is left out when empty
-// visit.size(key, width, height), visit.parameters(key, list), visit.figures(key, map)
+// visit.size(key, width, height), visit.parameters(key, list), visit.figures(key, map), visit.bounds(key, map)
 #pragma once
 
 #include "harness/records/record.h"
@@ -119,10 +119,7 @@ void fields(auto& visit, Is<Record> auto& r) {
     visit.figures("figures", r.figures);
     metricGroup(visit, "stability", r.values);
     metricGroup(visit, "cost", r.values);
-    visit.group("tolerance", !r.toleranceMetric.empty(), [&](auto& inner) {
-        inner("metric", r.toleranceMetric);
-        inner("value", r.tolerance);
-    });
+    visit.bounds("tolerances", r.tolerances);
 }
 
 } // namespace shadowbench::records

@@ -88,6 +88,8 @@ public:
         for (const auto& [name, value] : json->items()) inner(name.c_str(), figures[name]);
     }
 
+    void bounds(const char* key, std::map<std::string, double>& bounds) { figures(key, bounds); }
+
     void refuseUnknown() const {
         std::vector<std::string> known(known_.begin(), known_.end());
         for (const auto& [key, value] : object_.items())
@@ -168,12 +170,27 @@ void requireThisVersion(const Json& json) {
     if (*version != schemaVersion) refuse("schema_version", "is " + version->dump());
 }
 
+/// Older records state the first of the scene's tolerances only, as {"metric": …, "value": …}.
+void renewTolerance(Json& object) {
+    const auto found = object.find("tolerance");
+    if (found == object.end() || object.contains("tolerances")) return;
+    std::string metric;
+    double value = 0;
+    Reader reader(*found, "tolerance.");
+    reader("metric", metric);
+    reader("value", value);
+    reader.refuseUnknown();
+    object.erase(found);
+    object["tolerances"][metric] = value;
+}
+
 } // namespace
 
 Record parseRecord(const std::string& json) {
-    const Json object = Json::parse(json, nullptr, false);
+    Json object = Json::parse(json, nullptr, false);
     if (object.is_discarded() || !object.is_object()) refuse("record", "is not a JSON object");
     requireThisVersion(object);
+    renewTolerance(object);
     Record record;
     Reader reader(object, "");
     records::fields(reader, record);

@@ -77,8 +77,7 @@ struct Record {
     std::optional<SweepStep> sweep;              // of `sweep` only
     metrics::Values values;                      // of every metric; a record has either "accuracy" or "lod"
     std::map<std::string, double> figures;       // of the scored frame, by names that `list techniques` explains
-    double tolerance = 0;                        // the scene's, for the metric below; 0 if it states none
-    std::string toleranceMetric;                 // "mismatch", "penumbra_rmse" …
+    std::map<std::string, double> tolerances;    // the scene's: the worst error that a viewer accepts, by names for bounds
 };
 
 /// One JSON line, keys in schema order, no newline. Numbers are written so that they read back equal; a parameter that is a
@@ -91,7 +90,7 @@ std::string toJson(const Record& record);
 std::string recordSchema();
 
 /// Throws BadInput naming the key when `json` is not a record of this schema version: a key is missing, unknown or of
-/// another type.
+/// another type. Older records, which state one tolerance only, are read, too.
 Record parseRecord(const std::string& json);
 
 /// All records of a results.jsonl; throws BadInput naming file and line. A last line without newline (a killed writer of

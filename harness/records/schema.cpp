@@ -76,9 +76,15 @@ constexpr const char* withoutMetrics = R"({
       "minProperties": 1,
       "additionalProperties": {"type": "number"}
     },
+    "tolerances": {
+      "type": "object",
+      "description": "the worst errors a viewer of this scene accepts, by metric",
+      "minProperties": 1,
+      "additionalProperties": {"$ref": "#/definitions/size"}
+    },
     "tolerance": {
       "type": "object",
-      "description": "the worst error a viewer of this scene accepts",
+      "description": "in older records: one of the tolerances",
       "additionalProperties": false,
       "required": ["metric", "value"],
       "properties": {"metric": {"type": "string", "minLength": 1}, "value": {"$ref": "#/definitions/size"}}

@@ -62,6 +62,8 @@ public:
         });
     }
 
+    void bounds(const char* key, const std::map<std::string, double>& bounds) { figures(key, bounds); }
+
 private:
     [[nodiscard]] std::string pathOf(const char* key) const { return path_ + key; }
 

@@ -61,6 +61,11 @@ public:
     }
     void parameters(const char*, const std::vector<std::pair<std::string, std::string>>&) {} // the variant says them
     void figures(const char*, const std::map<std::string, double>&) {}                       // each technique has its own
+    void bounds(const char* key, const std::map<std::string, double>& bounds) {
+        std::vector<std::string> parts;
+        for (const auto& [metric, value] : bounds) parts.push_back(metric + "=" + written(value));
+        add(key, fmt::format("{}", fmt::join(parts, " ")));
+    }
 
     [[nodiscard]] std::string titles() const { return line(titles_); }
     [[nodiscard]] std::string cells() const { return line(cells_); }

@@ -30,6 +30,8 @@ constexpr const char* legend = R"(## The columns
 | umbra leak | mean visibility where the light is fully hidden |
 | flicker, floor, flips | mean change between moving frames beyond that of the true pixel areas; the same for an image without shadows; share of pixels whose label changes while the truth's does not |
 | moving rmse | error over the moving frames: a steady trail does not flicker |
+| ghost half-life | frames after which what a history still shows of shadows that came or went has halved |
+| seeds: bias, systematic, noise | of what depends on the seed, over several of them: mean error; rms of the error that all have in common; standard deviation of a pixel |
 | converged at | still frame, counted from 1, from which the error stays within 5 % of its final value |
 | MiB | textures and buffers |
 | cost | frame time, G-buffer included, as a multiple of `sm-uniform` in the same rounds |

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace shadowbench::report {
 namespace {
@@ -24,17 +25,15 @@ struct Point {
 /// Points on the front first, by cost, so that they get the best places for their labels.
 std::vector<Point> points(const std::vector<Record>& records, const std::string& scene) {
     const std::vector<std::size_t> front = paretoFront(records, scene);
-    const std::optional<Tolerance> limit = tolerance(records, scene);
+    const std::vector<Tolerance> limits = tolerances(records, scene);
     std::vector<std::size_t> order = front;
     for (const std::size_t i : ofScene(records, scene))
         if (place(records[i]) && std::find(front.begin(), front.end(), i) == front.end()) order.push_back(i);
 
     std::vector<Point> result;
-    for (const std::size_t i : order) {
-        const std::optional<double> error = limit ? metrics::bounded(records[i].values, limit->metric) : std::nullopt;
+    for (const std::size_t i : order)
         result.push_back({records[i].variant, *place(records[i]), result.size() < front.size(),
-                          error && *error <= limit->value && !isBaseline(records[i])});
-    }
+                          isWithin(records[i], limits) && !isBaseline(records[i])});
     return result;
 }
 
@@ -140,7 +139,7 @@ std::string plotCommand(const std::vector<Point>& all, const Canvas& canvas, con
 }
 
 /// What line and points mean, in one row under the title.
-std::string key(const std::optional<Tolerance>& limit) {
+std::string key(const std::vector<Tolerance>& limits) {
     const double y = 56;
     const auto text = [y](const std::string& words, double x) {
         return fmt::format("set label {} at {} left font ',12'\n", literal(words), Canvas::screen({x, y}));
@@ -151,10 +150,13 @@ std::string key(const std::optional<Tolerance>& limit) {
     std::string script = fmt::format("set arrow from {} to {} nohead lw 2 lc rgb '{}'\n", Canvas::screen({left, y}),
                                      Canvas::screen({left + 28, y}), blue);
     script += text("Pareto front", left + 36);
-    if (!limit) return script;
-    script += point(7, left + 146) +
-              text(fmt::format("within tolerance ({} ≤ {})", limit->metric, formatBound(*limit)), left + 160);
-    return script + point(6, left + 440) + text("outside", left + 454);
+    if (limits.empty()) return script;
+    std::vector<std::string> bounds;
+    for (const Tolerance& limit : limits) bounds.push_back(fmt::format("{} ≤ {}", limit.metric, formatBound(limit)));
+    const std::string within = fmt::format("within tolerance ({})", fmt::join(bounds, ", "));
+    const double end = std::max(440.0, 180 + letter.x * static_cast<double>(within.size()));
+    script += point(7, left + 146) + text(within, left + 160);
+    return script + point(6, left + end) + text("outside", left + end + 14);
 }
 
 } // namespace
@@ -163,15 +165,15 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
     const std::vector<Point> all = points(records, scene);
     if (all.empty()) return {};
     const std::string metric = headlineMetric(records, scene);
-    const std::optional<Tolerance> limit = tolerance(records, scene);
-    const std::optional<double> toleranceLine =
-        limit && limit->metric == metric ? std::optional(limit->value) : std::nullopt;
+    const std::vector<Tolerance> limits = tolerances(records, scene);
+    const auto limit = std::ranges::find(limits, metric, &Tolerance::metric);
+    const std::optional<double> toleranceLine = limit == limits.end() ? std::nullopt : std::optional(limit->value);
     const Canvas area = canvas(all, toleranceLine);
     const bool share = isShare(metric);
 
     std::string script = plotArea(left / width, right / width, top, bottom, height);
     script += fmt::format("set label {} at {} left font ',18'\n", literal(scene), Canvas::screen({left, 26}));
-    script += "unset key\n" + key(limit);
+    script += "unset key\n" + key(limits);
     if (toleranceLine)
         script += fmt::format("set label {} at {} right font ',12' textcolor rgb '{}'\n",
                               literal("tolerance " + formatBound(*limit)),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <string_view>
 #include <tuple>
 
@@ -50,10 +51,31 @@ std::optional<Place> place(const Record& record) {
     return Place{error->value, *cost, costSpread(record)};
 }
 
+std::vector<Tolerance> tolerances(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<Tolerance> result;
+    for (const std::size_t i : ofScene(records, scene)) {
+        for (const auto& [metric, value] : records[i].tolerances) result.push_back({metric, value});
+        if (!result.empty()) break;
+    }
+    return result;
+}
+
 std::optional<Tolerance> tolerance(const std::vector<Record>& records, const std::string& scene) {
-    for (const std::size_t i : ofScene(records, scene))
-        if (!records[i].toleranceMetric.empty()) return Tolerance{records[i].toleranceMetric, records[i].tolerance};
-    return {};
+    const std::vector<Tolerance> all = tolerances(records, scene);
+    return all.empty() ? std::nullopt : std::optional(all.front());
+}
+
+std::optional<double> shareOfTolerance(const Record& record, const std::vector<Tolerance>& tolerances) {
+    std::optional<double> largest;
+    for (const Tolerance& limit : tolerances)
+        if (const std::optional<double> error = metrics::bounded(record.values, limit.metric))
+            largest = std::max(largest.value_or(0), *error / limit.value);
+    return largest;
+}
+
+bool isWithin(const Record& record, const std::vector<Tolerance>& tolerances) {
+    const std::optional<double> share = shareOfTolerance(record, tolerances);
+    return headline(record) && share && *share <= 1;
 }
 
 std::string headlineMetric(const std::vector<Record>& records, const std::string& scene) {
@@ -86,6 +108,12 @@ std::string formatValue(const std::string& metric, double value) {
 
 std::string formatBound(const Tolerance& limit) {
     return isShare(limit.metric) ? fmt::format("{:g} %", 100 * limit.value) : fmt::format("{:g}", limit.value);
+}
+
+std::string formatBounds(const std::vector<Tolerance>& limits) {
+    std::vector<std::string> parts;
+    for (const Tolerance& limit : limits) parts.push_back(limit.metric + " " + formatBound(limit));
+    return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string imageSize(const Record& record) {
@@ -131,20 +159,15 @@ std::string frontMark(const std::vector<Record>& records, const std::string& sce
     const std::vector<std::size_t> front = paretoFront(records, scene);
     if (std::ranges::find(front, index) == front.end()) return "";
     if (isBaseline(records[index])) return "○";
-    const std::optional<Tolerance> limit = tolerance(records, scene);
-    if (!limit) return "●";
-    const std::optional<double> error = metrics::bounded(records[index].values, limit->metric);
-    return error && *error <= markedWithin * limit->value ? "●" : "○";
+    const std::vector<Tolerance> limits = tolerances(records, scene);
+    const std::optional<double> share = shareOfTolerance(records[index], limits);
+    return limits.empty() || (share && *share <= markedWithin) ? "●" : "○";
 }
 
 std::vector<std::size_t> adequate(const std::vector<Record>& records, const std::string& scene) {
-    const std::optional<Tolerance> limit = tolerance(records, scene);
-    if (!limit) return {};
+    const std::vector<Tolerance> limits = tolerances(records, scene);
     std::vector<std::size_t> within = ofScene(records, scene);
-    std::erase_if(within, [&](std::size_t i) {
-        const std::optional<double> error = metrics::bounded(records[i].values, limit->metric);
-        return !headline(records[i]) || !error || *error > limit->value;
-    });
+    std::erase_if(within, [&](std::size_t i) { return !isWithin(records[i], limits); });
     return within;
 }
 

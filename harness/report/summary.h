@@ -34,18 +34,30 @@ bool dominates(const Place& a, const Place& b);
 /// A technique that draws no shadow: what others are measured from.
 bool isBaseline(const Record& record);
 
-/// A record of the front deserves a mark if its error is within so many times the scene's tolerance, or there is none.
+/// A record of the front deserves a mark if its errors are within so many times the scene's tolerances, or there are none.
 inline constexpr double markedWithin = 10;
 
 /// Of a table's row: ● on the Pareto front, ○ there for a baseline or an error beyond `markedWithin`, "" off it.
 std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index);
 
-/// The scene's tolerance, from the first of its records that states one.
+/// The worst error that a viewer of a scene accepts.
 struct Tolerance {
-    std::string metric;
+    std::string metric; // its name for bounds
     double value;
 };
+
+/// The scene's tolerances, by metric, from the first of its records that states any.
+std::vector<Tolerance> tolerances(const std::vector<Record>& records, const std::string& scene);
+
+/// The first of them, which break points are by.
 std::optional<Tolerance> tolerance(const std::vector<Record>& records, const std::string& scene);
+
+/// The error of a record that comes nearest to its tolerance, or exceeds it most, as a multiple of it. Metrics that do not
+/// apply to the record do not count; nothing if none does.
+std::optional<double> shareOfTolerance(const Record& record, const std::vector<Tolerance>& tolerances);
+
+/// Whether it was scored and all its errors that there are tolerances of, one at least, are within them.
+bool isWithin(const Record& record, const std::vector<Tolerance>& tolerances);
 
 /// The headline metric of `scene`'s records; "" if none was scored.
 std::string headlineMetric(const std::vector<Record>& records, const std::string& scene);
@@ -61,8 +73,12 @@ std::string percent(double share);
 /// A value of `metric` as tables show it: per cent for shares, four decimals for others.
 std::string formatValue(const std::string& metric, double value);
 
-/// A tolerance as written in a scene: "0.5 %", "0.05".
+/// A tolerance as written in a scene: "0.5 %", "0.05"; several with their metrics: "penumbra_rmse 0.05, rmse 0.03".
 std::string formatBound(const Tolerance& limit);
+std::string formatBounds(const std::vector<Tolerance>& limits);
+
+/// Where a technique fails, as its document says it: "Shades nothing but its plane"; "" for an unknown one.
+std::string admittedFailure(const std::string& technique);
 
 /// "256²", "800 × 600".
 std::string imageSize(const Record& record);

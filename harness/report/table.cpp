@@ -49,6 +49,10 @@ std::span<const Column> columns() {
         {"floor", true, "stability.flicker.floor", decimals<4>},
         {"flips", true, "stability.flip_rate", percent},
         {"moving rmse", true, "stability.moving_rmse", decimals<4>},
+        {"ghost half-life", true, "stability.ghost_half_life", decimals<1>},
+        {"seeds: bias", true, "stability.seeds.bias", decimals<4>},
+        {"systematic", true, "stability.seeds.systematic", decimals<4>},
+        {"noise", true, "stability.seeds.noise", decimals<4>},
         {"converged at", true, "stability.convergence", decimals<0>},
         {"MiB", true, "cost.work.bytes", decimals<1, 1 << 20>},
         {"cost", false, "cost.time.ratio", decimals<2>},
@@ -93,11 +97,14 @@ TextTable table(const std::vector<Record>& records, const std::string& scene, bo
     return result;
 }
 
-/// "planar-hard (projected shadow on a plane)": what a technique is says where else it will do.
+/// "planar-hard (Projected shadow on a plane; its weakness: Shades nothing but its plane)": what does here may not do
+/// elsewhere.
 std::string withTitle(const Record& record) {
     const auto all = techniques::catalog();
     const auto entry = std::ranges::find(all, record.technique, &techniques::Entry::id);
-    return entry == all.end() ? record.variant : fmt::format("{} ({})", record.variant, entry->title);
+    if (entry == all.end()) return record.variant;
+    const std::string failure = admittedFailure(record.technique);
+    return fmt::format("{} ({}{}{})", record.variant, entry->title, failure.empty() ? "" : "; its weakness: ", failure);
 }
 
 /// "truth: exact (polygon+rays), exact (pixel-areas); σ 0.0006": what errors cannot resolve.
@@ -115,10 +122,10 @@ std::string truthLine(const std::vector<Record>& records, const std::string& sce
 std::vector<std::string> footnotes(const std::vector<Record>& records, const std::string& scene) {
     std::vector<std::string> lines;
     if (const std::string line = truthLine(records, scene); !line.empty()) lines.push_back(line);
-    if (const std::optional<Tolerance> limit = tolerance(records, scene)) {
+    if (const std::vector<Tolerance> limits = tolerances(records, scene); !limits.empty()) {
         const std::optional<std::size_t> best = cheapestAdequate(records, scene);
-        const std::string metric = limit->metric == headlineMetric(records, scene) ? "" : limit->metric + " ";
-        const std::string bound = metric + formatBound(*limit);
+        const bool ofError = limits.size() == 1 && limits.front().metric == headlineMetric(records, scene);
+        const std::string bound = ofError ? formatBound(limits.front()) : formatBounds(limits);
         std::vector<std::string_view> within;
         for (const std::size_t i : adequate(records, scene)) within.push_back(records[i].variant);
         lines.push_back(best ? fmt::format("cheapest within tolerance ({}): {}", bound, withTitle(records[*best]))

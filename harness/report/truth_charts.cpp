@@ -40,10 +40,14 @@ Histogram edgeDistances(const Reference& reference) {
 }
 
 /// Of the receiver pixels, how many have which σ; those where it is 0 are left out.
-Histogram sigmas(const Reference& reference) {
+Histogram sigmas(const ShownReference& shown) {
+    const Reference& reference = shown.reference;
     const TruthNumbers numbers = truthNumbers(reference);
-    Histogram histogram{
-        "σ* of the visible fraction, where it is not 0", "σ*", vermilion, numbers.sigmaLargest / sigmaBins, {}};
+    Histogram histogram{fmt::format("σ* of the {} truth, where it is not 0", shown.truth),
+                        "σ*",
+                        vermilion,
+                        numbers.sigmaLargest / sigmaBins,
+                        {}};
     histogram.shares.resize(sigmaBins);
     for (std::size_t i = 0; i < reference.surface.size(); ++i) {
         if (reference.surface[i] != Surface::Receiver || reference.sigma[i] <= 0) continue;
@@ -104,7 +108,7 @@ std::string histograms(const TruthOfScene& scene) {
     std::vector<Histogram> panels;
     for (const ShownReference& shown : scene.references) {
         if (shown.truth == "hard") panels.push_back(edgeDistances(shown.reference));
-        if (truthNumbers(shown.reference).sigmaLargest > 0) panels.push_back(sigmas(shown.reference));
+        if (truthNumbers(shown.reference).sigmaLargest > 0) panels.push_back(sigmas(shown));
     }
     std::string script = "set multiplot\nset style fill solid 0.85 noborder\nset ylabel '% of the receiver pixels'\n"
                          "set yrange [0:*]\n";

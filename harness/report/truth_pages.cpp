@@ -37,7 +37,9 @@ std::string pictures(const TruthOfScene& scene, const ShownReference& shown, con
         std::string name, meaning;
         Image<glm::vec3> image;
     };
-    std::vector<Picture> all{{"visibility", "visibility: white = fully lit", visibilityPicture(shown.reference)}};
+    const char* what =
+        shown.truth == "pixel-area" ? "C\\*, the mean over the pixel: white = fully lit" : "visibility: white = fully lit";
+    std::vector<Picture> all{{"visibility", what, visibilityPicture(shown.reference)}};
     if (numbers.sigmaLargest > 0)
         all.push_back({"sigma", fmt::format("σ\\*: black = 0, white = {:.2g}", numbers.sigmaLargest),
                        sigmaPicture(shown.reference, numbers.sigmaLargest)});
@@ -77,7 +79,7 @@ std::string factsTable(const TruthOfScene& scene) {
     row("light samples", [&](const auto& s) { return source(s).samples > 0 ? fmt::format("{}", source(s).samples) : "–"; });
     row("receiver pixels", [&](const auto& s) { return fmt::format("{}", numbers(s).receivers); });
     row("of them fully shadowed", [&](const auto& s) { return shareOf(numbers(s).shadowed, numbers(s).receivers); });
-    row("of them in penumbra", [&](const auto& s) { return shareOf(numbers(s).penumbra, numbers(s).receivers); });
+    row("of them partly lit", [&](const auto& s) { return shareOf(numbers(s).penumbra, numbers(s).receivers); });
     row("of them within ½ px of an edge",
         [&](const auto& s) { return s.truth == "hard" ? shareOf(numbers(s).edgePixels, numbers(s).receivers) : "–"; });
     row("pixels exactly on an edge", [&](const auto& s) { return fmt::format("{}", numbers(s).onEdge); });
@@ -155,15 +157,15 @@ Written writeTruthReport(const std::vector<TruthOfScene>& scenes, const fs::path
     Written written{folder / "report.md", {}};
     std::string page = "# The truth\n\nWhat techniques are scored against: the references of the last still frame of every "
                        "scene, how sure they are, and whether oracles that share no code agree.\n\n"
-                       "| scene | truth | oracle | shadowed | penumbra | σ\\*: median, largest | computed in | oracles "
+                       "| scene | truth | oracle | shadowed | partly lit | σ\\*: median, largest | computed in | oracles "
                        "compared |\n|:---|:---|:---|---:|---:|---:|---:|:---|\n";
     for (const TruthOfScene& scene : scenes) {
         written.charts.push_back(writeScenePage(scene, folder));
         for (const ShownReference& shown : scene.references) page += indexRow(scene, shown);
     }
-    page +=
-        "\n![seconds by scene and oracle](seconds.svg)\n\nshadowed, penumbra: shares of the receiver pixels. σ\\*: where it "
-        "is not 0. Made by `./bench reference --report` and a folder.\n";
+    page += "\n![seconds by scene and oracle](seconds.svg)\n\nshadowed, partly lit: shares of the receiver pixels. σ\\*: "
+            "where it "
+            "is not 0. Made by `./bench reference --report` and a folder.\n";
     writeFile(folder / "seconds.svg", secondsChart(scenes));
     written.charts.push_back(folder / "seconds.svg");
     writeFile(written.page, page);

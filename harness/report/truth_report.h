@@ -12,7 +12,7 @@
 namespace shadowbench::report {
 
 struct ShownReference {
-    std::string truth; // "hard", "soft"
+    std::string truth; // "hard", "soft", "pixel-area"
     groundtruth::Reference reference;
 };
 

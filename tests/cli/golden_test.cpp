@@ -8,6 +8,7 @@
 #include "scene/load/load.h"
 #include "tests/support/program.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -61,20 +62,54 @@ TEST(GoldenContents, ATruthWithALockedKeyAndOtherPixelsIsInconclusive) {
     const Folder folder;
     const Scene scene = loadScene(folder.write("tiny.toml", tinyScene()), Profile::Gate);
     const groundtruth::Cache cache(folder / "cache");
-    GoldenContents golden;
-    Truths unlocked(scene, cache, golden);
-    const std::string key = unlocked.key(Truth::Hard, 2), content = unlocked.content(Truth::Hard, 2);
-    golden[key] = {"tiny", "hard", 2, content};
-    EXPECT_EQ(Truths(scene, cache, golden).content(Truth::Hard, 2), content);
+    for (const Truth truth : {Truth::Hard, Truth::PixelArea}) {
+        GoldenContents golden;
+        Truths unlocked(scene, cache, golden);
+        const std::string key = unlocked.key(truth, 2), content = unlocked.content(truth, 2);
+        golden[key] = {"tiny", std::string(name(truth)), 2, content};
+        EXPECT_EQ(Truths(scene, cache, golden).content(truth, 2), content);
 
-    golden[key].content[0] = content[0] == '0' ? '1' : '0';
-    try {
-        Truths(scene, cache, golden).at(Truth::Hard, 2);
-        ADD_FAILURE() << "a truth that is not the golden one is given";
-    } catch (const Inconclusive& error) {
-        for (const char* part : {"hard truth of tiny frame 2", "reference --verify --scene tiny", "cache prune --all"})
-            EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+        golden[key].content[0] = content[0] == '0' ? '1' : '0';
+        try {
+            Truths(scene, cache, golden).at(truth, 2);
+            ADD_FAILURE() << "a " << name(truth) << " truth that is not the golden one is given";
+        } catch (const Inconclusive& error) {
+            const std::string which = fmt::format("the {} truth of tiny frame 2", name(truth));
+            for (const std::string& part :
+                 {which, std::string("reference --verify --scene tiny"), std::string("cache prune --all")})
+                EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+        }
     }
+}
+
+TEST(GoldenContents, AreWhatARunAsksForByTheKeysOfThisProgram) {
+    for (const char* id : {"dueling-frusta", "simple"}) {
+        const Scene scene = loadScene(id, Profile::Gate, metrics::boundedMetrics());
+        for (const auto& [truth, frame] : askedTruths(scene))
+            EXPECT_TRUE(committedContents().contains(groundtruth::key(referenceRequest(scene, truth, frame))))
+                << id << " " << name(truth) << " frame " << frame;
+    }
+}
+
+/// A golden reference with a pixel that is not its own, and a checksum that is right.
+TEST(GoldenContents, AreWhatCacheVerifyHoldsEntriesTo) {
+    const Folder folder;
+    const Scene scene = loadScene("dueling-frusta", Profile::Gate, metrics::boundedMetrics());
+    const int frame = scene.timeline.still - 1;
+    groundtruth::Reference wrong = groundtruth::readGolden(committed / "dueling-frusta-pixel-area.exr");
+    wrong.position = Image<glm::vec3>(scene.size.x, scene.size.y);
+    wrong.provenance.key = groundtruth::key(referenceRequest(scene, Truth::PixelArea, frame));
+    const groundtruth::Cache cache(folder / "cache");
+    const std::string verify = "shadowbench cache verify --cache " + folder / "cache";
+    cache.store(wrong);
+    EXPECT_EQ(shell(verify).code, 0) << "as committed";
+    wrong.visibility(100, 200) = 1 - wrong.visibility(100, 200);
+    cache.store(wrong);
+    const Outcome outcome = shell(verify);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.output.find("the pixel-area truth of dueling-frusta frame 59 is not the golden one"),
+              std::string::npos)
+        << outcome.output;
 }
 
 TEST(GoldenContents, ARunAgainstAWrongTruthInTheCacheEndsAsInconclusive) {

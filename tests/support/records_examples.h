@@ -88,8 +88,7 @@ inline Record hardRecord() {
     r.values["cost.work.draws"] = 3;
     r.values["cost.work.passes"] = 2;
     r.values["cost.work.bytes"] = 4194304;
-    r.tolerance = 0.005;
-    r.toleranceMetric = "mismatch";
+    r.tolerances = {{"mismatch", 0.005}};
     return r;
 }
 
@@ -125,8 +124,7 @@ inline Record softRecord() {
     r.values.list("stability.by_frame.bad30") = {0.1, 0.012};
     r.values["cost.instructions"] = 310442871;
     r.environment.valgrind = "3.19.0";
-    r.tolerance = 0.05;
-    r.toleranceMetric = "penumbra_rmse";
+    r.tolerances = {{"penumbra_rmse", 0.05}};
     return r;
 }
 
@@ -154,8 +152,7 @@ inline Record lodRecord() {
     r.values.list("lod.by_frame.walk_pop") = {-0.0003, -0.0002};
     r.values.list("lod.by_frame.primitives") = {8700, 8700, 8683.5};
     r.values.list("lod.by_frame.milliseconds") = {4.5, 4.6, 4.4};
-    r.toleranceMetric.clear();
-    r.tolerance = 0;
+    r.tolerances.clear();
     return r;
 }
 

@@ -117,11 +117,12 @@ void ExactScene::averageOverPixels(glm::ivec2 size, const PrimaryHits& primary, 
     });
 }
 
-ExactScene::PixelMean ExactScene::meanByRays(glm::ivec2 size, glm::ivec2 pixel, std::uint32_t surface, int side) const {
+ExactScene::PixelMean ExactScene::meanByRays(glm::ivec2 size, glm::ivec2 pixel, std::uint32_t surface, int side,
+                                             std::uint16_t set) const {
     requireHardLight(data_->light);
-    const AreaShares shares = sharesByRays(*data_->triangles, data_->camera, data_->light, size, pixel, surface, side);
+    const AreaShares shares = sharesByRays(*data_->triangles, data_->camera, data_->light, size, pixel, surface, side, set);
     if (shares.seen <= 0) return {};
-    return {shares.lit / shares.seen, shares.sigma};
+    return {shares.lit / shares.seen, shares.sigma, shares.seen};
 }
 
 PrimaryHits primaryHits(const Snapshot& snapshot, glm::ivec2 size, const Progress& progress) {

@@ -68,12 +68,15 @@ public:
     /// InternalError.
     void averageOverPixels(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress = {}) const;
 
-    /// The same of one pixel by `side`² exact rays alone, with which `averageOverPixels` shares no decision.
+    /// The same of one pixel by `side`² exact rays alone, with which `averageOverPixels` shares no decision. Each `set` of
+    /// rays is another one.
     struct PixelMean {
         double mean = 0;  // 0 where no ray meets a surface that faces the light
         double sigma = 0; // that independent rays would have; these, one in each cell of a grid, have less
+        double seen = 0;  // share of the rays that meet one
     };
-    [[nodiscard]] PixelMean meanByRays(glm::ivec2 size, glm::ivec2 pixel, std::uint32_t surface, int side) const;
+    [[nodiscard]] PixelMean meanByRays(glm::ivec2 size, glm::ivec2 pixel, std::uint32_t surface, int side,
+                                       std::uint16_t set = 0) const;
 
 private:
     struct Data;

@@ -43,9 +43,9 @@ private:
     double slack_;                       // of half-spaces, for normals of length 1
 };
 
-/// By rays: exact primary hits and labels at `side`² image positions, one drawn in each cell of a grid, seeded by the
-/// pixel. Sigma is what independent positions would leave: more than what these do.
+/// By rays: exact primary hits and labels at `side`² image positions, one drawn in each cell of a grid, seeded by the pixel
+/// and the `set`. Sigma is what independent positions would leave: more than what these do.
 AreaShares sharesByRays(const SceneTriangles& scene, const Camera& camera, const Light& light, glm::ivec2 size,
-                        glm::ivec2 pixel, std::uint32_t surface, int side);
+                        glm::ivec2 pixel, std::uint32_t surface, int side, std::uint16_t set = 0);
 
 } // namespace shadowbench::groundtruth::hard

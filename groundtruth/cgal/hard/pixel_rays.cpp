@@ -8,9 +8,10 @@
 
 namespace shadowbench::groundtruth::hard {
 AreaShares sharesByRays(const SceneTriangles& scene, const Camera& camera, const Light& light, glm::ivec2 size,
-                        glm::ivec2 pixel, std::uint32_t surface, int side) {
+                        glm::ivec2 pixel, std::uint32_t surface, int side, std::uint16_t set) {
     std::size_t seen = 0, lit = 0;
-    Random random((static_cast<std::uint64_t>(pixel.y) << 32U) | static_cast<std::uint32_t>(pixel.x));
+    const std::uint64_t row = static_cast<std::uint64_t>(set) << 16U | static_cast<std::uint16_t>(pixel.y);
+    Random random(row << 32U | static_cast<std::uint32_t>(pixel.x));
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             const double right = random.uniform(), down = random.uniform();

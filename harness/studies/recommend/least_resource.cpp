@@ -104,16 +104,16 @@ std::vector<std::string> variantsOver(Resource resource, const std::vector<std::
 }
 
 std::vector<Least> leastAdequate(const std::vector<Record>& records, const std::string& scene, Resource resource) {
-    const auto limit = report::tolerance(records, scene);
-    if (!limit) return {};
+    const std::vector<report::Tolerance> limits = report::tolerances(records, scene);
+    if (limits.empty()) return {};
     std::map<std::string, std::vector<Step>> curves;
     for (const std::size_t i : report::ofScene(records, scene)) {
         const Record& record = records[i];
-        const std::optional<double> error = metrics::bounded(record.values, limit->metric);
+        const std::optional<double> error = metrics::bounded(record.values, limits.front().metric);
         if (!wasScored(record.status) || !error) continue;
         for (const auto& [name, value] : record.parameters)
             if (const auto much = amount(resource, name, value))
-                curves[curveOf(record, name)].push_back({*much, *error, *error <= limit->value, record.variant});
+                curves[curveOf(record, name)].push_back({*much, *error, report::isWithin(record, limits), record.variant});
     }
     std::erase_if(curves, [](const auto& curve) { return !hasTwoAmounts(curve.second); });
     if (curves.empty())

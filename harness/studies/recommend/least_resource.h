@@ -28,13 +28,13 @@ std::vector<std::string> variantsOver(Resource resource, const std::vector<std::
 struct Least {
     std::string variant;
     double amount;
-    double error; // by the tolerance's metric
+    double error; // by the first tolerance's metric
 };
 
 /// Of every technique, with its other parameters the same, that the records show with at least two amounts: the least one
-/// from which on all larger ones are within the scene's tolerance. A smaller one that is, while one above it is not, is
-/// within by luck. Techniques whose largest amount is not within are left out. The least amount first, then the least error.
-/// Throws BadInput when there is no such technique to compare.
+/// from which on all larger ones are within all of the scene's tolerances. A smaller one that is, while one above it is not,
+/// is within by luck. Techniques whose largest amount is not within are left out. The least amount first, then the least
+/// error. Throws BadInput when there is no such technique to compare.
 std::vector<Least> leastAdequate(const std::vector<Record>& records, const std::string& scene, Resource resource);
 
 } // namespace shadowbench::recommend

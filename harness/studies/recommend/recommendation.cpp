@@ -59,11 +59,12 @@ public:
         if (report::ofScene(records, scene.id).empty())
             throw BadInput(fmt::format("{} holds no record of scene {}", options_.records.string(), scene.id));
         if (options_.casters.tolerance.empty()) return records;
-        const Bound bound = parseBound(options_.casters.tolerance.front(), scene.light);
-        for (Record& record : records) {
-            record.toleranceMetric = bound.metric;
-            record.tolerance = bound.most;
+        std::map<std::string, double> tolerances;
+        for (const std::string& text : options_.casters.tolerance) {
+            const Bound bound = parseBound(text, scene.light);
+            tolerances[bound.metric] = bound.most;
         }
+        for (Record& record : records) record.tolerances = tolerances;
         return records;
     }
 
@@ -94,13 +95,13 @@ std::optional<Cheapest> cheapest(const std::vector<Record>& records, const std::
     const std::optional<std::size_t> best = report::cheapestAdequate(records, scene);
     if (!best) return {};
     const Record& record = records[*best];
-    return Cheapest{record.variant, *metrics::bounded(record.values, record.toleranceMetric),
-                    *record.values["cost.time.ratio"]};
+    const std::optional<double> error = metrics::bounded(record.values, report::tolerance(records, scene)->metric);
+    return Cheapest{record.variant, error.value_or(0), *record.values["cost.time.ratio"]};
 }
 
 void answerFromRecords(Question question, const std::vector<Record>& records, Recommendation& result) {
-    result.tolerance = report::tolerance(records, result.scene);
-    if (!result.tolerance)
+    result.tolerances = report::tolerances(records, result.scene);
+    if (result.tolerances.empty())
         throw BadInput(fmt::format("scene {} states no tolerance: give one with --tolerance", result.scene));
     if (question == Question::Technique) result.technique = cheapest(records, result.scene);
     if (question == Question::Map) result.maps = leastAdequate(records, result.scene, Resource::MapTexels);

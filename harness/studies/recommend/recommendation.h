@@ -33,7 +33,7 @@ struct RecommendOptions {
 /// The cheapest technique within tolerance.
 struct Cheapest {
     std::string variant;
-    double error; // by the tolerance's metric
+    double error; // by the first tolerance's metric
     double cost;  // frames of sm-uniform
 };
 
@@ -42,9 +42,9 @@ struct Recommendation {
     std::string scene;
     std::set<Question> questions;
     std::optional<CasterRecommendation> casters;
-    std::optional<report::Tolerance> tolerance; // of the three below
-    std::optional<Cheapest> technique;          // nothing if none is within tolerance
-    std::vector<Least> maps, samples;           // a line a technique, the least first; empty if none is within tolerance
+    std::vector<report::Tolerance> tolerances; // of the three below, which are within all of them
+    std::optional<Cheapest> technique;         // nothing if none is within tolerance
+    std::vector<Least> maps, samples;          // a line a technique, the least first; empty if none is within tolerance
 };
 
 /// Inconclusive when a casters' recommendation was not verified, else that of a cell that ended in an error, else Pass.

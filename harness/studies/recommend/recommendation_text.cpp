@@ -88,21 +88,21 @@ std::string text(const CasterRecommendation& c) {
 
 /// `unit` is that of the amounts.
 std::string leastTable(const std::string& what, const std::string& unit, const std::vector<Least>& all,
-                       const report::Tolerance& tolerance) {
-    const std::string heading = fmt::format(" {} within {} {}", what, tolerance.metric, report::formatBound(tolerance));
+                       const std::vector<report::Tolerance>& tolerances) {
+    const std::string heading = fmt::format(" {} within {}", what, report::formatBounds(tolerances));
     if (all.empty()) return heading + ": no technique that was tried has one\n";
     report::TextTable table{{"technique", unit, "error"}, {}};
     for (const Least& least : all)
-        table.rows.push_back({least.variant, fmt::format("{:g}", least.amount), shown(tolerance.metric, least.error)});
+        table.rows.push_back(
+            {least.variant, fmt::format("{:g}", least.amount), shown(tolerances.front().metric, least.error)});
     return heading + "\n" + report::aligned(table);
 }
 
-std::string cheapestLine(const std::optional<Cheapest>& technique, const report::Tolerance& tolerance) {
-    const std::string heading =
-        fmt::format(" cheapest technique within {} {}", tolerance.metric, report::formatBound(tolerance));
+std::string cheapestLine(const std::optional<Cheapest>& technique, const std::vector<report::Tolerance>& tolerances) {
+    const std::string heading = fmt::format(" cheapest technique within {}", report::formatBounds(tolerances));
     if (!technique) return heading + ": none\n";
     return fmt::format("{}: {}, at {} and {:.2f} frames of sm-uniform\n", heading, technique->variant,
-                       shown(tolerance.metric, technique->error), technique->cost);
+                       shown(tolerances.front().metric, technique->error), technique->cost);
 }
 
 ordered_json toJson(const GroupLevel& group) {
@@ -146,7 +146,7 @@ ordered_json toJson(const std::vector<Least>& all, const std::string& amount) {
 ordered_json toJson(const Recommendation& r) {
     ordered_json result{{"scene", r.scene}};
     if (r.casters) result["casters"] = toJson(*r.casters);
-    if (r.tolerance) result["tolerance"] = {{"metric", r.tolerance->metric}, {"value", r.tolerance->value}};
+    for (const report::Tolerance& limit : r.tolerances) result["tolerance"][limit.metric] = limit.value;
     if (r.technique)
         result["technique"] = {
             {"variant", r.technique->variant}, {"error", r.technique->error}, {"cost", r.technique->cost}};
@@ -160,9 +160,9 @@ ordered_json toJson(const Recommendation& r) {
 std::string text(const Recommendation& r) {
     std::string lines = fmt::format(" scene: {}\n", r.scene);
     if (r.casters) lines += text(*r.casters);
-    if (r.questions.contains(Question::Technique)) lines += cheapestLine(r.technique, *r.tolerance);
-    if (r.questions.contains(Question::Map)) lines += leastTable("smallest map", "texels a side", r.maps, *r.tolerance);
-    if (r.questions.contains(Question::Samples)) lines += leastTable("fewest samples", "samples", r.samples, *r.tolerance);
+    if (r.questions.contains(Question::Technique)) lines += cheapestLine(r.technique, r.tolerances);
+    if (r.questions.contains(Question::Map)) lines += leastTable("smallest map", "texels a side", r.maps, r.tolerances);
+    if (r.questions.contains(Question::Samples)) lines += leastTable("fewest samples", "samples", r.samples, r.tolerances);
     return lines;
 }
 

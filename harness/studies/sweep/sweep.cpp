@@ -204,9 +204,10 @@ SweepResult sweep(const SweepOptions& options) { return Sweeper(options).all(); 
 
 std::optional<double> breakPoint(const std::vector<Record>& curve) {
     for (const Record& record : curve) {
-        if (record.status != Status::Scored || record.toleranceMetric.empty()) continue;
-        const std::optional<double> error = metrics::bounded(record.values, record.toleranceMetric);
-        if (error && *error > record.tolerance) return record.sweep->value;
+        if (record.status != Status::Scored || record.tolerances.empty()) continue;
+        const auto& [metric, most] = *record.tolerances.begin();
+        const std::optional<double> error = metrics::bounded(record.values, metric);
+        if (error && *error > most) return record.sweep->value;
     }
     return std::nullopt;
 }

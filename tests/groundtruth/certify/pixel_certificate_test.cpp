@@ -4,18 +4,20 @@
 #include "groundtruth/oracle.h"
 #include "scene/load/load.h"
 
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <string>
 
 namespace shadowbench::groundtruth {
 namespace {
 
 constexpr glm::ivec2 size{64, 64};
 
-Snapshot shown(const char* id, const glm::dvec3& lightShift = glm::dvec3(0)) {
+Snapshot shown(const char* id) {
     const Scene scene = loadScene(id, Profile::Gate);
     Snapshot result = snapshot(scene, scene.timeline.still - 1);
     result.light = result.light.centreOnly();
-    result.light.centre += lightShift;
     return result;
 }
 
@@ -28,29 +30,106 @@ Reference meansOf(const Snapshot& snapshot) {
     return means;
 }
 
-/// Of pixel areas under a light that was moved, against the rays of the light where it is.
-PixelCertificate certificateOfAMovedLight(const char* id, const glm::dvec3& shift) {
+/// Of `means`, whatever they were made of, against the rays of the scene as it is.
+PixelCertificate certificateOf(const char* id, const Reference& means, int points = pixelCertificatePoints,
+                               std::uint16_t firstSet = 0) {
     const hard::ExactScene scene(shown(id));
     Reference labels;
     scene.labelByRays(size, scene.primaryHits(size), labels);
-    return certifyPixels(scene, meansOf(shown(id, shift)), labels, pixelCertificatePoints, 2);
+    return certifyPixels(scene, means, labels, points, 2, {}, firstSet);
 }
 
+std::string told(const PixelCertificate& certificate) {
+    std::string text;
+    for (const auto& [key, value] : measured(certificate)) text += fmt::format("{} {:g}, ", key, value);
+    return text;
+}
+
+constexpr const char* ids[] = {"dueling-frusta", "simple", "colonnade", "windmills"};
+
 TEST(PixelCertificate, AcceptsAreasOfTheLightWhereItIs) {
-    for (const char* id : {"dueling-frusta", "simple", "colonnade"}) {
-        SCOPED_TRACE(id);
-        const PixelCertificate found = certificateOfAMovedLight(id, glm::dvec3(0));
-        EXPECT_EQ(found.contradicting, 0);
-        EXPECT_LT(found.rms, 0.5 * found.independent);
-        EXPECT_NO_THROW(requirePixelsCertified(found));
+    for (const char* id : ids) {
+        const PixelCertificate found = certificateOf(id, meansOf(shown(id)));
+        EXPECT_EQ(found.contradicting, 0) << id;
+        EXPECT_LT(found.rms, 0.5 * found.independent) << id;
+        EXPECT_NO_THROW(requirePixelsCertified(found)) << id << ": " << told(found);
+    }
+}
+
+TEST(PixelCertificate, AcceptsThemWhateverTheRays) {
+    const Reference means = meansOf(shown("windmills"));
+    for (std::uint16_t seed = 1; seed <= 20; ++seed) {
+        const auto firstSet = static_cast<std::uint16_t>(seed * pixelCertificateSets);
+        const PixelCertificate found = certificateOf("windmills", means, 48, firstSet);
+        EXPECT_NO_THROW(requirePixelsCertified(found)) << seed << ": " << told(found);
     }
 }
 
 TEST(PixelCertificate, RejectsALightMovedByAHundredthOfItsDistance) {
-    for (const char* id : {"dueling-frusta", "simple", "colonnade"}) {
-        SCOPED_TRACE(id);
-        EXPECT_THROW(requirePixelsCertified(certificateOfAMovedLight(id, {0.1, 0, 0.1})), Inconclusive);
+    for (const char* id : ids) {
+        Snapshot scene = shown(id);
+        Light& light = scene.light;
+        const glm::dvec3 aside = 0.01 * glm::normalize(glm::dvec3(1, 0, 1));
+        if (light.kind == LightKind::Point)
+            light.centre += glm::distance(light.centre, scene.camera.target) * aside;
+        else
+            light.direction = glm::normalize(glm::normalize(light.direction) + aside);
+        const PixelCertificate found = certificateOf(id, meansOf(scene));
+        EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << told(found);
     }
+}
+
+/// Pixel areas of the image moved by so many pixels to the right, where the pixel sees the same surface.
+Reference moved(const Reference& means, double pixels) {
+    Reference result = means;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 1; x < size.x; ++x) {
+            const bool sameSurface = means.id(x, y) == means.id(x - 1, y) && means.surface(x - 1, y) == means.surface(x, y);
+            const auto part = static_cast<float>(pixels);
+            if (sameSurface) result.visibility(x, y) += part * (means.visibility(x - 1, y) - means.visibility(x, y));
+        }
+    return result;
+}
+
+TEST(PixelCertificate, RejectsAnImageThatIsMovedByATenthOfAPixel) {
+    for (const char* id : ids) {
+        const PixelCertificate found = certificateOf(id, moved(meansOf(shown(id)), 0.1));
+        EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << told(found);
+    }
+}
+
+/// Where rays see most of each pixel's surface they err by less.
+TEST(PixelCertificate, RejectsAnImageThatIsMovedByAFiftiethOfAPixel) {
+    for (const char* id : {"dueling-frusta", "simple", "colonnade"}) {
+        const PixelCertificate found = certificateOf(id, moved(meansOf(shown(id)), 0.02));
+        EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << told(found);
+    }
+}
+
+TEST(PixelCertificate, RejectsAreasThatLackACaster) {
+    for (const char* id : ids) {
+        Snapshot scene = shown(id);
+        ASSERT_GT(scene.batches.size(), 1U) << id;
+        scene.batches.pop_back();
+        Reference means = meansOf(shown(id));
+        const Reference without = meansOf(scene);
+        for (std::size_t i = 0; i < means.id.size(); ++i)
+            if (without.id[i] == means.id[i]) means.visibility[i] = without.visibility[i];
+        EXPECT_THROW(requirePixelsCertified(certificateOf(id, means)), Inconclusive) << id;
+    }
+}
+
+/// Errors that the former bound, 0.75 times that of independent rays, let pass.
+TEST(PixelCertificate, RejectsErrorsOfTwiceWhatItsRaysErrBy) {
+    Reference means = meansOf(shown("simple"));
+    const PixelCertificate honest = certificateOf("simple", means);
+    bool up = false;
+    for (float& v : means.visibility)
+        if (v > 0.05F && v < 0.95F) v += (up = !up) ? 0.012F : -0.012F;
+    const PixelCertificate found = certificateOf("simple", means);
+    EXPECT_LT(found.rms, 0.012);
+    EXPECT_GT(found.rms, 2 * honest.rms);
+    EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << told(found);
 }
 
 TEST(PixelCertificate, IsInTheProvenanceOfPixelAreas) {

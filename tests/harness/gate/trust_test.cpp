@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <set>
+#include <string>
 
 namespace shadowbench::gate {
 namespace {
@@ -100,6 +102,66 @@ TEST(FalseGreens, MetricsThatScoreTheSameImagesAlikeAreTheSameCode) {
               ExitCode::Inconclusive);
 }
 
+/// A hard row whose flicker and pixel areas were scored against a truth of pixel areas.
+Record againstAreas(const std::string& key, const std::string& content) {
+    Record record = hardRecord();
+    record.pixelReference = ReferenceInfo{"pixel-areas", key, 0, 0, {}, content};
+    record.values["accuracy.pixel_area.rmse"] = 0.05;
+    return record;
+}
+
+std::set<std::string> unjudgedMetrics(const std::vector<Change>& changes) {
+    std::set<std::string> metrics;
+    for (const Change& change : changes)
+        if (change.direction == Direction::Unjudged) metrics.insert(change.metric);
+    return metrics;
+}
+
+TEST(FalseGreens, WhatAnotherTruthOfPixelAreasJudgedIsNotCompared) {
+    const Record base = againstAreas("c0de", "aaaa");
+    const std::set<std::string> byAreas{"accuracy.pixel_area.rmse", "stability.flicker.mean"};
+    for (Record head : {againstAreas("other", "aaaa"), againstAreas("c0de", "bbbb")}) {
+        head.values["stability.flicker.mean"] = 0.0005;
+        EXPECT_EQ(unjudgedMetrics(compare({base}, {head})), byAreas);
+        EXPECT_EQ(verdict(base, head), ExitCode::Inconclusive);
+        head.values["accuracy.leak"] = 0.1;
+        EXPECT_EQ(verdict(base, head), ExitCode::AccuracyRegression) << "labels are judged by their own truth";
+    }
+    Record older = hardRecord(); // its flicker was measured against labels
+    EXPECT_EQ(unjudgedMetrics(compare({older}, {base})), std::set<std::string>{"stability.flicker.mean"});
+    EXPECT_EQ(verdict(base, againstAreas("c0de", "aaaa")), ExitCode::Pass);
+    EXPECT_EQ(verdict(base, againstAreas("c0de", "")), ExitCode::Pass) << "older records do not say";
+}
+
+TEST(FalseGreens, WhatAnotherSoftTruthJudgedIsNotCompared) {
+    const Record base = hardOnAreaLight();
+    Record head = base;
+    head.softReference->key = "other";
+    head.values["accuracy.rmse"] = 0.1;
+    EXPECT_EQ(unjudgedMetrics(compare({base}, {head})), std::set<std::string>{"accuracy.rmse"});
+    head.values["accuracy.leak"] = 0.1;
+    EXPECT_EQ(verdict(base, head), ExitCode::AccuracyRegression);
+}
+
+TEST(FalseGreens, ImagesScoredByAnotherTruthSayNothingOfMetricsCode) {
+    std::vector<Record> base, head;
+    for (const char* variant : {"other-truth", "same-images", "other-images"}) {
+        base.push_back(againstAreas("c0de", "aaaa"));
+        base.back().variant = variant;
+        head.push_back(base.back());
+        head.back().metricCode = "another";
+    }
+    head[0].pixelReference->key = "other";
+    head[0].values["stability.flicker.mean"] = 0.0005;
+    head[2].images = "2222";
+    EXPECT_EQ(unjudgedMetrics(compare({base[1], base[2]}, {head[1], head[2]})), std::set<std::string>());
+    for (const Change& change : compare(base, head))
+        EXPECT_EQ(change.direction == Direction::Unjudged,
+                  change.variant == "other-truth" &&
+                      (change.metric == "stability.flicker.mean" || change.metric == "accuracy.pixel_area.rmse"))
+            << change.sentence;
+}
+
 TEST(FalseGreens, AWiderToleranceMovesNoBreakPoint) {
     std::vector<Record> base, head;
     for (const double value : {1.0, 0.1, 0.01}) {
@@ -107,7 +169,7 @@ TEST(FalseGreens, AWiderToleranceMovesNoBreakPoint) {
         record.sweep = SweepStep{"near-plane", "m", "sm-psm", value, 0.1};
         base.push_back(record);
         record.sweep->breakPoint.reset();
-        record.tolerance = 0.05;
+        record.tolerances["mismatch"] = 0.05;
         head.push_back(record);
     }
     EXPECT_EQ(verdictOf(compare(base, head)), ExitCode::Inconclusive);

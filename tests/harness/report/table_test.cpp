@@ -26,20 +26,21 @@ TEST(TerminalTable, ListsEveryTechniqueAndEndsWithTheCheapestWithinTolerance) {
               " sm-history:base=lispsm   0.09 %         0.05 %   0.04 %            0.40    0.0003   1.19       ●\n"
               " volume-zfail             0.00 %         0.05 %   0.04 %            0.40    0.0000   4.70       ●\n"
               " truth: exact (polygon)\n"
-              " cheapest within tolerance (0.5 %): sm-history:base=lispsm (Pixel-correct shadow map with history)\n"
+              " cheapest within tolerance (0.5 %): sm-history:base=lispsm (Pixel-correct shadow map with history; "
+              "its weakness: Shadows of moving casters trail)\n"
               " not applicable: pcss (needs an area light)\n");
 }
 
 TEST(TerminalTable, OfASoftSceneComparesOneMetricAndLeavesOutWhatNoRecordHas) {
-    EXPECT_EQ(
-        report::terminalTable(softScene(), "overlapping-occluders"),
-        " scene: overlapping-occluders · 256² · error = rms error of visibility · cost = frames of sm-uniform\n"
-        " technique        error     leak   cost   front\n"
-        " sm-uniform      0.1900   1.00 %   1.00       ●\n"
-        " pcss            0.0312        –   2.94\n"
-        " temporal-soft   0.0210        –   2.20       ●\n"
-        " truth: exact (polygon); POV-Ray 1024 samples, σ 0.0006\n"
-        " cheapest within tolerance (penumbra_rmse 0.05): temporal-soft (Physically correct soft shadows over time)\n");
+    EXPECT_EQ(report::terminalTable(softScene(), "overlapping-occluders"),
+              " scene: overlapping-occluders · 256² · error = rms error of visibility · cost = frames of sm-uniform\n"
+              " technique        error     leak   cost   front\n"
+              " sm-uniform      0.1900   1.00 %   1.00       ●\n"
+              " pcss            0.0312        –   2.94\n"
+              " temporal-soft   0.0210        –   2.20       ●\n"
+              " truth: exact (polygon); POV-Ray 1024 samples, σ 0.0006\n"
+              " cheapest within tolerance (penumbra_rmse 0.05): temporal-soft (Physically correct soft shadows over time; "
+              "its weakness: Shadows of a moving light lag)\n");
 }
 
 TEST(TerminalTable, SaysThatNothingIsWithinToleranceAndNamesErrors) {
@@ -146,9 +147,30 @@ TEST(CheapestAdequate, IsTheCheapestWithinTheScenesTolerance) {
     EXPECT_EQ(soft[*report::cheapestAdequate(soft, "overlapping-occluders")].variant, "temporal-soft");
 }
 
+TEST(CheapestAdequate, IsWithinAllTolerances) {
+    std::vector<Record> records = {hardCell("cheap", 0.001, 1), hardCell("dear", 0.002, 2), hardCell("no-leak", 0.003, 3)};
+    for (Record& record : records) record.tolerances = {{"leak", 0.05}, {"mismatch", 0.005}};
+    records[0].values["accuracy.leak"] = 0.06;
+    records[1].values["accuracy.leak"] = 0.04;
+    records[2].values["accuracy.leak"].reset(); // nothing is shadowed: mismatch alone decides
+    EXPECT_EQ(variants(records, report::adequate(records, "dueling-frusta")), (std::vector<std::string>{"dear", "no-leak"}));
+    EXPECT_EQ(records[*report::cheapestAdequate(records, "dueling-frusta")].variant, "dear");
+    const std::string table = report::terminalTable(records, "dueling-frusta");
+    EXPECT_NE(table.find(" cheapest within tolerance (leak 5 %, mismatch 0.5 %): dear\n"), std::string::npos) << table;
+}
+
+TEST(FrontMark, IsHollowFarBeyondAnyTolerance) {
+    std::vector<Record> records = {hardCell("leaky", 0.001, 0.5), hardCell("tight", 0.0001, 1)};
+    for (Record& record : records) record.tolerances = {{"leak", 0.05}, {"mismatch", 0.005}};
+    records[0].values["accuracy.leak"] = 0.51;
+    EXPECT_EQ(report::frontMark(records, "dueling-frusta", 0), "○");
+    records[0].values["accuracy.leak"] = 0.49;
+    EXPECT_EQ(report::frontMark(records, "dueling-frusta", 0), "●");
+}
+
 TEST(CheapestAdequate, IsAbsentWithoutATolerance) {
     std::vector<Record> records = {hardCell("a", 0, 1)};
-    records[0].toleranceMetric.clear();
+    records[0].tolerances.clear();
     EXPECT_FALSE(report::cheapestAdequate(records, "dueling-frusta"));
 }
 

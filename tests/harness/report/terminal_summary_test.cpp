@@ -22,8 +22,7 @@ TEST(TerminalSummary, ShowsTheFrontAndHowManyTechniquesThePageHas) {
 TEST(TerminalSummary, TheCheapestWithinATolerancesOwnMetricIsThereThoughItIsNotOnTheFront) {
     std::vector<Record> records = {test::hardCell("a", 0.01, 1), test::hardCell("b", 0.02, 2), test::hardCell("c", 0, 3)};
     for (Record& record : records) {
-        record.toleranceMetric = "leak";
-        record.tolerance = 0.05;
+        record.tolerances = {{"leak", 0.05}};
         record.values["accuracy.leak"] = record.variant == "a" ? 0.5 : 0.0;
     }
     const std::string text = report::terminalSummary(records, "dueling-frusta", "report.md");

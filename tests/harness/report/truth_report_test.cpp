@@ -54,6 +54,17 @@ TruthOfScene areaScene() {
 
 TruthOfScene pointScene() { return {"frusta with space", "Frusta", "aliasing", "gate", 59, {{"hard", example(false)}}, {}}; }
 
+/// With what the same pixels see on average.
+ShownReference pixelAreas() {
+    Reference r = example(false);
+    r.surface(2, 0) = Surface::Receiver;
+    r.visibility(2, 0) = 0.5F;
+    r.visibility(2, 1) = 0.375F;
+    r.sigma(2, 1) = 0.008F;
+    r.provenance = {"pixel-areas", "00112233445566778899aabbccddeeff", 0, {{"exact", "2"}}, 3, {{"certificate_rms", 0.004}}};
+    return {"pixel-area", r};
+}
+
 TEST(TruthNumbers, CountLabelsEdgesAndUncertainty) {
     const TruthNumbers hard = truthNumbers(example(false)), soft = truthNumbers(example(true));
     EXPECT_EQ(hard.receivers, 5U);
@@ -113,6 +124,23 @@ TEST_F(TruthReport, PagesTellProvenanceUncertaintyAndAgreement) {
         EXPECT_NE(page.find(part), std::string::npos) << part << "\nin " << page;
     EXPECT_NE(text("frusta with space.md").find("No two oracles apply."), std::string::npos);
     EXPECT_NE(text("report.md").find("polygon, rays: 0 of 5 differ"), std::string::npos) << text("report.md");
+}
+
+TEST_F(TruthReport, ShowsPixelAreasAndTheirSigmaBesideTheOthers) {
+    TruthOfScene scene = areaScene();
+    scene.references.push_back(pixelAreas());
+    writeTruthReport({scene}, folder_.path());
+    const std::string page = text("plates.md");
+    for (const char* part :
+         {"## The pixel-area truth", "C\\*, the mean over the pixel", "white = 0.008",
+          "| oracle | polygon | povray | pixel-areas |", "| of them partly lit | 0.00 % | 20.0 % | 33.3 % |",
+          "| measured: certificate\\_rms | – | – | 0.004 |"})
+        EXPECT_NE(page.find(part), std::string::npos) << part << "\nin " << page;
+    EXPECT_NEAR(readChannel(folder_.path() / "plates-pixel-area-visibility.png", 0)(2, 1), 0.375, 0.5 / 255);
+    EXPECT_EQ(readChannel(folder_.path() / "plates-pixel-area-sigma.png", 0)(2, 1), 1);
+    const std::string charts = histograms(scene);
+    for (const char* title : {"σ* of the soft truth", "σ* of the pixel-area truth"})
+        EXPECT_NE(charts.find(title), std::string::npos) << title;
 }
 
 TEST_F(TruthReport, PicturesHoldTheReference) {

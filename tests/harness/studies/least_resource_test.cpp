@@ -16,7 +16,7 @@ Record mapRecord(const std::string& technique, int map, double mismatch) {
     record.variant = fmt::format("{}:map={}", technique, map);
     record.parameters = {{"map", std::to_string(map)}, {"bias", "slope"}};
     record.values["accuracy.mismatch"] = mismatch;
-    record.tolerance = 0.005;
+    record.tolerances = {{"mismatch", 0.005}};
     return record;
 }
 
@@ -46,6 +46,16 @@ TEST(LeastMap, RanksTechniquesAndLeavesOutThoseThatAreNotWithin) {
     ASSERT_EQ(least.size(), 2U);
     EXPECT_EQ(least[0].variant, "b:map=512");
     EXPECT_EQ(least[1].variant, "a:map=512");
+}
+
+TEST(LeastMap, IsWithinAllTolerances) {
+    std::vector<Record> records{mapRecord("a", 512, 0.002), mapRecord("a", 1024, 0.001)};
+    for (Record& record : records) record.tolerances["leak"] = 0.1;
+    records[0].values["accuracy.leak"] = 0.2;
+    records[1].values["accuracy.leak"] = 0.02;
+    EXPECT_EQ(leastMaps(records)[0].amount, 1024);
+    records[0].values["accuracy.leak"].reset(); // does not apply, as of a technique that has no labels
+    EXPECT_EQ(leastMaps(records)[0].amount, 512);
 }
 
 TEST(LeastMap, NeedsTwoSizesOfOneTechnique) {
