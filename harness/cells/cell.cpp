@@ -261,8 +261,8 @@ void runCell(const Scene& scene, Stage& stage, Truths& truths, const techniques:
 
     stage.show(scored);
     const int next = scene.timeline.frames() - first; // of the technique's sequence
-    setWork(record, timing::measureWork(stage, *technique, bytes, next, options.seed));
-    if (options.time) setTime(record, timing::measureTime(stage, variant, *technique, next + 1, options.seed));
+    timing::measureCosts(stage, variant, {*technique, next, options.seed}, bytes, options.time, record);
+    if (options.otherScreen) record.otherScreen = timing::measureOtherScreen(scene, variant, scored, options.seed);
     record.status = Status::Scored;
 }
 

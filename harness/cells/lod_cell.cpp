@@ -2,6 +2,7 @@
 
 #include "base/hash.h"
 #include "groundtruth/oracle.h"
+#include "harness/measure/frame_passes.h"
 #include "harness/measure/lod_cost.h"
 #include "harness/metrics/frames.h"
 #include "techniques/gl/context.h"
@@ -80,6 +81,15 @@ double orderSquare(LodScene& lodScene, LodTechnique& technique, bool temporal) {
     const int frame = static_cast<int>(lodScene.reference().busiest);
     const ColourImage ordered = pictureAt(lodScene.stage(), technique, temporal, frame);
     return metrics::meanSquare(ordered, pictureAt(lodScene.reversedStage(), technique, temporal, frame));
+}
+
+/// Of the frame that is shown.
+std::vector<PassRecord> passesOf(LodStage& stage, LodTechnique& technique, bool timed) {
+    constexpr int rounds = 5;
+    const auto render = [&](techniques::PassListener& listener) { stage.render(technique, &listener); };
+    timing::FramePasses passes = timing::countPasses(render);
+    if (timed) timing::timePasses(passes, render, rounds);
+    return timing::passRecords(passes, timed);
 }
 
 /// Bytes of textures and buffers that are the technique's own.
@@ -183,6 +193,8 @@ void runLodCell(LodScene& lodScene, const techniques::Variant& variant, const Me
     record.values.list("lod.by_frame.pop") = walk.standingChange;
     record.values.list("lod.by_frame.walk_pop") = walk.change;
     record.values.list("lod.by_frame.primitives") = walk.primitives;
+    stage.show(static_cast<int>(reference.busiest));
+    record.passes = passesOf(stage, *technique, options.time);
     if (options.time) {
         const LodCost cost = measureLodCost(stage, *technique, frames);
         setTime(record, cost.time);

@@ -10,6 +10,10 @@ struct MeasureOptions {
     std::uint32_t seed = 1;
     bool time = true;             // wall time
     std::filesystem::path images; // folder of <scene>/<variant>/; empty: no images are written
+    bool otherScreen = false;     // costs by pass on an image of another size, too
+
+    /// Whether clocks decide a figure.
+    [[nodiscard]] bool timed() const { return time || otherScreen; }
 };
 
 } // namespace shadowbench

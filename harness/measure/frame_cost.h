@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/measure/costs.h"
+#include "harness/measure/frame_passes.h"
 #include "harness/render/stage.h"
 #include "techniques/contract/entry.h"
 
@@ -16,16 +17,16 @@ struct TimingLimits {
     double budgetSeconds = 1.5; // once the minimum is done
 };
 
-/// The work of one frame, number `index` of the technique's sequence, of what the stage shows: the same on every machine.
-/// `bytes` are those that the technique holds.
-Work measureWork(Stage& stage, techniques::Technique& technique, std::uint64_t bytes, int index, std::uint32_t seed);
+/// Fills in the costs of the technique's next frames of what the stage shows: work, the same on every machine, pass by pass;
+/// where `timed`, times, too. `bytes` are those that the technique holds.
+void measureCosts(Stage& stage, const techniques::Variant& variant, Sequence frames, std::uint64_t bytes, bool timed,
+                  Record& record);
 
-/// Times `technique` on the frame that the stage shows. Every round times one frame each of the G-buffer alone,
-/// sm-uniform with default parameters, what its cost is compared with if there is such (Entry::costBase), and the technique,
-/// in an order that alternates
-/// from round to round; all of them are warmed up first (the first frame compiles shaders). `index` numbers the first frame
-/// rendered.
-Time measureTime(Stage& stage, const techniques::Variant& variant, techniques::Technique& technique, int index,
-                 std::uint32_t seed, const TimingLimits& limits = {});
+/// Times the technique on the frame that the stage shows. Every round times one frame each of the G-buffer alone,
+/// sm-uniform with default parameters, what its cost is compared with if there is such (Entry::costBase), the technique, and
+/// the bare passes if there are such, in an order that alternates from round to round; all of them are warmed up first (the
+/// first frame compiles shaders).
+Time measureTime(Stage& stage, const techniques::Variant& variant, Sequence& frames,
+                 const std::vector<techniques::BarePass>& bare, const TimingLimits& limits = {});
 
 } // namespace shadowbench::timing

@@ -32,7 +32,7 @@ public:
         : options_(options), variants_(chosenVariants(options.techniques)),
           scenes_(chosenScenes(options.scenes, options.profile)), finished_(finishedRecords(options)),
           cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache),
-          context_(contextOfRun(cache_.folder(), options.measure.time)) {
+          context_(contextOfRun(cache_.folder(), options.measure.timed())) {
         if (options.instructions) timing::valgrindVersion(); // to fail before the long part
         std::error_code failed;
         std::filesystem::create_directories(options.out, failed);

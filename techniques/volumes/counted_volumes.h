@@ -14,6 +14,10 @@ public:
                         visibility);
     }
 
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        return volumes_.bare(frame.gbuffer.depthStencil());
+    }
+
     [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
         return volumes_.figures(frame.gbuffer.depthStencil());
     }
