@@ -279,7 +279,9 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
 
     frames.show(scored);
     const int next = scene.timeline.frames() - first; // of the technique's sequence
-    setWork(record, timing::measureWork(stage, *technique, bytes, next, seed));
+    timing::Sequence sequence{*technique, next, seed};
+    timing::settle(stage, sequence);
+    timing::measureWork(stage, sequence, bytes, record);
     record.status = Status::Scored;
 }
 
@@ -299,8 +301,9 @@ void splitErrorOverSeeds(SceneFrames& frames, const techniques::Variant& variant
 
 void timeCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record) {
     const auto technique = variant.entry->make(variant.parameters);
-    const int next = renderScored(frames, variant, *technique, seed);
-    setTime(record, timing::measureTime(frames.stage(), variant, *technique, next, seed));
+    timing::Sequence sequence{*technique, renderScored(frames, variant, *technique, seed), seed};
+    timing::settle(frames.stage(), sequence);
+    timing::measureTimes(frames.stage(), variant, sequence, record);
 }
 
 } // namespace shadowbench

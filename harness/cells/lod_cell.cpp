@@ -2,6 +2,7 @@
 
 #include "base/hash.h"
 #include "groundtruth/oracle.h"
+#include "harness/measure/frame_passes.h"
 #include "harness/measure/lod_cost.h"
 #include "harness/metrics/frames.h"
 #include "techniques/gl/context.h"
@@ -80,6 +81,15 @@ double orderSquare(LodScene& lodScene, LodTechnique& technique, bool temporal) {
     const int frame = static_cast<int>(lodScene.reference().busiest);
     const ColourImage ordered = pictureAt(lodScene.stage(), technique, temporal, frame);
     return metrics::meanSquare(ordered, pictureAt(lodScene.reversedStage(), technique, temporal, frame));
+}
+
+/// Of the frame that is shown.
+std::vector<PassRecord> passesOf(LodStage& stage, LodTechnique& technique, bool timed) {
+    constexpr int rounds = 5;
+    const auto render = [&](techniques::PassListener& listener) { stage.render(technique, &listener); };
+    timing::FramePasses passes = timing::countPasses(render);
+    if (timed) timing::timePasses(passes, render, rounds);
+    return timing::passRecords(passes, timed);
 }
 
 /// Bytes of textures and buffers that are the technique's own.
@@ -183,6 +193,8 @@ void scoreLodCell(LodScene& lodScene, const techniques::Variant& variant, Record
     record.values.list("lod.by_frame.pop") = walk.standingChange;
     record.values.list("lod.by_frame.walk_pop") = walk.change;
     record.values.list("lod.by_frame.primitives") = walk.primitives;
+    stage.show(static_cast<int>(reference.busiest));
+    record.passes = passesOf(stage, *technique, false);
     record.images = shown.digest().text();
     busiest.bytes = bytesOf(std::move(technique));
     setWork(record, busiest);
@@ -192,7 +204,11 @@ void scoreLodCell(LodScene& lodScene, const techniques::Variant& variant, Record
 }
 
 void timeLodCell(LodScene& lodScene, const techniques::Variant& variant, Record& record) {
-    const LodCost cost = measureLodCost(lodScene.stage(), *make(variant), lodScene.scene().lod->frames);
+    LodStage& stage = lodScene.stage();
+    const std::unique_ptr<LodTechnique> technique = make(variant);
+    const LodCost cost = measureLodCost(stage, *technique, lodScene.scene().lod->frames);
+    stage.show(static_cast<int>(lodScene.reference().busiest));
+    record.passes = passesOf(stage, *technique, true);
     setTime(record, cost.time);
     record.values.list("lod.by_frame.milliseconds") = cost.milliseconds;
 }

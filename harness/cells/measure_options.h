@@ -11,6 +11,10 @@ struct MeasureOptions {
     int seeds = 1;                // from it on; with two or more the error of what depends on the seed is split
     bool time = true;             // wall time
     std::filesystem::path images; // folder of <scene>/<variant>/; empty: no images are written
+    bool otherScreen = false;     // costs by pass on an image of another size, too
+
+    /// Whether clocks decide a figure.
+    [[nodiscard]] bool timed() const { return time || otherScreen; }
 };
 
 } // namespace shadowbench

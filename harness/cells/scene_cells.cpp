@@ -3,6 +3,7 @@
 #include "harness/cells/cell.h"
 #include "harness/cells/cell_images.h"
 #include "harness/cells/lod_images.h"
+#include "harness/measure/frame_passes.h"
 #include "harness/metrics/values.h"
 #include "techniques/catalog.h"
 
@@ -115,15 +116,18 @@ void SceneCells::scoreLod(const techniques::Variant& variant, Record& record, co
 }
 
 void SceneCells::time(const techniques::Variant& variant, Record& record) {
-    if (variant.isLod())
-        lod::timeLodCell(lodScene_, variant, record);
-    else
-        timeCell(frames(), variant, options_.seed, record);
+    if (variant.isLod()) {
+        if (options_.time) lod::timeLodCell(lodScene_, variant, record);
+        return;
+    }
+    if (options_.time) timeCell(frames(), variant, options_.seed, record);
+    if (options_.otherScreen)
+        record.otherScreen = timing::measureOtherScreen(scene_, variant, frames().scored(), options_.seed);
 }
 
 void SceneCells::measure(const techniques::Variant& variant, Record& record, const Progress& progress) {
     score(variant, record, progress);
-    if (options_.time) time(variant, record);
+    time(variant, record);
 }
 
 std::filesystem::path SceneCells::imageFolder(const techniques::Variant& variant) const {

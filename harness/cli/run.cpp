@@ -95,9 +95,10 @@ void addRun(CLI::App& app, Action& action) {
     verb->add_flag("--images", *images, "Write visibility, reference and error of each cell as EXR and PNG");
     verb->add_option("--cost", *cost,
                      "What is measured beside work counters: time, instructions (under Valgrind, the same in every run), "
-                     "both as time,instructions, or none: the records of two runs are then equal")
+                     "screen (times by pass on an image of 1024², too, which show what grows with the screen), several as "
+                     "time,screen, or none: the records of two runs are then equal")
         ->delimiter(',')
-        ->check(CLI::IsMember({"time", "instructions", "none"}))
+        ->check(CLI::IsMember({"time", "instructions", "screen", "none"}))
         ->capture_default_str();
     verb->add_option("--jobs", options->jobs,
                      "Processes that score cells at the same time (default: one a processor); times are taken one after the "
@@ -116,6 +117,7 @@ void addRun(CLI::App& app, Action& action) {
         action = [options, profile, cost, images, part] {
             options->profile = profileNamed(*profile);
             options->measure.time = std::find(cost->begin(), cost->end(), "time") != cost->end();
+            options->measure.otherScreen = std::find(cost->begin(), cost->end(), "screen") != cost->end();
             options->instructions = std::find(cost->begin(), cost->end(), "instructions") != cost->end();
             if (*images) options->measure.images = options->out / "images";
             return part->any() ? runPart(*options, *part) : runAndPrint(*options);

@@ -4,7 +4,6 @@
 #include "techniques/catalog.h"
 #include "techniques/contract/entry.h"
 #include "techniques/gl/context.h"
-#include "techniques/gl/counters.h"
 
 #include <algorithm>
 #include <chrono>
@@ -36,64 +35,88 @@ std::vector<double> quotients(const std::vector<double>& numerators, const std::
     return result;
 }
 
-/// The contestants of the rounds, in the order they are made; Base is not always there.
-enum Contestant : std::size_t { Floor, Uniform, Own, Base };
-
 struct Runner {
-    std::function<void()> frame;
+    std::function<void()> frame; // empty: there is no such contestant
     std::vector<double> samples;
+};
+
+/// The contestants of the rounds.
+struct Runners {
+    Runner floor, uniform, own, base, bare;
+
+    [[nodiscard]] std::vector<Runner*> inOrder() {
+        std::vector<Runner*> all{&floor, &uniform, &own, &base, &bare};
+        std::erase_if(all, [](const Runner* runner) { return !runner->frame; });
+        return all;
+    }
 };
 
 } // namespace
 
-Time measureTime(Stage& stage, const techniques::Variant& variant, techniques::Technique& technique, int index,
-                 std::uint32_t seed, const TimingLimits& limits) {
+Time measureTime(Stage& stage, const techniques::Variant& variant, Sequence& frames,
+                 const std::vector<techniques::BarePass>& bare, const TimingLimits& limits) {
     const auto uniform = make(techniques::parseVariant("sm-uniform"));
     const std::optional<techniques::Variant> baseVariant = techniques::costBase(variant);
     const auto base = baseVariant ? make(*baseVariant) : nullptr;
 
-    int next = index;
     const auto frameOf = [&](techniques::Technique& t) {
-        return [&stage, &t, &next, seed] {
+        return [&stage, &t, &frames] {
             stage.redraw();
-            stage.render(t, next, seed);
+            stage.render(t, frames.index, frames.seed);
         };
     };
-    std::vector<Runner> runners{{[&stage] { stage.redraw(); }, {}}, {frameOf(*uniform), {}}, {frameOf(technique), {}}};
-    if (base) runners.push_back({frameOf(*base), {}});
+    Runners runners{{[&stage] { stage.redraw(); }, {}}, {frameOf(*uniform), {}}, {frameOf(frames.technique), {}}, {}, {}};
+    if (base) runners.base.frame = frameOf(*base);
+    if (!bare.empty())
+        runners.bare.frame = [&] {
+            stage.redraw();
+            stage.renderBare(bare);
+        };
 
-    for (Runner& runner : runners)
-        if (&runner != &runners[Own]) runner.frame(); // warm up; the technique itself is warm from being scored
+    for (Runner* runner : runners.inOrder())
+        if (runner != &runners.own) runner->frame(); // warm up; the technique itself is warm from being scored
     const auto start = Clock::now();
     const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     for (int round = 0; round < limits.maximumRounds; ++round) {
         if (round >= limits.minimumRounds && spent() > limits.budgetSeconds) break;
-        ++next;
-        std::vector<Runner*> order;
-        for (Runner& runner : runners) order.push_back(&runner);
+        ++frames.index;
+        std::vector<Runner*> order = runners.inOrder();
         if (round % 2 == 1) std::reverse(order.begin(), order.end());
         for (Runner* runner : order) runner->samples.push_back(milliseconds(runner->frame));
     }
+    ++frames.index;
 
-    const auto& floor = runners[Floor].samples;
-    const auto& own = runners[Own].samples;
+    const auto& own = runners.own.samples;
     Time time;
     time.median = median(own);
     time.p95 = percentile(own, 0.95);
     time.mad = medianDeviation(own);
-    time.ratio = median(quotients(own, runners[Uniform].samples));
-    time.floorRatio = median(quotients(floor, own));
-    if (base) time.baseRatio = median(quotients(own, runners[Base].samples));
+    time.ratio = median(quotients(own, runners.uniform.samples));
+    time.floorRatio = median(quotients(runners.floor.samples, own));
+    if (base) time.baseRatio = median(quotients(own, runners.base.samples));
+    if (!bare.empty()) time.bare = median(runners.bare.samples);
+    if (!bare.empty()) time.bareRatio = median(quotients(own, runners.bare.samples));
     time.samples = own;
     return time;
 }
 
-Work measureWork(Stage& stage, techniques::Technique& technique, std::uint64_t bytes, int index, std::uint32_t seed) {
-    gl::WorkMeter meter;
-    stage.redraw();
-    stage.render(technique, index, seed);
-    const gl::WorkCount count = meter.finish();
-    return {count.fragments, count.vertices, count.primitives, count.draws, count.passes, bytes};
+void settle(Stage& stage, Sequence& frames) { stage.render(frames.technique, frames.index++, frames.seed); }
+
+void measureWork(Stage& stage, Sequence& frames, std::uint64_t bytes, Record& record) {
+    const ComparedPasses passes = countPasses(stage, frames);
+    const gl::WorkCount count = passes.own.frame().work;
+    setWork(record, {count.fragments, count.vertices, count.primitives, count.draws, count.passes, bytes});
+    record.passes = passes.records(false);
+}
+
+void measureTimes(Stage& stage, const techniques::Variant& variant, Sequence& frames, Record& record) {
+    ComparedPasses passes = countPasses(stage, frames);
+    Time time = measureTime(stage, variant, frames, passes.declared);
+    timePasses(passes, stage, frames);
+    time.processorShare = passes.own.processorShare();
+    if (time.bareRatio) *time.bareRatio *= 1 - time.processorShare;
+    setTime(record, time);
+    record.passes = passes.records(true);
 }
 
 } // namespace shadowbench::timing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/measure/costs.h"
+#include "harness/measure/frame_passes.h"
 #include "harness/render/stage.h"
 #include "techniques/contract/entry.h"
 
@@ -16,16 +17,21 @@ struct TimingLimits {
     double budgetSeconds = 1.5; // once the minimum is done
 };
 
-/// The work of one frame, number `index` of the technique's sequence, of what the stage shows: the same on every machine.
-/// `bytes` are those that the technique holds.
-Work measureWork(Stage& stage, techniques::Technique& technique, std::uint64_t bytes, int index, std::uint32_t seed);
+/// Renders the next frame of what the stage shows, so that the one that is measured after it follows one like it.
+void settle(Stage& stage, Sequence& frames);
 
-/// Times `technique` on the frame that the stage shows. Every round times one frame each of the G-buffer alone,
-/// sm-uniform with default parameters, what its cost is compared with if there is such (Entry::costBase), and the technique,
-/// in an order that alternates
-/// from round to round; all of them are warmed up first (the first frame compiles shaders). `index` numbers the first frame
-/// rendered.
-Time measureTime(Stage& stage, const techniques::Variant& variant, techniques::Technique& technique, int index,
-                 std::uint32_t seed, const TimingLimits& limits = {});
+/// Fills in the work of the technique's next frame of what the stage shows, pass by pass: the same on every machine. `bytes`
+/// are those that the technique holds.
+void measureWork(Stage& stage, Sequence& frames, std::uint64_t bytes, Record& record);
+
+/// Fills in the times of its next frames, of the frame and pass by pass.
+void measureTimes(Stage& stage, const techniques::Variant& variant, Sequence& frames, Record& record);
+
+/// Times the technique on the frame that the stage shows. Every round times one frame each of the G-buffer alone,
+/// sm-uniform with default parameters, what its cost is compared with if there is such (Entry::costBase), the technique, and
+/// the bare passes if there are such, in an order that alternates from round to round; all of them are warmed up first (the
+/// first frame compiles shaders).
+Time measureTime(Stage& stage, const techniques::Variant& variant, Sequence& frames,
+                 const std::vector<techniques::BarePass>& bare, const TimingLimits& limits = {});
 
 } // namespace shadowbench::timing

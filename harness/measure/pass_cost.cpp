@@ -115,16 +115,30 @@ PassCost FramePasses::frame() const {
     return sum;
 }
 
-FramePasses measurePasses(const RenderFrame& render, int rounds) {
-    FramePasses result = measured<WorkSection>(render);
+double FramePasses::processorShare() const {
+    double processor = outside.milliseconds;
+    for (const PassCost& pass : passes)
+        if (pass.work.draws == 0 && pass.work.passes == 0) processor += pass.milliseconds;
+    const double all = frame().milliseconds;
+    return all > 0 ? processor / all : 0;
+}
+
+FramePasses countPasses(const RenderFrame& render) { return measured<WorkSection>(render); }
+
+void timePasses(FramePasses& counted, const RenderFrame& render, int rounds) {
     std::vector<FramePasses> timed;
     std::vector<double> outside;
     for (int round = 0; round < rounds; ++round) {
         timed.push_back(measured<TimeSection>(render));
         outside.push_back(timed.back().outside.milliseconds);
     }
-    for (PassCost& pass : result.passes) pass.milliseconds = medianTime(timed, pass.name);
-    result.outside.milliseconds = median(outside);
+    for (PassCost& pass : counted.passes) pass.milliseconds = medianTime(timed, pass.name);
+    counted.outside.milliseconds = median(outside);
+}
+
+FramePasses measurePasses(const RenderFrame& render, int rounds) {
+    FramePasses result = countPasses(render);
+    timePasses(result, render, rounds);
     return result;
 }
 

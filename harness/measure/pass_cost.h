@@ -26,13 +26,23 @@ struct FramePasses {
 
     /// All of the frame: the sum of the above.
     [[nodiscard]] PassCost frame() const;
+
+    /// Of the frame's time, the share of passes that ask nothing of the GPU, and of what lies between passes: work of the
+    /// processor, such as edges and views. 0 where nothing was timed.
+    [[nodiscard]] double processorShare() const;
 };
 
 /// Renders one frame whose passes `listener` learns of.
 using RenderFrame = std::function<void(techniques::PassListener& listener)>;
 
-/// Renders a frame to count its work and `rounds` ≥ 1 more to time it; times are medians over these, for a pass over those
-/// that it ran in. Throws InternalError where a pass begins within another.
+/// Renders a frame to count its work, times are 0. Throws InternalError where a pass begins within another.
+FramePasses countPasses(const RenderFrame& render);
+
+/// Renders `rounds` ≥ 1 frames more to time the passes of `counted`: medians over these, for a pass over those that it ran
+/// in.
+void timePasses(FramePasses& counted, const RenderFrame& render, int rounds);
+
+/// Both.
 FramePasses measurePasses(const RenderFrame& render, int rounds);
 
 /// Of a frame of a shadow technique, G-buffer included: the frame that the stage shows, as number `index` and following of

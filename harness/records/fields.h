@@ -5,6 +5,7 @@
 // visit.group(key, has, inner)  an object of the record that is no struct here; `has`: there is something in it
 // visit.metric(key, line, values) the value or list of a line of the table of metrics
 // visit.text(key, member)       text that is left out when empty
+// visit.objects(key, list)      a list of structs that have their own fields() below; left out when empty
 // visit.size(key, width, height), visit.parameters(key, list), visit.figures(key, map), visit.bounds(key, map)
 #pragma once
 
@@ -86,6 +87,39 @@ void fields(auto& visit, Is<SweepStep> auto& s) {
     visit("break_point", s.breakPoint);
 }
 
+void fields(auto& visit, Is<BareCost> auto& b) {
+    visit("source", b.source);
+    visit("milliseconds", b.milliseconds);
+    visit("fragments", b.fragments);
+    visit("vertices", b.vertices);
+    visit("taps", b.taps);
+}
+
+void fields(auto& visit, Is<PassRecord> auto& p) {
+    visit("name", p.name);
+    visit("runs", p.runs);
+    visit("milliseconds", p.milliseconds);
+    visit("share", p.share);
+    visit("fragments", p.fragments);
+    visit("vertices", p.vertices);
+    visit("draws", p.draws);
+    visit("bare", p.bare);
+}
+
+void fields(auto& visit, Is<OtherScreen> auto& o) {
+    visit.size("size", o.width, o.height);
+    visit.objects("by_pass", o.passes);
+}
+
+void costFields(auto& visit, Is<Record> auto& r) {
+    constexpr std::string_view key = "cost";
+    visit.group(key.data(), r.values.any(metrics::linesOf(key)) || !r.passes.empty(), [&](auto& inner) {
+        metricFields(inner, metrics::linesOf(key), key.size() + 1, r.values);
+        inner.objects("by_pass", r.passes);
+        inner("other_screen", r.otherScreen);
+    });
+}
+
 /// Scored against a truth: a level-of-detail record is not.
 inline bool hasAccuracy(const Record& r) { return wasScored(r.status) && !isLevelOfDetail(r); }
 
@@ -118,7 +152,7 @@ void fields(auto& visit, Is<Record> auto& r) {
     metricGroup(visit, "aliasing", r.values);
     visit.figures("figures", r.figures);
     metricGroup(visit, "stability", r.values);
-    metricGroup(visit, "cost", r.values);
+    costFields(visit, r);
     visit.bounds("tolerances", r.tolerances);
 }
 

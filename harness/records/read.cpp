@@ -59,6 +59,14 @@ public:
         reader.refuseUnknown();
     }
 
+    template <typename T>
+    void objects(const char* key, std::vector<T>& items) {
+        const Json* json = find(key);
+        if (json == nullptr) return;
+        if (!json->is_array()) refuse(pathOf(key), "is not a list");
+        for (const Json& item : *json) read(key, item, items.emplace_back());
+    }
+
     void text(const char* key, std::string& value) {
         if (const Json* json = find(key)) read(key, *json, value);
     }

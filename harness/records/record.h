@@ -53,6 +53,30 @@ struct SweepStep {
     std::optional<double> breakPoint; // first value of the whole curve at which the scene's tolerance is exceeded
 };
 
+/// The least that a pass needs (techniques/contract/bare.h), as passes that do nothing else.
+struct BareCost {
+    std::string source;                      // what asks for it: section, equation
+    std::optional<double> milliseconds = {}; // where times are measured
+    std::uint64_t fragments = 0, vertices = 0, taps = 0;
+};
+
+/// What the pass of a frame costs that techniques name so (techniques/contract/pass.h); all its runs together.
+struct PassRecord {
+    std::string name; // "G-buffer" for the harness' own, `betweenPasses` for what belongs to none
+    int runs = 0;
+    std::optional<double> milliseconds = {}; // where times are measured
+    std::optional<double> share = {};        // of the frame's time that the pass takes
+    std::uint64_t fragments = 0, vertices = 0, draws = 0;
+    std::optional<BareCost> bare = {};
+};
+inline constexpr std::string_view betweenPasses = "between passes";
+
+/// The same on an image of another size.
+struct OtherScreen {
+    int width = 0, height = 0;
+    std::vector<PassRecord> passes;
+};
+
 struct Record {
     int schemaVersion = 1;
     std::string scene, technique, variant;
@@ -76,6 +100,8 @@ struct Record {
     std::optional<ReferenceInfo> pixelReference; // the truth of pixel areas that `flicker` and `pixel_area` are against
     std::optional<SweepStep> sweep;              // of `sweep` only
     metrics::Values values;                      // of every metric; a record has either "accuracy" or "lod"
+    std::vector<PassRecord> passes;              // of the frame whose work was measured; empty in older records
+    std::optional<OtherScreen> otherScreen;      // where costs were measured on an image of another size, too
     std::map<std::string, double> figures;       // of the scored frame, by names that `list techniques` explains
     std::map<std::string, double> tolerances;    // the scene's: the worst error that a viewer accepts, by names for bounds
 };

@@ -101,6 +101,48 @@ constexpr const char* withoutMetrics = R"({
   "definitions": {
     "count": {"type": "integer", "minimum": 0},
     "size": {"type": "number", "minimum": 0},
+    "by_pass": {
+      "type": "array",
+      "description": "of a frame, pass by pass: the G-buffer, the technique's own passes in their order, what lies between passes",
+      "minItems": 1,
+      "items": {
+        "type": "object",
+        "additionalProperties": false,
+        "required": ["name", "runs", "fragments", "vertices", "draws"],
+        "properties": {
+          "name": {"type": "string", "minLength": 1},
+          "runs": {"$ref": "#/definitions/count"},
+          "milliseconds": {"$ref": "#/definitions/size"},
+          "share": {"type": "number", "minimum": 0, "maximum": 1, "description": "of the frame's time"},
+          "fragments": {"$ref": "#/definitions/count"},
+          "vertices": {"$ref": "#/definitions/count"},
+          "draws": {"$ref": "#/definitions/count"},
+          "bare": {
+            "type": "object",
+            "description": "the least that the pass needs, as passes that do nothing else",
+            "additionalProperties": false,
+            "required": ["source", "fragments", "vertices", "taps"],
+            "properties": {
+              "source": {"type": "string", "minLength": 1},
+              "milliseconds": {"$ref": "#/definitions/size"},
+              "fragments": {"$ref": "#/definitions/count"},
+              "vertices": {"$ref": "#/definitions/count"},
+              "taps": {"$ref": "#/definitions/count"}
+            }
+          }
+        }
+      }
+    },
+    "other_screen": {
+      "type": "object",
+      "description": "costs of the same frame on an image of another size",
+      "additionalProperties": false,
+      "required": ["size", "by_pass"],
+      "properties": {
+        "size": {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 2, "maxItems": 2},
+        "by_pass": {"$ref": "#/definitions/by_pass"}
+      }
+    },
     "reference": {
       "type": "object",
       "additionalProperties": false,
@@ -170,6 +212,8 @@ std::string recordSchema() {
         const metrics::Values values;
         records::metricFields(describer, metrics::linesOf(group), std::string_view(group).size() + 1, values);
     }
+    for (const char* costs : {"by_pass", "other_screen"})
+        schema["properties"]["cost"]["properties"][costs] = {{"$ref", std::string("#/definitions/") + costs}};
     return schema.dump(2) + "\n";
 }
 

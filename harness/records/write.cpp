@@ -41,6 +41,11 @@ public:
         inner(writer);
     }
 
+    template <typename T>
+    void objects(const char* key, const std::vector<T>& items) {
+        for (const T& item : items) object_[key].push_back(written(key, item));
+    }
+
     void text(const char* key, const std::string& value) {
         if (!value.empty()) object_[key] = value;
     }

@@ -1,5 +1,6 @@
 // Records as comma-separated values (RFC 4180): one column a number or text of the record, lists left out.
 #include "harness/records/fields.h"
+#include "harness/report/csv_text.h"
 #include "harness/report/run_report.h"
 
 #include <algorithm>
@@ -9,23 +10,9 @@
 namespace shadowbench::report {
 namespace {
 
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string result = "\"";
-    for (const char letter : text) {
-        if (letter == '"') result += '"';
-        result += letter;
-    }
-    return result + "\"";
-}
-
+using report::written;
 std::string written(const std::string& text) { return quoted(text); }
 std::string written(Status status) { return std::string(name(status)); }
-std::string written(bool value) { return value ? "true" : "false"; }
-template <typename T>
-requires std::is_arithmetic_v<T> std::string written(T value) {
-    return fmt::format("{}", value); // the shortest text that reads back equal
-}
 
 template <typename T>
 concept Text = requires(const T& value) {
@@ -49,6 +36,9 @@ public:
         add(key, !value ? "" : line.range.whole ? written(static_cast<std::uint64_t>(*value)) : written(*value));
     }
     void operator()(const char*, const std::map<std::string, std::string>&) {}
+    void operator()(const char*, const std::optional<OtherScreen>&) {} // passCsv() has them, a row each
+    template <typename T>
+    void objects(const char*, const std::vector<T>&) {}
 
     template <typename Inner>
     void group(const char* key, bool has, const Inner& inner) {
@@ -67,8 +57,8 @@ public:
         add(key, fmt::format("{}", fmt::join(parts, " ")));
     }
 
-    [[nodiscard]] std::string titles() const { return line(titles_); }
-    [[nodiscard]] std::string cells() const { return line(cells_); }
+    [[nodiscard]] std::string titles() const { return csvLine(titles_); }
+    [[nodiscard]] std::string cells() const { return csvLine(cells_); }
 
 private:
     template <typename T>
@@ -100,8 +90,6 @@ private:
         titles_.push_back(path_ + key);
         cells_.push_back(present_ ? cell : "");
     }
-
-    static std::string line(const std::vector<std::string>& cells) { return fmt::format("{}\n", fmt::join(cells, ",")); }
 
     std::string path_;
     bool present_ = true;

@@ -87,6 +87,15 @@ Json metricsAsJson() {
                    {"allowance", "25 % either way"},
                    {"not judged", ""},
                    {"meaning", "numbers of the scored frame that only the technique knows: see list techniques"}});
+    for (const char* passes : {"cost.by_pass", "cost.other_screen"})
+        all.push_back({{"id", passes},
+                       {"unit", ""},
+                       {"class", ""},
+                       {"bound", ""},
+                       {"allowance", ""},
+                       {"not judged", "its sums are: a cost that moves from one pass to another is none"},
+                       {"meaning", "work and time pass by pass, beside the least that each pass needs; on the scored image, "
+                                   "and on one of another size"}});
     return all;
 }
 

@@ -1,4 +1,5 @@
 // Tables of level-of-detail techniques.
+#include "harness/report/cost_report.h"
 #include "harness/report/lod_report.h"
 #include "harness/report/summary.h"
 #include "harness/report/text_table.h"
@@ -83,6 +84,11 @@ TextTable table(const std::vector<const Record*>& scored, bool page) {
     return result;
 }
 
+std::string noteOf(const std::vector<Record>& records, const std::string& scene) {
+    const std::string note = rasteriserNote(records, scene);
+    return note.empty() ? "" : "\n" + note + "\n";
+}
+
 std::string heading(const Record& record) {
     return fmt::format("{} · {} · {} frames, up to {:.0f} instances in transition", record.scene, imageSize(record),
                        record.frames, *record.values["lod.transitions"]);
@@ -100,7 +106,8 @@ std::string lodTerminalTable(const std::vector<Record>& records, const std::stri
 std::string lodMarkdownTable(const std::vector<Record>& records, const std::string& scene) {
     const auto scored = lodRecords(records, scene);
     if (scored.empty()) return "";
-    return fmt::format("Walk: {}.\n\n", markdownText(heading(*scored.front()))) + markdown(table(scored, true)) + legend;
+    return fmt::format("Walk: {}.\n\n", markdownText(heading(*scored.front()))) + markdown(table(scored, true)) + legend +
+           noteOf(records, scene);
 }
 
 } // namespace shadowbench::report

@@ -2,6 +2,7 @@
 #include "base/files.h"
 #include "harness/cells/cell_images.h"
 #include "harness/report/charts.h"
+#include "harness/report/cost_report.h"
 #include "harness/report/lod_report.h"
 #include "harness/report/run_report.h"
 #include "harness/report/summary.h"
@@ -34,10 +35,20 @@ constexpr const char* legend = R"(## The columns
 | seeds: bias, systematic, noise | of what depends on the seed, over several of them: mean error; rms of the error that all have in common; standard deviation of a pixel |
 | converged at | still frame, counted from 1, from which the error stays within 5 % of its final value |
 | MiB | textures and buffers |
+| ms, processor | frame time, G-buffer included; of it, the share of passes that ask nothing of the GPU, such as finding edges |
+| × bare | frame time without the processor's share as a multiple of the least that the technique needs: its source's vertices, fragments and texture reads, drawn as passes that do nothing else, beside the same G-buffer |
 | cost | frame time, G-buffer included, as a multiple of `sm-uniform` in the same rounds |
 | front | ● no other technique has both less error and less cost, beyond the intervals of the times; ○ the same for a baseline or an error of more than 10 times the tolerance |
 
 – does not apply. Pixels count where the rasteriser and the truth see the same receiver.
+)";
+
+const std::string costPageHead = R"(# Costs, pass by pass
+
+A frame is the G-buffer and the technique's passes; a pass that ran several times is one row. Between passes nothing is drawn.
+What grows with the screen has fragments in proportion to the pixels of the image; what grows with the map has as many on an
+image of any size. × bare: the pass' time as a multiple of the least that it needs, which its last column states with its
+source. A pass without a least of its own is work of the processor, or what an implementation adds.
 )";
 
 /// Distinct descriptions in order of first occurrence, joined.
@@ -142,6 +153,19 @@ std::string command(const std::vector<Record>& records) {
            options("--technique", variants, everyVariant) + " --profile " + records.front().profile;
 }
 
+/// costs.md; "" where no record has passes with times.
+std::string costPage(const std::vector<Record>& records) {
+    std::string text;
+    for (const std::string& scene : scenes(records)) {
+        const std::string table = passTable(records, scene);
+        if (table.empty()) continue;
+        const Record& first = records[ofScene(records, scene).front()];
+        text += fmt::format("\n## {}\n\n{} pixels. {}\n\n{}", markdownText(scene), imageSize(first),
+                            rasteriserNote(records, scene), table);
+    }
+    return text.empty() ? "" : costPageHead + text;
+}
+
 std::string head(const std::vector<Record>& records) {
     std::string text = "# Shadow techniques against the truth\n\n";
     if (records.empty()) return text + "No records.\n";
@@ -165,6 +189,7 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
         };
         keep("pareto", paretoChart(records, scene));
         keep("convergence", convergenceChart(records, scene));
+        keep("passes", passChart(records, scene));
         page += sceneSection(records, scene, charts);
         const std::string lod = lodMarkdownTable(records, scene);
         if (lod.empty()) continue;
@@ -174,6 +199,11 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
         for (const std::string& chart : charts) page += fmt::format("![levels of detail]({})\n\n", chart);
         page += lodPictures(records, scene, folder);
     }
+    if (const std::string costs = costPage(records); !costs.empty()) {
+        writeFile(folder / "costs.md", costs);
+        page += "Costs pass by pass: [costs.md](costs.md).\n\n";
+    }
+    if (const std::string passes = passCsv(records); !passes.empty()) writeFile(folder / "passes.csv", passes);
     writeFile(folder / "results.csv", csv(records));
     writeFile(written.page, page + legend);
     return written;

@@ -34,7 +34,8 @@ std::vector<std::size_t> adequate(const std::vector<Record>& records, const std:
 std::optional<std::size_t> cheapestAdequate(const std::vector<Record>& records, const std::string& scene);
 
 /// Writes report.md, results.csv and the charts (SVG, by gnuplot): pareto-<scene>.svg for every scene,
-/// convergence-<scene>.svg where a record has curves. Throws Inconclusive when gnuplot is missing or fails, naming the
+/// convergence-<scene>.svg where a record has curves; where records have costs by pass, passes.csv, and costs.md and
+/// passes-<scene>.svg where these are timed. Throws Inconclusive when gnuplot is missing or fails, naming the
 /// package.
 struct Written {
     std::filesystem::path page;

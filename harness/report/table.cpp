@@ -1,4 +1,5 @@
 // Tables of one scene, for a terminal and in Markdown.
+#include "harness/report/cost_report.h"
 #include "harness/report/run_report.h"
 #include "harness/report/summary.h"
 #include "harness/report/text_table.h"
@@ -55,6 +56,9 @@ std::span<const Column> columns() {
         {"noise", true, "stability.seeds.noise", decimals<4>},
         {"converged at", true, "stability.convergence", decimals<0>},
         {"MiB", true, "cost.work.bytes", decimals<1, 1 << 20>},
+        {"ms", true, "cost.time.median", decimals<2>},
+        {"processor", true, "cost.time.processor", percent},
+        {"× bare", true, "cost.time.bare_ratio", decimals<2>},
         {"cost", false, "cost.time.ratio", decimals<2>},
     };
     return all;
@@ -184,6 +188,7 @@ std::string terminalTable(const std::vector<Record>& records, const std::string&
 std::string markdownTable(const std::vector<Record>& records, const std::string& scene) {
     std::string text = markdown(table(records, scene, true));
     for (const std::string& line : footnotes(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
+    if (const std::string note = rasteriserNote(records, scene); !note.empty()) text += fmt::format("\n{}\n", note);
     for (const std::string& line : figureLines(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
     return text;
 }

@@ -49,6 +49,7 @@ std::vector<std::string> costsOf(const RunOptions& options) {
     std::vector<std::string> cost;
     if (options.measure.time) cost.emplace_back("time");
     if (options.instructions) cost.emplace_back("instructions");
+    if (options.measure.otherScreen) cost.emplace_back("screen");
     return cost;
 }
 

@@ -18,7 +18,7 @@ struct ManifestCell {
     std::string scene, variant;
     std::string profile;
     std::uint32_t seed = 1;
-    std::vector<std::string> cost; // what is measured beside work counters: "time", "instructions"
+    std::vector<std::string> cost; // what is measured beside work counters: "time", "instructions", "screen"
     bool images = false;
     std::string commit; // of the program that measures
     bool dirty = false;

@@ -59,7 +59,7 @@ private:
         if (open.empty()) return;
 
         const Scene loaded = loadScene(names_[scene], options_.profile, metrics::boundedMetrics());
-        if (!context_) context_ = contextOfRun(cache_.folder(), options_.measure.time);
+        if (!context_) context_ = contextOfRun(cache_.folder(), options_.measure.timed());
         SceneCells cells(loaded, cache_, options_.measure);
         ProgressLine line(loaded.id, static_cast<int>(open.size()), options_.quiet);
         int done = 0;

@@ -39,7 +39,11 @@ std::vector<Record> finishedRecords(const RunOptions& options) {
     return records;
 }
 
-bool isTimed(const Record& record) { return record.values["cost.time.median"] || record.values["lod.time.median"]; }
+/// Whether all times that are asked for have been taken.
+bool isTimed(const Record& record, const MeasureOptions& options) {
+    const bool own = record.values["cost.time.median"] || record.values["lod.time.median"];
+    return (own || !options.time) && (record.otherScreen || isLevelOfDetail(record) || !options.otherScreen);
+}
 
 /// Calls `work`; what it throws becomes the record of a failed cell.
 MeasuredCell tried(const SceneCells& cells, const techniques::Variant& variant, Record record,
@@ -72,7 +76,7 @@ public:
     RunResult all() {
         computeTruths();
         scoreCells();
-        if (options_.measure.time) timeCells();
+        if (options_.measure.timed()) timeCells();
         if (options_.instructions) addInstructions();
         return {records(), code_};
     }
@@ -191,7 +195,7 @@ private:
     void timeCells() {
         std::vector<std::size_t> untimed;
         for (std::size_t cell = 0; cell < known_.size(); ++cell)
-            if (wasScored(known_[cell]->status) && !isTimed(*known_[cell])) untimed.push_back(cell);
+            if (wasScored(known_[cell]->status) && !isTimed(*known_[cell], options_.measure)) untimed.push_back(cell);
         if (untimed.empty()) return;
         makeContext();
         ProgressLine line("times", static_cast<int>(untimed.size()), options_.quiet);

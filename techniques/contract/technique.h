@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/snapshot.h"
+#include "techniques/contract/bare.h"
 #include "techniques/contract/pass.h"
 #include "techniques/gl/gbuffer.h"
 #include "techniques/gl/scene_buffers.h"
@@ -16,6 +17,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace shadowbench::techniques {
 
@@ -53,6 +55,10 @@ public:
     /// Numbers of `frame`, the one that was rendered last, that only the technique knows, by names that its entry declares.
     /// The work of counting them belongs here, where it is not timed.
     [[nodiscard]] virtual std::map<std::string, double> figures([[maybe_unused]] const Frame& frame) const { return {}; }
+
+    /// The least that the passes of `frame`, the one that was rendered last, need of the GPU. Empty: not declared. Passes of
+    /// the processor are not among them.
+    [[nodiscard]] virtual std::vector<BarePass> bare([[maybe_unused]] const Frame& frame) const { return {}; }
 
     /// Where `world` lies in the map that it was tested against in the frame rendered last: in texels, continuous within a
     /// map; how several maps lie to each other does not matter. Nothing where no map holds the point (beside it, behind the

@@ -120,6 +120,28 @@ void PrefilteredMap::filter(int layer) {
     alongY_.drawScreen();
 }
 
+std::vector<BarePass> PrefilteredMap::bare(const Frame& frame, const std::string& source) const {
+    const gl::Format format = rows_.format();
+    const glm::ivec2 side = stored_.size(), filteredSide = filtered_.size();
+    const int width = static_cast<int>(std::ceil(box_.width));
+    std::vector<BarePass> passes{bareDepthMap("course, Shadow Mapping", depth_.side(), light_.clipFromWorld)};
+    const auto screen = [&](std::string_view pass, glm::ivec2 size, const Taps& taps) {
+        passes.push_back({.pass = pass, .source = source, .size = size, .targets = {format}, .taps = {taps}});
+    };
+    const bool drawnAtOnce = stored_.layers() == 1; // the casters write it
+    if (drawnAtOnce) passes[0].targets.insert(passes[0].targets.begin(), format);
+    std::vector<Taps> reads;
+    for (int layer = 0; layer < stored_.layers(); ++layer) {
+        if (!drawnAtOnce) screen("basis", side, {gl::Format::Depth32F, side, Read::Pixel});
+        for (int axis = 0; axis < 2; ++axis) screen("blur", filteredSide, {format, filteredSide, Read::Nearest, width});
+        // All smaller levels together have a third of the texels, each the mean of four.
+        screen("blur", {filteredSide.x / 2, 2 * filteredSide.y / 3}, {format, filteredSide, Read::Linear});
+        reads.push_back({format, filteredSide, Read::Linear});
+    }
+    passes.push_back(bareLookup("resolve", source, frame.size, std::move(reads)));
+    return passes;
+}
+
 void PrefilteredMap::bindTo(gl::Program& resolve, const Frame& frame) const {
     resolve.set("positions", frame.gbuffer.position())
         .set("normals", frame.gbuffer.normal())

@@ -62,6 +62,10 @@ public:
         return texelAt(light_, world, glm::dvec2(depth_.side()));
     }
 
+    /// The least that the frame drawn last needs: the casters, the box along both axes, mipmaps, and a filtered read of each
+    /// layer for a pixel, which `source` asks for.
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame, const std::string& source) const;
+
     /// Sets the uniforms of the unfiltered depths: linearDepth, depthRange, and the box's level and width.
     void bindDepthsTo(gl::Program& resolve) const;
 

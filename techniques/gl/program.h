@@ -41,7 +41,7 @@ public:
     /// A full-screen pass of one fragment shader.
     static Program screen(const std::string& fragmentFile, const Defines& defines = {});
 
-    /// The same of a source that is no file: for tests of functions that shaders include.
+    /// The same of a source that is no file: for shaders that are put together where they are used.
     static Program screenFromText(const std::string& name, const std::string& fragmentText, const Defines& defines = {});
 
     /// A compute shader.

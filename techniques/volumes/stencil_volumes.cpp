@@ -182,6 +182,28 @@ std::uint64_t StencilVolumes::fragmentsPassing(unsigned depthFunction, Draws dra
     return meter.finish();
 }
 
+std::vector<BarePass> StencilVolumes::bare(const gl::Texture& depthStencil) const {
+    return {{.pass = "stencil count",
+             .source = "Zápotocký 2.4: sides and caps of the volumes",
+             .size = depthStencil.size(),
+             .targets = {},
+             .own =
+                 [this, &depthStencil] {
+                     const gl::RenderTarget target({&depthStencil});
+                     target.clearStencil();
+                     target.bind();
+                     glEnable(GL_STENCIL_TEST);
+                     setStencilOperations(test_);
+                     glDepthFunc(GL_LESS);
+                     drawVolumes(0, draws_.size());
+                     glDisable(GL_STENCIL_TEST);
+                 }},
+            {.pass = "resolve",
+             .source = "Zápotocký 2.4: where the count is 0",
+             .size = depthStencil.size(),
+             .targets = {gl::Format::R32F}}};
+}
+
 std::map<std::string, double> StencilVolumes::figures(const gl::Texture& depthStencil) const {
     std::uint64_t fragments = 0, updates = 0;
     for (const Draws& part : byTest(draws_)) {

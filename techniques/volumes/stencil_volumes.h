@@ -50,6 +50,9 @@ public:
     /// `volumeFigures` of the frame rendered last, against the same depth: its volumes are drawn again, and change nothing.
     [[nodiscard]] std::map<std::string, double> figures(const gl::Texture& depthStencil) const;
 
+    /// The least that the frame rendered last needs of the GPU: its volumes, drawn again against the same depth.
+    [[nodiscard]] std::vector<BarePass> bare(const gl::Texture& depthStencil) const;
+
 private:
     /// A mesh's vertices twice, at w = 1 and at w = 0, and its edges.
     struct VolumeMesh {

@@ -82,6 +82,22 @@ inline Record hardRecord() {
     r.values["cost.time.floor_ratio"] = 0.31;
     r.values["cost.time.base_ratio"] = 1.08;
     r.values.list("cost.time.samples") = {21.4, 21.2, 23};
+    r.values["cost.time.bare"] = 15.2;
+    r.values["cost.time.bare_ratio"] = 1.4;
+    r.values["cost.time.processor"] = 0.01;
+    r.passes = {
+        {.name = "G-buffer", .runs = 1, .milliseconds = 6.6, .share = 0.3, .fragments = 32768, .vertices = 210, .draws = 2},
+        {.name = "depth map",
+         .runs = 2,
+         .milliseconds = 15.4,
+         .share = 0.7,
+         .fragments = 32768,
+         .vertices = 70280,
+         .draws = 1,
+         .bare = BareCost{"course, Shadow Mapping", 11, 16384, 35140, 0}},
+        {.name = std::string(betweenPasses), .runs = 1, .milliseconds = 0, .share = 0}};
+    r.otherScreen = OtherScreen{1024, 1024, r.passes};
+    r.otherScreen->passes[0].fragments *= 16;
     r.values["cost.work.fragments"] = 65536;
     r.values["cost.work.vertices"] = 70490;
     r.values["cost.work.primitives"] = 140980;
@@ -163,6 +179,8 @@ inline Record unscored(Status status, const std::string& reason) {
     r.images.clear();
     r.reference.reset();
     r.values = {};
+    r.passes.clear();
+    r.otherScreen.reset();
     r.figures.clear();
     return r;
 }

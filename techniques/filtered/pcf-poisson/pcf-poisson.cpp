@@ -5,6 +5,7 @@
 // with the depth of the receiver's plane at the tap.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
+#include "techniques/shared/maps/bare_map.h"
 #include "techniques/shared/maps/single_map.h"
 #include "techniques/shared/sampling/sampling.h"
 
@@ -32,6 +33,11 @@ public:
             .set("turned", turned_ ? 1 : 0)
             .set("seed", static_cast<int>(frame.seed));
         resolve(frame, {&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        return bareMappedShadow(frame, light_, map_.side(),
+                                {Read::Compare, static_cast<int>(taps_.size()), "dissertation 2.2.1: a test for each tap"});
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {

@@ -17,8 +17,8 @@ namespace {
 class Pcf final : public Technique {
 public:
     explicit Pcf(const Parameters& p)
-        : bilinear_(p.integer("kernel") == 2), slope_(p.text("bias") == "slope"),
-          map_(storedDepthMap(p, bilinear_ ? Lookup::CompareBilinear : Lookup::Compare)),
+        : bilinear_(p.integer("kernel") == 2), taps_(bilinear_ ? 1 : p.integer("kernel") * p.integer("kernel")),
+          slope_(p.text("bias") == "slope"), map_(storedDepthMap(p, bilinear_ ? Lookup::CompareBilinear : Lookup::Compare)),
           resolve_(gl::Program::screen("filtered/pcf/pcf.frag", {{"KERNEL", bilinear_ ? "1" : p.text("kernel")}})) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
@@ -32,12 +32,22 @@ public:
         resolve(frame, {&visibility}, resolve_);
     }
 
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        const Read read = bilinear_ ? Read::CompareBilinear : Read::Compare;
+        std::vector<BarePass> passes = map_->bare(light_);
+        passes.push_back(bareLookup("resolve", "Zápotocký 3.2: kernel² tests", frame.size,
+                                    {{gl::Format::Depth32F, map_->texture().size(), read, taps_}}));
+        return passes;
+    }
+
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(light_, world, map_->texture().size());
     }
 
 private:
-    bool bilinear_, slope_;
+    bool bilinear_;
+    int taps_;
+    bool slope_;
     LightView light_;
     std::unique_ptr<ShadowMap> map_;
     gl::Program resolve_;

@@ -47,6 +47,12 @@ public:
         resolve(frame, {&visibility}, resolve_);
     }
 
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        return {atlas_.bare("dissertation 2.2.2: a map for each slice"),
+                bareLookup("resolve", "dissertation 2.2.2: one test a pixel", frame.size,
+                           {{gl::Format::Depth32F, atlas_.texture().size(), Read::Compare}})};
+    }
+
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return atlas_.pointAt(sliceOf(splits_, glm::dot(eyeDepthFromWorld_, glm::dvec4(world, 1))), world);
     }

@@ -104,6 +104,15 @@ std::optional<glm::dvec2> DepthAtlas::pointAt(std::size_t tile, const glm::dvec3
     return point;
 }
 
+BarePass DepthAtlas::bare(std::string source) const {
+    BarePass pass = bareDepthMap(std::move(source), depth_.size().x, glm::dmat4(1));
+    pass.size = depth_.size();
+    pass.casters.clear();
+    for (std::size_t i = 0; i < views_.size(); ++i)
+        pass.casters.push_back({.clipFromWorld = views_[i].clipFromWorld, .at = tiles_[i].at, .size = tiles_[i].size});
+    return pass;
+}
+
 void DepthAtlas::bindTo(gl::Program& program) const {
     program.set("depthAtlas", depth_).set("atlasFromWorld", atlasFromWorld_).set("innerTiles", inner_);
 }

@@ -46,6 +46,9 @@ public:
     /// Clears the atlas and calls `drawTile` once for each tile, with drawing confined to that tile.
     void drawTiles(const Frame& frame, const std::function<void(std::size_t)>& drawTile) const;
 
+    /// The least that drawing the views drawn last needs.
+    [[nodiscard]] BarePass bare(std::string source) const;
+
     /// Sets the uniforms of shared/maps/depth_atlas.glsl for the views drawn last; TILES must be the number of tiles, or
     /// more.
     void bindTo(gl::Program& program) const;

@@ -46,6 +46,14 @@ void MidpointMap::draw(const LightView& light, const Frame& frame) {
     mean_.drawScreenDepth();
 }
 
+std::vector<BarePass> MidpointMap::bare(const LightView& light) const {
+    std::vector<BarePass> passes = ShadowMap::bare(light);
+    passes.push_back(passes.front());
+    passes.back().pass = "second depth";
+    passes.back().source = "course, Bias: second surface";
+    return passes;
+}
+
 void MidpointMap::drawNearest(const gl::RenderTarget& target, gl::Program& program, Faces faces, const LightView& light,
                               const gl::SceneBuffers& scene) {
     target.clearDepth(1);

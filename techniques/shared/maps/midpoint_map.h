@@ -17,6 +17,9 @@ public:
     /// Depth 1 where there is no second surface.
     void draw(const LightView& light, const Frame& frame) override;
 
+    /// Both surfaces; the second's comparison with the first is left out.
+    [[nodiscard]] std::vector<BarePass> bare(const LightView& light) const override;
+
     [[nodiscard]] const gl::Texture& texture() const override { return middle_; }
 
 private:

@@ -11,6 +11,7 @@
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/filters/jitter_table.h"
 #include "techniques/shared/filters/pcss_program.h"
+#include "techniques/shared/maps/bare_map.h"
 
 #include <memory>
 #include <optional>
@@ -46,6 +47,12 @@ public:
             .set("filterJitter", filter_.texture())
             .set("jitterOrigin", JitterTable::origin(frame.seed));
         resolve(frame, {&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        return bareMappedShadow(frame, view_, map_.side(),
+                                {Read::Nearest, searchGrid.taps() + filterGrid.sectors,
+                                 "Zápotocký 4.4.3: blocker search, then the taps that are tried first"});
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {

@@ -6,6 +6,7 @@
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/filters/pcss_program.h"
+#include "techniques/shared/maps/bare_map.h"
 #include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
@@ -19,16 +20,22 @@ public:
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const Light& light = frame.snapshot.light;
-        const LightView view = fitToScene(light, frame.snapshot);
-        map_.draw(view, frame);
-        setPcss(resolve_, taps_, light, view, map_, followPlane_);
+        view_ = fitToScene(light, frame.snapshot);
+        map_.draw(view_, frame);
+        setPcss(resolve_, taps_, light, view_, map_, followPlane_);
         resolve_.set("positions", frame.gbuffer.position()).set("normals", frame.gbuffer.normal());
         resolve(frame, {&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        return bareMappedShadow(frame, view_, map_.side(),
+                                {Read::Nearest, taps_.search + taps_.filter, "Zápotocký 3.5: blocker search, then filter"});
     }
 
 private:
     PcssTaps taps_;
     bool followPlane_;
+    LightView view_;
     LinearDepthMap map_;
     gl::Program resolve_;
 };

@@ -70,6 +70,14 @@ TEST(RecordJson, KeepsEveryMember) {
     EXPECT_EQ(r.figures, hardRecord().figures);
     EXPECT_EQ(r.values["cost.time.base_ratio"], 1.08);
     EXPECT_EQ(r.values["cost.work.bytes"], 4194304);
+    ASSERT_EQ(r.passes.size(), 3U);
+    EXPECT_EQ(r.passes[1].name, "depth map");
+    EXPECT_EQ(r.passes[1].milliseconds, 15.4);
+    EXPECT_EQ(r.passes[1].bare->source, "course, Shadow Mapping");
+    EXPECT_EQ(r.passes[1].bare->vertices, 35140U);
+    EXPECT_FALSE(r.passes[0].bare);
+    EXPECT_EQ(r.otherScreen->width, 1024);
+    EXPECT_EQ(r.otherScreen->passes[0].fragments, 16U * 32768);
     EXPECT_EQ(r.reference->tools.at("CGAL"), "5.5.1");
     EXPECT_EQ(r.tolerances, (std::map<std::string, double>{{"mismatch", 0.005}}));
     EXPECT_FALSE(r.values["accuracy.rmse"]);
@@ -137,6 +145,22 @@ TEST(RecordJson, KeepsAStabilityThatHoldsTheErrorOfMovingFramesAlone) {
     clear(record, "stability");
     record.values["stability.disocclusion_error"] = 0.5;
     EXPECT_EQ(parseRecord(toJson(record)).values["stability.disocclusion_error"], 0.5);
+}
+
+TEST(RecordJson, ReadsRecordsThatAreOlderThanCostsByPass) {
+    Json json = Json::parse(toJson(hardRecord()));
+    for (const char* later : {"by_pass", "other_screen"}) json["cost"].erase(later);
+    for (const char* later : {"bare", "bare_ratio", "processor"}) json["cost"]["time"].erase(later);
+    const Record record = parseRecord(json.dump());
+    EXPECT_TRUE(record.passes.empty());
+    EXPECT_FALSE(record.otherScreen);
+    EXPECT_EQ(toJson(record), json.dump());
+}
+
+TEST(RecordJson, RefusesAPassThatIsNone) {
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["cost"]["by_pass"] = 3; }), "\"cost.by_pass\" is not a list"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["cost"]["by_pass"][1]["rusn"] = 3; }), "is unknown"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["cost"]["by_pass"][1]["bare"].erase("taps"); }), "taps\" is missing"));
 }
 
 TEST(RecordJson, NeverWritesAScoredRecordWithoutItsPrimaryMismatch) {

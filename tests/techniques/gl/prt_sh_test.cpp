@@ -1,7 +1,6 @@
 // Precomputed radiance transfer in spherical harmonics: exact under a smooth sky, blurred under a small sun, and of a cost
 // that does not depend on the light.
 #include "base/error.h"
-#include "harness/measure/frame_cost.h"
 #include "harness/measure/pass_cost.h"
 #include "techniques/environment/harmonic_light.h"
 #include "techniques/environment/prt-sh/harmonic_transfer.h"
@@ -157,14 +156,14 @@ TEST(PrtSh, SeesNothingOfALightBeyondItsBands) {
 }
 
 TEST(PrtSh, CostsTheSameUnderAnyNumberOfSuns) { // K40
-    std::vector<Work> works;
+    std::vector<gl::WorkCount> works;
     for (const int suns : {1, 16}) {
         const Scene scene = under(plateUnderSky(), {ConstantSky{0.5}, manySuns(suns)});
         Stage stage(scene);
         stage.show(0);
         const auto technique = made("prt-sh:points=4000,directions=256");
         for (int frame = 0; frame < 2; ++frame) stage.render(*technique, frame, 1);
-        works.push_back(timing::measureWork(stage, *technique, 0, 2, 1));
+        works.push_back(timing::measurePasses(stage, *technique, 2, 1, 1).frame().work);
     }
     EXPECT_EQ(works[0].fragments, works[1].fragments);
     EXPECT_EQ(works[0].vertices, works[1].vertices);

@@ -1,0 +1,43 @@
+// What a shadow technique's frame costs pass by pass, beside the least that it needs.
+#pragma once
+
+#include "harness/measure/pass_cost.h"
+#include "harness/records/record.h"
+#include "harness/render/stage.h"
+#include "techniques/contract/entry.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shadowbench::timing {
+
+/// A technique's sequence of frames, whose next one has number `index`.
+struct Sequence {
+    techniques::Technique& technique;
+    int index;
+    std::uint32_t seed;
+};
+
+/// A frame's passes and what they are compared with. Both have the G-buffer.
+struct ComparedPasses {
+    FramePasses own, bare;
+    std::vector<techniques::BarePass> declared; // empty: the technique declares none, and `bare` holds nothing
+
+    /// Pass by pass as records have them. `timed`: with their times.
+    [[nodiscard]] std::vector<PassRecord> records(bool timed) const;
+};
+
+/// Counts the work of the next frame of what the stage shows, and of its bare passes.
+ComparedPasses countPasses(Stage& stage, Sequence& frames);
+
+/// Times both over the next frames.
+void timePasses(ComparedPasses& counted, Stage& stage, Sequence& frames);
+
+/// Pass by pass as records have them, without anything to compare.
+std::vector<PassRecord> passRecords(const FramePasses& passes, bool timed);
+
+/// The variant's frame, still and warm, on an image of another size than the scene's: 1024 pixels on its longer side, 256
+/// where the scene's own has as many.
+OtherScreen measureOtherScreen(const Scene& scene, const techniques::Variant& variant, int frame, std::uint32_t seed);
+
+} // namespace shadowbench::timing

@@ -1,0 +1,139 @@
+#include "harness/report/cost_report.h"
+
+#include "harness/report/csv_text.h"
+#include "harness/report/summary.h"
+#include "harness/report/text_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace shadowbench::report {
+namespace {
+
+bool isTimed(const PassRecord& pass) { return pass.milliseconds.has_value(); }
+
+std::vector<const Record*> timedRecords(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<const Record*> timed;
+    for (const std::size_t i : ofScene(records, scene))
+        if (!records[i].sweep && std::ranges::any_of(records[i].passes, isTimed)) timed.push_back(&records[i]);
+    return timed;
+}
+
+std::string sizeOf(int width, int height) {
+    return width == height ? fmt::format("{}²", width) : fmt::format("{} × {}", width, height);
+}
+
+const PassRecord* passNamed(const std::vector<PassRecord>& passes, const std::string& name) {
+    const auto found = std::ranges::find(passes, name, &PassRecord::name);
+    return found == passes.end() ? nullptr : &*found;
+}
+
+/// What a pass' fragments grow with, from their numbers on two images: f₂/f₁ = (pixels₂/pixels₁)^e with e near 1 or near 0.
+std::string growsWith(const Record& record, const PassRecord& pass) {
+    if (pass.draws == 0 && pass.fragments == 0) return "–";
+    const PassRecord* other = passNamed(record.otherScreen->passes, pass.name);
+    if (other == nullptr || other->fragments == 0 || pass.fragments == 0) return "–";
+    const auto pixels = [](int width, int height) { return static_cast<double>(width) * height; };
+    const double exponent =
+        std::log(static_cast<double>(other->fragments) / static_cast<double>(pass.fragments)) /
+        std::log(pixels(record.otherScreen->width, record.otherScreen->height) / pixels(record.width, record.height));
+    return exponent > 0.75 ? "screen" : exponent < 0.25 ? "map" : "both";
+}
+
+std::string milliseconds(const std::optional<double>& value) { return value ? fmt::format("{:.2f}", *value) : "–"; }
+
+std::string least(const PassRecord& pass) {
+    return pass.bare ? fmt::format("{} fragments, {} vertices, {} taps: {}", pass.bare->fragments, pass.bare->vertices,
+                                   pass.bare->taps, pass.bare->source)
+                     : "–";
+}
+
+std::string timesBare(const PassRecord& pass) {
+    const bool known = pass.bare && pass.bare->milliseconds && *pass.bare->milliseconds > 0;
+    return known ? fmt::format("{:.2f}", *pass.milliseconds / *pass.bare->milliseconds) : "–";
+}
+
+class PassRows {
+public:
+    explicit PassRows(const std::vector<const Record*>& records) {
+        for (const Record* record : records)
+            if (record->otherScreen) other_ = &*record->otherScreen;
+        table_.titles = {"technique", "pass", "runs", "ms", "share"};
+        if (other_ != nullptr) table_.titles.push_back("ms at " + sizeOf(other_->width, other_->height));
+        table_.titles.insert(table_.titles.end(), {"fragments", "vertices", "draws"});
+        if (other_ != nullptr) table_.titles.emplace_back("grows with");
+        table_.titles.insert(table_.titles.end(), {"× bare", "the least"});
+        for (const Record* record : records)
+            for (const PassRecord& pass : record->passes) add(*record, pass);
+    }
+
+    [[nodiscard]] std::string text() const { return markdown(table_); }
+
+private:
+    void add(const Record& record, const PassRecord& pass) {
+        const bool first = &pass == &record.passes.front();
+        std::vector<std::string> row{first ? record.variant : "", pass.name, std::to_string(pass.runs),
+                                     milliseconds(pass.milliseconds), percent(pass.share.value_or(0))};
+        const PassRecord* other = record.otherScreen ? passNamed(record.otherScreen->passes, pass.name) : nullptr;
+        if (other_ != nullptr) row.push_back(milliseconds(other != nullptr ? other->milliseconds : std::nullopt));
+        for (const std::uint64_t count : {pass.fragments, pass.vertices, pass.draws}) row.push_back(std::to_string(count));
+        if (other_ != nullptr) row.push_back(record.otherScreen ? growsWith(record, pass) : "–");
+        row.push_back(timesBare(pass));
+        row.push_back(least(pass));
+        table_.rows.push_back(std::move(row));
+    }
+
+    const OtherScreen* other_ = nullptr; // one of them; all of a scene have one size
+    TextTable table_;
+};
+
+std::string cellOf(const std::optional<double>& value) { return value ? written(*value) : ""; }
+
+std::string csvRow(const Record& record, int width, int height, const PassRecord& pass) {
+    const BareCost bare = pass.bare.value_or(BareCost{});
+    const auto ofBare = [&](std::uint64_t value) { return pass.bare ? written(value) : std::string(); };
+    return csvLine({quoted(record.scene), quoted(record.variant), record.profile, written(width), written(height),
+                    quoted(pass.name), written(pass.runs), cellOf(pass.milliseconds), cellOf(pass.share),
+                    written(pass.fragments), written(pass.vertices), written(pass.draws), cellOf(bare.milliseconds),
+                    ofBare(bare.fragments), ofBare(bare.vertices), ofBare(bare.taps), quoted(bare.source)});
+}
+
+} // namespace
+
+std::string rasteriserNote(const std::vector<Record>& records, const std::string& scene) {
+    const auto timed = timedRecords(records, scene);
+    if (timed.empty()) return "";
+    const Environment& e = timed.front()->environment;
+    const std::string threads =
+        e.rasterThreads == 0 ? "on the calling thread alone" : fmt::format("with {} raster threads", e.rasterThreads);
+    std::string text = fmt::format("Times are of {}, {}", e.renderer, threads);
+    if (e.renderer.find("llvmpipe") == std::string::npos) return text + ".";
+    return text +
+           fmt::format(", a rasteriser in software: it shades {} pixels at a time and pays for both sides of every "
+                       "`if` among them, each vertex is a call of compiled code, and a fragment costs what its texture "
+                       "reads and arithmetic cost the processor, without units of their own for depth, blending and "
+                       "filtering. A GPU hides much of that: compare fragments, vertices and taps there.",
+                       e.vectorBits / 32);
+}
+
+std::string passTable(const std::vector<Record>& records, const std::string& scene) {
+    const auto timed = timedRecords(records, scene);
+    return timed.empty() ? "" : PassRows(timed).text();
+}
+
+std::string passCsv(const std::vector<Record>& records) {
+    std::string rows;
+    for (const Record& record : records) {
+        for (const PassRecord& pass : record.passes) rows += csvRow(record, record.width, record.height, pass);
+        if (!record.otherScreen) continue;
+        const OtherScreen& other = *record.otherScreen;
+        for (const PassRecord& pass : other.passes) rows += csvRow(record, other.width, other.height, pass);
+    }
+    if (rows.empty()) return "";
+    return "scene,variant,profile,width,height,pass,runs,milliseconds,share,fragments,vertices,draws,bare.milliseconds,"
+           "bare.fragments,bare.vertices,bare.taps,bare.source\n" +
+           rows;
+}
+
+} // namespace shadowbench::report

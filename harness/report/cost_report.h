@@ -1,0 +1,27 @@
+// Costs pass by pass, and what decides them beside the technique.
+#pragma once
+
+#include "harness/records/record.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowbench::report {
+
+/// What rasteriser drew the timed records of `scene`, with how many threads, and what that does to their times: a sentence
+/// for the foot of a table of costs. "" where none was timed.
+std::string rasteriserNote(const std::vector<Record>& records, const std::string& scene);
+
+/// Markdown: the passes of every timed record of `scene` with their times, work, what they grow with and the least that
+/// they need. "" where no record has passes with times.
+std::string passTable(const std::vector<Record>& records, const std::string& scene);
+
+/// One row a pass of a record, what is absent empty; passes on an image of another size (Record::otherScreen) have rows of
+/// their own. "" without passes.
+std::string passCsv(const std::vector<Record>& records);
+
+/// Frame times, a bar a record, stacked by pass, as SVG; nothing where no record has passes with times.
+std::optional<std::string> passChart(const std::vector<Record>& records, const std::string& scene);
+
+} // namespace shadowbench::report
