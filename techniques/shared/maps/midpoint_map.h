@@ -10,6 +10,31 @@ namespace shadowbench::techniques {
 /// BackFace: nearest front face and nearest back face (Zápotocký); where a mesh is open they belong to different objects.
 enum class SecondDepth { Surface, BackFace };
 
+/// Two square maps of depths in [0, 1], 1 where there is no such surface; midpoint() of shared/maps/midpoint.glsl averages
+/// them.
+class TwoDepths {
+public:
+    TwoDepths(int side, SecondDepth second);
+
+    void draw(const LightView& light, const Frame& frame);
+
+    [[nodiscard]] const gl::Texture& first() const { return first_; }
+    [[nodiscard]] const gl::Texture& second() const { return second_; }
+
+private:
+    enum class Faces { Both, Front, Back };
+    static void drawNearest(const gl::RenderTarget& target, gl::Program& program, Faces faces, const LightView& light,
+                            const gl::SceneBuffers& scene);
+    void drawSurfaces(const LightView& light, const Frame& frame);
+    void drawFaces(const LightView& light, const Frame& frame);
+
+    SecondDepth kind_;
+    gl::Texture first_, second_;
+    gl::RenderTarget firstTarget_, secondTarget_;
+    gl::Program nearest_, peel_;
+};
+
+/// The means in a map of their own: for filters, which look up every texel several times and may interpolate comparisons.
 class MidpointMap final : public ShadowMap {
 public:
     MidpointMap(int side, Lookup lookup, SecondDepth second = SecondDepth::Surface);
@@ -20,16 +45,10 @@ public:
     [[nodiscard]] const gl::Texture& texture() const override { return middle_; }
 
 private:
-    enum class Faces { Both, Front, Back };
-    static void drawNearest(const gl::RenderTarget& target, gl::Program& program, Faces faces, const LightView& light,
-                            const gl::SceneBuffers& scene);
-    void drawSurfaces(const LightView& light, const Frame& frame);
-    void drawFaces(const LightView& light, const Frame& frame);
-
-    SecondDepth kind_;
-    gl::Texture first_, second_, middle_;
-    gl::RenderTarget firstTarget_, secondTarget_, middleTarget_;
-    gl::Program nearest_, peel_, mean_;
+    TwoDepths depths_;
+    gl::Texture middle_;
+    gl::RenderTarget middleTarget_;
+    gl::Program mean_;
 };
 
 } // namespace shadowbench::techniques

@@ -110,7 +110,7 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"none", {"G-buffer", "clear"}},
         {"planar-hard", {"G-buffer", "receiver stencil", "projected casters"}},
         {"sm-uniform", {"G-buffer", "depth map", "resolve"}},
-        {"sm-midpoint", {"G-buffer", "depth map", "second depth", "midpoint", "resolve"}},
+        {"sm-midpoint", {"G-buffer", "depth map", "second depth", "resolve"}},
         {"sm-cascaded", {"G-buffer", "depth map", "resolve"}},
         {"sm-tiled", {"G-buffer", "depth map", "demands", "tile choice", "resolve"}}, // the depth map twice
         {"sm-adaptive", {"G-buffer", "demands", "refinement", "depth map", "resolve"}},
