@@ -53,6 +53,20 @@ TEST(Refinement, DensityAsksForSoManyTexelsAlongAPixel) {
     EXPECT_EQ(level(0.5), 2);
 }
 
+TEST(Refinement, LeavesAPageThatSufficesForItsShareOfPixels) {
+    // 100 pixels in one page of level 8, of which so many need level 3; for the others a map of the plane is enough.
+    const auto level = [](int demanding, double share) {
+        std::vector<Demand> demands;
+        for (int i = 0; i < 100; ++i) demands.push_back({0, {0.3F, 0.6F}, glm::vec2(i < demanding ? 1000.0F : 50.0F)});
+        return refine(demands, {.share = share}).at(0).level;
+    };
+    EXPECT_EQ(level(1, 1), 3);
+    EXPECT_EQ(level(5, 0.95), 0);
+    EXPECT_EQ(level(6, 0.95), 3);
+    EXPECT_EQ(level(100, 0.5), 3);
+    EXPECT_EQ(level(100, 0), 0);
+}
+
 TEST(Refinement, EndsAtTheFinestLevel) {
     EXPECT_EQ(refine({{0, {0.9F, 0.9F}, {1e9F, 1}}}, {.levels = 5}), (std::vector{Page{0, 5, {28, 28}}}));
 }

@@ -6,7 +6,7 @@ uniform float constantBias;
 
 void main() {
     vec3 position = (lightFromWorld * vec4(worldPosition(objectPosition), 1.0)).xyz;
-    gl_ClipDistance[0] = position.z + 0.05 * length(position);  // a little beyond the rim
+    gl_ClipDistance[0] = position.z + RIM * length(position);  // a little beyond the half space
     vec3 at = paraboloid(position);
     gl_Position = vec4(at.xy, 2.0 * (at.z + constantBias) - 1.0, 1.0);
 }

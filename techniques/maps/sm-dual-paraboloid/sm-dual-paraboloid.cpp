@@ -2,7 +2,7 @@
 // Course, "Extensions" (omni-directional light sources). The mapping is made at vertices, so that casters must be finely
 // tessellated: edges of large triangles stay straight in the map and bend in space. The two share the texels of one map of
 // `map`². Departure: depth is the distance from the light over the farthest one, linear; each map shows a little more than
-// its half space, for texels on the rim.
+// its half space, for texels on the rim; into each are drawn the casters whose box it shows some of.
 #include "techniques/contract/applicability.h"
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
@@ -16,23 +16,43 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <span>
+#include <vector>
 
 namespace shadowbench::techniques {
 namespace {
 
 gl::Defines paraboloidDefines() { return {{"FILLED", fmt::format("{}", paraboloidFilled)}}; }
 
+gl::Defines drawDefines() {
+    gl::Defines defines = paraboloidDefines();
+    defines.emplace_back("RIM", fmt::format("{}", paraboloidRim));
+    return defines;
+}
+
+/// For each placement, in the order of `corners` (`boundingCorners`), whether the map of the half space shows some of its
+/// box.
+std::vector<bool> castersOf(const glm::dmat4& halfSpace, const std::vector<glm::dvec3>& corners) {
+    std::vector<bool> casters;
+    for (std::size_t i = 0; i + 8 <= corners.size(); i += 8)
+        casters.push_back(!std::ranges::all_of(std::span(corners).subspan(i, 8), [&](const glm::dvec3& p) {
+            return beyondRim(glm::dvec3(halfSpace * glm::dvec4(p, 1)));
+        }));
+    return casters;
+}
+
 class DualParaboloid final : public Technique {
 public:
     explicit DualParaboloid(const Parameters& p)
         : bias_(biasFrom(p)), atlas_(squareTiles(p.integer("map"), 2), bias_),
-          draw_("maps/sm-dual-paraboloid/paraboloid.vert", "gl/depth_only.frag", paraboloidDefines()),
+          draw_("maps/sm-dual-paraboloid/paraboloid.vert", "gl/depth_only.frag", drawDefines()),
           resolve_(gl::Program::screen("maps/sm-dual-paraboloid/sm-dual-paraboloid.frag", paraboloidDefines())) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const glm::dvec3 light = frame.snapshot.light.centre;
+        const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
         double farthest = 0;
-        for (const glm::dvec3& p : boundingCorners(frame.snapshot)) farthest = std::max(farthest, glm::distance(p, light));
+        for (const glm::dvec3& p : corners) farthest = std::max(farthest, glm::distance(p, light));
         const auto far = static_cast<float>(farthest * (1 + 1e-6));
         views_ = halfSpaces(light, frame.snapshot.bounds().centre());
 
@@ -41,7 +61,7 @@ public:
             const CasterState state(bias_);
             glEnable(GL_CLIP_DISTANCE0);
             draw_.set("lightFromWorld", glm::mat4(views_[i])).use();
-            frame.scene.draw();
+            frame.scene.draw(castersOf(views_[i], corners));
             glDisable(GL_CLIP_DISTANCE0);
         });
         resolve_.set("positions", frame.gbuffer.position())

@@ -1,11 +1,49 @@
 // Midpoint shadow map (Woo 1992) over the uniform light frustum: no bias at all. Course, "Bias" (Second Depth Shadow Maps);
 // Zápotocký 4.4.2. The paper's second depth is the next surface; `second=backface` is Zápotocký's pair of front and back
-// faces, which is the same on closed meshes that do not meet, and loses the shadow of open ones.
+// faces, which is the same on closed meshes that do not meet, and loses the shadow of open ones. Departure: both depths are
+// kept and averaged where a receiver looks them up, which gives the same numbers as a third map of the means.
 #include "techniques/contract/entry.h"
+#include "techniques/contract/resolve.h"
 #include "techniques/shared/maps/midpoint_map.h"
 #include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
+namespace {
+
+class Midpoint final : public Technique {
+public:
+    Midpoint(int side, SecondDepth second)
+        : depths_(side, second), resolve_(gl::Program::screen("maps/sm-midpoint/sm-midpoint.frag")) {}
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        light_ = uniformView(frame);
+        depths_.draw(light_, frame);
+        resolve_.set("positions", frame.gbuffer.position())
+            .set("mapFromWorld", mapFromWorld(light_))
+            .set("firstDepth", depths_.first())
+            .set("secondDepth", depths_.second());
+        resolve(frame, {&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        std::vector<BarePass> passes = depths_.bare(light_);
+        const Taps one{gl::Format::Depth32F, depths_.first().size(), Read::Nearest};
+        passes.push_back(
+            bareLookup("resolve", "course, Bias: a point against the mean of both depths", frame.size, {one, one}));
+        return passes;
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(light_, world, depths_.first().size());
+    }
+
+private:
+    LightView light_;
+    TwoDepths depths_;
+    gl::Program resolve_;
+};
+
+} // namespace
 
 Entry smMidpoint() {
     return {.id = "sm-midpoint",
@@ -19,7 +57,7 @@ Entry smMidpoint() {
             .variants = {""},
             .make = [](const Parameters& p) {
                 const SecondDepth second = p.text("second") == "surface" ? SecondDepth::Surface : SecondDepth::BackFace;
-                return makeSingleMap(std::make_unique<MidpointMap>(p.integer("map"), Lookup::Compare, second), uniformView);
+                return std::make_unique<Midpoint>(p.integer("map"), second);
             }};
 }
 

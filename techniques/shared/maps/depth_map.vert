@@ -6,6 +6,8 @@ uniform vec4 lightPlane;  // dot ≥ 0 in front of the light
 uniform vec4 casterPlane;  // dot ≥ 0 for what casts
 #endif
 
+invariant gl_Position;  // passes that peel compare depths for equality
+
 void main() {
     vec4 world = vec4(worldPosition(objectPosition), 1.0);
     gl_ClipDistance[0] = dot(lightPlane, world);

@@ -10,17 +10,19 @@ namespace shadowbench::techniques {
 /// BackFace: nearest front face and nearest back face (Zápotocký); where a mesh is open they belong to different objects.
 enum class SecondDepth { Surface, BackFace };
 
-class MidpointMap final : public ShadowMap {
+/// Two square maps of depths in [0, 1], 1 where there is no such surface; midpoint() of shared/maps/midpoint.glsl averages
+/// them.
+class TwoDepths {
 public:
-    MidpointMap(int side, Lookup lookup, SecondDepth second = SecondDepth::Surface);
+    TwoDepths(int side, SecondDepth second);
 
-    /// Depth 1 where there is no second surface.
-    void draw(const LightView& light, const Frame& frame) override;
+    void draw(const LightView& light, const Frame& frame);
 
     /// Both surfaces; the second's comparison with the first is left out.
-    [[nodiscard]] std::vector<BarePass> bare(const LightView& light) const override;
+    [[nodiscard]] std::vector<BarePass> bare(const LightView& light) const;
 
-    [[nodiscard]] const gl::Texture& texture() const override { return middle_; }
+    [[nodiscard]] const gl::Texture& first() const { return first_; }
+    [[nodiscard]] const gl::Texture& second() const { return second_; }
 
 private:
     enum class Faces { Both, Front, Back };
@@ -30,9 +32,28 @@ private:
     void drawFaces(const LightView& light, const Frame& frame);
 
     SecondDepth kind_;
-    gl::Texture first_, second_, middle_;
-    gl::RenderTarget firstTarget_, secondTarget_, middleTarget_;
-    gl::Program nearest_, peel_, mean_;
+    gl::Texture first_, second_;
+    gl::RenderTarget firstTarget_, secondTarget_;
+    gl::Program nearest_, peel_;
+};
+
+/// The means in a map of their own: for filters, which look up every texel several times and may interpolate comparisons.
+class MidpointMap final : public ShadowMap {
+public:
+    MidpointMap(int side, Lookup lookup, SecondDepth second = SecondDepth::Surface);
+
+    /// Depth 1 where there is no second surface.
+    void draw(const LightView& light, const Frame& frame) override;
+
+    [[nodiscard]] std::vector<BarePass> bare(const LightView& light) const override { return depths_.bare(light); }
+
+    [[nodiscard]] const gl::Texture& texture() const override { return middle_; }
+
+private:
+    TwoDepths depths_;
+    gl::Texture middle_;
+    gl::RenderTarget middleTarget_;
+    gl::Program mean_;
 };
 
 } // namespace shadowbench::techniques

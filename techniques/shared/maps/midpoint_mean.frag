@@ -1,8 +1,9 @@
+#include "shared/maps/midpoint.glsl"
+
 uniform sampler2D firstDepth;
 uniform sampler2D secondDepth;
 
 void main() {
-    float first = texelFetch(firstDepth, ivec2(gl_FragCoord.xy), 0).r;
-    float second = texelFetch(secondDepth, ivec2(gl_FragCoord.xy), 0).r;
-    gl_FragDepth = second < 1.0 ? 0.5 * (first + second) : 1.0;
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    gl_FragDepth = midpoint(texelFetch(firstDepth, texel, 0).r, texelFetch(secondDepth, texel, 0).r);
 }

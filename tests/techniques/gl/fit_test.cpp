@@ -1,7 +1,10 @@
 // Depth maps that differ in what they store or in how they are fitted, on scenes whose shadow is a known polygon.
+#include "techniques/shared/maps/midpoint_map.h"
+#include "techniques/shared/maps/single_map.h"
 #include "tests/support/ground_score.h"
 
 #include <gtest/gtest.h>
+#include <memory>
 #include <vector>
 
 namespace shadowbench {
@@ -30,6 +33,17 @@ TEST(SmMidpoint, HasNoAcneWithoutBiasWhereAUniformMapHas) {
     // At the slab's rim the second surface is its side, close behind the first: hence not exactly zero.
     EXPECT_LE(scoreOnGround(scene, stage, rendered(stage, "sm-midpoint:map=256"), 4).falseShadow, 0.002);
     EXPECT_GT(scoreOnGround(scene, stage, rendered(stage, "sm-uniform:map=256,bias=none"), 4).falseShadow, 0.05);
+}
+
+TEST(SmMidpoint, AveragesAtTheLookupToWhatAMapOfMeansHolds) {
+    const Scene scene = slantedScene();
+    Stage stage(scene);
+    stage.show(0);
+    using namespace techniques;
+    const auto means = makeSingleMap(std::make_unique<MidpointMap>(256, Lookup::Compare), uniformView);
+    stage.render(*means, 0, 1);
+    const Image<float> expected = stage.visibility();
+    EXPECT_EQ(differing(rendered(stage, "sm-midpoint:map=256"), expected), 0U);
 }
 
 TEST(SmMidpoint, FrontAndBackFacesGiveTheSameOnClosedMeshesThatDoNotMeet) {

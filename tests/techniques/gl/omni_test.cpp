@@ -26,11 +26,31 @@ TEST(SmCube, IsRightAwayFromEdges) {
     EXPECT_EQ(scoreOnGround(scene, stage, rendered(stage, "sm-cube:map=2048"), 3).mismatch, 0);
 }
 
-TEST(SmCube, DrawsTheSceneSixTimes) {
-    const Scene scene = boxScene();
+TEST(SmCube, DrawsACasterIntoEachSideThatItsBoxMeets) {
+    // A lamp over the slab, seen from above: its sides +x, −x, −y, +z and −z hold the slab; nothing is above it.
+    Scene scene = groundScene();
+    scene.light.centre = {0.1, 0.7, 0.2};
+    {
+        Stage stage(scene);
+        stage.show(0);
+        EXPECT_EQ(drawsOf(stage, "sm-cube") - 1, 5U); // one draw is the resolve
+    }
+    scene.objects.push_back(object(box({0.4, 0.8, 0.3}), {3, 0.43, 0.2})); // in side +x alone
     Stage stage(scene);
     stage.show(0);
-    EXPECT_EQ(drawsOf(stage, "sm-cube") - 1, 6 * (drawsOf(stage, "sm-uniform") - 1)); // one draw is the resolve
+    EXPECT_EQ(drawsOf(stage, "sm-cube") - 1, 5U + 1);
+}
+
+TEST(SmCube, DrawsNothingIntoASideThroughWhichTheCameraSeesNothing) {
+    Scene scene = ringScene();
+    scene.camera = {{-0.6, 0.3, 0.2}, {-5, 0, 0.2}, {0, 1, 0}, 40, 0.1, 40}; // looks along −x, from before the light
+    Stage stage(scene);
+    stage.show(0);
+    const Scene all = ringScene();
+    Stage whole(all);
+    whole.show(0);
+    EXPECT_LT(drawsOf(stage, "sm-cube"), drawsOf(whole, "sm-cube"));
+    EXPECT_LT(mismatchOn(1, scene, "sm-cube:map=4096", slabTop), 0.01);
 }
 
 /// Every triangle cut into four, `times` over.
@@ -71,11 +91,17 @@ TEST(SmDualParaboloid, CoarseTessellationBendsShadowsAndNotThoseOfACubeMap) {
     EXPECT_LT(mismatchOn(1, ringScene(), "sm-cube:map=4096", slabTop), 1.5 * fine);
 }
 
-TEST(SmDualParaboloid, DrawsTheSceneTwice) {
-    const Scene scene = boxScene();
-    Stage stage(scene);
-    stage.show(0);
-    EXPECT_EQ(drawsOf(stage, "sm-dual-paraboloid") - 1, 2 * (drawsOf(stage, "sm-uniform") - 1));
+TEST(SmDualParaboloid, DrawsACasterIntoEachHalfSpaceThatItsBoxMeets) {
+    const auto drawn = [](const Scene& scene) {
+        Stage stage(scene);
+        stage.show(0);
+        return drawsOf(stage, "sm-dual-paraboloid") - 1; // one draw is the resolve
+    };
+    EXPECT_EQ(drawn(groundScene()), 1U); // a lamp far above the slab has all of it before it
+    Scene scene = groundScene();
+    scene.light.centre = {0, 0.2, 0};
+    scene.objects.push_back(object(box({40, 2, 0.2}), {0, 1, -15})); // so that the middle of the scene lies beside the lamp
+    EXPECT_EQ(drawn(scene), 2U + 1);                                 // the slab is on both sides of it, the wall on one
 }
 
 } // namespace

@@ -64,6 +64,16 @@ TEST(SmTiled, TheHeuristicMisjudgesCastersThatItsFirstMapMisses) {
               1.2 * mismatchOn(1, scene, "sm-tiled:map=512,discontinuity=0"));
 }
 
+TEST(SmTiled, AFirstMapOfATexelACellServesTheChoiceAsOneOfSixteenDoes) {
+    const Scene scene = farCasterScene(1);
+    const double coarse = mismatchOn(1, scene, "sm-tiled:analysis=256"),
+                 fine = mismatchOn(1, scene, "sm-tiled:analysis=1024");
+    EXPECT_NEAR(coarse, fine, 0.25 * fine);
+    Stage stage(scene);
+    stage.show(0);
+    EXPECT_GT(differing(rendered(stage, "sm-tiled:analysis=16"), rendered(stage, "sm-tiled")), 0U); // it is used
+}
+
 TEST(SmAdaptive, IsTheUniformMapWhereNoPageIsFinerAndAllAreNeeded) {
     const Scene scene = boxScene(256);
     Stage stage(scene);
@@ -83,8 +93,8 @@ TEST(SmAdaptive, IsRightAPixelAwayFromEdges) {
     Stage stage(scene);
     stage.show(0);
     // Half a texel in x and in y is at most a pixel; four neighbours at 1.5 tell edges closer than 1.06.
-    EXPECT_EQ(scoreOnGround(scene, stage, rendered(stage, "sm-adaptive"), 1.5).mismatch, 0);
-    EXPECT_EQ(scoreOnGround(scene, stage, rendered(stage, "sm-adaptive:density=8,pages=4096"), 0.2).mismatch, 0);
+    EXPECT_EQ(scoreOnGround(scene, stage, rendered(stage, "sm-adaptive:share=1"), 1.5).mismatch, 0);
+    EXPECT_EQ(scoreOnGround(scene, stage, rendered(stage, "sm-adaptive:density=8,share=1,pages=4096"), 0.2).mismatch, 0);
 }
 
 TEST(SmAdaptive, ApproachesTheExactShadowAsRefinementGrows) {
@@ -109,10 +119,10 @@ TEST(SmAdaptive, TakesManyPassesAndNoMorePagesThanAllowed) {
     Stage stage(scene);
     stage.show(0);
     EXPECT_GT(passesOf(stage, "sm-adaptive"), 20 * passesOf(stage, "sm-uniform"));
-    // Beside the pages: the pass over the pixels, and the test of each store of 64 pages.
-    EXPECT_LE(passesOf(stage, "sm-adaptive:pages=50,density=16"), 50U + 2);
-    EXPECT_GE(passesOf(stage, "sm-adaptive:pages=50,density=16"), 48U + 2); // a cut adds up to three
-    EXPECT_LE(passesOf(stage, "sm-adaptive:pages=200,density=16"), 200U + 1 + 4);
+    // Beside the pages: the pass over the pixels, and the test of each filling of 64 pages.
+    EXPECT_LE(passesOf(stage, "sm-adaptive:pages=50,density=16,map=1024"), 50U + 2);
+    EXPECT_GE(passesOf(stage, "sm-adaptive:pages=50,density=16,map=1024"), 48U + 2); // a cut adds up to three
+    EXPECT_LE(passesOf(stage, "sm-adaptive:pages=200,density=16,map=1024"), 200U + 1 + 4);
 }
 
 TEST(SmAdaptive, DrawsOverASmallMapAgainAndAgainWithTheSameResult) {
@@ -120,7 +130,94 @@ TEST(SmAdaptive, DrawsOverASmallMapAgainAndAgainWithTheSameResult) {
     Stage stage(scene);
     stage.show(0);
     const Image<float> whole = rendered(stage, "sm-adaptive:map=4096");
-    EXPECT_LE(differing(rendered(stage, "sm-adaptive:map=128"), whole), 5U); // rounding at texel borders
+    EXPECT_EQ(differing(rendered(stage, "sm-adaptive:map=128"), whole), 0U);
+}
+
+/// The avenue, whose first box moves from frame 2 on and whose camera moves from frame 4 on.
+Scene movingAvenue() {
+    Scene scene = avenueScene(0.5);
+    scene.timeline = {.still = 3, .moving = 4};
+    scene.objects[1].motion.shift.keys = {{0, {0, 0, 0}}, {4, {0.4, 0, 0}}};
+    const glm::dvec3 eye = scene.camera.eye;
+    scene.eye.keys = {{2, eye}, {4, eye + glm::dvec3(0.3, 0, -0.2)}};
+    return scene;
+}
+
+/// A technique and how many pages it draws.
+struct Pages {
+    std::unique_ptr<techniques::Technique> technique;
+    explicit Pages(const std::string& name) {
+        const techniques::Variant variant = techniques::parseVariant(name);
+        technique = variant.entry->make(variant.parameters);
+    }
+    std::map<std::string, double> figuresAt(Stage& stage, int frame) const {
+        stage.render(*technique, frame, 1);
+        return technique->figures(stage.frame(frame, 1));
+    }
+};
+
+TEST(SmAdaptive, KeepsPagesWithTheImageOfAFreshStart) {
+    const Scene scene = movingAvenue();
+    Stage stage(scene);
+    // Room for all pages, and for some of them.
+    for (const char* variant : {"sm-adaptive", "sm-adaptive:map=256", "sm-adaptive:cache=off"}) {
+        const Pages kept(variant);
+        for (int frame = 0; frame < scene.timeline.frames(); ++frame) {
+            stage.show(frame);
+            stage.render(*kept.technique, frame, 1);
+            const Image<float> image = stage.visibility();
+            EXPECT_EQ(differing(rendered(stage, variant), image), 0U) << variant << " " << frame;
+        }
+    }
+}
+
+TEST(SmAdaptive, DrawsWhatChangesAgain) {
+    const Scene scene = movingAvenue();
+    Stage stage(scene);
+    const Pages pages("sm-adaptive"), forgetful("sm-adaptive:cache=off");
+    const auto share = [&](const Pages& technique, int frame) {
+        stage.show(frame);
+        const auto figures = technique.figuresAt(stage, frame);
+        return figures.at("drawn") / figures.at("pages");
+    };
+    EXPECT_EQ(share(pages, 0), 1);
+    EXPECT_EQ(share(pages, 1), 0); // nothing moves
+    const double moved = share(pages, 3);
+    EXPECT_GT(moved, 0); // a box has
+    EXPECT_LT(moved, 0.5);
+    const double seen = share(pages, 5);
+    EXPECT_GT(seen, 0); // the camera has, too
+    EXPECT_LT(seen, 0.8);
+    pages.technique->reset();
+    EXPECT_EQ(share(pages, 5), 1);
+    EXPECT_EQ(share(forgetful, 5), 1);
+    EXPECT_EQ(share(forgetful, 5), 1);
+}
+
+TEST(SmAdaptive, DrawsAllAgainInAnotherLight) {
+    Scene scene = movingAvenue();
+    scene.lightDirection.keys = {{0, scene.light.direction},
+                                 {1, glm::normalize(scene.light.direction + glm::dvec3(0, 0, 0.1))}};
+    scene.objects[1].motion = {};
+    Stage stage(scene);
+    const Pages pages("sm-adaptive");
+    for (const int frame : {0, 3}) {
+        stage.show(frame);
+        const auto figures = pages.figuresAt(stage, frame);
+        EXPECT_EQ(figures.at("drawn"), figures.at("pages")) << frame;
+    }
+}
+
+TEST(SmAdaptive, APercentileOfPixelsLeavesOutPagesThatFewAskFor) {
+    const Scene scene = avenueScene(0.5);
+    Stage stage(scene);
+    stage.show(0);
+    const auto pages = [&](const std::string& share) {
+        return figuresOf(stage, "sm-adaptive:pages=4096,share=" + share).at("pages");
+    };
+    EXPECT_LT(pages("0.95"), pages("1"));
+    EXPECT_LT(pages("0.5"), pages("0.95"));
+    EXPECT_EQ(pages("0"), 1); // no page is refined for anybody
 }
 
 TEST(SmAdaptive, RefusesAPageThatIsLargerThanTheMap) {
