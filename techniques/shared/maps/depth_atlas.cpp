@@ -17,16 +17,6 @@ glm::ivec2 sizeOf(const std::vector<Tile>& tiles) {
 
 } // namespace
 
-std::vector<Tile> equalTiles(int side, int count) {
-    int rows = static_cast<int>(std::sqrt(count));
-    while (count % rows != 0) --rows;
-    const int columns = count / rows;
-    const glm::ivec2 size(side / columns, side / rows);
-    std::vector<Tile> tiles;
-    for (int i = 0; i < count; ++i) tiles.push_back({size * glm::ivec2(i % columns, i / columns), size});
-    return tiles;
-}
-
 std::vector<Tile> squareTiles(int side, int count) {
     const int each = static_cast<int>(side / std::sqrt(count));
     const int columns = static_cast<int>(std::ceil(std::sqrt(count)));

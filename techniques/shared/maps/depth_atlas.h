@@ -21,9 +21,6 @@ struct Tile {
     friend bool operator==(const Tile&, const Tile&) = default;
 };
 
-/// A square of `side` texels cut into `count` equal tiles, in as square a grid as `count` allows.
-std::vector<Tile> equalTiles(int side, int count);
-
 /// `count` square tiles that together have at most side² texels.
 std::vector<Tile> squareTiles(int side, int count);
 
