@@ -32,6 +32,13 @@ TEST(CascadedMapsOnWindmills, AreBetterThanOneFocusedMapOfEqualTexels) {
     EXPECT_GE(*scene.scored("sm-focused:map=2048").values["accuracy.mismatch"], 0.5 * focused);
 }
 
+TEST(CascadedMapsOnTheAvenue, LeaveAtMostHalfOfAFocusedMapsError) {
+    CellScene& scene = stillScene("avenue");
+    const double focused = *scene.scored("sm-focused").values["accuracy.mismatch"];
+    for (const char* variant : {"sm-cascaded", "sm-cascaded:fit=view,lambda=0.5", "sm-cascaded:slices=2,warp=lispsm"})
+        EXPECT_LE(*scene.scored(variant).values["accuracy.mismatch"], 0.5 * focused) << variant;
+}
+
 TEST(PerspectiveMapOnDuelingFrusta, IsWithinAFactorTwoOfAUniformMap) { // course: it degenerates to one
     CellScene& scene = stillScene("dueling-frusta");
     const double uniform = *scene.scored("sm-uniform").values["accuracy.mismatch"];

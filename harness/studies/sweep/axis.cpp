@@ -63,8 +63,10 @@ void turnLight(Scene& scene, const glm::dvec3& to) {
     light.v = glm::dvec3(turn * glm::dvec4(light.v, 0));
 }
 
+Bearing eyeBearing(const Scene& scene) { return bearingOf(scene.camera.eye - scene.camera.target, scene, "camera"); }
+
 void setLightViewAngle(Scene& scene, double degrees) {
-    const Bearing eye = bearingOf(scene.camera.eye - scene.camera.target, scene, "camera");
+    const Bearing eye = eyeBearing(scene);
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(degrees), glm::dvec3(0, 1, 0));
     turnLight(scene, directionOf({glm::dvec3(turn * glm::dvec4(eye.horizontal, 0)), eye.elevation}));
 }
@@ -72,6 +74,19 @@ void setLightViewAngle(Scene& scene, double degrees) {
 void setLightElevation(Scene& scene, double degrees) {
     const Bearing light = bearingOf(towardsLight(scene), scene, "light");
     turnLight(scene, directionOf({light.horizontal, glm::radians(degrees)}));
+}
+
+/// The light is then as high as what the camera looks at.
+double widestFacingAngle(const Scene& scene) { return 180 - glm::degrees(eyeBearing(scene).elevation); }
+
+void setFacingAngle(Scene& scene, double degrees) {
+    const double widest = widestFacingAngle(scene);
+    if (degrees < 0 || degrees > widest)
+        throw BadInput(
+            fmt::format("the axes of camera and light of scene {} can be 0° to {:.1f}° apart with the light above "
+                        "what the camera looks at, not {:g}°",
+                        scene.id, widest, degrees));
+    turnLight(scene, directionOf({-eyeBearing(scene).horizontal, glm::radians(widest - degrees)}));
 }
 
 void setNearPlane(Scene& scene, double metres) {
@@ -147,6 +162,16 @@ const std::array allAxes{
          false,
          false,
          setLightViewAngle},
+    Axis{"facing-angle",
+         "°",
+         "angle between the camera's axis and the light's, both to what the camera looks at, with the light behind that: 0 "
+         "is "
+         "a miner's headlamp, 180 dueling frusta; the camera stays, the light sinks",
+         {90, 105, 120, 139, 150, 160, 168, 172},
+         false,
+         false,
+         setFacingAngle,
+         widestFacingAngle},
     Axis{"light-elevation",
          "°",
          "elevation of the light above what the camera looks at",

@@ -11,5 +11,10 @@ void main() {
     visibility = 1.0;
     if (!receiver.seen) return;
     float depth = dot(eyeDepthFromWorld, vec4(receiver.position, 1.0));
-    visibility = atlasTest(sliceOf(depth), receiver.position);
+    int slice = sliceOf(depth);
+    visibility = atlasTest(slice, receiver.position);
+#ifdef BLEND
+    float weight = nextWeight(slice, depth);
+    if (weight > 0.0) visibility = mix(visibility, atlasTest(slice + 1, receiver.position), weight);
+#endif
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/snapshot.h"
+#include "techniques/shared/light_views/light_view.h"
 
 #include <cstddef>
 #include <vector>
@@ -16,10 +17,31 @@ std::vector<double> practicalSplits(double near, double far, int count, double l
 /// them. The same as sliceOf() of maps/sm-cascaded/slice.glsl (compared in tests/techniques/gl/map_point_test.cpp).
 std::size_t sliceOf(const std::vector<double>& splits, double depth);
 
-/// Least and greatest eye depth of what the camera sees of `box`; its near and far plane where it sees nothing.
+/// Least and greatest eye depth.
 struct DepthRange {
     double near, far;
 };
+
+/// The depths that the map of each slice of `splits` has to hold: the slice's own, and the last `blend` of the slice before
+/// it (a share of that one's length), where its map takes over.
+std::vector<DepthRange> sliceRanges(const std::vector<double>& splits, double blend);
+
+/// Depths of what the camera sees of `box`; its near and far plane where it sees nothing.
 DepthRange visibleDepths(const Bounds& box, const Camera& camera, double aspect);
+
+/// A ball in world space.
+struct Sphere {
+    glm::dvec3 centre;
+    double radius;
+};
+
+/// The smallest ball around the frustum between the camera's near and far plane. Its radius is that of every camera with the
+/// same planes and angle of view, to the bit.
+Sphere frustumSphere(const Camera& camera, double aspect);
+
+/// A directional light's map of the frustum between `slice`'s planes whose texels stay where they are in the world while the
+/// camera moves and turns (Valient, "Stable rendering of cascaded shadow maps", ShaderX6): it is as large as the frustum's
+/// ball, and moves by whole texels. `texels` per side. Depths are those of `fitToScene`.
+LightView fitStable(const Light& light, const Snapshot& snapshot, const Camera& slice, double aspect, int texels);
 
 } // namespace shadowbench::techniques

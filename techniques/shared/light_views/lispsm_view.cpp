@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <vector>
 
 namespace shadowbench::techniques {
 
@@ -16,11 +17,13 @@ double lispsmNear(double d, double z0, double z1) {
     return d / (std::sqrt(z1 / z0) - 1);
 }
 
-LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect) {
+LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect,
+                    std::span<const glm::dvec4> within) {
     LightView view = fitToScene(light, snapshot);
     // Nothing of the scene is nearer to the light than the near plane, though corners of its bounding box may be.
-    const glm::dvec4 nearPlane = view.depthFromWorld - glm::dvec4(0, 0, 0, view.near);
-    std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, {&nearPlane, 1});
+    std::vector<glm::dvec4> halfSpaces(within.begin(), within.end());
+    halfSpaces.push_back(view.depthFromWorld - glm::dvec4(0, 0, 0, view.near));
+    std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, halfSpaces);
     if (body.size() < 3) return view; // nothing visible lies in front of the light
 
     // The view axis in light space, seen from the nearest point of the body (post-perspective for a point light).

@@ -17,16 +17,6 @@ glm::ivec2 sizeOf(const std::vector<Tile>& tiles) {
 
 } // namespace
 
-std::vector<Tile> equalTiles(int side, int count) {
-    int rows = static_cast<int>(std::sqrt(count));
-    while (count % rows != 0) --rows;
-    const int columns = count / rows;
-    const glm::ivec2 size(side / columns, side / rows);
-    std::vector<Tile> tiles;
-    for (int i = 0; i < count; ++i) tiles.push_back({size * glm::ivec2(i % columns, i / columns), size});
-    return tiles;
-}
-
 std::vector<Tile> squareTiles(int side, int count) {
     const int each = static_cast<int>(side / std::sqrt(count));
     const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
@@ -75,6 +65,7 @@ void DepthAtlas::draw(const std::vector<LightView>& views, const Frame& frame) {
         frame.scene.draw();
     });
     placeViews(views);
+    casters_.clear();
 }
 
 void DepthAtlas::draw(const std::vector<LightView>& views, const Frame& frame,
@@ -84,6 +75,7 @@ void DepthAtlas::draw(const std::vector<LightView>& views, const Frame& frame,
         frame.scene.draw(casters[i]);
     });
     placeViews(views);
+    casters_ = casters;
 }
 
 void DepthAtlas::placeViews(const std::vector<LightView>& views) {
@@ -108,8 +100,10 @@ BarePass DepthAtlas::bare(std::string source) const {
     BarePass pass = bareDepthMap(std::move(source), depth_.size().x, glm::dmat4(1));
     pass.size = depth_.size();
     pass.casters.clear();
-    for (std::size_t i = 0; i < views_.size(); ++i)
+    for (std::size_t i = 0; i < views_.size(); ++i) {
         pass.casters.push_back({.clipFromWorld = views_[i].clipFromWorld, .at = tiles_[i].at, .size = tiles_[i].size});
+        if (!casters_.empty()) pass.casters.back().shown = casters_[i];
+    }
     return pass;
 }
 

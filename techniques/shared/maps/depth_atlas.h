@@ -21,9 +21,6 @@ struct Tile {
     friend bool operator==(const Tile&, const Tile&) = default;
 };
 
-/// A square of `side` texels cut into `count` equal tiles, in as square a grid as `count` allows.
-std::vector<Tile> equalTiles(int side, int count);
-
 /// `count` square tiles that together have at most side² texels.
 std::vector<Tile> squareTiles(int side, int count);
 
@@ -68,7 +65,8 @@ private:
     gl::RenderTarget target_;
     gl::Program program_;
     Bias bias_;
-    std::vector<LightView> views_;
+    std::vector<LightView> views_;           // drawn last
+    std::vector<std::vector<bool>> casters_; // that were drawn into each; empty: all
     std::vector<glm::mat4> atlasFromWorld_;
     std::vector<glm::vec4> inner_; // per tile: its outermost texel centres, low and high, in [0, 1] of the atlas
 };

@@ -61,6 +61,25 @@ TEST(Axes, ALightViewAngleOfZeroIsAMinersHeadlampAndOneOf180FacesTheCamera) {
     }
 }
 
+TEST(Axes, AFacingAngleIsThatOfTheTwoAxesWhileTheCameraStays) {
+    for (const std::string id : {"dueling-frusta", "overlapping-occluders", "windmills"}) {
+        Scene scene = loadScene(id, Profile::Gate);
+        const Camera camera = scene.camera;
+        const Axis& axis = axisNamed("facing-angle");
+        const double widest = axis.most(scene);
+        for (const double degrees : {0.0, 60.0, 139.0, widest}) {
+            axis.move(scene, degrees);
+            EXPECT_NEAR(angleToEye(scene), degrees, 1e-6) << id;
+        }
+        const glm::dvec3 light =
+            scene.light.kind == LightKind::Directional ? -scene.light.direction : scene.light.centre - camera.target;
+        EXPECT_NEAR(light.y, 0, 1e-9) << id; // level with what the camera looks at
+        EXPECT_EQ(scene.camera, camera);
+        EXPECT_THROW(axis.move(scene, widest + 1), BadInput) << id;
+        EXPECT_THROW(axis.move(scene, -1), BadInput) << id;
+    }
+}
+
 TEST(Axes, AnElevationTurnsTheLightInItsOwnBearingAndAnAreaLightKeepsItsShape) {
     Scene scene = loadScene("overlapping-occluders", Profile::Gate);
     const Light before = scene.light;

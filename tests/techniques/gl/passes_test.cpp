@@ -111,7 +111,8 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"planar-hard", {"G-buffer", "receiver stencil", "projected casters"}},
         {"sm-uniform", {"G-buffer", "depth map", "resolve"}},
         {"sm-midpoint", {"G-buffer", "depth map", "second depth", "resolve"}},
-        {"sm-cascaded", {"G-buffer", "depth map", "resolve"}},
+        {"sm-cascaded", {"G-buffer", "receiver bounds", "depth map", "resolve"}},
+        {"sm-cascaded:fit=view", {"G-buffer", "depth map", "resolve"}},
         {"sm-tiled", {"G-buffer", "depth map", "demands", "tile choice", "resolve"}}, // the depth map twice
         {"sm-adaptive:cache=off", {"G-buffer", "demands", "refinement", "depth map", "resolve"}},
         {"sm-history", {"G-buffer", "depth map", "temporal resolve"}},
