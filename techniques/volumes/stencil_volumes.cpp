@@ -144,6 +144,12 @@ std::array<StencilVolumes::Draws, 2> StencilVolumes::byTest(Draws draws) {
 void StencilVolumes::count(const Frame& frame, Draws draws) const {
     const auto pass = frame.pass("stencil count");
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    drawCounting(draws);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+/// Each by its own test.
+void StencilVolumes::drawCounting(Draws draws) const {
     glEnable(GL_STENCIL_TEST);
     glDepthFunc(GL_LESS);
     for (const Draws& part : byTest(draws)) {
@@ -152,7 +158,6 @@ void StencilVolumes::count(const Frame& frame, Draws draws) const {
         drawVolumes(part);
     }
     glDisable(GL_STENCIL_TEST);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 /// Depth is tested and clamped, not written.
@@ -192,11 +197,7 @@ std::vector<BarePass> StencilVolumes::bare(const gl::Texture& depthStencil) cons
                      const gl::RenderTarget target({&depthStencil});
                      target.clearStencil();
                      target.bind();
-                     glEnable(GL_STENCIL_TEST);
-                     setStencilOperations(test_);
-                     glDepthFunc(GL_LESS);
-                     drawVolumes(0, draws_.size());
-                     glDisable(GL_STENCIL_TEST);
+                     drawCounting(draws_);
                  }},
             {.pass = "resolve",
              .source = "Zápotocký 2.4: where the count is 0",

@@ -84,6 +84,7 @@ private:
     void appendVolume(const VolumeMesh& mesh, std::size_t placement, VolumeTest test, const glm::dvec4& objectLight);
     [[nodiscard]] static std::array<Draws, 2> byTest(Draws draws);
     void count(const Frame& frame, Draws draws) const;
+    void drawCounting(Draws draws) const;
     void drawVolumes(Draws draws) const;
     [[nodiscard]] std::uint64_t fragmentsPassing(unsigned depthFunction, Draws draws, const gl::Texture& depthStencil) const;
     void drawCaps(const Draw& draw) const;

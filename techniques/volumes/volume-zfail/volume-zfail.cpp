@@ -32,9 +32,9 @@ public:
     }
 
     [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        if (!infinite_) return volumes_.bare(frame.gbuffer.depthStencil());
+        if (far_ == FarPlane::OfCamera) return volumes_.bare(frame.gbuffer.depthStencil());
         std::vector<BarePass> passes = volumes_.bare(*ownDepth_);
-        BarePass depth = bareDepthMap("course, 3.2.1: depth under P_inf", frame.size.x, infiniteClip(frame));
+        BarePass depth = bareDepthMap("course, 3.2.1: depth under P_inf", frame.size.x, clipFromWorld(frame, far_));
         depth.pass = "depth prepass";
         depth.size = frame.size;
         passes.insert(passes.begin(), depth);
