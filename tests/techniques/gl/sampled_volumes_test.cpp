@@ -93,6 +93,15 @@ TEST(SampledVolumes, FiguresAreSumsOverTheSamples) {
     EXPECT_EQ(stage.visibility(), before);
 }
 
+TEST(SampledVolumes, CountedAsEachCasterAllowsAreTheSameImageOfFewerTriangles) { // course, Everitt–Kilgard 3.4
+    const Scene scene = overlapScene();
+    Stage stage(scene);
+    stage.show(0);
+    const std::string perCaster = "sampled-volumes:n=9,test=per-caster", byDepthFail = "sampled-volumes:n=9,test=zfail";
+    EXPECT_EQ(rendered(stage, perCaster), rendered(stage, byDepthFail));
+    EXPECT_LT(figuresOf(stage, perCaster).at("volume_triangles"), figuresOf(stage, byDepthFail).at("volume_triangles"));
+}
+
 TEST(SampledVolumes, ByExclusiveOrAreWrongWhereVolumesOverlap) { // Zápotocký 2.4.5
     const Scene scene = overlapScene();
     Stage stage(scene);
