@@ -1,6 +1,8 @@
 #include "techniques/filtered/prefiltered_map.h"
 
+#include "base/error.h"
 #include "techniques/contract/resolve.h"
+#include "techniques/gl/api.h"
 #include "techniques/shared/maps/single_map.h"
 
 #include <algorithm>
@@ -10,7 +12,8 @@
 namespace shadowbench::techniques {
 namespace {
 
-constexpr int widest = 8; // texels of a box that are read one by one
+constexpr int widest = 8;       // texels of a box that are read one by one
+constexpr std::size_t run = 16; // texels of a column that an invocation of filtered/columns.comp writes
 
 /// The view with `rim` texels of `side` left free on every side of the map.
 LightView withFreeRim(LightView view, int rim, int side) {
@@ -19,8 +22,7 @@ LightView withFreeRim(LightView view, int rim, int side) {
     return view;
 }
 
-/// The view with depth counted from its near plane on. A directional light's own has no origin, and a linear depth map keeps
-/// the sign of its depths for something else.
+/// The view with depth counted from its near plane on: a directional light's own has no origin.
 LightView withDepthFromNear(LightView view) {
     if (view.perspective) return view;
     view.depthFromWorld.w -= view.near;
@@ -29,13 +31,85 @@ LightView withDepthFromNear(LightView view) {
     return view;
 }
 
-/// One of the box's two passes.
-gl::Program boxPass(const BoxFilter& box, bool alongX) {
+/// Numbers that a texel of the format holds.
+int numbersOf(gl::Format format) {
+    if (format == gl::Format::R32F) return 1;
+    return format == gl::Format::RG32F ? 2 : 4;
+}
+
+/// Texels that the first of the box's passes writes into one of four numbers.
+int packed(const Basis& basis) { return 4 / numbersOf(basis.format); }
+
+/// Textures that one draw writes.
+int texturesAtOnce(const Basis& basis) {
+    for (const int count : {8, 4, 2})
+        if (basis.textures % count == 0) return count;
+    return 1;
+}
+
+gl::Defines boxDefines(const BoxFilter& box, const Basis& basis) {
     int reach = 0;
     while (boxWeight(box.width, reach + 1) > 0) ++reach;
-    gl::Defines defines{{"REACH", std::to_string(reach)}};
-    if (alongX) defines.emplace_back("ALONG_X", "1");
-    return gl::Program::screen("filtered/box.frag", defines);
+    return {{"WIDTH", std::to_string(box.width)}, {"REACH", std::to_string(reach)}, {"PACK", std::to_string(packed(basis))}};
+}
+
+/// A format as shaders and GL name it where texels are stored into.
+struct ImageFormat {
+    std::string name;
+    GLenum internal;
+};
+
+ImageFormat imageFormat(gl::Format format) {
+    switch (format) {
+    case gl::Format::RGBA8:
+        return {"rgba8", GL_RGBA8};
+    case gl::Format::R32F:
+        return {"r32f", GL_R32F};
+    case gl::Format::RG32F:
+        return {"rg32f", GL_RG32F};
+    case gl::Format::RGBA32F:
+        return {"rgba32f", GL_RGBA32F};
+    default:
+        throw InternalError("a prefiltered map cannot be stored in this format");
+    }
+}
+
+/// The first of the box's two passes.
+gl::Program rowsPass(const BoxFilter& box, const Basis& basis, std::size_t textures) {
+    gl::Defines defines = boxDefines(box, basis);
+    defines.emplace_back("LEVEL", std::to_string(box.level));
+    defines.emplace_back("TEXTURES", std::to_string(textures));
+    defines.insert(defines.end(), basis.defines.begin(), basis.defines.end());
+    return gl::Program::screen(basis.file, defines);
+}
+
+/// The second one.
+gl::Program columnsPass(const BoxFilter& box, const Basis& basis) {
+    gl::Defines defines = boxDefines(box, basis);
+    defines.emplace_back("FORMAT", imageFormat(basis.format).name);
+    return gl::Program::compute("filtered/columns.comp", defines);
+}
+
+std::vector<gl::Texture> rowTextures(const Basis& basis, glm::ivec2 size) {
+    const gl::Format format = basis.format == gl::Format::RGBA8 ? gl::Format::RGBA8 : gl::Format::RGBA32F;
+    const int pack = packed(basis);
+    std::vector<gl::Texture> rows;
+    for (int i = 0; i < texturesAtOnce(basis); ++i)
+        rows.emplace_back(format, glm::ivec2((size.x + pack - 1) / pack, size.y));
+    return rows;
+}
+
+gl::RenderTarget targetOf(const std::vector<gl::Texture>& t) {
+    switch (t.size()) {
+    case 8:
+        return gl::RenderTarget{t.data(), &t[1], &t[2], &t[3], &t[4], &t[5], &t[6], &t[7]};
+    case 4:
+        return gl::RenderTarget{t.data(), &t[1], &t[2], &t[3]};
+    case 2:
+        return gl::RenderTarget{t.data(), &t[1]};
+    default:
+        return gl::RenderTarget{t.data()};
+    }
 }
 
 /// From clip space to pixels.
@@ -78,65 +152,49 @@ std::vector<Parameter> prefilteredMapParameters() {
 
 PrefilteredMap::PrefilteredMap(const Parameters& parameters, const Basis& basis)
     : box_(boxFilter(parameters.integer("kernel"))), depth_(parameters.integer("map"), biasFrom(parameters)),
-      stored_(basis.format, {depth_.side(), depth_.side()}, basis.layers),
-      filtered_(basis.format, glm::ivec2(sideAt(box_.level, depth_.side())), basis.layers),
-      rows_(basis.format, filtered_.size()), rowsTarget_{&rows_}, basis_(gl::Program::screen(basis.file, basis.defines)),
-      alongX_(boxPass(box_, true)), alongY_(boxPass(box_, false)) {}
+      format_(basis.format), filtered_(basis.format, glm::ivec2(sideAt(box_.level, depth_.side())), basis.textures),
+      rows_(rowTextures(basis, filtered_.size())), rowMeans_(rowsPass(box_, basis, rows_.size())),
+      means_(columnsPass(box_, basis)) {}
 
 void PrefilteredMap::draw(const Frame& frame) {
     light_ = withFreeRim(withDepthFromNear(uniformView(frame)), freeRim(box_), depth_.side());
     depth_.draw(light_, frame);
-    storeBasis(frame);
-    blur(frame);
-}
-
-void PrefilteredMap::storeBasis(const Frame& frame) {
-    const auto pass = frame.pass("basis");
-    basis_.set("linearDepth", depth_.texture()).set("depthRange", glm::vec2(light_.near, light_.far));
-    for (int layer = 0; layer < stored_.layers(); ++layer) {
-        if (basis_.uses("layer")) basis_.set("layer", layer);
-        const gl::RenderTarget target(stored_, layer);
-        target.bind();
-        basis_.drawScreen();
-    }
-}
-
-void PrefilteredMap::blur(const Frame& frame) {
     const auto pass = frame.pass("blur");
-    if (box_.level > 0) stored_.makeMipmaps();
-    for (int layer = 0; layer < stored_.layers(); ++layer) filter(layer);
+    depth_.bindUnitTo(rowMeans_);
+    const auto atOnce = static_cast<int>(rows_.size());
+    for (int first = 0; first < filtered_.layers(); first += atOnce) {
+        blurRows(first);
+        for (int i = 0; i < atOnce; ++i) blurColumns(rows_[static_cast<std::size_t>(i)], first + i);
+    }
     filtered_.makeMipmaps();
 }
 
-void PrefilteredMap::filter(int layer) {
-    const auto width = static_cast<float>(box_.width);
-    alongX_.set("stored", stored_).set("layer", layer).set("level", box_.level).set("width", width);
-    rowsTarget_.bind();
-    alongX_.drawScreen();
+void PrefilteredMap::blurRows(int firstTexture) {
+    if (rowMeans_.uses("firstTexture")) rowMeans_.set("firstTexture", firstTexture);
+    targetOf(rows_).bind();
+    rowMeans_.drawScreen();
+}
 
-    alongY_.set("rows", rows_).set("width", width);
-    const gl::RenderTarget target(filtered_, layer);
-    target.bind();
-    alongY_.drawScreen();
+void PrefilteredMap::blurColumns(const gl::Texture& rows, int layer) {
+    means_.set("rows", rows);
+    glBindImageTexture(0, filtered_.id(), 0, GL_FALSE, layer, GL_WRITE_ONLY, imageFormat(format_).internal);
+    const std::size_t runs = (static_cast<std::size_t>(rows.size().y) + run - 1) / run;
+    means_.dispatch(static_cast<std::size_t>(rows.size().x) * runs);
 }
 
 std::vector<BarePass> PrefilteredMap::bare(const Frame& frame, const std::string& source) const {
-    const gl::Format format = rows_.format();
-    const glm::ivec2 side = stored_.size(), filteredSide = filtered_.size();
-    const int width = static_cast<int>(std::ceil(box_.width));
+    const glm::ivec2 side(depth_.side()), filteredSide = filtered_.size();
     std::vector<BarePass> passes{bareDepthMap("course, Shadow Mapping", depth_.side(), light_.clipFromWorld)};
-    const auto screen = [&](std::string_view pass, glm::ivec2 size, const Taps& taps) {
-        passes.push_back({.pass = pass, .source = source, .size = size, .targets = {format}, .taps = {taps}});
+    const auto blur = [&](glm::ivec2 size, const Taps& taps) {
+        passes.push_back({.pass = "blur", .source = source, .size = size, .targets = {format_}, .taps = {taps}});
     };
-    const bool drawnAtOnce = stored_.layers() == 1; // the casters write it
-    if (drawnAtOnce) passes[0].targets.insert(passes[0].targets.begin(), format);
     std::vector<Taps> reads;
-    for (int layer = 0; layer < stored_.layers(); ++layer) {
-        if (!drawnAtOnce) screen("basis", side, {gl::Format::Depth32F, side, Read::Pixel});
-        for (int axis = 0; axis < 2; ++axis) screen("blur", filteredSide, {format, filteredSide, Read::Nearest, width});
+    for (int layer = 0; layer < filtered_.layers(); ++layer) {
+        blur({filteredSide.x, side.y}, {gl::Format::Depth32F, side, Read::Nearest});
+        blur(filteredSide, {format_, {filteredSide.x, side.y}, Read::Nearest});
         // All smaller levels together have a third of the texels, each the mean of four.
-        screen("blur", {filteredSide.x / 2, 2 * filteredSide.y / 3}, {format, filteredSide, Read::Linear});
-        reads.push_back({format, filteredSide, Read::Linear});
+        blur({filteredSide.x / 2, 2 * filteredSide.y / 3}, {format_, filteredSide, Read::Linear});
+        reads.push_back({format_, filteredSide, Read::Linear});
     }
     passes.push_back(bareLookup("resolve", source, frame.size, std::move(reads)));
     return passes;
@@ -152,10 +210,8 @@ void PrefilteredMap::bindTo(gl::Program& resolve, const Frame& frame) const {
 }
 
 void PrefilteredMap::bindDepthsTo(gl::Program& resolve) const {
-    resolve.set("linearDepth", depth_.texture())
-        .set("depthRange", glm::vec2(light_.near, light_.far))
-        .set("level", box_.level)
-        .set("width", static_cast<float>(box_.width));
+    depth_.bindUnitTo(resolve);
+    resolve.set("level", box_.level).set("width", static_cast<float>(box_.width));
 }
 
 } // namespace shadowbench::techniques

@@ -7,7 +7,7 @@
 #include "techniques/contract/technique.h"
 #include "techniques/gl/program.h"
 #include "techniques/gl/texture.h"
-#include "techniques/shared/maps/linear_depth_map.h"
+#include "techniques/shared/maps/linearised_map.h"
 
 #include <glm/vec4.hpp>
 #include <string>
@@ -15,8 +15,8 @@
 
 namespace shadowbench::techniques {
 
-/// How a box of `kernel` texels per side is averaged at the same cost whatever its width: over mipmapped texels of 2^level
-/// texels each, `width` of them per side. The widest boxes at level 0 are 8 texels, all others are 4 to 8 of their level's.
+/// How a box of `kernel` texels per side is averaged at the same cost whatever its width: over means of 2^level texels per
+/// side, `width` of them per side. The widest boxes at level 0 are 8 texels, all others are 4 to 8 of their level's.
 struct BoxFilter {
     int level;
     double width;
@@ -35,12 +35,12 @@ glm::dvec4 unitDepthFromWorld(const LightView& light);
 /// `map`, `kernel`, `bias`, `factor` and `units`: the parameters of every technique over a prefiltered map.
 std::vector<Parameter> prefilteredMapParameters();
 
-/// What a texel stores.
+/// What a texel stores: up to four numbers in each of `textures` textures of one format.
 struct Basis {
-    std::string file; // fragment shader over filtered/basis.glsl
+    std::string file; // fragment shader over filtered/rows.glsl
     gl::Defines defines;
     gl::Format format;
-    int layers;
+    int textures;
 };
 
 class PrefilteredMap {
@@ -48,10 +48,11 @@ public:
     /// `parameters` hold prefilteredMapParameters.
     PrefilteredMap(const Parameters& parameters, const Basis& basis);
 
-    /// The basis's program, for uniforms of its own.
-    gl::Program& basis() { return basis_; }
+    /// The program of the basis, for uniforms of its own.
+    gl::Program& basis() { return rowMeans_; }
 
-    /// Draws the frame's scene into a map of linear depth fitted to all of it, stores the basis of each depth and blurs it.
+    /// Draws the frame's scene into a map of depths fitted to all of it ("depth map"), and means of the basis of each depth
+    /// over the box, with mipmaps ("blur").
     void draw(const Frame& frame);
 
     /// Sets what filtered/prefiltered_map.glsl reads.
@@ -62,25 +63,24 @@ public:
         return texelAt(light_, world, glm::dvec2(depth_.side()));
     }
 
-    /// The least that the frame drawn last needs: the casters, the box along both axes, mipmaps, and a filtered read of each
-    /// layer for a pixel, which `source` asks for.
+    /// The least that the frame drawn last needs: the casters, the box along both axes with one read of each texel (running
+    /// sums), mipmaps, and a filtered read of each texture for a pixel, which `source` asks for.
     [[nodiscard]] std::vector<BarePass> bare(const Frame& frame, const std::string& source) const;
 
-    /// Sets the uniforms of the unfiltered depths: linearDepth, depthRange, and the box's level and width.
+    /// Sets the uniforms of the unfiltered depths (filtered/unit_depth.glsl), and the box's level and width.
     void bindDepthsTo(gl::Program& resolve) const;
 
 private:
-    void storeBasis(const Frame& frame);
-    void blur(const Frame& frame);
-    void filter(int layer);
+    void blurRows(int firstTexture);
+    void blurColumns(const gl::Texture& rows, int layer);
 
     BoxFilter box_;
-    LinearDepthMap depth_;
+    LinearisedMap depth_;
     LightView light_;
-    gl::TextureArray stored_, filtered_;
-    gl::Texture rows_; // filtered along x only
-    gl::RenderTarget rowsTarget_;
-    gl::Program basis_, alongX_, alongY_;
+    gl::Format format_;
+    gl::TextureArray filtered_;
+    std::vector<gl::Texture> rows_; // means along x, for as many of the textures as are drawn at once
+    gl::Program rowMeans_, means_;
 };
 
 } // namespace shadowbench::techniques

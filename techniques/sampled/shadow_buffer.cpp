@@ -1,6 +1,7 @@
 #include "techniques/sampled/shadow_buffer.h"
 
 #include "techniques/contract/resolve.h"
+#include "techniques/gl/api.h"
 #include "techniques/shared/sampling/sampling.h"
 
 #include <algorithm>
@@ -9,6 +10,37 @@
 #include <utility>
 
 namespace shadowbench::techniques {
+namespace {
+
+/// `origin`: the shadow buffer's pixel that the G-buffer's first one is.
+void setGBuffer(gl::Program& program, const gl::GBuffer& gbuffer, glm::ivec2 origin) {
+    program.set("positions", gbuffer.position())
+        .set("previousPositions", gbuffer.previousPosition())
+        .set("gbufferOrigin", glm::vec2(origin));
+    if (program.uses("normals")) program.set("normals", gbuffer.normal());
+}
+
+/// Stencil 1 in all but the border.
+void markInner(const gl::GBuffer& gbuffer) {
+    const gl::RenderTarget target({&gbuffer.depthStencil()});
+    target.clearStencil();
+    const glm::ivec2 inner = gbuffer.size() - 2 * gbuffer.border();
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(gbuffer.border(), gbuffer.border(), inner.x, inner.y);
+    constexpr GLint one = 1;
+    glClearBufferiv(GL_STENCIL, 0, &one);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+/// The full-screen pass in a rectangle alone.
+void drawScissored(const gl::Program& program, glm::ivec2 at, glm::ivec2 size) {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(at.x, at.y, size.x, size.y);
+    program.drawScreen();
+    glDisable(GL_SCISSOR_TEST);
+}
+
+} // namespace
 
 std::vector<Parameter> shadowBufferParameters() {
     return {
@@ -36,8 +68,10 @@ LightView lightSampleView(const Frame& frame) {
 }
 
 ShadowBuffer::Images::Images(glm::ivec2 size, int border)
-    : inner(size), gbuffer(size, border), read(gl::Format::RGBA16F, gbuffer.size(), gl::Filter::Linear),
-      write(gl::Format::RGBA16F, gbuffer.size(), gl::Filter::Linear), shown(gl::Format::R32F, gbuffer.size()) {}
+    : inner(size), overscan(size, border), read(gl::Format::RGBA16F, overscan.size(), gl::Filter::Linear),
+      write(gl::Format::RGBA16F, overscan.size(), gl::Filter::Linear), shown(gl::Format::R32F, overscan.size()) {
+    markInner(overscan);
+}
 
 ShadowBuffer::ShadowBuffer(const Parameters& parameters)
     : epsilon_(static_cast<float>(parameters.real("epsilon"))), overscan_(parameters.real("overscan")),
@@ -46,17 +80,28 @@ ShadowBuffer::ShadowBuffer(const Parameters& parameters)
 void ShadowBuffer::begin(const Frame& frame) {
     if (!images_ || images_->inner != frame.size)
         images_.emplace(frame.size, static_cast<int>(std::ceil(0.5 * overscan_ * frame.size.x)));
+    if (images_->overscan.border() == 0) return;
     const auto pass = frame.pass("overscan G-buffer");
-    images_->gbuffer.draw(frame.scene, frame.clipFromWorld);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_EQUAL, 0, 0xFF);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    images_->overscan.draw(frame.scene, frame.clipFromWorld);
+    glDisable(GL_STENCIL_TEST);
 }
 
 void ShadowBuffer::update(const Frame& frame, gl::Program& program, const gl::Texture& visibility) {
     setReprojection(frame, program);
-    resolve(frame, {&images_->shown, &images_->write}, program, "temporal resolve");
+    {
+        const auto pass = frame.pass("temporal resolve");
+        const gl::RenderTarget target({&images_->shown, &images_->write});
+        target.bind();
+        drawInner(frame, program);
+        drawOverscan(program);
+    }
     std::swap(images_->read, images_->write);
     images_->fresh = false;
 
-    copy_.set("wide", images_->shown).set("border", gbuffer().border());
+    copy_.set("wide", images_->shown).set("border", images_->overscan.border());
     resolve(frame, {&visibility}, copy_, "crop");
 }
 
@@ -77,14 +122,30 @@ void ShadowBuffer::setReprojection(const Frame& frame, gl::Program& program) con
     const auto plane = [](const glm::dvec3& axis, const glm::dvec3& eye) {
         return glm::vec4(glm::dvec4(axis, -glm::dot(axis, eye)));
     };
-    program.set("positions", gbuffer().position())
-        .set("previousPositions", gbuffer().previousPosition())
-        .set("shadowBuffer", images_->read)
-        .set("previousClipFromWorld", glm::mat4(gbuffer().widened(frame.previousClipFromWorld)))
+    program.set("shadowBuffer", images_->read)
+        .set("previousClipFromWorld", glm::mat4(images_->overscan.widened(frame.previousClipFromWorld)))
         .set("eyeDepth", plane(forward, camera.eye))
         .set("previousEyeDepth", plane(previousForward, frame.snapshot.previousCamera.eye))
         .set("epsilon", epsilon_)
         .set("hasHistory", images_->fresh ? 0 : 1);
+}
+
+void ShadowBuffer::drawInner(const Frame& frame, gl::Program& program) const {
+    const int border = images_->overscan.border();
+    const glm::ivec2 size = images_->inner;
+    setGBuffer(program, frame.gbuffer, glm::ivec2(border));
+    drawScissored(program, glm::ivec2(border), size);
+}
+
+void ShadowBuffer::drawOverscan(gl::Program& program) const {
+    const int border = images_->overscan.border();
+    if (border == 0) return;
+    const glm::ivec2 wide = images_->overscan.size(), inner = images_->inner;
+    setGBuffer(program, images_->overscan, glm::ivec2(0));
+    drawScissored(program, {0, 0}, {wide.x, border});
+    drawScissored(program, {0, wide.y - border}, {wide.x, border});
+    drawScissored(program, {0, border}, {border, inner.y});
+    drawScissored(program, {wide.x - border, border}, {border, inner.y});
 }
 
 } // namespace shadowbench::techniques

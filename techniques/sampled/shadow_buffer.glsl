@@ -4,6 +4,7 @@
 #include "gl/receiver.glsl"
 #include "sampled/estimators.glsl"
 
+uniform vec2 gbufferOrigin;      // the pixel of the shadow buffer that the G-buffer begins at
 uniform sampler2D previousPositions;
 uniform sampler2D shadowBuffer;  // ρ, n, linear eye depth, and what the technique keeps beside them; n = 0: background
 uniform mat4 previousClipFromWorld;
@@ -23,6 +24,11 @@ bool sameDepth(float now, float before) {
 #endif
 }
 
+/// Of the G-buffer.
+ivec2 ownPixel() {
+    return ivec2(gl_FragCoord.xy - gbufferOrigin);
+}
+
 float depthFromEye(Receiver receiver) {
     return dot(eyeDepth, vec4(receiver.position, 1.0));
 }
@@ -35,7 +41,7 @@ struct Remembered {
 };
 
 Remembered remembered() {
-    vec3 before = texelFetch(previousPositions, ivec2(gl_FragCoord.xy), 0).xyz;
+    vec3 before = texelFetch(previousPositions, ownPixel(), 0).xyz;
     vec4 h = previousClipFromWorld * vec4(before, 1.0);
     vec2 at = h.xy / h.w * 0.5 + 0.5;
     bool inside = hasHistory == 1 && all(greaterThanEqual(at, vec2(0.0))) && all(lessThanEqual(at, vec2(1.0)));

@@ -37,11 +37,8 @@ public:
 
     void reset() { images_.reset(); }
 
-    /// Draws the frame's G-buffer with overscan, as a pass "overscan G-buffer".
+    /// Draws what the overscan adds to the frame's G-buffer, as a pass "overscan G-buffer".
     void begin(const Frame& frame);
-
-    /// Of the frame that has begun.
-    [[nodiscard]] const gl::GBuffer& gbuffer() const { return images_->gbuffer; }
 
     /// Runs `resolve`, a program over sampled/shadow_buffer.glsl with its own uniforms set, on every pixel of the buffer (a
     /// pass "temporal resolve"), and copies what it shows of the image into `visibility` (a pass "crop").
@@ -55,11 +52,13 @@ private:
         Images(glm::ivec2 size, int border);
         glm::ivec2 inner; // size of the image
         bool fresh = true;
-        gl::GBuffer gbuffer;
+        gl::GBuffer overscan; // its border alone is drawn, where the stencil is 0: the frame has the rest
         gl::Texture read, write, shown;
     };
 
     void setReprojection(const Frame& frame, gl::Program& resolve) const;
+    void drawInner(const Frame& frame, gl::Program& resolve) const;
+    void drawOverscan(gl::Program& resolve) const;
 
     float epsilon_;
     double overscan_;

@@ -6,7 +6,8 @@
 // of about 1/M of the depth range, within which an occluder is transparent, and rings beside it (Gibbs); the paper's damping
 // of high frequencies trades one for the other. Departures: the offset that lifts surfaces off their own half-lit step is
 // given in units of half the shortest wave, and the small gain that it needs is computed; depths use a little less than the
-// wave's half period; for the rest (footprint, box, linear depth) see vsm.cpp.
+// wave's half period; sines and cosines are rounded to 8 bits as means, not before; for the rest (footprint, box, linear
+// depth) see vsm.cpp.
 #include "techniques/filtered/csm-fourier/csm-fourier.h"
 
 #include "techniques/contract/entry.h"
@@ -49,7 +50,7 @@ class CsmFourier final : public Technique {
 public:
     explicit CsmFourier(const Parameters& p)
         : terms_(p.integer("terms")), damping_(p.real("damping")), offset_(0.5 * p.real("offset") / terms_),
-          map_(p, {"filtered/csm-fourier/basis.frag", {}, gl::Format::RGBA8, terms_ / 2}), resolve_(program({})) {
+          map_(p, {"filtered/csm-fourier/waves.frag", {}, gl::Format::RGBA8, terms_ / 2}), resolve_(program({})) {
         map_.basis().set("usedDepth", static_cast<float>(usedDepth(terms_)));
         resolve_.set("gain", static_cast<float>(litGain(terms_, damping_, offset_)));
     }

@@ -4,8 +4,8 @@
 uniform float c;
 
 #ifdef PCF_BEYOND
-uniform sampler2D linearDepth;  // metres, negative: moving caster
-uniform vec2 depthRange;       // near and far
+#include "filtered/unit_depth.glsl"
+
 uniform float tolerance;       // of the exponential test above 1
 uniform int level;             // of the box's texels: 2^level of the map's
 uniform float width;           // of the box in those
@@ -22,7 +22,7 @@ vec2 planeSlope(vec3 world, vec3 normal) {
 float percentageCloser(FilteredReceiver r) {
     vec3 normal = normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);
     vec2 slope = planeSlope(receiverAt(gl_FragCoord.xy).position, normal);
-    vec2 size = vec2(textureSize(linearDepth, 0));
+    vec2 size = vec2(textureSize(windowDepths, 0));
     ivec2 middle = ivec2(floor(r.at * size));
     int reach = int(0.5 * width);
     float passed = 0.0;
@@ -30,8 +30,7 @@ float percentageCloser(FilteredReceiver r) {
         for (int x = -reach; x <= reach; ++x) {
             vec2 texel = (vec2(middle + ivec2(x, y) * (1 << level)) + 0.5) / size;
             vec2 offset = texel - r.at;  // to where the texel's depth was taken
-            float depth = abs(texture(linearDepth, texel).r);
-            float unit = (depth - depthRange.x) / (depthRange.y - depthRange.x);
+            float unit = unitDepth(texture(windowDepths, texel).r);
             passed += unit >= r.depth + dot(slope, offset) ? 1.0 : 0.0;
         }
     return passed / float((2 * reach + 1) * (2 * reach + 1));

@@ -1,9 +1,7 @@
-#include "filtered/basis.glsl"
-
 uniform float c;
 
-out float stored;
-
-void main() {
-    stored = exp(c * unitDepth());
+vec4[TEXTURES] storedOf(float depth) {
+    return vec4[](vec4(exp(c * depth)));
 }
+
+#include "filtered/rows.glsl"

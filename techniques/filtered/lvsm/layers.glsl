@@ -4,7 +4,7 @@ uniform float overlap;  // of a layer's thickness, into each neighbour
 float layerDepth(float depth, int index) {
     float low = (float(index) - (index > 0 ? overlap : 0.0)) / float(LAYERS);
     float high = (float(index + 1) + (index + 1 < LAYERS ? overlap : 0.0)) / float(LAYERS);
-    return clamp((depth - low) / (high - low), 0.0, 1.0);
+    return clamp((depth - low) * (1.0 / (high - low)), 0.0, 1.0);
 }
 
 /// The layer that a receiver at `depth` is tested in.

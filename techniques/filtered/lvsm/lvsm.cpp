@@ -3,7 +3,8 @@
 // Occluders of nearer layers then have no variance among them, and their edges do not leak. What is left is the leak of
 // occluders that share the receiver's layer. Layers overlap: a receiver has room to occluders that its layer clamps to 0,
 // and what its kernel holds behind it is not yet clamped to 1. Departures: layers have equal thickness, where the paper also
-// places them by Lloyd's algorithm over the depths of the image; 32-bit floats, where the paper's layers need fewer bits;
+// places them by Lloyd's algorithm over the depths of the image; 32-bit floats, where the paper's layers need fewer bits,
+// and two layers in each texture;
 // for the rest see vsm.cpp.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
@@ -17,10 +18,9 @@ namespace {
 class Lvsm final : public Technique {
 public:
     explicit Lvsm(const Parameters& p)
-        : map_(p, {"filtered/lvsm/moments.frag", defines(p), gl::Format::RG32F, p.integer("layers")}),
-          resolve_(gl::Program::screen("filtered/lvsm/lvsm.frag", defines(p))) {
+        : map_(p, basis(p)), resolve_(gl::Program::screen("filtered/lvsm/lvsm.frag", defines(p))) {
         const auto overlap = static_cast<float>(p.real("overlap"));
-        map_.basis().set("overlap", overlap);
+        if (map_.basis().uses("overlap")) map_.basis().set("overlap", overlap); // not with one layer
         resolve_.set("overlap", overlap).set("leastVariance", static_cast<float>(p.real("variance")));
     }
 
@@ -37,6 +37,13 @@ public:
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return map_.pointAt(world); }
 
 private:
+    /// Two layers in each texture of four numbers.
+    static Basis basis(const Parameters& p) {
+        const int layers = p.integer("layers");
+        const gl::Format format = layers == 1 ? gl::Format::RG32F : gl::Format::RGBA32F;
+        return {"filtered/lvsm/moments.frag", defines(p), format, (layers + 1) / 2};
+    }
+
     static gl::Defines defines(const Parameters& p) { return {{"LAYERS", p.text("layers")}}; }
 
     PrefilteredMap map_;

@@ -11,5 +11,7 @@ void main() {
     visibility = 1.0;
     if (!receiver.known) return;
     int layer = layerOf(receiver.depth);
-    visibility = chebyshevBound(filtered(receiver, layer).rg, layerDepth(receiver.depth, layer), leastVariance);
+    vec4 moments = filtered(receiver, layer / 2);  // of two layers
+    vec2 own = layer % 2 == 0 ? moments.xy : moments.zw;
+    visibility = chebyshevBound(own, layerDepth(receiver.depth, layer), leastVariance);
 }

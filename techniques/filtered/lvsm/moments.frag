@@ -1,11 +1,13 @@
-#include "filtered/basis.glsl"
+// Two layers in each texture.
 #include "filtered/lvsm/layers.glsl"
 
-uniform int layer;
-
-out vec2 moments;
-
-void main() {
-    float depth = layerDepth(unitDepth(), layer);
-    moments = vec2(depth, depth * depth);
+vec4[TEXTURES] storedOf(float depth) {
+    vec4 moments[TEXTURES];
+    for (int target = 0; target < TEXTURES; ++target) {
+        vec2 layers = vec2(layerDepth(depth, 2 * target), layerDepth(depth, 2 * target + 1));
+        moments[target] = vec4(layers.x, layers.x * layers.x, layers.y, layers.y * layers.y);
+    }
+    return moments;
 }
+
+#include "filtered/rows.glsl"

@@ -1,8 +1,5 @@
-#include "filtered/basis.glsl"
-
-out vec2 moments;
-
-void main() {
-    float depth = unitDepth();
-    moments = vec2(depth, depth * depth);
+vec4[TEXTURES] storedOf(float depth) {
+    return vec4[](vec4(depth, depth * depth, 0.0, 0.0));
 }
+
+#include "filtered/rows.glsl"

@@ -2,10 +2,12 @@
 // averaged over a box and mipmapped; the visible share is bounded by Chebyshev's inequality. Exact for one occluder and one
 // receiver that are parallel to the map. Where kernels hold two occluders the bound is not tight and light leaks through the
 // nearer one's penumbra: the technique's known failure. Departures: 32-bit floats, which the paper's 16-bit hardware lacked;
-// depth is linear, 0 at the nearest and 1 at the farthest point of the scene; the box is separable and wide ones are taken
-// over mipmapped texels, so that its cost does not grow with it; footprints of pixels are read anisotropically; a box's rim
-// of texels around the scene stays free; the texel's own slope is not added to the second moment, since a kernel's mean over
-// a plane is the plane's depth. `bleeding` (Lauritzen 2007) is off: it hides leaks by darkening every penumbra.
+// depth is linear, 0 at the nearest and 1 at the farthest point of the scene; moments are
+// taken of the depths where the box is begun, and no texture of them unfiltered is written; the box is separable and wide
+// ones are taken over means of several texels, so that its cost does not grow with it; footprints of pixels are read
+// anisotropically; a box's rim of texels around the scene stays free; the texel's own slope is not added to the second
+// moment, since a kernel's mean over a plane is the plane's depth. `bleeding` (Lauritzen 2007) is off: it hides leaks by
+// darkening every penumbra.
 #include "techniques/filtered/vsm/vsm.h"
 
 #include "techniques/contract/entry.h"

@@ -4,7 +4,7 @@
 uniform sampler2DShadow depthMap;
 
 void main() {
-    Receiver receiver = receiverAt(gl_FragCoord.xy);
+    Receiver receiver = receiverAt(vec2(ownPixel()));
     if (!receiver.seen) {
         showBackground();
         return;

@@ -4,9 +4,11 @@
 // 16+16. While the estimated standard error is at least 1/50 what is shown is smoothed over the estimated penumbra; the
 // buffer is not. Departures: eq. 4.6's near/depth projection is written as pixels per metre at the receiver; the filter's
 // disk has the penumbra width as its diameter and takes neighbours whose depth agrees by eq. 4.8; the tolerance of eq. 4.8,
-// which the dissertation leaves open, is a parameter.
+// which the dissertation leaves open, is a parameter; that a shadow moves is read from a second map, of the casters that
+// move alone, where the dissertation keeps a sign in the one map, so that this one is drawn as depth alone.
 #include "techniques/contract/entry.h"
 #include "techniques/sampled/shadow_buffer.h"
+#include "techniques/sampled/temporal-soft/moving_casters.h"
 #include "techniques/shared/filters/pcss_program.h"
 #include "techniques/shared/sampling/sampling.h"
 
@@ -27,6 +29,7 @@ public:
     explicit TemporalSoft(const Parameters& p)
         : start_(p.integer("start")), threshold_(static_cast<float>(p.real("threshold"))),
           followPlane_(p.text("bias") == "slope"), buffer_(p), map_(p.integer("map"), biasFrom(p)),
+          movingCasters_(p.integer("map"), drawnBias(biasFrom(p))),
           resolve_(gl::Program::screen("sampled/temporal-soft/temporal-soft.frag", defines(p))) {}
 
     void reset() override { buffer_.reset(); }
@@ -35,6 +38,7 @@ public:
         buffer_.begin(frame);
         const LightView view = lightSampleView(frame);
         map_.draw(view, frame);
+        movingCasters_.draw(view, frame);
         setPcss(resolve_, startTaps, frame.snapshot.light, view, map_, followPlane_);
         setFilter(frame);
         buffer_.update(frame, resolve_, visibility);
@@ -58,7 +62,7 @@ private:
         const double lightSize = 0.5 * (glm::length(light.u) + glm::length(light.v));
         const double fovy = glm::radians(frame.snapshot.camera.fovy);
         const double pixelsPerMetre = 0.5 * frame.size.y / std::tan(0.5 * fovy); // at unit distance
-        resolve_.set("normals", buffer_.gbuffer().normal())
+        resolve_.set("movingDepths", movingCasters_.texture())
             .set("lightSizeInPixels", static_cast<float>(lightSize * pixelsPerMetre))
             .set("neighbourTaps", neighbours)
             .set("threshold", threshold_)
@@ -69,7 +73,8 @@ private:
     float threshold_;
     bool followPlane_;
     ShadowBuffer buffer_;
-    LinearDepthMap map_;
+    LinearisedMap map_;
+    MovingCasters movingCasters_;
     gl::Program resolve_;
 };
 

@@ -3,19 +3,21 @@
 #include "shared/filters/pcss.glsl"
 
 uniform sampler2D normals;
+uniform sampler2D movingDepths;  // of the casters that move alone, as windowDepths holds those of all
 uniform float lightSizeInPixels; // at unit distance from the eye
 uniform vec2 neighbourTaps[NEIGHBOUR_TAPS];  // in the unit disk
 uniform float threshold;
 uniform float start;
 
-/// Smoothed ψ over a disk of the penumbra's projected width (eq. 4.6) around `at`, over neighbours of the same depth.
-float neighbourhoodFilter(vec2 at, float own, float depth, float lightDepth, float blockerDepth) {
+/// Smoothed ψ over a disk of the penumbra's projected width (eq. 4.6) around `at`, over those of the first `taps` neighbours that have
+/// the same depth.
+float neighbourhoodFilter(vec2 at, float own, float depth, float lightDepth, float blockerDepth, int taps) {
     float penumbra = lightSizeInPixels / depth * (lightDepth - blockerDepth) / blockerDepth;
     vec2 radius = 0.5 * penumbra / vec2(textureSize(shadowBuffer, 0));
     float sum = own;
     float taken = 1.0;
-    for (int i = 0; i < NEIGHBOUR_TAPS; ++i) {
-        vec4 neighbour = texture(shadowBuffer, at + neighbourTaps[i] * radius);
+    for (int i = 0; i < taps; ++i) {
+        vec4 neighbour = texture(shadowBuffer, at + neighbourTaps[min(i, NEIGHBOUR_TAPS - 1)] * radius);
         if (neighbour.y < 0.5 || !sameDepth(depth, neighbour.z)) continue;
         sum += neighbour.x / neighbour.y;
         taken += 1.0;
@@ -24,41 +26,46 @@ float neighbourhoodFilter(vec2 at, float own, float depth, float lightDepth, flo
 }
 
 void main() {
-    Receiver receiver = receiverAt(gl_FragCoord.xy);
+    Receiver receiver = receiverAt(vec2(ownPixel()));
     if (!receiver.seen) {
         showBackground();
         return;
     }
-    vec3 normal = normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);
+    vec3 normal = normalize(texelFetch(normals, ownPixel(), 0).xyz);
     LightReceiver r = lightReceiver(receiver.position, normal);
     float depth = depthFromEye(receiver);
 
     // The hard test against this frame's sample of the light.
-    float mapDepth = texture(linearDepth, r.at).r;
-    float tau = !r.behind && abs(mapDepth) < r.depth ? 1.0 : 0.0;
-    bool movingShadow = tau == 1.0 && mapDepth < 0.0;
+    float mapDepth = linearDepthAt(r.at);
+    float tau = !r.behind && mapDepth < r.depth ? 1.0 : 0.0;
+    bool movingShadow = tau == 1.0 && texture(movingDepths, r.at).r <= texture(windowDepths, r.at).r;
 
     Remembered old = remembered();
-    if (old.known && !movingShadow) {
-        vec2 counts = withSample(old.values.xy, tau);
-        float n = counts.y;
-        float blocker = old.values.w;
+    bool anew = !old.known || movingShadow;
+
+    // New, or under a moving shadow: PCSS, which counts for `start` samples. What most pixels do without is a loop whose length is 0 for
+    // them: a software rasteriser runs both sides of an `if`, but leaves a loop as soon as none of its pixels is in it.
+    float startBlocker = averageBlockerDepth(r, anew && !r.behind ? SEARCH_TAPS : 0);
+    float startVisibility = pcssVisibility(r, startBlocker, startBlocker > 0.0 && start > 0.0 ? FILTER_TAPS : 0);
+
+    vec2 counts;
+    float psi, blocker;
+    bool smoothed;
+    if (anew) {
+        float n = max(start, 1.0);
+        psi = start > 0.0 ? 1.0 - startVisibility : tau;
+        counts = vec2(psi * n, n);
+        blocker = startBlocker;
+        smoothed = movingShadow && old.inside;
+    } else {
+        counts = withSample(old.values.xy, tau);
+        blocker = old.values.w;
         if (tau == 1.0)
-            blocker = blocker > 0.0 ? blockerUpdate(blocker, abs(mapDepth), n, float(SEARCH_TAPS)) : abs(mapDepth);
-        newShadowBuffer = toHalf(vec4(counts, depth, blocker));
-
-        float psi = occlusionEstimate(counts.x, n);
-        float standardError = sqrt(occlusionVariance(psi, n));
-        if (standardError >= threshold && blocker > 0.0) psi = neighbourhoodFilter(old.at, psi, depth, r.depth, blocker);
-        visibility = 1.0 - psi;
-        return;
+            blocker = blocker > 0.0 ? blockerUpdate(blocker, mapDepth, counts.y, float(SEARCH_TAPS)) : mapDepth;
+        psi = occlusionEstimate(counts.x, counts.y);
+        smoothed = sqrt(occlusionVariance(psi, counts.y)) >= threshold;
     }
-
-    // New, or under a moving shadow: PCSS, which counts for `start` samples.
-    float blocker = r.behind ? -1.0 : averageBlockerDepth(r);
-    float psi = start > 0.0 ? 1.0 - pcssVisibility(r, blocker) : tau;
-    float n = max(start, 1.0);
-    newShadowBuffer = toHalf(vec4(psi * n, n, depth, blocker));
-    if (movingShadow && old.inside && blocker > 0.0) psi = neighbourhoodFilter(old.at, psi, depth, r.depth, blocker);
-    visibility = 1.0 - psi;
+    newShadowBuffer = toHalf(vec4(counts, depth, blocker));
+    int neighbours = smoothed && blocker > 0.0 ? NEIGHBOUR_TAPS : 0;
+    visibility = 1.0 - neighbourhoodFilter(old.at, psi, depth, r.depth, blocker, neighbours);
 }

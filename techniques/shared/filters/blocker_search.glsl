@@ -1,13 +1,14 @@
 // What blocks a receiver before a map of linear depth, and how far blocker search and filter of percentage-closer soft shadows reach.
 #include "shared/maps/light_receiver.glsl"
+#include "shared/maps/linearised_map.glsl"
 
-uniform sampler2D linearDepth;   // negative: moving caster
 uniform vec2 lightHalfSize;      // half the light's sides along map x and y, metres
 uniform vec2 mapSpan;            // width and height of the map at unit depth
 uniform float nearDepth;         // no caster is nearer to the light
 
 bool blocks(float mapDepth, LightReceiver r, vec2 offset) {
-    return abs(mapDepth) < planeDepth(r, offset);
+    // depth < 1 / (1 / depth of the plane), without the division.
+    return mapDepth < nothingInTheWay && mapDepth * planeInverseDepth(r, offset) < 1.0;
 }
 
 /// Half the sides of the light's projection from the receiver onto the near plane of the map, in map x and y: blockers lie in it.

@@ -17,17 +17,17 @@ gl::Defines PcssTaps::defines() const {
     return {{"SEARCH_TAPS", std::to_string(search)}, {"FILTER_TAPS", std::to_string(filter)}};
 }
 
-void setBlockerSearch(gl::Program& program, const Light& light, const LightView& view, const LinearDepthMap& map,
+void setBlockerSearch(gl::Program& program, const Light& light, const LightView& view, const LinearisedMap& map,
                       bool followPlane) {
     setLightReceiver(program, view, followPlane);
-    program.set("linearDepth", map.texture())
-        .set("lightHalfSize", 0.5F * glm::vec2(glm::length(light.u), glm::length(light.v)))
+    map.bindTo(program);
+    program.set("lightHalfSize", 0.5F * glm::vec2(glm::length(light.u), glm::length(light.v)))
         .set("mapSpan", glm::vec2(view.span))
         .set("nearDepth", static_cast<float>(view.near));
 }
 
-void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view,
-             const LinearDepthMap& map, bool followPlane) {
+void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view, const LinearisedMap& map,
+             bool followPlane) {
     const Region region = light.kind == LightKind::Disk ? Region::Disk : Region::Square;
     const auto points = [&](int count) {
         return taps.grid ? gridTaps(static_cast<int>(std::lround(std::sqrt(count)))) : poissonTaps(count, region);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "techniques/gl/program.h"
-#include "techniques/shared/maps/linear_depth_map.h"
+#include "techniques/shared/maps/linearised_map.h"
 
 #include <glm/vec2.hpp>
 #include <string>
@@ -20,11 +20,11 @@ struct PcssTaps {
 };
 
 /// Light size and map geometry.
-void setBlockerSearch(gl::Program& program, const Light& light, const LightView& view, const LinearDepthMap& map,
+void setBlockerSearch(gl::Program& program, const Light& light, const LightView& view, const LinearisedMap& map,
                       bool followPlane);
 
 /// The same and tap positions: Poisson taps over the light's own shape, or grids.
-void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view,
-             const LinearDepthMap& map, bool followPlane);
+void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view, const LinearisedMap& map,
+             bool followPlane);
 
 } // namespace shadowbench::techniques

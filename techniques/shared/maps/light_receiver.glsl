@@ -29,8 +29,12 @@ LightReceiver lightReceiver(vec3 world, vec3 normal) {
     return r;
 }
 
-/// Depth of the receiver's plane beside the receiver's own texel.
+/// 1 / depth of the receiver's plane beside the receiver's own texel; 0 and less where it never comes before the light.
+float planeInverseDepth(LightReceiver r, vec2 offset) {
+    return 1.0 / r.depth + dot(r.inverseSlope, offset);
+}
+
 float planeDepth(LightReceiver r, vec2 offset) {
-    float inverse = 1.0 / r.depth + dot(r.inverseSlope, offset);
+    float inverse = planeInverseDepth(r, offset);
     return inverse > 0.0 ? 1.0 / inverse : 1e30;
 }

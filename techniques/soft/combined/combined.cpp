@@ -63,7 +63,7 @@ private:
     bool followPlane_;
     JitterTable filter_, search_;
     LightView view_;
-    LinearDepthMap map_;
+    LinearisedMap map_;
     gl::Program resolve_;
 };
 

@@ -10,8 +10,8 @@ out float visibility;
 
 /// Depth and 1 of the blocker at `offset` from the receiver; zero where there is none.
 vec2 blockerAt(LightReceiver r, vec2 offset) {
-    float depth = texture(linearDepth, r.at + offset).r;
-    return blocks(depth, r, offset) ? vec2(abs(depth), 1.0) : vec2(0.0);
+    float depth = linearDepthAt(r.at + offset);
+    return blocks(depth, r, offset) ? vec2(depth, 1.0) : vec2(0.0);
 }
 
 /// Step 1: mean depth of the blockers in the search window; −1 if there is none.
@@ -26,7 +26,7 @@ float meanBlockerDepth(LightReceiver r) {
 }
 
 float testAt(LightReceiver r, vec2 offset) {
-    return blocks(texture(linearDepth, r.at + offset).r, r, offset) ? 0.0 : 1.0;
+    return blocks(linearDepthAt(r.at + offset), r, offset) ? 0.0 : 1.0;
 }
 
 /// Steps 2 and 3. Without blockers no tap is taken.

@@ -2,7 +2,8 @@
 // 1. blocker search  2. penumbra width from similar triangles (eq. 3.3)  3. PCF over that width.
 // Departures: the search window is the light's own projection on the map's near plane, where the thesis scales an empirical
 // offset; a rectangular light has its own width along each side (the thesis's 4.4.1 interpolates a ratio by angle); with
-// bias=slope every tap is compared with the receiver's plane, without which wide kernels shadow every slanted surface.
+// bias=slope every tap is compared with the receiver's plane, without which wide kernels shadow every slanted surface. The
+// map is drawn as depth alone and made linear where it is read.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/filters/pcss_program.h"
@@ -36,7 +37,7 @@ private:
     PcssTaps taps_;
     bool followPlane_;
     LightView view_;
-    LinearDepthMap map_;
+    LinearisedMap map_;
     gl::Program resolve_;
 };
 

@@ -11,5 +11,5 @@ void main() {
     if (!receiver.seen) return;
     LightReceiver r = lightReceiver(receiver.position, normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz));
     if (r.behind) return;
-    visibility = pcssVisibility(r, averageBlockerDepth(r));
+    visibility = pcssVisibility(r, averageBlockerDepth(r, SEARCH_TAPS), FILTER_TAPS);
 }

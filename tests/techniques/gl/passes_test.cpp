@@ -120,7 +120,7 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"sm-alias-free", {"G-buffer", "pixel lists", "triangle tests", "resolve"}},
         {"volume-zfail", {"G-buffer", "silhouette volumes", "stencil count", "resolve"}},
         {"volume-zfail:far=infinity", {"G-buffer", "depth prepass", "silhouette volumes", "stencil count", "resolve"}},
-        {"vsm", {"G-buffer", "depth map", "basis", "blur", "resolve"}},
+        {"vsm", {"G-buffer", "depth map", "blur", "resolve"}},
         {"pcf-blur", {"G-buffer", "depth map", "resolve", "blur"}}, // the blur twice
         {"deep-sm", {"G-buffer", "depth map", "deep texture", "resolve"}},
         {"single-sample", {"G-buffer", "depth map", "tile ids", "neighbourhood search"}},
