@@ -61,9 +61,9 @@ public:
     [[nodiscard]] virtual std::vector<BarePass> bare([[maybe_unused]] const Frame& frame) const { return {}; }
 
     /// Where `world` lies in the map that it was tested against in the frame rendered last: in texels, continuous within a
-    /// map; how several maps lie to each other does not matter. Nothing where no map holds the point (beside it, behind the
-    /// light) and from techniques without a map. The shader computes the same point on its own: a test compares the two
-    /// (tests/techniques/gl/map_point_test.cpp).
+    /// map; how several maps lie to each other does not matter, nor does a normal offset, which moves a plane's points
+    /// alike. Nothing where no map holds the point (beside it, behind the light) and from techniques without a map. The
+    /// shader computes the same point on its own: a test compares the two (tests/techniques/gl/map_point_test.cpp).
     [[nodiscard]] virtual std::optional<glm::dvec2> mapPoint([[maybe_unused]] const glm::dvec3& world) const { return {}; }
 };
 

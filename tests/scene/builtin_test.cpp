@@ -33,6 +33,15 @@ TEST(SceneBuiltin, TheStandardScenesComeFirstInTheirOrder) {
     EXPECT_THROW(builtinSceneText("none"), BadInput);
 }
 
+// A technique with a history is no worse for its first frame. Scenes about motion score the frames in which something moves.
+TEST(SceneBuiltin, HistoriesConvergeForAsLongAsInTheStandardScenes) {
+    for (const std::string& id : builtinScenes()) {
+        const Scene scene = loadScene(id, Profile::Gate);
+        if (scene.light.isEnvironment() || id.starts_with("moving-") || id == "light-jump") continue;
+        EXPECT_EQ(scene.timeline.still, 60) << id;
+    }
+}
+
 class StandardScenes : public testing::TestWithParam<std::tuple<std::string, Profile>> {
 protected:
     [[nodiscard]] Scene load() const { return loadScene(std::get<0>(GetParam()), std::get<1>(GetParam())); }

@@ -27,11 +27,11 @@ inline std::vector<glm::vec4> evaluated(const std::string& chunk, const std::str
                              "    result = vec4(" +
                              expression + ");\n}\n";
     gl::Program program = gl::Program::screenFromText("evaluated " + chunk, text, defines);
+    const gl::Texture results(gl::Format::RGBA32F, {static_cast<int>(inputs.size()), 1}); // before others are bound
     if (prepare) prepare(program);
     gl::Buffer buffer;
     buffer.upload(inputs.data(), inputs.size() * sizeof(glm::vec4));
     buffer.bindStorage(7);
-    const gl::Texture results(gl::Format::RGBA32F, {static_cast<int>(inputs.size()), 1});
     const gl::RenderTarget target({&results});
     target.bind();
     program.drawScreen();

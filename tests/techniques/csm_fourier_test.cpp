@@ -72,6 +72,33 @@ TEST(LitGain, LiftsASurfaceToOneAndLeavesAnUndampedSeriesAlone) {
     EXPECT_EQ(litGain(16, 0, 0.5 / 16), 1);
 }
 
+// Sine and cosine are rounded to 8 bits as they are stored and twice as they are filtered, each time by half of 2/255 at
+// most.
+TEST(LitGain, HasRoomForAllRoundingAtTheDefaultOffsetAndNotMuchBelow) {
+    constexpr int terms = 16;
+    double rounding = 0;
+    for (int k = 1; k <= terms; ++k)
+        rounding += fourierDamping(k, terms, 1) * 2 / fourierFrequency(k) * std::sqrt(2.0) * 3 / 255;
+    const auto darkest = [&](double offset) {
+        const double x = 0.5 * offset / terms;
+        return litGain(terms, 1, x) * (fourierStep(x, terms, 1) - rounding);
+    };
+    EXPECT_GE(darkest(0.5), 1);
+    EXPECT_LT(darkest(0.4), 1);
+}
+
+TEST(LitGain, AnOccluderNearerThanTheStepIsLostAndHalvingTheOffsetHalvesTheStep) {
+    const auto halfLit = [](double offset) { // in 1/(2M) of the depth range
+        double gap = 0;
+        const double x = 0.5 * offset / 16;
+        while (litGain(16, 1, x) * fourierStep(x - 0.5 * gap / 16, 16, 1) > 0.5) gap += 0.001;
+        return gap;
+    };
+    EXPECT_NEAR(halfLit(1), 1.02, 0.01);
+    EXPECT_NEAR(halfLit(0.5), 0.64, 0.01);
+    EXPECT_NEAR(halfLit(0.25), 0.49, 0.01);
+}
+
 TEST(UsedDepth, KeepsTheWholeRangeOffTheWavesNextStep) {
     for (const int terms : {4, 8, 16, 32})
         for (const double side : {-1.0, 1.0}) { // the offset included

@@ -184,6 +184,30 @@ TEST(Lispsm, IsUnwarpedInDuellingFrusta) {
     EXPECT_NEAR(glm::distance(a, b), glm::distance(b, c), 1e-6); // equal steps stay equal: no perspective
 }
 
+TEST(Lispsm, IsTheFocusedMapInDuellingFrusta) {
+    for (const Light& light : {sun({0.02, 0, 1}), Light{LightKind::Point, {1, 2, -30}, {0, 0, 1}, {}, {}}}) {
+        Snapshot scene = slabScene(light);
+        const glm::dmat4 up = glm::translate(glm::dmat4(1), glm::dvec3(-6, 1.2, -5));
+        scene.batches.push_back({std::make_shared<Mesh>(box({1, 2.3, 1})), {}, false, {{up, up, 2}}});
+        scene.camera.eye = {1, 2, 10}; // on the point light's line of sight
+        scene.camera.target = {1, 2, -10};
+        if (light.kind == LightKind::Directional) scene.camera.target = scene.camera.eye - light.direction;
+        EXPECT_EQ(fitLispsm(light, scene, scene.camera, 1).clipFromWorld,
+                  fitFocused(light, scene, scene.camera, 1).clipFromWorld);
+    }
+}
+
+TEST(Lispsm, RowsOfTheMapLieAcrossTheViewAlsoWhereTheSceneIsOblong) {
+    const Light light = sun({0.4, -1, 0.3});
+    Snapshot scene = slabScene(light);
+    scene.batches.front().mesh = std::make_shared<Mesh>(box({60, 0.1, 20}));
+    const LightView view = fitLispsm(light, scene, scene.camera, 1);
+    const glm::dvec3 p(1.5, 0.05, -2);
+    const glm::dvec3 across = glm::normalize(glm::cross(light.direction, scene.camera.basis().forward));
+    EXPECT_NEAR(mapped(view, p + across).y, mapped(view, p).y, 1e-9);
+    EXPECT_GT(std::abs(mapped(view, p + across).x - mapped(view, p).x), 0.01);
+}
+
 TEST(Jitter, CoversTheSamePointsAfterAnyTurnAndShift) {
     const Light light{LightKind::Point, {3, 25, 4}, {0, -1, 0}, {}, {}};
     const LightView view = fitToScene(light, slabScene(light));

@@ -5,9 +5,10 @@
 // that several occluders do not leak as under a variance shadow map. Few terms are the known failure: the step has a width
 // of about 1/M of the depth range, within which an occluder is transparent, and rings beside it (Gibbs); the paper's damping
 // of high frequencies trades one for the other. Departures: the offset that lifts surfaces off their own half-lit step is
-// given in units of half the shortest wave, and the small gain that it needs is computed; depths use a little less than the
-// wave's half period; sines and cosines are rounded to 8 bits as means, not before; for the rest (footprint, box, linear
-// depth) see vsm.cpp.
+// given in units of half the shortest wave, and the gain that it needs is computed; a smaller offset hides less of the
+// shadow where things touch and needs more gain, which narrows penumbrae and magnifies 8-bit rounding: the default is about
+// the least whose lit surfaces no rounding darkens; depths use a little less than the wave's half period; sines and cosines
+// are rounded to 8 bits as means, not before; for the rest (footprint, box, linear depth) see vsm.cpp.
 #include "techniques/filtered/csm-fourier/csm-fourier.h"
 
 #include "techniques/contract/entry.h"
@@ -109,7 +110,7 @@ Entry csmFourier() {
     parameters.push_back(
         {"damping", "1", RealRange{0, 8}, "of high frequencies: term k weighs exp(-damping (k/M)^2)", "Annen et al. 2007"});
     parameters.push_back(
-        {"offset", "1", RealRange{0.25, 1}, "of receivers towards the light, in 1/(2M) of the depth range", ""});
+        {"offset", "0.5", RealRange{0.25, 1}, "of receivers towards the light, in 1/(2M) of the depth range", ""});
     return {.id = "csm-fourier",
             .title = "Convolution shadow map",
             .source = {Document::Dissertation, "2.2.1"},
@@ -117,7 +118,7 @@ Entry csmFourier() {
             .parameters = std::move(parameters),
             .figures = {{"overshoot", "largest excess of the Fourier sum above 1 or below 0 in the image (1 = full light)"},
                         {"ringing", "root mean square of that excess over the pixels that the map holds"}},
-            .variants = {""},
+            .variants = {"", "kernel=3"},
             .make = [](const Parameters& p) { return std::make_unique<CsmFourier>(p); }};
 }
 

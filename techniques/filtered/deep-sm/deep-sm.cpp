@@ -5,7 +5,7 @@
 // as in the paper. Departures: all surfaces are opaque, so that a sample's own function is a single step; the samples are
 // the centres of a regular grid (a finer depth map), where the paper jitters them; a texel's filter is its own area, and the
 // lookup interpolates four texels, where the paper also offers wider filters and mipmaps; with bias=slope samples are offset
-// by the slope of a whole texel and texels are read at the depth of the receiver's plane, else a texel's samples shade the
+// by slopes of whole texels and texels are read at the depth of the receiver's plane, else a texel's samples shade the
 // surface they lie on; in the compression the last segment ends as close to the true function as its error window allows,
 // where the paper takes the middle of the window for all: what is fully shadowed stays dark.
 #include "techniques/contract/entry.h"
@@ -17,7 +17,7 @@
 namespace shadowbench::techniques {
 namespace {
 
-/// Half a texel is samples / 2 of the sampled map's texels in x and in y: the factor of a bias that clears a texel's plane.
+/// A slope per texel is as many slopes per texel of the sampled map as a texel has samples.
 Bias textureBias(const Parameters& p) {
     Bias bias = biasFrom(p);
     bias.factor *= static_cast<float>(p.integer("samples"));
@@ -77,7 +77,7 @@ private:
 } // namespace
 
 Entry deepSm() {
-    std::vector<Parameter> parameters = depthMapParameters(512);
+    std::vector<Parameter> parameters = depthMapParameters();
     parameters.front().domain = IntegerRange{16, 1024}; // eight times as many depths per side are drawn at most
     parameters.insert(parameters.begin() + 1,
                       {{"samples", "4", OneOf{{"1", "2", "4", "8"}}, "per side of a texel", ""},

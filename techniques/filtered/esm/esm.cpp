@@ -64,7 +64,7 @@ Entry esm() {
             .source = {Document::Dissertation, "2.2.1"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
-            .variants = {""},
+            .variants = {"", "kernel=3"},
             .make = [](const Parameters& p) { return std::make_unique<Esm>(p); }};
 }
 

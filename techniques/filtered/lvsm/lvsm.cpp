@@ -63,7 +63,7 @@ Entry lvsm() {
             .source = {Document::Dissertation, "2.2.1"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
-            .variants = {""},
+            .variants = {"", "kernel=3"},
             .make = [](const Parameters& p) { return std::make_unique<Lvsm>(p); }};
 }
 

@@ -1,9 +1,7 @@
-#include "gl/receiver.glsl"
 #include "shared/filters/jitter_table.glsl"
-#include "shared/maps/light_space.glsl"
+#include "shared/maps/tested_point.glsl"
 
 uniform sampler2DShadow depthMap;
-uniform sampler2D normals;
 uniform sampler2D jitter;
 uniform float followPlane;  // 1: taps are compared with the receiver's plane, 0: with the receiver's depth
 uniform float radius;       // texels
@@ -33,9 +31,8 @@ float jitteredVisibility(MapPoint point, vec2 slope) {
 
 void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
-    MapPoint point = mapPoint(receiver.position);
+    MapPoint point = testedPoint(receiver);
     visibility = 1.0;
     if (!receiver.seen || point.behind) return;
-    vec3 normal = normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);
-    visibility = jitteredVisibility(point, followPlane * receiverPlaneSlope(receiver.position, normal, point.at));
+    visibility = jitteredVisibility(point, followPlane * receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at));
 }

@@ -1,24 +1,31 @@
 // Percentage-closer filtering over a Poisson disk (Reeves, Salesin, Cook 1987; Scherzer 2.2.1): the share of a disk's shadow
 // tests that pass, the disk turned by an angle of each pixel's own, so that too few taps show as noise instead of bands. The
 // angle is a hash of pixel and seed: the noise stands still with the camera. Departures: the disk is a round of texels
-// around the receiver, where the paper projects the pixel into the map; as for `pcf`, with bias=slope each tap is compared
-// with the depth of the receiver's plane at the tap.
+// around the receiver, where the paper projects the pixel into the map; as for `pcf`, with a bias that follows slopes each
+// tap is compared with the depth of the receiver's plane at the tap.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/maps/bare_map.h"
+#include "techniques/shared/maps/normal_offset.h"
 #include "techniques/shared/maps/single_map.h"
 #include "techniques/shared/sampling/sampling.h"
 
 namespace shadowbench::techniques {
 namespace {
 
+gl::Defines definesOf(const Parameters& p) {
+    gl::Defines defines = normalOffsetDefines(biasFrom(p));
+    defines.emplace_back("TAPS", p.text("taps"));
+    return defines;
+}
+
 class PcfPoisson final : public Technique {
 public:
     explicit PcfPoisson(const Parameters& p)
         : taps_(poissonTaps(p.integer("taps"), Region::Disk)), radius_(static_cast<float>(p.real("radius"))),
-          turned_(p.text("rotate") == "pixel"), followPlane_(p.text("bias") == "slope"),
-          map_(p.integer("map"), biasFrom(p), Lookup::Compare),
-          resolve_(gl::Program::screen("filtered/pcf-poisson/pcf-poisson.frag", {{"TAPS", p.text("taps")}})) {}
+          turned_(p.text("rotate") == "pixel"), followPlane_(followsPlane(p)), bias_(biasFrom(p)),
+          map_(p.integer("map"), bias_, Lookup::Compare),
+          resolve_(gl::Program::screen("filtered/pcf-poisson/pcf-poisson.frag", definesOf(p))) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         light_ = uniformView(frame);
@@ -32,6 +39,7 @@ public:
             .set("radius", radius_)
             .set("turned", turned_ ? 1 : 0)
             .set("seed", static_cast<int>(frame.seed));
+        setNormalOffset(resolve_, frame, bias_, map_.texture().size());
         resolve(frame, {&visibility}, resolve_);
     }
 
@@ -48,6 +56,7 @@ private:
     std::vector<glm::vec2> taps_;
     float radius_;
     bool turned_, followPlane_;
+    Bias bias_;
     LightView light_;
     DepthMap map_;
     gl::Program resolve_;
@@ -56,11 +65,11 @@ private:
 } // namespace
 
 Entry pcfPoisson() {
-    std::vector<Parameter> parameters = withDepthMapParameters({
+    std::vector<Parameter> parameters = withNormalOffset(withDepthMapParameters({
         {"taps", "16", IntegerRange{4, 64}, "taps of the disk", "dissertation 2.2.1"},
         {"radius", "3.5", RealRange{0.5, 32}, "of the disk in texels; 3.5 reaches as far as pcf:kernel=7", ""},
         {"rotate", "pixel", OneOf{{"none", "pixel"}}, "turn the disk by an angle of each pixel's own", ""},
-    });
+    }));
     return {.id = "pcf-poisson",
             .title = "Percentage-closer filtering over a Poisson disk",
             .source = {Document::Dissertation, "2.2.1"},

@@ -1,8 +1,6 @@
-#include "gl/receiver.glsl"
-#include "shared/maps/light_space.glsl"
+#include "shared/maps/tested_point.glsl"
 
 uniform sampler2DShadow depthMap;
-uniform sampler2D normals;
 uniform float followPlane;  // 1: taps are compared with the receiver's plane, 0: with the receiver's depth
 uniform vec2 disk[TAPS];    // in the unit disk
 uniform float radius;       // texels
@@ -30,11 +28,10 @@ float diskVisibility(MapPoint point, vec2 slope, mat2 turn) {
 
 void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
-    MapPoint point = mapPoint(receiver.position);
+    MapPoint point = testedPoint(receiver);
     visibility = 1.0;
     if (!receiver.seen || point.behind) return;
-    vec3 normal = normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);
-    vec2 slope = followPlane * receiverPlaneSlope(receiver.position, normal, point.at);
+    vec2 slope = followPlane * receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at);
     float angle = turned != 0 ? angleOf(uvec2(gl_FragCoord.xy)) : 0.0;
     visibility = diskVisibility(point, slope, mat2(cos(angle), sin(angle), -sin(angle), cos(angle)));
 }

@@ -16,7 +16,7 @@ Parameter storedDepthParameter();
 /// The map that `depth`, `map` and the bias's parameters ask for.
 std::unique_ptr<ShadowMap> storedDepthMap(const Parameters& parameters, Lookup lookup);
 
-/// `kernel`, `depth`, `map`, `bias`, `factor` and `units`.
+/// `kernel`, `depth`, `map`, `bias` (with `normal-offset`), `factor` and `units`.
 std::vector<Parameter> pcfParameters();
 
 /// `pcf` with these parameters.

@@ -60,7 +60,7 @@ Entry vsm() {
             .source = {Document::Dissertation, "2.2.1"},
             .answer = Answer::Filtered,
             .parameters = std::move(parameters),
-            .variants = {""},
+            .variants = {"", "kernel=3"},
             .make = [](const Parameters& p) { return std::make_unique<Vsm>(p); }};
 }
 

@@ -11,7 +11,7 @@ Entry smFocused() {
             .title = "Shadow map, focused",
             .source = {Document::Dissertation, "2.2, Fig. 2.5"},
             .answer = Answer::Hard,
-            .parameters = depthMapParameters(),
+            .parameters = singleMapParameters(),
             .variants = {""},
             .make = [](const Parameters& p) { return makeSingleMap(p, focusedView); }};
 }

@@ -8,6 +8,7 @@
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/maps/bare_map.h"
+#include "techniques/shared/maps/normal_offset.h"
 #include "techniques/shared/maps/single_map.h"
 #include "techniques/shared/sampling/sampling.h"
 
@@ -28,13 +29,24 @@ double MSchedule::next(bool moved) {
 
 namespace {
 
+FitView viewOf(const std::string& base) {
+    if (base == "uniform") return uniformView;
+    return base == "focused" ? focusedView : lispsmView;
+}
+
+gl::Defines definesOf(Bias bias, bool filtered) {
+    gl::Defines defines = normalOffsetDefines(bias);
+    defines.emplace_back("KERNEL", filtered ? "3" : "1");
+    return defines;
+}
+
 class History final : public Technique {
 public:
     explicit History(const Parameters& p)
-        : fit_(p.text("base") == "lispsm" ? lispsmView : uniformView), jitter_(p.text("jitter")),
-          filtered_(p.text("filter") == "pcf"), followPlane_(p.text("bias") == "slope"),
-          map_(p.integer("map"), biasFrom(p), Lookup::Compare), schedule_(p.real("m"), p.real("step")),
-          resolve_(gl::Program::screen("maps/sm-history/sm-history.frag", {{"KERNEL", filtered_ ? "3" : "1"}})) {}
+        : fit_(viewOf(p.text("base"))), jitter_(p.text("jitter")), filtered_(p.text("filter") == "pcf"),
+          followPlane_(followsPlane(p)), bias_(biasFrom(p)), map_(p.integer("map"), bias_, Lookup::Compare),
+          schedule_(p.real("m"), p.real("step")),
+          resolve_(gl::Program::screen("maps/sm-history/sm-history.frag", definesOf(bias_, filtered_))) {}
 
     void reset() override {
         history_.reset();
@@ -56,6 +68,7 @@ public:
             .set("previousClipFromWorld", glm::mat4(frame.previousClipFromWorld))
             .set("m", static_cast<float>(schedule_.next(frame.cameraMoved())))
             .set("hasHistory", fresh ? 0 : 1);
+        setNormalOffset(resolve_, frame, bias_, map_.texture().size());
         if (filtered_) resolve_.set("normals", frame.gbuffer.normal()).set("followPlane", followPlane_ ? 1.0F : 0.0F);
         resolve(frame, {&visibility, &history_->write}, resolve_, "temporal resolve");
         std::swap(history_->read, history_->write);
@@ -99,6 +112,7 @@ private:
     FitView fit_;
     std::string jitter_;
     bool filtered_, followPlane_;
+    Bias bias_;
     LightView light_;
     DepthMap map_;
     MSchedule schedule_;
@@ -109,14 +123,15 @@ private:
 } // namespace
 
 Entry smHistory() {
-    std::vector<Parameter> parameters = withDepthMapParameters({
-        {"base", "lispsm", OneOf{{"uniform", "lispsm"}}, "how the map under the history is fitted", "EGSR paper, 4"},
+    std::vector<Parameter> parameters = withNormalOffset(withDepthMapParameters({
+        {"base", "lispsm", OneOf{{"uniform", "focused", "lispsm"}}, "how the map under the history is fitted",
+         "EGSR paper, 4"},
         {"filter", "none", OneOf{{"none", "pcf"}}, "of each frame's test: none or PCF 3×3", "EGSR paper, Fig. 6"},
         {"m", "3", RealRange{0, 64}, "exponent of the confidence while the camera moves", "EGSR paper, 3.3"},
         {"step", "0.1", RealRange{0, 16}, "added to m for each frame that the camera stands still", "EGSR paper, 4"},
         {"jitter", "rotation", OneOf{{"none", "translation", "rotation"}}, "none, Halton translation, or with rotation too",
          "EGSR paper, 3.3"},
-    });
+    }));
     return {.id = "sm-history",
             .title = "Pixel-correct shadow map with history",
             .source = {Document::PixelCorrectPaper, "3, listing 6.1 of the dissertation"},
@@ -124,7 +139,7 @@ Entry smHistory() {
             .temporal = true,
             .parameters = std::move(parameters),
             .figures = {{"history_bytes", "bytes of history and depth for a pixel of the image, both buffers"}},
-            .variants = {"", "m=15,step=0", "base=uniform", "filter=pcf"},
+            .variants = {"", "m=15,step=0", "base=uniform", "base=focused", "filter=pcf"},
             .costBase = [](const Parameters& p) { return "sm-" + p.text("base") + ":map=" + p.text("map"); },
             .make = [](const Parameters& p) { return std::make_unique<History>(p); }};
 }

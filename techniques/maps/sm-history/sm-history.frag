@@ -1,12 +1,11 @@
 // One frame of pixel-correct shadow maps.
 #include "gl/half.glsl"
-#include "gl/receiver.glsl"
 #include "maps/sm-history/history.glsl"
 #include "shared/filters/pcf.glsl"
+#include "shared/maps/tested_point.glsl"
 
 uniform sampler2DShadow depthMap;
 #if KERNEL > 1
-uniform sampler2D normals;
 uniform float followPlane;            // 1: filter taps are compared with the receiver's plane
 #endif
 uniform sampler2D previousPositions;  // world position of this pixel's surface point one frame earlier
@@ -30,7 +29,7 @@ vec3 windowPosition(mat4 clip, vec3 world) {
 float currentTest(MapPoint point, vec3 world) {
     vec2 slope = vec2(0.0);
 #if KERNEL > 1
-    slope = followPlane * receiverPlaneSlope(world, normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz), point.at);
+    slope = followPlane * receiverPlaneSlope(world, normalAt(gl_FragCoord.xy), point.at);
 #endif
     return percentageCloser(depthMap, point, slope, KERNEL);
 }
@@ -42,7 +41,7 @@ void main() {
         newHistory = vec2(1.0, 1.0);
         return;
     }
-    MapPoint point = mapPoint(receiver.position);
+    MapPoint point = testedPoint(receiver);
     visibility = currentTest(point, receiver.position);
 
     vec3 before = windowPosition(previousClipFromWorld, texelFetch(previousPositions, ivec2(gl_FragCoord.xy), 0).xyz);  // eq. 3.4

@@ -12,7 +12,7 @@ Entry smLispsm() {
             .title = "Light space perspective shadow map",
             .source = {Document::Dissertation, "2.2.2"},
             .answer = Answer::Hard,
-            .parameters = depthMapParameters(),
+            .parameters = singleMapParameters(),
             .variants = {""},
             .make = [](const Parameters& p) { return makeSingleMap(p, lispsmView); }};
 }

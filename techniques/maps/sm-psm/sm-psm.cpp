@@ -24,14 +24,14 @@ PsmOptions optionsFrom(const Parameters& p) {
 } // namespace
 
 Entry smPsm() {
-    std::vector<Parameter> parameters = withDepthMapParameters({
+    std::vector<Parameter> parameters = withNormalOffset(withDepthMapParameters({
         {"behind", "negative-near", OneOf{{"lost", "move-back", "negative-near"}},
          "casters behind the eye: lost, or kept by either remedy", "course, Shadows From the Back"},
         {"shift", "0", RealRange{0, 1e4}, "metres that the virtual camera stands behind the camera",
          "course, Near/Far Selection"},
         {"fit", "box", OneOf{{"cube", "box"}}, "the map holds the whole view frustum, or the scene's box within it",
          "course, Deep Light Sources"},
-    });
+    }));
     return {.id = "sm-psm",
             .title = "Perspective shadow map",
             .source = {Document::Course, "Perspective Shadow Maps"},
@@ -41,7 +41,8 @@ Entry smPsm() {
             .variants = {""},
             .make = [](const Parameters& p) {
                 const PsmOptions options = optionsFrom(p);
-                auto map = std::make_unique<DepthMap>(p.integer("map"), biasFrom(p), Lookup::Compare,
+                const Bias bias = biasFrom(p);
+                auto map = std::make_unique<DepthMap>(p.integer("map"), bias, Lookup::Compare,
                                                       options.behindEye == BehindEye::Lost);
                 const FitView fit = [options](const Frame& frame) {
                     return fitPsm(frame.hardLight, frame.snapshot, frame.snapshot.camera, frame.aspect(), options);
@@ -50,7 +51,7 @@ Entry smPsm() {
                     const Camera eye = virtualCamera(frame.snapshot, frame.snapshot.camera, frame.aspect(), options);
                     return {{"near_depth", nearDepthShare(frame.snapshot.camera, eye, frame.aspect())}};
                 };
-                return makeSingleMap(std::move(map), fit, report);
+                return makeSingleMap(std::move(map), fit, bias, report);
             }};
 }
 

@@ -1,7 +1,7 @@
 // Shadow silhouette maps (Sen, Cammarano, Hanrahan 2003): beside the depth map a map of its dual grid that holds, for each
 // cell that an outline crosses, one point of it; four depth samples and five such points give a piecewise linear shadow
-// edge. Course, "Shadow Silhouette Maps". Departures: outlines are projected by the CPU; the slope factor of the bias is 2,
-// for four samples up to a texel away in x and y; borders of open meshes are outlines too.
+// edge. Course, "Shadow Silhouette Maps". Departures: outlines are projected by the CPU; borders of open
+// meshes are outlines too.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
@@ -11,6 +11,7 @@
 #include "techniques/shared/casters/edge_meshes.h"
 #include "techniques/shared/casters/outline.h"
 #include "techniques/shared/maps/depth_map.h"
+#include "techniques/shared/maps/normal_offset.h"
 #include "techniques/shared/maps/single_map.h"
 
 #include <glm/matrix.hpp>
@@ -25,10 +26,10 @@ namespace {
 class SilhouetteMap final : public Technique {
 public:
     explicit SilhouetteMap(const Parameters& p)
-        : map_(p.integer("map"), biasFrom(p), Lookup::Raw),
+        : bias_(biasFrom(p)), map_(p.integer("map"), bias_, Lookup::Raw),
           points_(gl::Format::RG16F, glm::ivec2(map_.side() + 1)), target_{&points_},
           edge_("maps/sm-silhouette/edge.vert", "maps/sm-silhouette/edge.frag"),
-          resolve_(gl::Program::screen("maps/sm-silhouette/sm-silhouette.frag")) {
+          resolve_(gl::Program::screen("maps/sm-silhouette/sm-silhouette.frag", normalOffsetDefines(bias_))) {
         layout_.bind();
         glBindBuffer(GL_ARRAY_BUFFER, buffer_.id());
         for (GLuint end = 0; end < 2; ++end) {
@@ -115,6 +116,7 @@ private:
         program.set("positions", frame.gbuffer.position())
             .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_.texture());
+        setNormalOffset(program, frame, bias_, map_.texture().size());
         if (program.uses("silhouetteMap")) program.set("silhouetteMap", points_);
         if (!program.uses("light")) return;
         program.set("light", glm::vec4(frame.hardLight.homogeneous())).set("normals", frame.gbuffer.normal());
@@ -130,13 +132,16 @@ private:
     /// Pixels of the image that get as far as `defines` says (sm-silhouette.frag).
     [[nodiscard]] double pixels(const Frame& frame, const gl::Defines& defines) const {
         const gl::Texture image(gl::Format::R8, frame.size);
-        gl::Program counted = gl::Program::screen("maps/sm-silhouette/sm-silhouette.frag", defines);
+        gl::Defines all = normalOffsetDefines(bias_);
+        all.insert(all.end(), defines.begin(), defines.end());
+        gl::Program counted = gl::Program::screen("maps/sm-silhouette/sm-silhouette.frag", all);
         bindTo(counted, frame);
         gl::FragmentMeter meter;
         resolve(frame, {&image}, counted);
         return static_cast<double>(meter.finish());
     }
 
+    Bias bias_;
     LightView light_;
     std::size_t edgeCount_ = 0;
     DepthMap map_;
@@ -151,14 +156,11 @@ private:
 } // namespace
 
 Entry smSilhouette() {
-    std::vector<Parameter> parameters = depthMapParameters();
-    for (Parameter& parameter : parameters)
-        if (parameter.name == "factor") parameter.defaultValue = std::string("2");
     return {.id = "sm-silhouette",
             .title = "Shadow silhouette map",
             .source = {Document::Course, "Shadow Silhouette Maps"},
             .answer = Answer::Hard,
-            .parameters = std::move(parameters),
+            .parameters = withNormalOffset(depthMapParameters()),
             .figures = {{"silhouette_branch", "share of the pixels facing the light whose four depth tests differ"},
                         {"averted_branch", "the same share of the pixels facing away from the light, which need no test"},
                         {"map_bytes", "bytes that drawing both maps reads and writes: 4 for a depth, 4 for a point"},

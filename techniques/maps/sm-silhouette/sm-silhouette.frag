@@ -2,14 +2,12 @@
 // silhouette point to those of its neighbours; each quadrant takes the test of the depth sample in its corner.
 // To be counted, with TESTED or BRANCH defined only the pixels are drawn that are tested at all, or that take the branch; with
 // FACING only those of them that face the light.
-#include "gl/receiver.glsl"
-#include "shared/maps/light_space.glsl"
+#include "shared/maps/tested_point.glsl"
 
 uniform sampler2D depthMap;
 uniform sampler2D silhouetteMap;
 
 #ifdef FACING
-uniform sampler2D normals;
 uniform vec4 light;  // homogeneous
 #endif
 
@@ -44,12 +42,11 @@ bool inWedge(vec2 a, vec2 b, vec2 p) {
 
 void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
-    MapPoint point = mapPoint(receiver.position);
+    MapPoint point = testedPoint(receiver);
     visibility = 1.0;
     if (!receiver.seen || point.behind) LEAVE;
 #ifdef FACING
-    vec3 normal = texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz;
-    if (dot(normal, light.xyz - light.w * receiver.position) <= 0.0) LEAVE;
+    if (dot(normalAt(gl_FragCoord.xy), light.xyz - light.w * receiver.position) <= 0.0) LEAVE;
 #endif
 
     vec2 dual = point.at.xy * vec2(textureSize(depthMap, 0)) + 0.5;

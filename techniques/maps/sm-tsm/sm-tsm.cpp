@@ -10,9 +10,9 @@
 namespace shadowbench::techniques {
 
 Entry smTsm() {
-    std::vector<Parameter> parameters = withDepthMapParameters(
+    std::vector<Parameter> parameters = withNormalOffset(withDepthMapParameters(
         {{"focus", "0.5", RealRange{0.01, 1},
-          "share of the visible depth that takes four fifths of the map; 0.8 and more: no warp", "Martin, Tan 2004"}});
+          "share of the visible depth that takes four fifths of the map; 0.8 and more: no warp", "Martin, Tan 2004"}}));
     return {.id = "sm-tsm",
             .title = "Trapezoidal shadow map",
             .source = {Document::Dissertation, "2.2.2, Warping"},

@@ -10,7 +10,7 @@ Entry smUniform() {
             .title = "Shadow map, uniform",
             .source = {Document::Course, "Shadow Mapping"},
             .answer = Answer::Hard,
-            .parameters = depthMapParameters(),
+            .parameters = singleMapParameters(),
             .variants = {""},
             .make = [](const Parameters& p) { return makeSingleMap(p, uniformView); }};
 }

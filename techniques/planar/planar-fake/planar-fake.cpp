@@ -1,7 +1,8 @@
 // Fake soft shadow on a plane (Zápotocký 5.2 and A.6): the shadow projected from the light's centre is drawn into a texture,
 // and each pixel of the receiver takes the mean of 7×7 lookups in it. The penumbra is as wide everywhere, whatever the
 // light's size and the caster's height; no other surface gets a shadow. Departures: those of planar-hard; the texture lies
-// over the receiver's rectangle in its plane, since the thesis does not say what its texture is spread over.
+// over the receiver's rectangle in its plane, since the thesis does not say what its texture is spread over; 4×4 lookups
+// give the mean of the 7×7 (box.glsl).
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"

@@ -1,6 +1,7 @@
 #include "techniques/shared/light_views/lispsm_view.h"
 
 #include "techniques/shared/light_views/fitting.h"
+#include "techniques/shared/light_views/focused_view.h"
 #include "techniques/shared/light_views/visible_part.h"
 
 #include <algorithm>
@@ -33,12 +34,14 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& 
         *std::min_element(body.begin(), body.end(), [&](const auto& a, const auto& b) { return eyeDepth(a) < eyeDepth(b); });
     double deepest = 0;
     for (const glm::dvec3& p : body) deepest = std::max(deepest, eyeDepth(p));
-    const auto toLight = [&](const glm::dvec3& p) { return divided(view.clipFromWorld * glm::dvec4(p, 1)); };
+    // Clip space with the map's own proportions, so that right angles are right angles.
+    const glm::dmat4 light1 = glm::scale(glm::dmat4(1), glm::dvec3(0.5 * view.span, 1)) * view.clipFromWorld;
+    const auto toLight = [&](const glm::dvec3& p) { return divided(light1 * glm::dvec4(p, 1)); };
     const glm::dvec3 start = toLight(nearest);
     const glm::dvec3 axis = toLight(nearest + 1e-4 * (deepest - eyeDepth(nearest)) * forward) - start;
 
     const double turn = std::atan2(axis.x, axis.y); // about z: brings the axis onto +y
-    glm::dmat4 light2 = glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 0, 1)) * view.clipFromWorld;
+    glm::dmat4 light2 = glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 0, 1)) * light1;
     const Bounds box = boundsOf(light2, body);
     const glm::dvec3 e = divided(light2 * glm::dvec4(nearest, 1));
 
@@ -53,14 +56,14 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& 
     const double d = box.high.y - box.low.y;
     const double n = lispsmNear(d, z0, z1);
 
-    if (std::isfinite(n) && n < 1e4 * d) {
-        const glm::dvec3 centre(e.x, box.low.y - n, 0.5 * (box.low.z + box.high.z));
-        const double f = n + d;
-        // Perspective along +y: w = y; x and z are divided by it, so that light rays (along z) stay parallel.
-        const glm::dmat4 warp(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, (f + n) / (f - n), 0, 1), glm::dvec4(0, 0, 1, 0),
-                              glm::dvec4(0, -2 * f * n / (f - n), 0, 0));
-        light2 = warp * glm::translate(glm::dmat4(1), -centre) * light2;
-    }
+    if (!std::isfinite(n) || n >= 1e4 * d) return fitFocused(light, snapshot, camera, aspect);
+
+    const glm::dvec3 centre(e.x, box.low.y - n, 0.5 * (box.low.z + box.high.z));
+    const double f = n + d;
+    // Perspective along +y: w = y; x and z are divided by it, so that light rays (along z) stay parallel.
+    const glm::dmat4 warp(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, (f + n) / (f - n), 0, 1), glm::dvec4(0, 0, 1, 0),
+                          glm::dvec4(0, -2 * f * n / (f - n), 0, 0));
+    light2 = warp * glm::translate(glm::dmat4(1), -centre) * light2;
     view.clipFromWorld = fitMatrix(boundsOf(light2, body), 0) * light2;
     view.covered = std::move(body);
     return view;

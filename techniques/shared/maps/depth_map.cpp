@@ -16,11 +16,11 @@ std::vector<Parameter> depthMapParameters(int defaultSide) {
     return {
         mapParameter(defaultSide),
         {"bias", "slope", OneOf{{"none", "constant", "slope"}}, "depth bias while the map is drawn", "course, Bias"},
-        // Half a texel in x and in y changes depth by at most ½(|∂z/∂x| + |∂z/∂y|) ≤ 1 · max slope: the factor that
-        // suffices.
-        {"factor", "1", RealRange{0, 64}, "of the polygon's depth slope per texel (bias=slope)", ""},
-        {"units", "64", RealRange{0, 1e7},
-         "constant bias in 2⁻²⁴ of the depth range (bias=constant or slope): covers rounding", ""},
+        // A texel in x and in y changes depth by at most |∂z/∂x| + |∂z/∂y| ≤ 2 · max slope (docs/techniques.md, "Bias").
+        {"factor", "2", RealRange{0, 64}, "of the polygon's depth slope per texel (bias=slope)",
+         "OpenGL Programming Guide, 8th ed., p. 404"},
+        {"units", "64", RealRange{0, 1e7}, "constant bias in 2⁻²⁴ of the depth range (all but bias=none): covers rounding",
+         ""},
     };
 }
 
@@ -29,12 +29,32 @@ std::vector<Parameter> withDepthMapParameters(std::vector<Parameter> own) {
     return own;
 }
 
+std::vector<Parameter> withNormalOffset(std::vector<Parameter> parameters) {
+    for (Parameter& parameter : parameters) {
+        if (parameter.name == "bias") {
+            parameter.domain = OneOf{{"none", "constant", "slope", "normal-offset"}};
+            parameter.meaning = "of depths while the map is drawn, or of receivers along their normals (Holbert 2011)";
+        }
+        if (parameter.name == "factor")
+            parameter.meaning = "of the polygon's depth slope per texel (bias=slope), or of half a texel's width times the "
+                                "sine between normal and light (normal-offset)";
+    }
+    return parameters;
+}
+
 Bias biasFrom(const Parameters& parameters) {
     const std::string& kind = parameters.text("bias");
-    if (kind == "none") return {0, 0};
+    if (kind == "none") return {};
     const auto units = static_cast<float>(parameters.real("units"));
-    if (kind == "constant") return {0, units};
-    return {static_cast<float>(parameters.real("factor")), units};
+    if (kind == "constant") return {.units = units};
+    const auto factor = static_cast<float>(parameters.real("factor"));
+    if (kind == "normal-offset") return {.units = units, .normalOffset = factor};
+    return {.factor = factor, .units = units};
+}
+
+bool followsPlane(const Parameters& parameters) {
+    const std::string& kind = parameters.text("bias");
+    return kind == "slope" || kind == "normal-offset";
 }
 
 CasterState::CasterState(Bias bias) {

@@ -17,11 +17,14 @@ namespace shadowbench::techniques {
 /// One step of a 24-bit depth buffer: the unit of a constant bias.
 inline constexpr double depthStep = 1.0 / (1 << 24);
 
-/// Offset away from the light while the map is drawn (course, "Bias"): factor · greatest depth slope per texel + units ·
-/// depthStep.
+/// What keeps a surface from shading itself. Depths are offset away from the light while the map is drawn (course, "Bias"):
+/// factor · greatest depth slope per texel + units · depthStep. Or receivers are offset along their normals when they are
+/// tested (shared/maps/normal_offset.h). A factor of 1 suffices on a plane for a lookup half a texel in x and in y from
+/// where the depth was stored, 2 for one a whole texel away (docs/techniques.md, "Bias").
 struct Bias {
     float factor = 0;
     float units = 0;
+    float normalOffset = 0; // a factor, too
 };
 
 /// `map`: the side of a technique's one map, or of one with as many texels as all its maps together.
@@ -33,7 +36,14 @@ std::vector<Parameter> depthMapParameters(int defaultSide = 1024);
 /// A technique's own parameters, and after them `depthMapParameters()`.
 std::vector<Parameter> withDepthMapParameters(std::vector<Parameter> own);
 
+/// Adds `bias=normal-offset`, for a technique that tests receivers through shared/maps/tested_point.glsl.
+std::vector<Parameter> withNormalOffset(std::vector<Parameter> parameters);
+
 Bias biasFrom(const Parameters& parameters);
+
+/// Whether texels beside the receiver's own are compared with the receiver's plane: a bias that follows slopes covers one
+/// texel, and a filter reaches farther.
+bool followsPlane(const Parameters& parameters);
 
 /// Compare: sampled through sampler2DShadow with 2×2 interpolated comparisons if `Filter::Linear`; Raw: depths read as
 /// numbers.

@@ -3,15 +3,16 @@
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/light_views/focused_view.h"
 #include "techniques/shared/light_views/lispsm_view.h"
+#include "techniques/shared/maps/normal_offset.h"
 
 namespace shadowbench::techniques {
 namespace {
 
 class SingleMap final : public Technique {
 public:
-    SingleMap(std::unique_ptr<ShadowMap> map, FitView fit, ReportFigures report)
-        : fit_(std::move(fit)), report_(std::move(report)), map_(std::move(map)),
-          resolve_(gl::Program::screen("shared/maps/single_map.frag")) {}
+    SingleMap(std::unique_ptr<ShadowMap> map, FitView fit, Bias bias, ReportFigures report)
+        : fit_(std::move(fit)), bias_(bias), report_(std::move(report)), map_(std::move(map)),
+          resolve_(gl::Program::screen("shared/maps/single_map.frag", normalOffsetDefines(bias))) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         light_ = fit_(frame);
@@ -19,6 +20,7 @@ public:
         resolve_.set("positions", frame.gbuffer.position())
             .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_->texture());
+        setNormalOffset(resolve_, frame, bias_, map_->texture().size());
         resolve(frame, {&visibility}, resolve_);
     }
 
@@ -39,6 +41,7 @@ public:
 
 private:
     FitView fit_;
+    Bias bias_;
     ReportFigures report_;
     LightView light_;
     std::unique_ptr<ShadowMap> map_;
@@ -47,13 +50,15 @@ private:
 
 } // namespace
 
-std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit, ReportFigures figures) {
-    return std::make_unique<SingleMap>(std::move(map), std::move(fit), std::move(figures));
+std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit, Bias bias, ReportFigures figures) {
+    return std::make_unique<SingleMap>(std::move(map), std::move(fit), bias, std::move(figures));
 }
 
+std::vector<Parameter> singleMapParameters() { return withNormalOffset(depthMapParameters()); }
+
 std::unique_ptr<Technique> makeSingleMap(const Parameters& parameters, FitView fit) {
-    return makeSingleMap(std::make_unique<DepthMap>(parameters.integer("map"), biasFrom(parameters), Lookup::Compare),
-                         std::move(fit));
+    const Bias bias = biasFrom(parameters);
+    return makeSingleMap(std::make_unique<DepthMap>(parameters.integer("map"), bias, Lookup::Compare), std::move(fit), bias);
 }
 
 LightView uniformView(const Frame& frame) { return fitToScene(frame.hardLight, frame.snapshot); }

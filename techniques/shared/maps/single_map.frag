@@ -1,5 +1,4 @@
-#include "gl/receiver.glsl"
-#include "shared/maps/light_space.glsl"
+#include "shared/maps/tested_point.glsl"
 
 uniform sampler2DShadow depthMap;
 
@@ -7,5 +6,5 @@ out float visibility;
 
 void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
-    visibility = receiver.seen ? shadowTest(depthMap, mapPoint(receiver.position)) : 1.0;
+    visibility = receiver.seen ? shadowTest(depthMap, testedPoint(receiver)) : 1.0;
 }

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace shadowbench::techniques {
 
@@ -17,9 +18,14 @@ using FitView = std::function<LightView(const Frame&)>;
 /// What such a technique reports of a frame (`Technique::figures`).
 using ReportFigures = std::function<std::map<std::string, double>(const Frame&)>;
 
-std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit, ReportFigures figures = {});
+/// `bias`: that of the receivers; the map has its own.
+std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit, Bias bias = {},
+                                         ReportFigures figures = {});
 
-/// The same over a depth map with these `depthMapParameters`.
+/// `depthMapParameters` of such a technique.
+std::vector<Parameter> singleMapParameters();
+
+/// The same over a depth map with these parameters.
 std::unique_ptr<Technique> makeSingleMap(const Parameters& parameters, FitView fit);
 
 /// `sm-uniform`: the light frustum fitted to the whole scene.

@@ -66,6 +66,36 @@ TEST(MapPoint, IsTheShadersInAWarpedMap) {
     compareMapPoints(fitLispsm(scene.light, snapshot(scene, 0), scene.camera, 1));
 }
 
+// Under the sun a plane's receivers are all moved alike: density in the map, which the metric is about, is that of
+// texelAt(). The lift is half of what the plane's depth changes by from texel to texel along x plus along y.
+TEST(MapPoint, OfANormalOffsetReceiverIsOneShiftForAPlaneAndLiesAboveItByHalfATexelsSlopes) {
+    Scene scene = boxScene();
+    scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(-0.3, -1, 0.4)), {}, {}};
+    const LightView view = fitLispsm(scene.light, snapshot(scene, 0), scene.camera, 1);
+    constexpr double side = 1024;
+    const auto prepare = [&](gl::Program& program) {
+        program.set("mapFromWorld", mapFromWorld(view));
+        if (!program.uses("normalOffset")) return;
+        program.set("normalOffset", 1.0F).set("mapTexels", glm::vec2(side));
+    };
+    std::vector<glm::vec4> points;
+    for (const glm::vec4& p : pointsAround(0.7F, 1.5F)) points.emplace_back(p.x, 0, p.z, 1);
+    const std::string chunk = "shared/maps/normal_offset.glsl", up = "vec3(0, 1, 0)";
+    const auto moved = evaluated(chunk, "mapPoint(movedReceiver(x.xyz, " + up + ")).at, 0.0", points, {}, prepare);
+    const auto slopes = evaluated(chunk, "receiverPlaneSlope(x.xyz, " + up + ", mapPoint(x.xyz).at), mapPoint(x.xyz).at.xy",
+                                  points, {}, prepare);
+    const auto depths = evaluated(chunk, "mapPoint(x.xyz).at, 0.0", points, {}, prepare);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto texel = texelAt(view, glm::dvec3(points[i]), glm::dvec2(side));
+        ASSERT_TRUE(texel.has_value());
+        const glm::dvec2 shift = side * glm::dvec2(moved[i]) - *texel, slope(slopes[i]);
+        EXPECT_LT(glm::length(shift), std::sqrt(0.5)); // half a texel's diagonal at most
+        const double plane = static_cast<double>(depths[i].z) + glm::dot(slope, shift) / side;
+        const double halfTexel = 0.5 * (std::abs(slope.x) + std::abs(slope.y)) / side;
+        EXPECT_NEAR(plane - static_cast<double>(moved[i].z), halfTexel, 0.02 * halfTexel); // matrices of 32-bit floats
+    }
+}
+
 TEST(CubeSide, IsTheShaders) {
     const std::vector<glm::vec4> directions = pointsAround(0.23F, 1);
     const auto sides = evaluated("shared/maps/cube_side.glsl", "float(sideOf(x.xyz))", directions);

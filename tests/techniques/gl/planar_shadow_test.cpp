@@ -3,6 +3,7 @@
 #include "techniques/catalog.h"
 #include "techniques/planar/planar_receiver.h"
 #include "tests/support/ground_labels.h"
+#include "tests/support/shader_function.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -165,6 +166,46 @@ TEST(PlanarFake, ItsPenumbraIsOneWidthWhateverTheHeightOfTheCaster) { // Zápoto
             grey += v[i] > 0 && v[i] < 1 ? 1 : 0;
         }
         EXPECT_GT(grey, 300U) << height;
+    }
+}
+
+// 7×7 bilinear lookups, of which the shader makes 4×4.
+TEST(PlanarFake, ItsMeanIsThatOfTheThesisLookups) {
+    constexpr int side = 32;
+    Image<std::uint8_t> texels(side, side);
+    std::uint32_t state = 7;
+    for (std::uint8_t& texel : texels) {
+        state = state * 1664525U + 1013904223U;
+        texel = (state >> 30U) == 0 ? 0 : 255;
+    }
+    const auto bilinear = [&](double x, double y) { // in texels
+        double sum = 0;
+        const double left = std::floor(x - 0.5), low = std::floor(y - 0.5);
+        for (int j = 0; j < 2; ++j)
+            for (int i = 0; i < 2; ++i) {
+                const int column = std::clamp(static_cast<int>(left) + i, 0, side - 1);
+                const int row = std::clamp(static_cast<int>(low) + j, 0, side - 1);
+                sum += (1 - std::abs(x - 0.5 - left - i)) * (1 - std::abs(y - 0.5 - low - j)) * texels(column, row) / 255.0;
+            }
+        return sum;
+    };
+    testContext();
+    gl::Texture image(gl::Format::R8, {side, side}, gl::Filter::Linear);
+    image.upload(texels);
+    std::vector<glm::vec4> points;
+    for (double x = 0.01; x < 1; x += 0.0937)
+        for (double y = 0.02; y < 1; y += 0.0717) points.emplace_back(x, y, 0, 0);
+    for (const int kernel : {3, 7, 9}) {
+        const auto means = evaluated("planar/planar-fake/box.glsl", "boxMean(x.xy)", points,
+                                     {{"KERNEL", std::to_string(kernel)}}, [&](gl::Program& p) { p.set("shadow", image); });
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            double sum = 0;
+            for (int y = 0; y < kernel; ++y)
+                for (int x = 0; x < kernel; ++x)
+                    sum += bilinear(side * static_cast<double>(points[i].x) + x - 0.5 * (kernel - 1),
+                                    side * static_cast<double>(points[i].y) + y - 0.5 * (kernel - 1));
+            EXPECT_NEAR(means[i].x, sum / (kernel * kernel), 1.0 / 255) << kernel; // weights and values of 8 bits
+        }
     }
 }
 
