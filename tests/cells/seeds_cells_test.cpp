@@ -12,8 +12,9 @@ Record scoredBySeeds(const std::string& variant) {
     CellScene& cells = stillScene("contact", 1);
     Record record;
     CellImages images;
-    runCell(cells.scene(), cells.stage(), cells.truths(), techniques::parseVariant(variant),
-            {.seed = 1, .seeds = 4, .time = false, .images = {}}, record, images);
+    const techniques::Variant chosen = techniques::parseVariant(variant);
+    scoreCell(cells.frames(), chosen, 1, record, images);
+    splitErrorOverSeeds(cells.frames(), chosen, 1, 4, images.visibility, record);
     return record;
 }
 

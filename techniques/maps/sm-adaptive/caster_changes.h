@@ -1,7 +1,7 @@
 // What of a scene's casters changes from frame to frame (no GL).
 #pragma once
 
-#include "scene/snapshot.h"
+#include "techniques/shared/light_views/light_view.h"
 
 #include <memory>
 #include <optional>

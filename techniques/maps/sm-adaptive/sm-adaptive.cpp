@@ -162,8 +162,7 @@ Entry smAdaptive() {
          "how often a page may be cut in four: (page · 2^levels)² texels at most", "dissertation, 2.2.2"},
         {"pages", "1024", IntegerRange{6, 4096}, "pages that a frame uses, at most: one pass each that is drawn", ""},
         {"density", "1", RealRange{0.125, 16}, "texels along a pixel, at least, where pages and levels suffice", ""},
-        {"share", "0.95", RealRange{0, 1}, "of a page's pixels that must have so many texels, else it is refined",
-         "Fernando et al. 2001"},
+        {"share", "0.99", RealRange{0, 1}, "of a page's pixels that must have so many texels, else it is refined", ""},
         {"cache", "on", OneOf{{"on", "off"}}, "pages are kept from frame to frame, which changes no image",
          "Fernando et al. 2001"},
     };

@@ -2,14 +2,15 @@
 // on what of the scene the slice holds (Tadamura et al. 1999; Engel 2007; practical split of Zhang et al. 2006).
 // Scherzer 2.2.2, Fig. 2.11. The slices share the texels of one map of `map`². `warp=lispsm` warps each slice's map (LSPSM)
 // as on the right of Fig. 2.11.
-// `fit=visible` is the sample distribution shadow map of Lauritzen, Salvi and Lefohn 2011: the depths that are split and the
-// slices' boxes in light space are those of the points that the G-buffer shows. Their paper splits geometrically (λ = 1),
-// which spreads perspective aliasing evenly; the practical split evens it out because depths that no pixel has would take
-// most slices. `fit=view` is the older way, from the frustum and the scene's bounding box. Departure: depths between the
-// nearest and farthest visible point of that box are split, not those between the camera's near and far plane. With
-// `stable=texels` they are the camera's, for the map of a slice must not grow or turn (Valient, ShaderX6). Departure: the
-// papers' fits are on the GPU or from the camera alone; here the GPU reduces the G-buffer, and the few numbers that are left
-// are read back.
+// `fit=visible` is the sample distribution shadow map of Lauritzen, Salvi and Lefohn 2011: the depths that are split, and
+// the slices' boxes in light space, are those of the points that the G-buffer shows. Steps are geometrical there (λ = 1),
+// which leaves every slice the same ratio of depths; the practical split mixes in even steps only because depths that no
+// pixel has would otherwise take most slices. Departure: the numbers that the reduction leaves are read back. `fit=view` is
+// the older way, from the frustum and the scene's bounding box. Departure: depths between the nearest and farthest visible
+// point of that box are split, not those between the camera's near and far plane. With `stable=texels` they are the
+// camera's, so that the map of a slice neither grows nor turns (Valient, ShaderX6); lights other than directional ones are
+// fitted as without it. Blending is off by default: the answer is a hard shadow, and where two maps differ a blend is
+// neither.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/light_views/cascades.h"

@@ -1,8 +1,12 @@
 // Depth-only maps read as linear depth: the closed form, and how much of it 32-bit floats keep.
 #include "techniques/shared/maps/linearised_map.h"
 
+#include "techniques/shared/maps/linear_depth_map.h"
 #include "tests/support/shader_function.h"
+#include "tests/support/soft_scenes.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace shadowbench {
@@ -62,6 +66,53 @@ TEST(LinearisedMap, ADirectionalLightsDepthIsItsDistance) {
 TEST(LinearisedMap, WhereNothingIsInTheWayNothingBlocks) {
     EXPECT_EQ(linearDepths(viewOver(1, 2, true), {1}).front(), gl::nothingInTheWay);
     EXPECT_EQ(linearDepths(viewOver(1, 2, false), {1}).front(), gl::nothingInTheWay);
+}
+
+/// Linear depths of a map's texels, row 0 at the top.
+Image<float> linearised(const techniques::LinearisedMap& map) {
+    const gl::Texture depths(gl::Format::R32F, {map.side(), map.side()});
+    gl::Program program =
+        gl::Program::screenFromText("linear depths of texels", "#include \"shared/maps/linearised_map.glsl\"\n"
+                                                               "out float depth;\n"
+                                                               "void main() {\n"
+                                                               "    vec2 size = vec2(textureSize(windowDepths, 0));\n"
+                                                               "    depth = linearDepthAt(gl_FragCoord.xy / size);\n}\n");
+    map.bindTo(program);
+    const gl::RenderTarget target({&depths});
+    target.bind();
+    program.drawScreen();
+    return target.readFloat(0);
+}
+
+/// How far the depths of a depth-only map are from those that shaders compute and store, in the default constant bias: of
+/// all but a hundredth of the texels. Sides that are seen edge-on are steeper within a texel than either can hold.
+double differenceOverBias(double lightHeight, techniques::Bias bias) {
+    Scene scene = halfPlaneScene();
+    scene.light.centre.y = lightHeight;
+    Stage stage(scene);
+    stage.show(0);
+    const techniques::Frame frame = stage.frame(0, 1);
+    const LightView view = techniques::fitToScene(scene.light, frame.snapshot);
+    constexpr int side = 256;
+    techniques::LinearisedMap read(side, bias);
+    techniques::LinearDepthMap written(side, bias);
+    read.draw(view, frame);
+    written.draw(view, frame);
+    const Image<float> one = linearised(read), other = gl::RenderTarget({&written.texture()}).readFloat(0);
+    std::vector<double> differences;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        if (one[i] == gl::nothingInTheWay || other[i] == gl::nothingInTheWay) continue;
+        differences.push_back(std::abs(static_cast<double>(one[i]) - static_cast<double>(other[i])));
+    }
+    EXPECT_GT(differences.size(), one.size() / 4);
+    std::sort(differences.begin(), differences.end());
+    return differences[differences.size() * 99 / 100] / (defaultBias * view.far);
+}
+
+TEST(LinearisedMap, HoldsTheDepthsThatShadersComputeWithinTheConstantBias) {
+    EXPECT_LT(differenceOverBias(6, {}), 0.25);
+    EXPECT_LT(differenceOverBias(2.05, {}), 1); // the near plane is held at a hundredth of the far distance
+    EXPECT_LT(differenceOverBias(6, {0, 64}), 0.25);
 }
 
 } // namespace
