@@ -3,7 +3,7 @@
 
 #include "harness/metrics/frames.h"
 #include "scene/scene.h"
-#include "techniques/bare/bare_drawer.h"
+#include "techniques/contract/bare/bare_drawer.h"
 #include "techniques/contract/technique.h"
 
 #include <vector>

@@ -182,24 +182,6 @@ void PrefilteredMap::blurColumns(const gl::Texture& rows, int layer) {
     means_.dispatch(static_cast<std::size_t>(rows.size().x) * runs);
 }
 
-std::vector<BarePass> PrefilteredMap::bare(const Frame& frame, const std::string& source) const {
-    const glm::ivec2 side(depth_.side()), filteredSide = filtered_.size();
-    std::vector<BarePass> passes{bareDepthMap("course, Shadow Mapping", depth_.side(), light_.clipFromWorld)};
-    const auto blur = [&](glm::ivec2 size, const Taps& taps) {
-        passes.push_back({.pass = "blur", .source = source, .size = size, .targets = {format_}, .taps = {taps}});
-    };
-    std::vector<Taps> reads;
-    for (int layer = 0; layer < filtered_.layers(); ++layer) {
-        blur({filteredSide.x, side.y}, {gl::Format::Depth32F, side, Read::Nearest});
-        blur(filteredSide, {format_, {filteredSide.x, side.y}, Read::Nearest});
-        // All smaller levels together have a third of the texels, each the mean of four.
-        blur({filteredSide.x / 2, 2 * filteredSide.y / 3}, {format_, filteredSide, Read::Linear});
-        reads.push_back({format_, filteredSide, Read::Linear});
-    }
-    passes.push_back(bareLookup("resolve", source, frame.size, std::move(reads)));
-    return passes;
-}
-
 void PrefilteredMap::bindTo(gl::Program& resolve, const Frame& frame) const {
     resolve.set("positions", frame.gbuffer.position())
         .set("normals", frame.gbuffer.normal())

@@ -63,10 +63,6 @@ public:
         return texelAt(light_, world, glm::dvec2(depth_.side()));
     }
 
-    /// The least that the frame drawn last needs: the casters, the box along both axes with one read of each texel (running
-    /// sums), mipmaps, and a filtered read of each texture for a pixel, which `source` asks for.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame, const std::string& source) const;
-
     /// Sets the uniforms of the unfiltered depths (filtered/unit_depth.glsl), and the box's level and width.
     void bindDepthsTo(gl::Program& resolve) const;
 

@@ -64,6 +64,13 @@ std::optional<Least> leastOf(std::vector<Step> curve) {
     return least;
 }
 
+/// By the first tolerance whose metric the record has.
+std::optional<double> firstError(const Record& record, const std::vector<report::Tolerance>& limits) {
+    for (const report::Tolerance& limit : limits)
+        if (const auto error = metrics::bounded(record.values, limit.metric)) return error;
+    return std::nullopt;
+}
+
 const char* parameterWords(Resource resource) {
     return resource == Resource::MapTexels ? "the size of a map" : "the number of samples";
 }
@@ -109,7 +116,7 @@ std::vector<Least> leastAdequate(const std::vector<Record>& records, const std::
     std::map<std::string, std::vector<Step>> curves;
     for (const std::size_t i : report::ofScene(records, scene)) {
         const Record& record = records[i];
-        const std::optional<double> error = metrics::bounded(record.values, limits.front().metric);
+        const std::optional<double> error = firstError(record, limits);
         if (!wasScored(record.status) || !error) continue;
         for (const auto& [name, value] : record.parameters)
             if (const auto much = amount(resource, name, value))

@@ -57,7 +57,10 @@ std::uint64_t tapsOf(const ComparedPasses& passes, const std::string& pass) {
 constexpr std::uint64_t pixels = std::uint64_t{imageSide} * imageSide;
 
 TEST(Bare, IsDeclaredByAllTechniquesButThese) {
-    const std::set<std::string> lacking{"planar-soft",
+    const std::set<std::string> lacking{"vsm",
+                                        "lvsm",
+                                        "esm",
+                                        "planar-soft",
                                         "sm-tiled",
                                         "sm-adaptive",
                                         "sm-dual-paraboloid",
@@ -119,9 +122,6 @@ std::vector<std::string> declaringVariants() {
             "pcf:map=128",
             "pcf:kernel=2,map=128",
             "pcf-poisson:map=128",
-            "vsm:map=128",
-            "lvsm:map=128",
-            "esm:map=128",
             "pcss:map=128",
             "combined:map=128"};
 }
@@ -160,8 +160,6 @@ TEST(Bare, OfFiltersReadsTheMapAsOftenAsTheirKernelsHaveTaps) {
     EXPECT_EQ(tapsOf(counted("pcf:kernel=2,map=128"), "resolve"), (1 + 1) * pixels) << "bilinear hardware";
     EXPECT_EQ(tapsOf(counted("pcss:taps=25+49,map=128"), "resolve"), (1 + 25 + 49) * pixels);
     EXPECT_EQ(tapsOf(counted("planar-fake:kernel=7,map=128"), "resolve"), (1 + 16) * pixels) << "4 × 4 bilinear reads";
-    // A box of 5 along both axes, and an eleventh read for the smaller levels, which have a third of the texels.
-    EXPECT_EQ(tapsOf(counted("vsm:kernel=5,map=128"), "blur"), 2 * 5 * 128 * 128 + 64 * 85);
 }
 
 TEST(Bare, IsNotTimedInTheTechniquesPlaceNorChangesWhatItShows) {
@@ -228,7 +226,9 @@ TEST(OtherScreen, ShowsWhatGrowsWithTheScreenAndWhatWithTheMap) {
     EXPECT_EQ(other.height, 1024);
     const std::vector<PassRecord> own = counted(scene, "sm-uniform:map=256").records(false);
     EXPECT_EQ(passNamed(other.passes, "depth map").fragments, passNamed(own, "depth map").fragments);
-    EXPECT_EQ(passNamed(other.passes, "resolve").fragments, 16 * passNamed(own, "resolve").fragments);
+    const auto sixteen = 16 * static_cast<double>(passNamed(own, "resolve").fragments);
+    EXPECT_NEAR(static_cast<double>(passNamed(other.passes, "resolve").fragments), sixteen, 0.02 * sixteen)
+        << "up to the blocks of 4 × 4 along the diagonal of the screen's triangle";
     EXPECT_GT(passNamed(other.passes, "resolve").milliseconds.value(), 0);
 
     EXPECT_EQ(timing::measureOtherScreen(boxScene(1024), variant, 0, 1).width, 256) << "of a large one a small one";

@@ -1,4 +1,4 @@
-#include "techniques/bare/bare_drawer.h"
+#include "techniques/contract/bare/bare_drawer.h"
 
 #include "techniques/gl/api.h"
 
@@ -78,8 +78,8 @@ gl::Program& BareDrawer::casterProgram(bool colour, bool plane) {
     const auto known = programs_.find(key);
     if (known != programs_.end()) return known->second;
     const gl::Defines defines = plane ? gl::Defines{{"PLANE", "1"}} : gl::Defines{};
-    const char* fragments = colour ? "bare/casters.frag" : "gl/depth_only.frag";
-    return programs_.emplace(key, gl::Program("bare/casters.vert", fragments, defines)).first->second;
+    const char* fragments = colour ? "contract/bare/casters.frag" : "gl/depth_only.frag";
+    return programs_.emplace(key, gl::Program("contract/bare/casters.vert", fragments, defines)).first->second;
 }
 
 void BareDrawer::drawCasters(const Frame& frame, const BarePass& pass) {
