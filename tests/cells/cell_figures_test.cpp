@@ -31,7 +31,7 @@ TEST(CellRecord, AnApproachFillsTheHistory) {
     scene.timeline.still = 60;
     CellScene turned(scene);
     const auto mismatch = [](CellScene& cells) {
-        return cells.scored("sm-history").values.list("stability.by_frame.mismatch");
+        return cells.scored("sm-history:map=256").values.list("stability.by_frame.mismatch");
     };
     const std::vector<double> empty = mismatch(approached), filled = mismatch(turned);
     ASSERT_EQ(empty.size(), 60U);

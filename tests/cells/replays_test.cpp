@@ -145,7 +145,8 @@ CellScene& turnedCamera() {
     return cells;
 }
 
-/// The replay's shares of wrong receivers in these still frames, counted from 1, within a twentieth of the record's.
+/// The replay's shares of wrong receivers in these still frames, counted from 1, within a twentieth of the record's, or two
+/// pixels: depths that nearly tie fall either way.
 void expectErrorsOfTheRecord(CellScene& cells, const std::string& variant, HistoryMethod method,
                              const std::vector<std::size_t>& frames) {
     const Record& record = cells.scored(variant);
@@ -164,8 +165,9 @@ void expectErrorsOfTheRecord(CellScene& cells, const std::string& variant, Histo
                 off += std::abs(shown - label) > 30.0 / 255 ? 1 : 0;
                 ++receivers;
             }
-        EXPECT_NEAR(wrong / receivers, mismatch[frame - 1], 0.05 * mismatch[frame - 1]) << variant << ", frame " << frame;
-        EXPECT_NEAR(off / receivers, bad30[frame - 1], 0.05 * bad30[frame - 1]) << variant << ", frame " << frame;
+        const auto within = [&](double share) { return std::max(0.05 * share, 2.01 / receivers); };
+        EXPECT_NEAR(wrong / receivers, mismatch[frame - 1], within(mismatch[frame - 1])) << variant << ", frame " << frame;
+        EXPECT_NEAR(off / receivers, bad30[frame - 1], within(bad30[frame - 1])) << variant << ", frame " << frame;
     }
 }
 

@@ -39,7 +39,7 @@ inline std::vector<glm::dvec3> geometricNormals(const Snapshot& snapshot, const 
     return normals;
 }
 
-/// A square map of `side` texels over `view`, with the slope bias that techniques have by default (factor 1, 64 units of
+/// A square map of `side` texels over `view`, with the slope bias that techniques have by default (factor 2, 64 units of
 /// 2⁻²⁴).
 class MapReplay {
 public:
@@ -82,7 +82,7 @@ public:
             greatest = inverse;
             slope = 2.0 / side_ * std::max(std::abs(t.inverse.x), std::abs(t.inverse.y)) / (inverse * inverse);
         }
-        return greatest > 0 ? 1 / greatest + slope + 64.0 / (1 << 24) * far : std::numeric_limits<double>::infinity();
+        return greatest > 0 ? 1 / greatest + factor * slope + 64.0 / (1 << 24) * far : std::numeric_limits<double>::infinity();
     }
 
     /// The shadow test of Williams.
@@ -94,6 +94,8 @@ public:
     }
 
 private:
+    static constexpr double factor = 2;
+
     struct Mapped {
         std::array<glm::dvec3, 3> edge; // dot(edge, (x, y, 1)) has one sign inside: homogeneous edge functions
         glm::dvec3 inverse;             // dot(inverse, (x, y, 1)) = 1 / w of the plane: negative behind the light
@@ -131,7 +133,7 @@ private:
         t.inverse = (t.edge[0] + t.edge[1] + t.edge[2]) / glm::dot(h[0], t.edge[0]);
         t.depth = glm::dvec3(plane.x, plane.y, plane.w) / plane.z;
         const double perTexel = 2.0 / side_; // NDC; window depth is half of NDC's
-        t.bias = 0.5 * perTexel * std::max(std::abs(t.depth.x), std::abs(t.depth.y)) + 64.0 / (1 << 24);
+        t.bias = factor * 0.5 * perTexel * std::max(std::abs(t.depth.x), std::abs(t.depth.y)) + 64.0 / (1 << 24);
         for (int y = cellOf(t.low.y); y <= cellOf(t.high.y); ++y)
             for (int x = cellOf(t.low.x); x <= cellOf(t.high.x); ++x) cells_[cellIndex(x, y)].push_back(mapped_.size());
         mapped_.push_back(t);

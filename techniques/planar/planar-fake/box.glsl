@@ -18,12 +18,12 @@ float boxMean(vec2 at) {
     vec2 size = vec2(textureSize(shadow, 0));
     vec2 lowest = at * size - 0.5 * float(KERNEL);  // lookup, counted in texels from the centre of the first
     vec2 first = floor(lowest), share = lowest - first;
-    float sum = 0.0;
+    float dark = 0.0;  // so that no rounding of the weights darkens what is lit
     for (int y = 0; y < pairsOfTexels; ++y)
         for (int x = 0; x < pairsOfTexels; ++x) {
             ivec2 pair = ivec2(x, y);
             vec2 second = weightOfSecond(pair, share), weight = weightOfFirst(pair, share) + second;
-            sum += weight.x * weight.y * texture(shadow, (first + vec2(2 * pair) + 0.5 + second / weight) / size).r;
+            dark += weight.x * weight.y * (1.0 - texture(shadow, (first + vec2(2 * pair) + 0.5 + second / weight) / size).r);
         }
-    return sum / float(KERNEL * KERNEL);
+    return max(1.0 - dark / float(KERNEL * KERNEL), 0.0);
 }
