@@ -35,6 +35,19 @@ std::vector<double> quotients(const std::vector<double>& numerators, const std::
     return result;
 }
 
+/// Work stays that of the frame that was counted: another frame's may differ, as of a map that is turned from frame to
+/// frame.
+void addTimes(const PassRecord& timed, std::vector<PassRecord>& passes) {
+    const auto found = std::ranges::find(passes, timed.name, &PassRecord::name);
+    if (found == passes.end()) {
+        passes.push_back(timed);
+        return;
+    }
+    found->milliseconds = timed.milliseconds;
+    found->share = timed.share;
+    if (found->bare && timed.bare) found->bare->milliseconds = timed.bare->milliseconds;
+}
+
 struct Runner {
     std::function<void()> frame; // empty: there is no such contestant
     std::vector<double> samples;
@@ -116,7 +129,7 @@ void measureTimes(Stage& stage, const techniques::Variant& variant, Sequence& fr
     time.processorShare = passes.own.processorShare();
     if (time.bareRatio) *time.bareRatio *= 1 - time.processorShare;
     setTime(record, time);
-    record.passes = passes.records(true);
+    for (const PassRecord& pass : passes.records(true)) addTimes(pass, record.passes);
 }
 
 } // namespace shadowbench::timing

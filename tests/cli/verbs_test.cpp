@@ -174,7 +174,7 @@ TEST_F(Run, KilledAtAnyMomentItLeavesWholeRecordsAndResumes) {
         before = whole;
     }
     ASSERT_EQ(shell(all).code, 0);
-    EXPECT_EQ(records().size(), 6U); // a map, four variants of history, pcf
+    EXPECT_EQ(records().size(), 7U); // a map, five variants of history, pcf
     expectKept(before, records());
     for (const Record& record : records()) EXPECT_TRUE(record.values["cost.time.median"]) << record.variant;
 }

@@ -82,7 +82,8 @@ public:
             greatest = inverse;
             slope = 2.0 / side_ * std::max(std::abs(t.inverse.x), std::abs(t.inverse.y)) / (inverse * inverse);
         }
-        return greatest > 0 ? 1 / greatest + factor * slope + 64.0 / (1 << 24) * far : std::numeric_limits<double>::infinity();
+        return greatest > 0 ? 1 / greatest + factor * slope + 64.0 / (1 << 24) * far
+                            : std::numeric_limits<double>::infinity();
     }
 
     /// The shadow test of Williams.
