@@ -37,6 +37,7 @@ std::vector<std::string> earlierExport(const fs::path& folder) {
 
 /// Nothing of the user's is overwritten: the folder is new, empty, or an earlier export's, whose files are removed.
 void clear(const fs::path& folder) {
+    if (folder.empty()) throw BadInput("cannot export into a folder without a name; name one");
     if (!isThere(folder)) return;
     std::error_code failed;
     if (!fs::is_directory(folder, failed))

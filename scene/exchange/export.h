@@ -16,8 +16,8 @@ struct Exported {
 };
 
 /// Writes `scene` into `folder`, which is made if need be: all files or none. Those of an earlier export into the same
-/// folder are replaced. Throws BadInput where the folder holds other files, is none, or where glTF cannot show the scene,
-/// and InternalError where a file cannot be written.
+/// folder are replaced. Throws BadInput where the folder holds other files or is none, and InternalError where a file
+/// cannot be written.
 Exported exportScene(const Scene& scene, const std::filesystem::path& folder);
 
 } // namespace shadowbench::exchange

@@ -13,8 +13,13 @@ struct SkyJson {
 
 std::string onOneLine(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
+/// What has no structure below it: numbers, texts and lists of them.
+bool isFlat(const Json& value) {
+    return !value.is_structured() || value.empty() || (value.is_array() && !value.front().is_structured());
+}
+
 void write(std::string& text, const Json& value, int depth, int indent) {
-    if (depth == 0 || !value.is_structured() || value.empty()) {
+    if (depth == 0 || isFlat(value)) {
         text += onOneLine(value);
         return;
     }

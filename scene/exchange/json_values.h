@@ -21,8 +21,8 @@ Json jsonOf(const Camera& camera, const glm::ivec2& size);
 /// `kind` and what it has (docs/exchange.md, "Lights"). The sky of an image is named `sky.exr`.
 Json jsonOf(const Light& light);
 
-/// Indented by `depth` levels; what lies deeper stands on one line. Ends with a new line. Doubles have as many digits as
-/// name the same number; bytes that are no UTF-8 are replaced.
+/// Indented by `depth` levels; what lies deeper, and a list of numbers or texts, stands on one line. Ends with a new line.
+/// Doubles have as many digits as name the same number; bytes that are no UTF-8 are replaced.
 std::string textOf(const Json& value, int depth);
 
 } // namespace shadowbench::exchange

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 
 namespace shadowbench {
 namespace {
@@ -70,23 +71,23 @@ std::vector<Level> readLevels(const TomlValue& value, MeshStore& meshes) {
     return {{meshes.get(value.get("mesh"))}};
 }
 
-/// World from object, 16 numbers column by column: a shift, a turn, and scales along the object's axes, as glTF asks for.
+/// World from object, 16 numbers column by column: a shift, a turn and one scale, so that a spin never shears the object.
 glm::dmat4 readMatrix(const TomlValue& value) {
-    constexpr double kRightAngle = 1e-6; // cosine: rounding of 32-bit floats, and room
+    constexpr double kRounding = 1e-6; // of sines and scales: that of 32-bit floats, and room
     const std::vector<TomlValue> numbers = value.list();
     if (numbers.size() != 16) value.fail(fmt::format("expected 16 numbers, column by column, got {}", numbers.size()));
     glm::dmat4 matrix;
     for (std::size_t i = 0; i < numbers.size(); ++i)
         matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = numbers[i].number();
     if (glm::transpose(matrix)[3] != glm::dvec4(0, 0, 0, 1))
-        value.fail("expected numbers 4, 8 and 12 to be 0 and number 16 to be 1: a shift, a turn and scales");
+        value.fail("expected numbers 4, 8 and 12 to be 0 and number 16 to be 1: a shift, a turn and a scale");
     const glm::dmat3 axes(matrix);
     if (!(glm::determinant(axes) > 0)) value.fail("is flat or mirrors the object; expected a determinant above 0");
-    for (int i = 0; i < 3; ++i) {
-        const glm::dvec3 &a = axes[i], &b = axes[(i + 1) % 3];
-        if (std::abs(glm::dot(a, b)) > kRightAngle * glm::length(a) * glm::length(b))
-            value.fail("shears the object; expected columns at right angles: a shift, a turn and scales");
-    }
+    const double scale = glm::length(axes[0]);
+    for (int i = 0; i < 3; ++i)
+        if (std::abs(glm::dot(axes[i], axes[(i + 1) % 3])) > kRounding * scale * scale ||
+            std::abs(glm::length(axes[i]) - scale) > kRounding * scale)
+            value.fail("stretches or shears the object; expected a shift, a turn and one scale");
     return matrix;
 }
 

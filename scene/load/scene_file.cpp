@@ -150,6 +150,11 @@ void requireNoProblem(const TomlValue& root, const Scene& scene) {
 /// An exported scene is named by its folder (docs/exchange.md); other names stay as they are.
 fs::path sceneFileOf(const fs::path& given) {
     std::error_code failed;
+    for (const char* other : {".gltf", ".glb", ".obj", ".ply", ".json"})
+        if (given.extension() == other)
+            throw BadInput(fmt::format("cannot load {} as a scene; name a .toml file, whose meshes may come from it, or the "
+                                       "folder of an exported scene",
+                                       given.string()));
     if (!fs::is_directory(given, failed)) return given;
     if (!fs::exists(given / "scene.json", failed))
         throw BadInput(

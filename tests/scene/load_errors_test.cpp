@@ -133,7 +133,9 @@ const std::vector<Mistake>& mistakes() {
         {"MatrixThatMirrors", withMatrix("-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"),
          "scenes/x.toml:6: object[1].place[1].matrix: is flat or mirrors the object"},
         {"MatrixThatShears", withMatrix("1, 0, 0, 0, 0.3, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"),
-         "scenes/x.toml:6: object[1].place[1].matrix: shears the object"},
+         "scenes/x.toml:6: object[1].place[1].matrix: stretches or shears the object"},
+        {"MatrixOfThreeScales", withMatrix("1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"),
+         "scenes/x.toml:6: object[1].place[1].matrix: stretches or shears the object"},
         {"MatrixAndScale", withObject("mesh = { box = { size = [2, 1, 2] } }\nplace = [{ matrix = [1], scale = 2 }]"),
          "scenes/x.toml:6: object[1].place[1].scale: unknown key"},
         {"PhasesOfOtherInstances",
@@ -264,7 +266,8 @@ TEST(LoaderErrors, AnUnknownIdNamesTheNearestSceneAndAll) {
 }
 
 TEST(LoaderErrors, AMissingFileAndAFolderAreNamed) {
-    for (const auto& [file, reason] : {std::pair{"/nowhere/x.toml", "No such file"}, std::pair{"/tmp", "it is a folder"}}) {
+    for (const auto& [file, reason] : {std::pair{"/nowhere/x.toml", "No such file"}, std::pair{"/tmp", "it is a folder"},
+                                       std::pair{"exported/scene.gltf", "folder of an exported scene"}}) {
         try {
             loadScene(file, Profile::Gate);
             ADD_FAILURE() << file << " loaded";

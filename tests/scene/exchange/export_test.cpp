@@ -132,6 +132,7 @@ TEST(Export, RefusesAFolderOfOtherFilesAndAFile) {
     EXPECT_NE(messageOf([&] { exportScene(scene, folder.path()); }).find("holds other files; name a new"),
               std::string::npos);
     EXPECT_NE(messageOf([&] { exportScene(scene, folder.path() / "photo.png"); }).find("it is a file"), std::string::npos);
+    EXPECT_NE(messageOf([&] { exportScene(scene, ""); }).find("without a name"), std::string::npos);
     EXPECT_EQ(readFile(folder.path() / "photo.png"), "mine");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
