@@ -11,8 +11,6 @@
 #include "benchmarks/embree_shadows.h"
 #include "groundtruth/cgal/geometry/primary.h"
 #include "groundtruth/cgal/hard/exact.h"
-#include "harness/cells/truths.h"
-#include "harness/metrics/table.h"
 #include "scene/load/load.h"
 #include "tests/support/share_samples.h"
 
@@ -47,8 +45,8 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 std::vector<Named> namedScenes(const std::vector<std::string>& chosen) {
     std::vector<Named> found;
     for (const std::string& id : chosen.empty() ? builtinScenes() : chosen) {
-        const Scene scene = loadScene(id, Profile::Gate, metrics::boundedMetrics());
-        if (hasTruth(scene.light, Truth::Irradiance))
+        const Scene scene = loadScene(id, Profile::Gate);
+        if (scene.light.kind == LightKind::Rectangle || scene.light.kind == LightKind::Disk)
             found.push_back({id, snapshot(scene, scene.timeline.still - 1), scene.size});
     }
     const std::size_t rectangles = found.size();
