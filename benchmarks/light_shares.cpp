@@ -16,6 +16,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <ctime>
 #include <fmt/format.h>
 #include <unordered_map>
 
@@ -74,12 +75,13 @@ public:
           primary_(hard::ExactScene(snapshot_, triangles_, hardwareThreads()).primaryHits(size_)),
           exact_(snapshot_, triangles_, hardwareThreads()), rays_(snapshot_, hardwareThreads(), true) {}
 
-    /// Three quarters of them where the light is partly visible, as far as some 20 times as many pixels hold that many.
+    /// Three quarters of them where the light is partly visible, as far as 20 times as many pixels hold that many.
     [[nodiscard]] std::vector<Compared> chosen(int count) const {
         std::vector<Compared> partly, others;
         const auto wanted = static_cast<std::size_t>(count), wantedPartly = 3 * wanted / 4;
         Random random(static_cast<std::uint64_t>(count));
-        for (int i = 0; i < 20 * count && partly.size() < wantedPartly; ++i) {
+        for (int i = 0; i < 20 * count; ++i) {
+            if (partly.size() >= wantedPartly && partly.size() + others.size() >= wanted) break;
             const glm::ivec2 pixel(static_cast<int>(random.uniform() * size_.x),
                                    static_cast<int>(random.uniform() * size_.y));
             if (primary_.surface(pixel.x, pixel.y) != Surface::Receiver) continue;
@@ -87,7 +89,7 @@ public:
             const bool whole = found.exact[0] == 0 || found.exact[0] == 1;
             (whole ? others : partly).push_back(found);
         }
-        others.resize(std::min(others.size(), wanted - partly.size()));
+        others.resize(std::min(others.size(), wanted - std::min(partly.size(), wanted)));
         partly.insert(partly.end(), others.begin(), others.end());
         return partly;
     }
@@ -115,14 +117,14 @@ public:
             });
     }
 
-    /// Seconds that the whole image takes by each share.
+    /// Seconds of the processor, of all threads, that the whole image takes by each share.
     [[nodiscard]] std::array<double, 3> imageSeconds() const {
         std::array<double, 3> seconds{};
         for (std::size_t i = 0; i < 3; ++i) {
             Reference out;
-            const auto start = std::chrono::steady_clock::now();
+            const std::clock_t start = std::clock();
             exact_.label(size_, primary_, out, {}, sampledShares[i]);
-            seconds[i] = secondsSince(start);
+            seconds[i] = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
         }
         return seconds;
     }
@@ -188,7 +190,7 @@ void timeImages(const Named& named) {
     const std::array<double, 3> seconds = Comparison(named).imageSeconds();
     fmt::print("{:<30} {} × {}:", named.name, named.size.x, named.size.y);
     for (std::size_t i = 0; i < 3; ++i) fmt::print(" {} {:.2f} s;", shareNames[i], seconds[i]);
-    fmt::print("\n");
+    fmt::print(" of the processor\n");
     std::fflush(stdout);
 }
 
