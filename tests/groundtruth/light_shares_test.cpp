@@ -79,7 +79,9 @@ TEST(LightShares, AreReferencesOfTheirOwn) {
             ASSERT_EQ(share.surface[i], area.surface[i]);
             most = std::max(most, std::abs(static_cast<double>(share.visibility[i]) - area.visibility[i]));
             const bool whole = area.visibility[i] == 0 || area.visibility[i] == 1;
-            if (whole) EXPECT_EQ(share.visibility[i], area.visibility[i]);
+            if (whole) {
+                EXPECT_EQ(share.visibility[i], area.visibility[i]);
+            }
             EXPECT_LT(share.sigma[i], 1e-8);
         }
         EXPECT_GT(most, 0.005);
