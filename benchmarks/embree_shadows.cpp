@@ -50,6 +50,42 @@ bool occluded(RTCScene scene, const glm::vec3& from, const glm::vec3& to, float 
     return ray.tfar < 0; // Embree's mark of an occluded ray
 }
 
+/// What Embree hands back to the filter.
+struct FilteredContext {
+    RTCIntersectContext context;
+    const EmbreeShadows::Ignored* ignored;
+};
+
+void ignoreHits(const RTCFilterFunctionNArguments* hits) {
+    const auto& ignored = *reinterpret_cast<const FilteredContext*>(hits->context)->ignored;
+    for (unsigned i = 0; i < hits->N; ++i)
+        if (hits->valid[i] != 0 && ignored(RTCHitN_geomID(hits->hit, hits->N, i), RTCHitN_primID(hits->hit, hits->N, i)))
+            hits->valid[i] = 0;
+}
+
+constexpr std::size_t lanes = 8; // rays at a time
+
+/// At most `lanes` rays.
+void traceVisible(RTCScene scene, FilteredContext& context, const glm::dvec3& from, std::span<const glm::dvec3> lights,
+                  std::span<char> result) {
+    alignas(32) int valid[lanes] = {};
+    RTCRay8 rays{};
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const glm::vec3 origin(from), direction(lights[i] - from);
+        valid[i] = -1;
+        rays.org_x[i] = origin.x;
+        rays.org_y[i] = origin.y;
+        rays.org_z[i] = origin.z;
+        rays.dir_x[i] = direction.x;
+        rays.dir_y[i] = direction.y;
+        rays.dir_z[i] = direction.z;
+        rays.tfar[i] = 1;
+        rays.mask[i] = ~0U;
+    }
+    rtcOccluded8(valid, scene, &context.context, &rays);
+    for (std::size_t i = 0; i < lights.size(); ++i) result[i] = rays.tfar[i] < 0 ? 0 : 1;
+}
+
 } // namespace
 
 struct EmbreeShadows::Scene {
@@ -57,12 +93,14 @@ struct EmbreeShadows::Scene {
     SceneHandle scene;
 };
 
-EmbreeShadows::EmbreeShadows(const Snapshot& snapshot, int threads) : scene_(std::make_unique<Scene>()), threads_(threads) {
+EmbreeShadows::EmbreeShadows(const Snapshot& snapshot, int threads, bool filters)
+    : scene_(std::make_unique<Scene>()), threads_(threads) {
     scene_->device.reset(rtcNewDevice(("threads=" + std::to_string(threads)).c_str()));
     if (!scene_->device) throw InternalError("Embree gave no device.");
     const RTCDevice device = scene_->device.get();
     scene_->scene.reset(rtcNewScene(device));
-    rtcSetSceneFlags(scene_->scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(scene_->scene.get(),
+                     filters ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION : RTC_SCENE_FLAG_ROBUST);
     for (const Batch& batch : snapshot.batches)
         for (const Placement& placement : batch.placements)
             addGeometry(device, scene_->scene.get(), *batch.mesh, placement.world);
@@ -82,6 +120,17 @@ Image<float> EmbreeShadows::visibility(const groundtruth::PrimaryHits& primary, 
         }
     });
     return result;
+}
+
+void EmbreeShadows::visible(const glm::dvec3& from, std::span<const glm::dvec3> lights, const Ignored& ignored,
+                            std::span<char> result) const {
+    FilteredContext context{{}, &ignored};
+    rtcInitIntersectContext(&context.context);
+    context.context.filter = ignoreHits;
+    for (std::size_t i = 0; i < lights.size(); i += lanes) {
+        const std::size_t count = std::min(lanes, lights.size() - i);
+        traceVisible(scene_->scene.get(), context, from, lights.subspan(i, count), result.subspan(i, count));
+    }
 }
 
 } // namespace shadowbench::benchmarks

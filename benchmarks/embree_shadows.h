@@ -3,7 +3,9 @@
 
 #include "groundtruth/contract/reference.h"
 
+#include <functional>
 #include <memory>
+#include <span>
 
 namespace shadowbench::benchmarks {
 
@@ -11,7 +13,8 @@ namespace shadowbench::benchmarks {
 /// quality.
 class EmbreeShadows {
 public:
-    EmbreeShadows(const Snapshot& snapshot, int threads); // builds; InternalError with Embree's message
+    /// Builds; InternalError with Embree's message. `filters`: for `visible`.
+    EmbreeShadows(const Snapshot& snapshot, int threads, bool filters = false);
     ~EmbreeShadows();
     EmbreeShadows(const EmbreeShadows&) = delete;
     EmbreeShadows& operator=(const EmbreeShadows&) = delete;
@@ -21,6 +24,13 @@ public:
     /// does not meet itself.
     [[nodiscard]] Image<float> visibility(const groundtruth::PrimaryHits& primary, const glm::dvec3& light,
                                           float tnear) const;
+
+    /// Names a triangle by the number of its placement, in the order of the snapshot, and its number in the mesh.
+    using Ignored = std::function<bool(unsigned, unsigned)>;
+
+    /// `result[i]` = 1 where nothing but what is ignored lies between `from` and `lights[i]`, else 0.
+    void visible(const glm::dvec3& from, std::span<const glm::dvec3> lights, const Ignored& ignored,
+                 std::span<char> result) const;
 
 private:
     struct Scene;

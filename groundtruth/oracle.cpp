@@ -46,7 +46,11 @@ void requireAnswerable(const Request& request) {
             fmt::format("the {} oracle does not answer for this light, an environment: use povray", name(request.oracle)));
     if (kind == LightKind::Environment) return;
     const bool area = request.snapshot.light.isArea();
-    const bool ofAreas = request.oracle == Oracle::Area || request.oracle == Oracle::PovRay;
+    const bool ofAreas = isExactShare(request.oracle) || request.oracle == Oracle::PovRay;
+    if (kind == LightKind::Line && isExactShare(request.oracle) && request.oracle != Oracle::Area)
+        throw BadInput(fmt::format("the {} oracle answers for rectangles and disks, and this light is a line, which has no "
+                                   "solid angle and no side that emits: use area",
+                                   name(request.oracle)));
     if (area && !ofAreas && request.oracle != Oracle::Auto)
         throw BadInput(
             fmt::format("the {} oracle answers for point and directional lights, and this light is a {}: use povray or area",
@@ -109,15 +113,20 @@ Reference softReference(const Request& request, const Progress& progress) {
     return reference;
 }
 
-/// The exact visible fraction at every pixel.
+area::Share shareOf(Oracle oracle) {
+    if (oracle == Oracle::Irradiance) return area::Share::Irradiance;
+    return oracle == Oracle::SolidAngle ? area::Share::SolidAngle : area::Share::Area;
+}
+
+/// The exact visible share at every pixel.
 Reference areaReference(const Request& request, const Progress& progress) {
     const auto triangles = std::make_shared<const geometry::SceneTriangles>(request.snapshot);
     const PrimaryHits primary =
         hard::ExactScene(request.snapshot, triangles, hardwareThreads()).primaryHits(request.size, part(progress, 0, 0.05));
     Reference reference = unlabelled(primary);
     area::AreaScene(request.snapshot, triangles, hardwareThreads())
-        .label(request.size, primary, reference, part(progress, 0.05, 1));
-    reference.provenance.oracle = "area";
+        .label(request.size, primary, reference, part(progress, 0.05, 1), shareOf(request.oracle));
+    reference.provenance.oracle = name(request.oracle);
     return reference;
 }
 
@@ -212,11 +221,11 @@ Reference computeWith(const ReferenceKey& key, const Request& request, const Pro
     requireAnswerable(request);
     const auto start = std::chrono::steady_clock::now();
     const Light& light = request.snapshot.light;
-    Reference reference = request.pixelAreas               ? pixelAreaReference(request, progress)
-                          : request.oracle == Oracle::Area ? areaReference(request, progress)
-                          : light.isEnvironment()          ? skyReference(request, progress)
-                          : light.isArea()                 ? softReference(request, progress)
-                                                           : hardReference(request, progress);
+    Reference reference = request.pixelAreas             ? pixelAreaReference(request, progress)
+                          : isExactShare(request.oracle) ? areaReference(request, progress)
+                          : light.isEnvironment()        ? skyReference(request, progress)
+                          : light.isArea()               ? softReference(request, progress)
+                                                         : hardReference(request, progress);
     reference.provenance.key = key.text;
     reference.provenance.tools = key.tools;
     reference.provenance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -233,7 +242,8 @@ Tools toolVersions(const Request& request) {
     const Light& light = request.snapshot.light;
     if (!light.isArea() && !light.isEnvironment()) return tools;
     if (light.isArea()) tools["area"] = std::to_string(area::codeVersion);
-    if (request.oracle == Oracle::Area) return tools;
+    if (shareOf(request.oracle) != area::Share::Area) tools["area weights"] = std::to_string(area::weightsCodeVersion);
+    if (isExactShare(request.oracle)) return tools;
     if (light.isArea()) tools["certificate"] = std::to_string(certificateVersion);
     tools["povray"] = povray::version();
     if (light.isEnvironment()) tools["povray sky"] = std::to_string(povray::skyCodeVersion);

@@ -13,12 +13,14 @@
 namespace shadowbench::groundtruth {
 namespace {
 
-constexpr std::array<std::pair<Oracle, std::string_view>, 6> oracles{{{Oracle::Auto, "auto"},
+constexpr std::array<std::pair<Oracle, std::string_view>, 8> oracles{{{Oracle::Auto, "auto"},
                                                                       {Oracle::Polygon, "polygon"},
                                                                       {Oracle::Rays, "rays"},
                                                                       {Oracle::Plan, "plan"},
                                                                       {Oracle::Area, "area"},
-                                                                      {Oracle::PovRay, "povray"}}};
+                                                                      {Oracle::PovRay, "povray"},
+                                                                      {Oracle::Irradiance, "irradiance"},
+                                                                      {Oracle::SolidAngle, "solid-angle"}}};
 
 } // namespace
 

@@ -31,7 +31,7 @@ struct PrimaryHits {
 /// Where the numbers of a reference come from.
 struct Provenance {
     std::string oracle; // "polygon", "rays", "polygon+rays" (planar receivers + the others), "plan", "area", "povray",
-                        // "pixel-areas"
+                        // "irradiance", "solid-angle", "pixel-areas"
     std::string key;    // content hash of everything the reference depends on
     int samples = 0;    // light samples; 0 for exact oracles
     std::map<std::string, std::string> tools; // tool → version
@@ -49,7 +49,8 @@ struct Provenance {
 
 struct Reference {
     Image<float> visibility; // visible fraction of the light in [0, 1] (0 or 1 for point and directional lights, but for
-                             // pixel areas); for an environment the share E/E₀ of the unoccluded irradiance
+                             // pixel areas), of an area light's area unless the oracle is another share's; for an
+                             // environment the share E/E₀ of the unoccluded irradiance
     Image<float> sigma;      // its standard uncertainty; 0 where exact. povray: estimated from the samples
                              // (groundtruth/povray/uncertainty.h), scaled to the certificate's rms error
     Image<Surface> surface;
@@ -61,8 +62,13 @@ struct Reference {
     Provenance provenance;
 };
 
-/// Plan: 2-D visibility, for plan-view scenes. Area: the exact visible fraction of an area light.
-enum class Oracle { Auto, Polygon, Rays, Plan, Area, PovRay };
+/// Plan: 2-D visibility, for plan-view scenes. Area, Irradiance and SolidAngle: the exact visible share of an area light, by
+/// its area, by the irradiance that it brings to the receiver as a diffuse emitter, and by its solid angle
+/// (docs/ground-truth.md, "Other definitions of soft visibility").
+enum class Oracle { Auto, Polygon, Rays, Plan, Area, PovRay, Irradiance, SolidAngle };
+inline bool isExactShare(Oracle oracle) {
+    return oracle == Oracle::Area || oracle == Oracle::Irradiance || oracle == Oracle::SolidAngle;
+}
 std::string_view name(Oracle oracle);
 Oracle oracleNamed(std::string_view name); // throws BadInput naming the valid ones and near matches
 

@@ -125,7 +125,7 @@ std::string key(const Request& request, const Tools& tools) {
         hash.add(placed.mesh);
     }
     const bool soft = snapshot.light.isArea() || snapshot.light.isEnvironment();
-    const bool sampled = soft && request.oracle != Oracle::Area;
+    const bool sampled = soft && !isExactShare(request.oracle);
     for (const int value : {request.size.x, request.size.y, sampled ? request.samples : 0})
         hash.add(static_cast<std::uint64_t>(value));
     hash.add(name(request.oracle));

@@ -9,7 +9,8 @@
 namespace shadowbench {
 namespace {
 
-constexpr Truth allTruths[] = {Truth::Hard, Truth::Soft, Truth::PixelArea, Truth::Area};
+constexpr Truth allTruths[] = {Truth::Hard, Truth::Soft,       Truth::PixelArea,
+                               Truth::Area, Truth::Irradiance, Truth::SolidAngle};
 
 } // namespace
 
@@ -23,6 +24,10 @@ std::string_view name(Truth truth) {
         return "pixel-area";
     case Truth::Area:
         return "area";
+    case Truth::Irradiance:
+        return "irradiance";
+    case Truth::SolidAngle:
+        return "solid-angle";
     }
     return "";
 }
@@ -30,7 +35,9 @@ std::string_view name(Truth truth) {
 Truth truthNamed(std::string_view word) {
     for (const Truth truth : allTruths)
         if (name(truth) == word) return truth;
-    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard, soft, pixel-area and area", word));
+    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard, soft, pixel-area, area, irradiance and "
+                               "solid-angle",
+                               word));
 }
 
 bool hasTruth(const Light& light, Truth truth) {
@@ -39,6 +46,9 @@ bool hasTruth(const Light& light, Truth truth) {
         return light.isArea() || light.isEnvironment();
     case Truth::Area:
         return light.isArea();
+    case Truth::Irradiance:
+    case Truth::SolidAngle:
+        return light.isArea() && light.kind != LightKind::Line;
     case Truth::Hard:
     case Truth::PixelArea:
         return !light.isEnvironment();
@@ -63,6 +73,8 @@ groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame
     request.samples = frame < scene.timeline.still ? scene.referenceSamples : scene.movingReferenceSamples;
     if (truth == Truth::Hard || truth == Truth::PixelArea) request.snapshot.light = request.snapshot.light.centreOnly();
     if (truth == Truth::Area) request.oracle = groundtruth::Oracle::Area;
+    if (truth == Truth::Irradiance) request.oracle = groundtruth::Oracle::Irradiance;
+    if (truth == Truth::SolidAngle) request.oracle = groundtruth::Oracle::SolidAngle;
     request.pixelAreas = truth == Truth::PixelArea;
     return request;
 }

@@ -41,8 +41,9 @@ ExitCode run(const ReferenceWords& words) {
     if (words.verify) return verifyGoldenReferences(options);
     if (words.accept) return acceptGoldenReferences(options);
     if (!options.report.empty()) return reportOnTruth(options);
+    if (words.certify && options.truth)
+        throw BadInput("--certify is of POV-Ray's render and --truth names another reference: leave one of them out");
     if (words.certify) return certifyReference(options);
-    if (options.truth) throw BadInput("--truth chooses among golden references: give it with --verify or --accept");
     return computeReference(options);
 }
 
@@ -54,6 +55,23 @@ void printPolygons(const groundtruth::Request& request, const std::filesystem::p
         for (std::filesystem::path& file : groundtruth::plan::writeVisiblePolygons(request.snapshot, primary, folder))
             files.push_back(std::move(file));
     for (const std::filesystem::path& file : files) fmt::print("polygons: {}\n", file.string());
+}
+
+} // namespace
+
+namespace {
+
+/// What the options ask for, by the truth that they name or else by the oracle alone.
+groundtruth::Request chosenRequest(const Scene& scene, int frame, const ReferenceOptions& options) {
+    const groundtruth::Oracle oracle = groundtruth::oracleNamed(options.oracle);
+    if (!options.truth) return {snapshot(scene, frame), scene.size, oracle, scene.referenceSamples};
+    groundtruth::Request request = referenceRequest(scene, *options.truth, frame);
+    if (oracle == groundtruth::Oracle::Auto || oracle == request.oracle) return request;
+    if (request.oracle != groundtruth::Oracle::Auto)
+        throw BadInput(fmt::format("--truth {} is by the oracle {}, not by {}: leave out --oracle", name(*options.truth),
+                                   name(request.oracle), options.oracle));
+    request.oracle = oracle;
+    return request;
 }
 
 } // namespace
@@ -70,10 +88,9 @@ NamedRequest requestOf(const ReferenceOptions& options) {
     if (options.scenes.size() != 1) throw BadInput("a reference is of one scene: name it with --scene");
     const Scene scene = loadScene(options.scenes.front(), options.profile, metrics::boundedMetrics());
     const int frame = frameOf(scene, options);
-    return {scene.id,
-            frame,
-            {snapshot(scene, frame), scene.size, groundtruth::oracleNamed(options.oracle),
-             options.samples > 0 ? options.samples : scene.referenceSamples}};
+    NamedRequest named{scene.id, frame, chosenRequest(scene, frame, options)};
+    if (options.samples > 0) named.request.samples = options.samples;
+    return named;
 }
 
 ExitCode computeReference(const ReferenceOptions& options) {
@@ -101,6 +118,7 @@ void addReference(CLI::App& app, Action& action) {
         "Examples:\n  shadowbench reference --scene overlapping-occluders --samples 256 --out /tmp/truth\n"
         "  shadowbench reference --scene colonnade --oracle plan --polygons --out /tmp/plan\n"
         "  shadowbench reference --scene overlapping-occluders --certify --points 10000\n"
+        "  shadowbench reference --scene simple --truth irradiance --out /tmp/irradiance\n"
         "  shadowbench reference --verify --truth hard\n  shadowbench reference --accept --scene simple\n"
         "  shadowbench reference --report results/truth");
     verb->add_option("--scene", options.scenes,
@@ -109,7 +127,8 @@ void addReference(CLI::App& app, Action& action) {
     verb->add_option("--frame", words->frame, "Frame number (default: the scored one; of golden references all)")
         ->check(CLI::NonNegativeNumber);
     CLI::Option* oracle =
-        verb->add_option("--oracle", options.oracle, "auto, polygon, rays, plan, area or povray")->capture_default_str();
+        verb->add_option("--oracle", options.oracle, "auto, polygon, rays, plan, area, povray, irradiance or solid-angle")
+            ->capture_default_str();
     CLI::Option* samples = verb->add_option("--samples", options.samples,
                                             "Samples of an area light, directions of a sky (default: the scene's)")
                                ->check(CLI::Range(4, 16384));
@@ -128,7 +147,9 @@ void addReference(CLI::App& app, Action& action) {
     CLI::Option* verify = verb->add_flag("--verify", words->verify, "Compute the golden references again and compare");
     CLI::Option* accept =
         verb->add_flag("--accept", words->accept, "Compute the golden references again, say what changed, and keep them");
-    verb->add_option("--truth", words->truth, "Golden references of one truth only: hard, soft, pixel-area or area");
+    verb->add_option("--truth", words->truth,
+                     "The truth to compute: hard, soft, pixel-area, area, irradiance or solid-angle (default: what --oracle "
+                     "answers); with --verify and --accept, golden references of that truth only");
     verb->add_option("--golden", options.golden, "Folder of the golden references")->capture_default_str();
     verb->add_flag("--json", options.json, "What --verify, --accept and --certify found, for machines");
     verb->add_flag("--quiet", options.quiet, "No progress");

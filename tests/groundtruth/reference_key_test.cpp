@@ -127,6 +127,20 @@ TEST(ReferenceKey, HardShadowsDoNotDependOnTheNumberOfSamples) {
     EXPECT_EQ(keyAfter(hard(), [](Request& r) { r.samples = 7; }), key(hard(), tools));
 }
 
+TEST(ReferenceKey, OfEveryExactShareIsItsOwnAndDoesNotDependOnTheNumberOfSamples) {
+    std::set<std::string> keys{key(soft(), tools)};
+    for (const Oracle oracle : {Oracle::Area, Oracle::Irradiance, Oracle::SolidAngle}) {
+        Request request = soft();
+        request.oracle = oracle;
+        keys.insert(key(request, tools));
+        request.samples = 7;
+        keys.insert(key(request, tools));
+        EXPECT_FALSE(toolVersions(request).contains("povray"));
+        EXPECT_EQ(toolVersions(request).contains("area weights"), oracle != Oracle::Area);
+    }
+    EXPECT_EQ(keys.size(), 4U);
+}
+
 TEST(ReferenceKey, NeedsPovRayForAreaLightsOnly) {
     const std::string path = std::getenv("PATH");
     setenv("PATH", "/nonexistent", 1);
@@ -136,7 +150,8 @@ TEST(ReferenceKey, NeedsPovRayForAreaLightsOnly) {
 }
 
 TEST(OracleNames, GoThereAndBack) {
-    for (const Oracle oracle : {Oracle::Auto, Oracle::Polygon, Oracle::Rays, Oracle::PovRay})
+    for (const Oracle oracle :
+         {Oracle::Auto, Oracle::Polygon, Oracle::Rays, Oracle::PovRay, Oracle::Irradiance, Oracle::SolidAngle})
         EXPECT_EQ(oracleNamed(name(oracle)), oracle);
 }
 

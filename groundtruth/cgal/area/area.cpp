@@ -6,6 +6,7 @@
 #include "groundtruth/cgal/area/area_points.h"
 #include "groundtruth/cgal/area/area_shape.h"
 #include "groundtruth/cgal/area/area_sweep.h"
+#include "groundtruth/cgal/area/area_weights.h"
 #include "groundtruth/cgal/geometry/primary.h"
 
 #include <array>
@@ -59,6 +60,21 @@ void requireSize(const PrimaryHits& primary, glm::ivec2 size) {
         throw InternalError("Visible fractions were asked for an image size that is not that of the primary hits.");
 }
 
+/// What another share's sums may err: some thousand parts, each to 2⁻⁴⁶ of the whole
+/// (groundtruth/cgal/area/area_weights.cpp).
+constexpr double weightsError = 1e-10;
+
+/// `found` by another share. What the areas' rounding leaves open weighs as much as where the weight is densest.
+BoundedFraction weighed(const Hidden& found, Share share, const Light& light, const LightShape& shape,
+                        const SurfacePoint& point) {
+    const VisibleFraction& area = found.left.fraction;
+    if (found.edges.empty()) return found.left;
+    const LightWeights weights(light, point);
+    const double error = found.left.error * weights.densest(share) + weightsError;
+    if (area.low == 1 || area.high == 0) return {area, error};
+    return {weighedFraction(found.edges, shape, weights, share), error};
+}
+
 } // namespace
 
 struct AreaScene::Data {
@@ -98,6 +114,17 @@ struct AreaScene::Data {
         const BoundedFraction left = areaFraction(*edges, shape);
         return Hidden{std::move(*edges), {}, left};
     }
+
+    void requireShare(Share share) const {
+        if (share != Share::Area && light.kind == LightKind::Line)
+            throw InternalError("A share of irradiance or solid angle was asked for a line light.");
+    }
+
+    [[nodiscard]] std::optional<BoundedFraction> visible(const SurfacePoint& point, Share share) const {
+        const std::optional<Hidden> found = hidden(point);
+        if (!found) return std::nullopt;
+        return share == Share::Area ? found->left : weighed(*found, share, light, shape, point);
+    }
 };
 
 AreaScene::AreaScene(const Snapshot& snapshot, int threads)
@@ -111,8 +138,13 @@ AreaScene::AreaScene(const Snapshot& snapshot, std::shared_ptr<const SceneTriang
 AreaScene::~AreaScene() = default;
 
 VisibleFraction AreaScene::fraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const {
-    const std::optional<Hidden> found = data_->hidden(data_->surfacePoint(pixel, size, primary));
-    return found ? found->left.fraction : VisibleFraction{0, 1};
+    return fraction(pixel, size, primary, Share::Area);
+}
+
+VisibleFraction AreaScene::fraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary, Share share) const {
+    data_->requireShare(share);
+    const auto found = data_->visible(data_->surfacePoint(pixel, size, primary), share);
+    return found ? found->fraction : VisibleFraction{0, 1};
 }
 
 SampledFraction AreaScene::sampledFraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary,
@@ -132,8 +164,10 @@ VisibleFraction AreaScene::exactFraction(glm::ivec2 pixel, glm::ivec2 size, cons
     return exactVisibleFraction(areaCandidates(*data_->triangles, data_->light, point), data_->light, point);
 }
 
-void AreaScene::label(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress) const {
+void AreaScene::label(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress,
+                      Share share) const {
     requireSize(primary, size);
+    data_->requireShare(share);
     out.visibility = Image<float>(size.x, size.y);
     out.sigma = Image<float>(size.x, size.y);
     out.surface = primary.surface;
@@ -143,14 +177,14 @@ void AreaScene::label(glm::ivec2 size, const PrimaryHits& primary, Reference& ou
     inParallel(size.y, data_->threads, progress, "visible fractions", [&](int y) {
         for (int x = 0; x < size.x; ++x) {
             if (primary.surface(x, y) != Surface::Receiver) continue;
-            const auto found = data_->hidden(data_->surfacePoint({x, y}, size, primary));
+            const auto found = data_->visible(data_->surfacePoint({x, y}, size, primary), share);
             if (!found) {
                 out.surface(x, y) = Surface::OnEdge;
                 continue;
             }
-            const VisibleFraction& f = found->left.fraction;
+            const VisibleFraction& f = found->fraction;
             out.visibility(x, y) = static_cast<float>(0.5 * (f.low + f.high));
-            out.sigma(x, y) = static_cast<float>(0.5 * (f.high - f.low) + found->left.error);
+            out.sigma(x, y) = static_cast<float>(0.5 * (f.high - f.low) + found->error);
         }
     });
 }

@@ -19,12 +19,17 @@ class SceneTriangles; // groundtruth/cgal/geometry/triangles.h
 
 namespace shadowbench::groundtruth::area {
 
+/// By what the parts of a light count: its area, the irradiance that they bring to the receiver as parts of a diffuse
+/// emitter, or the solid angle under which they are seen. A line has neither of the last two.
+enum class Share { Area, Irradiance, SolidAngle };
+
 /// Raise it with every change that can alter a fraction: it is part of the key of each reference that needs one.
 constexpr int codeVersion = 1;
+constexpr int weightsCodeVersion = 1; // the same of shares of irradiance and solid angle
 
-/// Visible share of the light's area at one surface point, in [0, 1]. low == high for rectangles and lines; for a disk the
-/// bracket of an inscribed and a circumscribed polygon, at most 1e-4 wide. A point in the light's plane (on a line light's
-/// line) sees the light edge-on and has no fraction: low = 0, high = 1.
+/// Visible share of the light at one surface point, in [0, 1]. low == high for rectangles and lines; for a disk the bracket
+/// of an inscribed and a circumscribed polygon, of shares of its area at most 1e-4 wide. A point in the light's plane (on a
+/// line light's line) sees the light edge-on and has no fraction: low = 0, high = 1.
 struct VisibleFraction {
     double low, high;
 };
@@ -53,6 +58,9 @@ public:
     /// else InternalError.
     [[nodiscard]] VisibleFraction fraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const;
 
+    /// The same of another share; InternalError for a line. Exactly 1 and 0 where `fraction` is.
+    [[nodiscard]] VisibleFraction fraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary, Share share) const;
+
     /// The same with what the surface point sees of single points of the light: what a render that samples the light at them
     /// must show.
     [[nodiscard]] SampledFraction sampledFraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary,
@@ -64,8 +72,9 @@ public:
 
     /// The fast form at all receivers of `primary`: visibility (middle of the bracket; 0 off the receivers), sigma (half the
     /// bracket plus the certified bound of the fast form's rounding), surface (OnEdge where the light is seen edge-on), id,
-    /// position and edgeDistance (infinity) of `out`.
-    void label(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress = {}) const;
+    /// position and edgeDistance (infinity) of `out`. InternalError for another share than that of the area of a line.
+    void label(glm::ivec2 size, const PrimaryHits& primary, Reference& out, const Progress& progress = {},
+               Share share = Share::Area) const;
 
 private:
     struct Data;
