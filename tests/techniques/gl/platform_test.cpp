@@ -65,8 +65,9 @@ TEST(Platform, OfTheTestsIsTheChosenOneAndInSoftware) {
 
 TEST(Platform, TwoDoNotStandSideBySide) {
     const Platform own = testContext().info().platform;
-    const Platform other = own == Platform::Egl ? Platform::OsMesa : Platform::Egl;
-    EXPECT_THROW(gl::Context::create({.platform = other}), InternalError);
+    gl::ContextOptions other;
+    other.platform = own == Platform::Egl ? Platform::OsMesa : Platform::Egl;
+    EXPECT_THROW(gl::Context::create(other), InternalError);
     EXPECT_EQ(&gl::Context::current(), &testContext());
 }
 
