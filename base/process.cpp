@@ -62,6 +62,8 @@ struct Launch {
         const char* path = std::getenv("PATH");
         variables = {"HOME=" + c.folder.string(), "TMPDIR=" + c.folder.string(), "LC_ALL=C",
                      std::string("PATH=") + (path != nullptr ? path : "/usr/bin:/bin")};
+        for (const std::string& name : c.inherited)
+            if (const char* value = std::getenv(name.c_str())) variables.push_back(name + "=" + value);
         for (std::string& word : words) argv.push_back(word.data());
         for (std::string& variable : variables) envp.push_back(variable.data());
         argv.push_back(nullptr);

@@ -27,6 +27,7 @@ struct Command {
     std::uintmax_t fileLimit = 64 << 20;                  // bytes, largest file the child may write
     std::uintmax_t memoryLimit = std::uintmax_t{4} << 30; // bytes of address space, more than is ever used of it
     std::optional<int> cpu = {};                          // the only one it may run on
+    std::vector<std::string> inherited = {};              // environment variables that it has as this process has them
 };
 
 struct Finished {

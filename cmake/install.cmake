@@ -11,7 +11,7 @@ install(FILES ${documents}/shadowbench.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man
 install(FILES ${documents}/shadowbench.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME shadowbench)
 install(FILES ${documents}/_shadowbench DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 
-# The libraries that the program loads are found by dpkg-shlibdeps; the programs that it runs are named here.
+# The libraries that the program links are found by dpkg-shlibdeps; what it opens and runs while it runs is named here.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "shadowbench <shadowbench@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "scores real-time shadow techniques against proven ground truth")
@@ -20,7 +20,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "povray, gnuplot-nox | gnuplot-qt | gnuplot-x11")  # every run: soft references, charts
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6 | libegl1, povray, gnuplot-nox | gnuplot-qt | gnuplot-x11")  # every run: soft references, charts
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "valgrind")                                    # counted instructions
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "git, cmake, g++, ninja-build")                  # `gate --base REVISION` builds one
 include(CPack)

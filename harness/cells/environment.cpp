@@ -73,15 +73,32 @@ std::string libraryVersion() {
     return text;
 }
 
+const std::map<std::string, std::string>& packages() {
+    static const std::map<std::string, std::string> installed = installedPackages();
+    return installed;
+}
+
+/// The packages of a rasteriser of Mesa's in software, and of the compiler that its name tells: "llvmpipe (LLVM 15.0.6, …".
+std::string mesaOf(const gl::ContextInfo& context) {
+    if (!context.software) return "";
+    std::vector<std::string> names{"libosmesa6"};
+    if (context.platform == gl::Platform::Egl) names = {"libegl-mesa0", "libgl1-mesa-dri"};
+    constexpr std::string_view compiler = "(LLVM ";
+    if (const std::size_t at = context.renderer.find(compiler); at != std::string::npos) {
+        const std::string version = context.renderer.substr(at + compiler.size());
+        names.push_back("libllvm" + version.substr(0, version.find('.')));
+    }
+    return revisionsOf(packages(), names);
+}
+
 /// The parts that are the same as long as the program runs.
 Environment ofThisMachine() {
-    const std::map<std::string, std::string> cpu = firstProcessor(), packages = installedPackages();
+    const std::map<std::string, std::string> cpu = firstProcessor();
     Environment environment;
     environment.cpu = valueOf(cpu, "model name");
     environment.cpuFeatures = featuresOf(cpu);
     environment.compiler = std::string("g++ ") + __VERSION__;
-    environment.mesa = revisionsOf(packages, {"libosmesa6", "libllvm15"});
-    environment.libraries = fmt::format("{}, {}", libraryVersion(), revisionsOf(packages, {"libstdc++6"}));
+    environment.libraries = fmt::format("{}, {}", libraryVersion(), revisionsOf(packages(), {"libstdc++6"}));
     return environment;
 }
 
@@ -92,6 +109,10 @@ Environment environmentOf(const gl::ContextInfo& context) {
     Environment environment = machine;
     environment.renderer = context.renderer;
     environment.gl = context.version;
+    environment.platform = gl::name(context.platform);
+    environment.vendor = context.vendor;
+    environment.driver = context.driver;
+    environment.mesa = mesaOf(context);
     environment.rasterThreads = context.rasterThreads;
     environment.vectorBits = context.vectorBits;
     return environment;

@@ -1,6 +1,7 @@
 #include "harness/studies/claims/claims.h"
 
 #include "harness/cli/command.h"
+#include "harness/records/comparability.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,9 +16,7 @@ struct ClaimsOptions {
 };
 
 ExitCode printClaims(const ClaimsOptions& options) {
-    std::vector<Record> records;
-    for (const std::filesystem::path& file : options.records)
-        for (Record& record : readRecords(file)) records.push_back(std::move(record));
+    const std::vector<Record> records = gate::readOfOneDevice(options.records);
     std::vector<Judgement> judgements;
     for (const Claim& claim : claims()) judgements.push_back(judge(claim, records));
     fmt::print("{}", claimsReport(judgements, options.format));

@@ -77,6 +77,7 @@ void addGate(CLI::App& app, Action& action) {
     verb->add_option("--cache", options->cache,
                      "Folder of references, builds and records (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     addSeedOption(*verb, options->seed);
+    addGlOption(*verb);
     verb->add_option("--junit", files->junit, "Write the verdicts as JUnit XML");
     verb->add_option("--summary", files->summary, "Write the page there, too (a CI host's summary file)");
     verb->add_flag("--annotations", files->annotations, "Print what is worse as CI annotations, too");

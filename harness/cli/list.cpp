@@ -1,4 +1,5 @@
 #include "harness/cli/command.h"
+#include "harness/records/comparability.h"
 #include "harness/report/listing.h"
 #include "harness/studies/behaviour/behaviour.h"
 
@@ -47,9 +48,8 @@ std::vector<std::filesystem::path> publishedRecords() {
 std::string tableOfBehaviours(const ListOptions& options) {
     if (options.what != "techniques") throw BadInput("--table is of techniques: list techniques --table");
     if (options.format == "json" || options.format == "ids") throw BadInput("--table is printed as md or latex");
-    std::vector<Record> records;
-    for (const std::filesystem::path& file : options.records.empty() ? publishedRecords() : options.records)
-        for (Record& record : readRecords(file)) records.push_back(std::move(record));
+    const std::vector<Record> records =
+        gate::readOfOneDevice(options.records.empty() ? publishedRecords() : options.records);
     return behaviourTable(behaviours(), records, options.format == "latex" ? Markup::Latex : Markup::Markdown);
 }
 

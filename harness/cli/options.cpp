@@ -1,5 +1,7 @@
 #include "harness/cli/options.h"
 
+#include "techniques/gl/platform.h"
+
 #include <CLI/CLI.hpp>
 
 namespace shadowbench {
@@ -8,6 +10,14 @@ void addProfileOption(CLI::App& verb, std::string& profile) {
     verb.add_option("--profile", profile, "Size of pictures and length of timelines")
         ->type_name("TEXT:{gate,standard,paper}")
         ->capture_default_str();
+}
+
+void addGlOption(CLI::App& verb) {
+    verb.add_option_function<std::string>(
+            "--gl", [](const std::string& word) { gl::choosePlatform(gl::platformNamed(word)); },
+            "What draws: auto (in software, the same everywhere: OSMesa, else EGL), osmesa, or egl (a graphics processor, "
+            "else in software) (default: $SHADOWBENCH_GL or auto)")
+        ->check(CLI::IsMember({"auto", "osmesa", "egl"}));
 }
 
 void addSeedOption(CLI::App& verb, std::uint32_t& seed) {

@@ -13,6 +13,9 @@ namespace shadowbench {
 /// `profile` is a name, for profileNamed().
 void addProfileOption(CLI::App& verb, std::string& profile);
 
+/// What draws: it is chosen for this process and for those that it starts.
+void addGlOption(CLI::App& verb);
+
 void addSeedOption(CLI::App& verb, std::uint32_t& seed);
 
 } // namespace shadowbench

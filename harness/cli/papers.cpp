@@ -2,6 +2,7 @@
 
 #include "harness/cli/command.h"
 #include "harness/cli/written_report.h"
+#include "harness/records/comparability.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -15,9 +16,7 @@ struct PapersOptions {
 };
 
 ExitCode makePapers(const PapersOptions& options) {
-    std::vector<Record> records;
-    for (const std::filesystem::path& file : options.records)
-        for (Record& record : readRecords(file)) records.push_back(std::move(record));
+    const std::vector<Record> records = gate::readOfOneDevice(options.records);
     printFiles(writePapers(records, options.out));
     return ExitCode::Pass;
 }

@@ -110,6 +110,7 @@ void addRecommend(CLI::App& app, Action& action) {
         ->excludes(records)
         ->capture_default_str();
     addProfileOption(*verb, words->profile);
+    addGlOption(*verb);
     verb->add_option("--cache", options.cache, "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     verb->add_flag("--json", words->json, "For machines");
     verb->add_flag("--quiet", options.quiet, "No progress");

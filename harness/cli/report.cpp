@@ -2,6 +2,7 @@
 
 #include "harness/cli/command.h"
 #include "harness/cli/written_report.h"
+#include "harness/records/comparability.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -16,7 +17,7 @@ struct ReportOptions {
 
 ExitCode makeReport(const ReportOptions& options) {
     const std::filesystem::path out = options.out.empty() ? options.records.parent_path() : options.out;
-    printFiles(report::writeReport(readRecords(options.records), out));
+    printFiles(report::writeReport(gate::readOfOneDevice({options.records}), out));
     return ExitCode::Pass;
 }
 

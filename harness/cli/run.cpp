@@ -86,6 +86,7 @@ void addRun(CLI::App& app, Action& action) {
     verb->add_option("--cache", options->cache,
                      "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     addSeedOption(*verb, options->measure.seed);
+    addGlOption(*verb);
     verb->add_option("--seeds", options->measure.seeds,
                      "Draw what depends on the seed with so many, from --seed on, and split its error into what all have in "
                      "common and noise (stability.seeds)")

@@ -82,6 +82,7 @@ void addSweep(CLI::App& app, Action& action) {
     verb->add_option("--cache", options->cache,
                      "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     addSeedOption(*verb, options->seed);
+    addGlOption(*verb);
     verb->add_flag("--quiet", options->quiet, "No progress");
     verb->callback([&action, options, profile, out] {
         action = [options, profile, out] {

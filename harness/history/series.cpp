@@ -32,7 +32,9 @@ struct Figure {
 };
 
 std::string rasteriser(const Environment& e) {
-    return fmt::format("{}, {}, {} raster threads, {} bits", e.renderer, e.gl, e.rasterThreads, e.vectorBits);
+    const bool osMesa = e.platform.empty() || e.platform == "osmesa"; // which older records do not say
+    return fmt::format("{}, {}, {} raster threads, {} bits{}", e.renderer, e.gl, e.rasterThreads, e.vectorBits,
+                       osMesa ? "" : ", through " + e.platform);
 }
 
 /// All figures of a record that have a series.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "techniques/gl/context.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -28,6 +29,9 @@ using Counts = std::map<std::string, std::uint64_t>;
 
 /// "valgrind-3.19.0"; throws Inconclusive, naming the package to install, when there is no Valgrind.
 std::string valgrindVersion();
+
+/// Throws Inconclusive where what draws is a graphics processor, whose instructions Callgrind does not see.
+void requireCountable(const gl::ContextInfo& context);
 
 /// Runs this program's `count-frames` verb under Callgrind, in an environment of its own. `onVariant` is called on the
 /// calling thread with each variant whose frame has been counted. Throws Inconclusive when Valgrind is missing or ends

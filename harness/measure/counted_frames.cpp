@@ -110,10 +110,17 @@ void countAlone(const Scene& scene, std::uint32_t seed, const std::string& name)
 
 } // namespace
 
+void requireCountable(const gl::ContextInfo& context) {
+    if (!context.software)
+        throw Inconclusive("instructions are counted of a rasteriser in software, not of " + context.renderer +
+                           "; leave instructions out of --cost, or draw with --gl osmesa");
+}
+
 void renderCountedFrames(const CountJob& job, const std::filesystem::path& variants) {
     const Scene scene = loadScene(job.scene, job.profile);
     {
         const auto context = gl::Context::create();
+        requireCountable(context->info());
         CountedScene(scene, job.seed).warmUp();
     }
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> list(std::fopen(variants.c_str(), "r"), std::fclose);

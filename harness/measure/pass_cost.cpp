@@ -81,13 +81,10 @@ private:
 
 class TimeSection {
 public:
-    void finish(PassCost& cost) {
-        gl::Context::current().finish();
-        cost.milliseconds += rasterMilliseconds() - start_;
-    }
+    void finish(PassCost& cost) { cost.milliseconds += timer_.milliseconds(); }
 
 private:
-    double start_ = rasterMilliseconds();
+    PartTimer timer_;
 };
 
 template <typename Section>

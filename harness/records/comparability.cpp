@@ -1,5 +1,7 @@
 #include "harness/records/comparability.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -23,9 +25,13 @@ std::optional<std::string> first(std::initializer_list<std::optional<std::string
     return {};
 }
 
+/// Older programs drew with OSMesa alone, and did not say so.
+std::string platformOf(const Environment& e) { return e.platform.empty() ? "osmesa" : e.platform; }
+
 std::optional<std::string> rasteriserDifference(const Environment& a, const Environment& b) {
     return first({differs("renderer", a.renderer, b.renderer), differs("gl", a.gl, b.gl),
-                  differs("raster_threads", a.rasterThreads, b.rasterThreads),
+                  differs("platform", platformOf(a), platformOf(b)), stated("vendor", a.vendor, b.vendor),
+                  stated("driver", a.driver, b.driver), differs("raster_threads", a.rasterThreads, b.rasterThreads),
                   differs("vector_bits", a.vectorBits, b.vectorBits), stated("mesa", a.mesa, b.mesa)});
 }
 
@@ -56,6 +62,12 @@ std::optional<std::string> truthDifference(const std::optional<ReferenceInfo>& b
     return {};
 }
 
+bool statesCosts(const Record& record) {
+    const auto& values = record.values;
+    return !record.technique.starts_with("external:") &&
+           (values["cost.time.median"] || values["lod.time.median"] || values["cost.instructions"]);
+}
+
 template <class... Kinds>
 bool isOneOf(const metrics::Computation& computed) {
     return (std::holds_alternative<Kinds>(computed) || ...);
@@ -75,6 +87,7 @@ std::string countingEnvironment(const Environment& e) {
                                    e.vectorBits, e.valgrind.value_or("no Valgrind"), e.cpu);
     for (const std::string& more : {e.cpuFeatures, e.mesa, e.libraries})
         if (!more.empty()) text += ", " + more;
+    if (platformOf(e) != "osmesa") text += ", through " + e.platform;
     return text;
 }
 
@@ -97,6 +110,23 @@ std::optional<std::string> whyIncomparable(const Record& base, const Record& hea
 
 std::optional<std::string> whyIncomparable(const metrics::Metric& metric, const Record& base, const Record& head) {
     return truthDifference(truthOf(metric, base), truthOf(metric, head));
+}
+
+std::vector<Record> readOfOneDevice(const std::vector<std::filesystem::path>& files) {
+    std::vector<Record> records;
+    for (const std::filesystem::path& file : files)
+        for (Record& record : readRecords(file)) records.push_back(std::move(record));
+    const Record* first = nullptr;
+    for (const Record& record : records) {
+        if (!statesCosts(record)) continue;
+        if (first == nullptr) first = &record;
+        if (const auto differs = difference(first->environment, record.environment, Surroundings::OfCounts))
+            throw BadInput(
+                fmt::format("costs of different devices are not put side by side: of {} on {} and of {} on {}, {}; "
+                            "give the records of one device alone",
+                            first->variant, first->scene, record.variant, record.scene, *differs));
+    }
+    return records;
 }
 
 bool sameMetricCode(const Record& base, const Record& head) {

@@ -3,8 +3,10 @@
 
 #include "harness/records/record.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace shadowbench::gate {
 
@@ -28,6 +30,11 @@ std::optional<std::string> whyIncomparable(const Record& base, const Record& hea
 
 /// Why one metric of two records that can be compared cannot: the truth that it was computed from is another one.
 std::optional<std::string> whyIncomparable(const metrics::Metric& metric, const Record& base, const Record& head);
+
+/// The records of the files, one after the other. Throws BadInput naming two that state costs (times, instruction counts)
+/// which different devices took: tables, charts and verdicts would put them side by side. Times that another renderer
+/// reports of itself (techniques "external:…") are its own.
+std::vector<Record> readOfOneDevice(const std::vector<std::filesystem::path>& files);
 
 /// Whether both were scored by the same code, as far as they say.
 bool sameMetricCode(const Record& base, const Record& head);

@@ -60,6 +60,9 @@ void fields(auto& visit, Is<Environment> auto& e) {
     visit.text("cpu_features", e.cpuFeatures);
     visit.text("mesa", e.mesa);
     visit.text("libraries", e.libraries);
+    visit.text("platform", e.platform);
+    visit.text("vendor", e.vendor);
+    visit.text("driver", e.driver);
 }
 
 void fields(auto& visit, Is<AreaInfo> auto& a) {

@@ -27,6 +27,9 @@ struct Environment {
     std::string cpuFeatures = {}; // family, model, stepping and a hash of what it can do: names are often generic
     std::string mesa = {};        // the packages of rasteriser and its compiler, with their revisions
     std::string libraries = {};   // C and C++, with their revisions
+    std::string platform = {};    // what gave the program its OpenGL: "osmesa" (as in older records) or "egl"
+    std::string vendor = {};      // of the rasteriser: "Mesa/X.org", "NVIDIA Corporation"
+    std::string driver = {};      // "Mesa 22.3.6", "NVIDIA 550.54.15"
 };
 
 /// The exact visible fraction at every pixel, beside the sampled truth of an area light.

@@ -51,7 +51,10 @@ constexpr const char* withoutMetrics = R"({
         "valgrind": {"type": "string"},
         "cpu_features": {"type": "string", "description": "family, model, stepping and a hash of the features"},
         "mesa": {"type": "string", "description": "packages of the rasteriser, with their revisions"},
-        "libraries": {"type": "string", "description": "C and C++ library, with their revisions"}
+        "libraries": {"type": "string", "description": "C and C++ library, with their revisions"},
+        "platform": {"type": "string", "description": "what gave the program its OpenGL: osmesa (as in older records) or egl"},
+        "vendor": {"type": "string", "description": "of the rasteriser, as OpenGL says it"},
+        "driver": {"type": "string", "description": "of the rasteriser, with its version"}
       }
     },
     "reference": {"$ref": "#/definitions/reference"},

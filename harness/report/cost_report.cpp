@@ -105,6 +105,8 @@ std::string rasteriserNote(const std::vector<Record>& records, const std::string
     const auto timed = timedRecords(records, scene);
     if (timed.empty()) return "";
     const Environment& e = timed.front()->environment;
+    if (e.vectorBits == 0) // a graphics processor
+        return fmt::format("Times are of {}, {}: of a pass that draws, by its own clock.", e.renderer, e.driver);
     const std::string threads =
         e.rasterThreads == 0 ? "on the calling thread alone" : fmt::format("with {} raster threads", e.rasterThreads);
     std::string text = fmt::format("Times are of {}, {}", e.renderer, threads);

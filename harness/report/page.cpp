@@ -65,10 +65,13 @@ std::string distinct(const std::vector<Record>& records, const Describe& describ
 std::string environment(const Record& record) {
     const Environment& e = record.environment;
     if (e.renderer.empty()) return "";
-    const std::string threads =
-        e.rasterThreads == 0 ? "no raster threads" : fmt::format("{} raster threads", e.rasterThreads);
-    return fmt::format("{}, OpenGL {}, {}, {} bit vectors, {}, {}", e.renderer, e.gl, threads, e.vectorBits, e.cpu,
-                       e.compiler);
+    std::string how; // a rasteriser in software draws
+    if (e.vectorBits > 0)
+        how = fmt::format(", {}, {} bit vectors",
+                          e.rasterThreads == 0 ? "no raster threads" : fmt::format("{} raster threads", e.rasterThreads),
+                          e.vectorBits);
+    if (e.platform == "egl") how += ", through EGL";
+    return fmt::format("{}, OpenGL {}{}, {}, {}", e.renderer, e.gl, how, e.cpu, e.compiler);
 }
 
 std::string tools(const std::optional<ReferenceInfo>& reference) {

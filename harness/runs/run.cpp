@@ -8,6 +8,7 @@
 #include "harness/cells/instruction_costs.h"
 #include "harness/cells/scene_cells.h"
 #include "harness/measure/callgrind.h"
+#include "harness/records/comparability.h"
 #include "harness/render/shared_shaders.h"
 #include "harness/runs/cell_file.h"
 #include "techniques/gl/context.h"
@@ -66,6 +67,7 @@ public:
           scenes_(chosenScenes(options.scenes, options.profile)), finished_(finishedRecords(options)),
           cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), known_(cellCount()) {
         if (options.instructions) timing::valgrindVersion(); // to fail before the long part
+        requireContext();
         std::error_code failed;
         std::filesystem::create_directories(options.out, failed);
         if (failed)
@@ -82,6 +84,28 @@ public:
     }
 
 private:
+    /// Fails before the long part where nothing draws. OSMesa needs no more than to be there; EGL is tried in a process of
+    /// its own, since drivers of graphics processors do not outlive a fork.
+    void requireContext() const {
+        if (gl::drawsWithOsMesa()) return;
+        std::string failure;
+        SharedWork work;
+        work.items = 1;
+        work.work = [this](std::size_t, const Progress&) {
+            try {
+                const auto context = gl::Context::create();
+                if (options_.instructions) timing::requireCountable(context->info());
+                return std::string();
+            } catch (const Error& error) {
+                return std::string(error.what());
+            }
+        };
+        work.finished = [&](std::size_t, const std::string& answer) { failure = answer; };
+        work.lost = [&](std::size_t, const std::string& how) { failure = "the process that was to draw " + how; };
+        shareAmongProcesses(1, work);
+        if (!failure.empty()) throw Inconclusive(failure);
+    }
+
     [[nodiscard]] std::size_t cellCount() const { return scenes_.size() * variants_.size(); }
     [[nodiscard]] const Scene& sceneOf(std::size_t cell) const { return scenes_[cell / variants_.size()]; }
     [[nodiscard]] const techniques::Variant& variantOf(std::size_t cell) const { return variants_[cell % variants_.size()]; }
@@ -178,7 +202,7 @@ private:
         if (blank.status == Status::NotApplicable) return {"", std::move(blank), ExitCode::Pass};
         return tried(cells, variant, std::move(blank), [&](Record& record) {
             record.cell = cells.id(variant);
-            if (const Record* same = finishedAlready(record.cell))
+            if (const Record* same = finishedAlready(record))
                 record = *same;
             else
                 cells.score(variant, record, progress);
@@ -212,8 +236,11 @@ private:
         if (!context_) context_ = contextOfRun(cache_.folder(), false);
     }
 
-    const Record* finishedAlready(const std::string& cell) const {
-        const auto found = std::find_if(finished_.begin(), finished_.end(), [&](const Record& r) { return r.cell == cell; });
+    /// The cell's record of an unfinished run, if the same rasteriser drew it.
+    const Record* finishedAlready(const Record& cell) const {
+        const auto found = std::find_if(finished_.begin(), finished_.end(), [&](const Record& r) {
+            return r.cell == cell.cell && !gate::difference(r.environment, cell.environment, gate::Surroundings::OfScores);
+        });
         return found == finished_.end() ? nullptr : &*found;
     }
 

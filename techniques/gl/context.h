@@ -1,10 +1,12 @@
 // The OpenGL 4.5 core context. One per process at a time, current on the thread that made it: GL is built that way, and
-// everything under techniques/ relies on it.
+// everything under techniques/ relies on it. A process that is forked makes its own.
 #pragma once
 
 #include "techniques/gl/counters.h"
 #include "techniques/gl/framebuffers.h"
+#include "techniques/gl/platform.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -15,21 +17,27 @@ struct ContextOptions {
     int vectorBits = 256;    // native vector width of the software rasteriser
     bool debug = false;      // GL messages of type error become exceptions at the next `check`
     std::string shaderCache; // folder of machine code that contexts and processes share; empty: each compiles its own
+    Platform platform = chosenPlatform();
 };
 
 /// What the records' environment block says about the rasteriser.
 struct ContextInfo {
-    std::string renderer; // "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string version;  // "4.5 (Core Profile) Mesa 22.3.6"
-    int rasterThreads;
-    int vectorBits;
+    Platform platform = Platform::Auto; // never Auto once the context is made
+    std::string vendor = {};            // "Mesa/X.org", "NVIDIA Corporation"
+    std::string renderer = {};          // "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string version = {};           // "4.5 (Core Profile) Mesa 22.3.6"
+    std::string driver = {};            // of that version: "Mesa 22.3.6", "NVIDIA 550.54.15"
+    bool software = true;               // else the next two are 0
+    int rasterThreads = 0;
+    int vectorBits = 0;
 };
 
 class Context {
 public:
-    /// Sets the rasteriser's environment variables, then makes the context current. Throws Inconclusive without OpenGL 4.5.
+    /// Sets the rasteriser's environment variables, then makes the context current. Throws Inconclusive, saying what to
+    /// install, without OpenGL 4.5, and InternalError beside a context of another platform.
     static std::unique_ptr<Context> create(const ContextOptions& options = {});
-    virtual ~Context() = default;
+    virtual ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
@@ -43,9 +51,6 @@ public:
     /// A vertex array without attributes: what full-screen passes draw from.
     [[nodiscard]] unsigned noAttributes();
 
-    /// A GL function that the library does not export by name.
-    [[nodiscard]] virtual void* function(const char* name) const = 0;
-
     /// Waits until everything submitted is done.
     void finish();
 
@@ -56,9 +61,10 @@ public:
     void discardErrors();
 
 protected:
-    explicit Context(int rasterThreads, int vectorBits) : info_{"", "", rasterThreads, vectorBits} {}
-    /// Reads the info and installs the debug callback; to be called by a derived class once it is current.
-    void becomeCurrent(bool debug);
+    Context(Platform platform, const ContextOptions& options);
+    /// Fills the table of functions and the info, and installs the debug callback; to be called by a derived class once it
+    /// is current. Throws Inconclusive, having ceased to be current, if it has less than OpenGL 4.5.
+    void becomeCurrent(bool debug, const std::function<void*(const char* name)>& findFunction);
     void ceaseCurrent();
 
 private:
@@ -69,5 +75,8 @@ private:
     std::string firstError_;
     friend void noteMessage(Context&, unsigned type, const char* message);
 };
+
+/// "Mesa 22.3.6" of "4.5 (Core Profile) Mesa 22.3.6", "NVIDIA 550.54.15" of "4.6.0 NVIDIA 550.54.15".
+std::string driverOf(const std::string& version);
 
 } // namespace shadowbench::gl

@@ -11,12 +11,10 @@ namespace {
 constexpr std::array<GLenum, 3> statistics{GL_FRAGMENT_SHADER_INVOCATIONS_ARB, GL_VERTICES_SUBMITTED_ARB,
                                            GL_PRIMITIVES_SUBMITTED_ARB};
 
-/// Mesa's libOSMesa does not export the 64-bit query results by name.
 GLuint64 resultOf(GLuint query) {
-    const auto result = reinterpret_cast<PFNGLGETQUERYOBJECTUI64VPROC>(Context::current().function("glGetQueryObjectui64v"));
-    GLuint64 count = 0;
-    result(query, GL_QUERY_RESULT, &count);
-    return count;
+    GLuint64 result = 0;
+    glGetQueryObjectui64v(query, GL_QUERY_RESULT, &result);
+    return result;
 }
 
 } // namespace
@@ -63,6 +61,24 @@ void FragmentMeter::end() {
 std::uint64_t FragmentMeter::finish() {
     end();
     return resultOf(query_);
+}
+
+TimeMeter::TimeMeter() {
+    glGenQueries(2, queries_);
+    glQueryCounter(queries_[0], GL_TIMESTAMP);
+}
+
+TimeMeter::~TimeMeter() { glDeleteQueries(2, queries_); }
+
+double TimeMeter::milliseconds() {
+    glQueryCounter(queries_[1], GL_TIMESTAMP);
+    return 1e-6 * static_cast<double>(resultOf(queries_[1]) - resultOf(queries_[0]));
+}
+
+bool TimeMeter::isSupported() {
+    GLint bits = 0;
+    glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+    return bits > 0;
 }
 
 } // namespace shadowbench::gl

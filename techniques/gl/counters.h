@@ -54,4 +54,23 @@ private:
     void end();
 };
 
+/// Time between construction and `milliseconds`, on the clock of the graphics processor: it does not count what the program
+/// does before it submits. Only where `isSupported`.
+class TimeMeter {
+public:
+    TimeMeter();
+    ~TimeMeter();
+    TimeMeter(const TimeMeter&) = delete;
+    TimeMeter& operator=(const TimeMeter&) = delete;
+
+    /// Waits until what was submitted is done. Once.
+    double milliseconds();
+
+    /// Whether the driver has that clock.
+    static bool isSupported();
+
+private:
+    unsigned queries_[2];
+};
+
 } // namespace shadowbench::gl

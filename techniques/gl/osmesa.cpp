@@ -1,70 +1,71 @@
-// Everything that knows OSMesa. Mesa 25.1 dropped it: an EGL context would be a second file behind the same header.
+// Everything that knows OSMesa, which Mesa has had no more since 25.1: so its few declarations stand here.
 #include "base/error.h"
-#include "techniques/gl/context.h"
+#include "techniques/gl/make_context.h"
 
-#include <GL/osmesa.h>
 #include <array>
-#include <cstdlib>
 
 namespace shadowbench::gl {
 namespace {
 
-/// Mesa reads these when the context is made; they fix the code that is generated, hence the image and the instruction
-/// count.
-void fixRasteriser(const ContextOptions& options) {
-    setenv("GALLIUM_DRIVER", "llvmpipe", 1);
-    setenv("LP_NUM_THREADS", std::to_string(options.rasterThreads).c_str(), 1);
-    setenv("LP_NATIVE_VECTOR_WIDTH", std::to_string(options.vectorBits).c_str(), 1);
-    setenv("MESA_SHADER_CACHE_DISABLE", options.shaderCache.empty() ? "true" : "false", 1);
-    if (!options.shaderCache.empty()) setenv("MESA_SHADER_CACHE_DIR", options.shaderCache.c_str(), 1);
+constexpr const char* package = "install it with: apt-get install libosmesa6";
+
+// <GL/osmesa.h> and <GL/gl.h>
+struct osmesa_context;
+using Handle = osmesa_context*;
+constexpr int rgba = 0x1908, format = 0x22, depthBits = 0x30, stencilBits = 0x31, profile = 0x33, coreProfile = 0x34,
+              majorVersion = 0x36, minorVersion = 0x37;
+constexpr unsigned unsignedByte = 0x1401;
+
+struct Functions {
+    Handle (*create)(const int* attributes, Handle shared);
+    unsigned char (*makeCurrent)(Handle, void* buffer, unsigned type, int width, int height);
+    void (*destroy)(Handle);
+    void* (*find)(const char* name);
+};
+
+Functions functionsOf(const Library& library) {
+    if (!library.whyNot().empty())
+        throw Inconclusive("drawing with OSMesa failed: " + library.whyNot() + "; " + package +
+                           ", or draw through EGL with --gl egl");
+    return {library.function<decltype(Functions::create)>("OSMesaCreateContextAttribs"),
+            library.function<decltype(Functions::makeCurrent)>("OSMesaMakeCurrent"),
+            library.function<decltype(Functions::destroy)>("OSMesaDestroyContext"),
+            library.function<decltype(Functions::find)>("OSMesaGetProcAddress")};
 }
 
 class OsMesaContext final : public Context {
 public:
-    explicit OsMesaContext(const ContextOptions& options) : Context(options.rasterThreads, options.vectorBits) {
+    explicit OsMesaContext(const ContextOptions& options)
+        : Context(Platform::OsMesa, options), osMesa_(functionsOf(osMesaLibrary())) {
         fixRasteriser(options);
-        constexpr std::array<int, 13> attributes{OSMESA_FORMAT,
-                                                 OSMESA_RGBA,
-                                                 OSMESA_DEPTH_BITS,
-                                                 0,
-                                                 OSMESA_STENCIL_BITS,
-                                                 0,
-                                                 OSMESA_PROFILE,
-                                                 OSMESA_CORE_PROFILE,
-                                                 OSMESA_CONTEXT_MAJOR_VERSION,
-                                                 4,
-                                                 OSMESA_CONTEXT_MINOR_VERSION,
-                                                 5,
-                                                 0};
-        context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
-        if (context_ == nullptr)
+        constexpr std::array<int, 13> attributes{
+            format, rgba, depthBits, 0, stencilBits, 0, profile, coreProfile, majorVersion, 4, minorVersion, 5, 0};
+        context_ = {osMesa_.create(attributes.data(), nullptr), osMesa_.destroy};
+        if (!context_)
             throw Inconclusive(
                 "making an OpenGL 4.5 core context with OSMesa failed; install libosmesa6 of Debian 12 (Mesa 22.3)");
-        if (OSMesaMakeCurrent(context_, pixel_.data(), 0x1401 /* GL_UNSIGNED_BYTE */, 1, 1) == 0) {
-            OSMesaDestroyContext(context_);
+        if (osMesa_.makeCurrent(context_.get(), pixel_.data(), unsignedByte, 1, 1) == 0)
             throw Inconclusive("making the OSMesa context current failed");
-        }
-        becomeCurrent(options.debug);
+        becomeCurrent(options.debug, osMesa_.find);
     }
 
-    ~OsMesaContext() override {
-        ceaseCurrent();
-        OSMesaDestroyContext(context_);
-    }
-
-    [[nodiscard]] void* function(const char* name) const override {
-        const OSMESAproc found = OSMesaGetProcAddress(name);
-        if (found == nullptr) throw InternalError(std::string("OSMesa has no function ") + name);
-        return reinterpret_cast<void*>(found);
-    }
+    ~OsMesaContext() override { ceaseCurrent(); }
 
 private:
-    OSMesaContext context_ = nullptr;
+    Functions osMesa_;
+    std::unique_ptr<osmesa_context, void (*)(Handle)> context_{nullptr, osMesa_.destroy};
     std::array<unsigned char, 4> pixel_{}; // all drawing goes to framebuffer objects
 };
 
 } // namespace
 
-std::unique_ptr<Context> Context::create(const ContextOptions& options) { return std::make_unique<OsMesaContext>(options); }
+const Library& osMesaLibrary() {
+    static const Library library("libOSMesa.so.8", "SHADOWBENCH_LIBOSMESA");
+    return library;
+}
+
+std::unique_ptr<Context> makeOsMesaContext(const ContextOptions& options) {
+    return std::make_unique<OsMesaContext>(options);
+}
 
 } // namespace shadowbench::gl

@@ -49,6 +49,9 @@ inline Record hardRecord() {
     r.environment.cpuFeatures = "family 6, model 85, stepping 7, features 77aa";
     r.environment.mesa = "libosmesa6 22.3.6-1, libllvm15 15.0.6-4";
     r.environment.libraries = "libc 2.36, libstdc++6 12.2.0-14";
+    r.environment.platform = "osmesa";
+    r.environment.vendor = "Mesa/X.org";
+    r.environment.driver = "Mesa 22.3.6";
     r.reference = ReferenceInfo{"polygon", "feed", 0, 0, {{"CGAL", "5.5.1"}}};
     r.reference->content = "f00d";
     r.values["accuracy.mismatch"] = 0.0009;

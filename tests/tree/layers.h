@@ -31,10 +31,11 @@ struct Include {
 };
 
 /// Whose a header is by how its path begins. `<thread>` needs no line: every module reaches base, which links threads.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 11> packageOfHeader{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 12> packageOfHeader{
     {{"CGAL/", "cgal"},
      {"CLI/", "cli11"},
-     {"GL/", "osmesa"},
+     {"EGL/", "gl"},
+     {"GL/", "gl"},
      {"OpenImageIO/", "oiio"},
      {"assimp/", "assimp"},
      {"boost/", "boost"},

@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "base/progress_line.h"
 #include "harness/metrics/table.h"
+#include "harness/records/comparability.h"
 #include "harness/report/run_report.h"
 #include "harness/runs/run.h"
 #include "scene/load/load.h"
@@ -51,7 +52,7 @@ std::vector<std::string> variantsFor(Question question, const std::vector<std::s
 class Records {
 public:
     explicit Records(const RecommendOptions& options) : options_(options) {
-        if (!options.records.empty()) given_ = readRecords(options.records);
+        if (!options.records.empty()) given_ = gate::readOfOneDevice({options.records});
     }
 
     std::vector<Record> of(Question question, const std::string& sceneIdOrFile, const Scene& scene) {

@@ -145,7 +145,8 @@ TEST(Compare, ScoresOfWhatIsNotComparableAreNotJudged) {
     for (const auto& change : std::vector<std::function<void(Record&)>>{
              [](Record& r) { r.reference->key = "other"; }, [](Record& r) { r.reference->content = "other"; },
              [](Record& r) { r.parameters[1].second = "2048"; }, [](Record& r) { r.frames = 12; },
-             [](Record& r) { r.environment.renderer = "softpipe"; },
+             [](Record& r) { r.environment.renderer = "softpipe"; }, [](Record& r) { r.environment.platform = "egl"; },
+             [](Record& r) { r.environment.driver = "Mesa 23.0.0"; },
              [](Record& r) { r.environment.mesa = "libosmesa6 22.3.6-2"; }}) {
         Record head = hardRecord();
         change(head);
@@ -157,6 +158,7 @@ TEST(Compare, ScoresOfWhatIsNotComparableAreNotJudged) {
     Record older = hardRecord(); // which does not say
     older.environment.mesa.clear();
     older.environment.libraries.clear();
+    older.environment.platform = older.environment.vendor = older.environment.driver = "";
     EXPECT_EQ(verdictOf(compare({older}, {hardRecord()})), ExitCode::Pass);
     Record newer = hardRecord();
     newer.parameters.emplace_back("cascades", "4"); // a parameter that the base had not

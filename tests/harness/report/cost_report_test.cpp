@@ -65,6 +65,12 @@ TEST(RasteriserNote, SaysWhatDrewAndWhatThatDoesToTimes) {
     EXPECT_TRUE(contains(four, "with 4 raster threads") && contains(four, "shades 4 pixels")) << four;
     for (Record& record : records) record.environment.renderer = "some GPU";
     EXPECT_EQ(report::rasteriserNote(records, "dueling-frusta"), "Times are of some GPU, with 4 raster threads.");
+    for (Record& record : records) {
+        record.environment.vectorBits = record.environment.rasterThreads = 0;
+        record.environment.driver = "NVIDIA 550.54.15";
+    }
+    EXPECT_EQ(report::rasteriserNote(records, "dueling-frusta"),
+              "Times are of some GPU, NVIDIA 550.54.15: of a pass that draws, by its own clock.");
 }
 
 TEST(PassCsv, HasOneRowAPassOnEachScreen) {
