@@ -24,6 +24,7 @@ std::optional<std::string> first(std::initializer_list<std::optional<std::string
 }
 
 std::optional<std::string> rasteriserDifference(const Environment& a, const Environment& b) {
+    if (a.gl == notDrawnHere && b.gl == notDrawnHere) return {}; // another renderer's next version is what is compared
     return first({differs("renderer", a.renderer, b.renderer), differs("gl", a.gl, b.gl),
                   differs("raster_threads", a.rasterThreads, b.rasterThreads),
                   differs("vector_bits", a.vectorBits, b.vectorBits), stated("mesa", a.mesa, b.mesa)});

@@ -25,12 +25,15 @@ std::string_view name(Status status) {
 
 bool wasScored(Status status) { return status == Status::Scored || status == Status::ExpectedFailure; }
 
+bool isExternal(const Record& record) { return record.technique.starts_with(externalPrefix); }
+
 bool isLevelOfDetail(const Record& record) { return record.values["lod.pop"].has_value(); }
 
 std::optional<Headline> headline(const Record& record) {
     if (!records::hasAccuracy(record)) return {};
+    const bool labels = record.values["accuracy.mismatch"].has_value();
     const bool soft = isSoft(record.reference) || isSoft(record.softReference);
-    const std::string metric = soft ? "rmse" : "mismatch";
+    const std::string metric = soft || !labels ? "rmse" : "mismatch";
     const std::optional<double> value = metrics::bounded(record.values, metric);
     return value ? std::optional(Headline{metric, *value}) : std::nullopt;
 }

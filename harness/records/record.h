@@ -132,12 +132,21 @@ std::string_view name(Status status);
 bool wasScored(Status status);
 
 /// The metric that ranks a record's accuracy, the same for all records of one scene: "rmse" where a soft truth (oracle
-/// "povray") was used, for a hard technique beside its exact one, else "mismatch"; nothing if it was not scored.
+/// "povray") was used, for a hard technique beside its exact one, and where there are no labels, else "mismatch"; nothing if
+/// it was not scored.
 struct Headline {
     std::string metric;
     double value;
 };
 std::optional<Headline> headline(const Record& record);
+
+/// What names the technique of images that another renderer drew (docs/score.md), before that renderer's id; and what their
+/// environment says instead of an OpenGL version.
+inline constexpr std::string_view externalPrefix = "external:";
+inline constexpr std::string_view notDrawnHere = "none: not drawn here";
+
+/// Whether another renderer drew the record's images: neither this program nor its rasteriser can have changed them.
+bool isExternal(const Record& record);
 
 /// Of a level-of-detail technique; such a record has no accuracy.
 bool isLevelOfDetail(const Record& record);
