@@ -21,7 +21,7 @@ std::string_view name(Means means) {
 }
 
 Means meansNamed(std::string_view word) {
-    for (const Means means : {Means::Hard, Means::Area, Means::Irradiance, Means::SolidAngle})
+    for (const Means means : allMeans)
         if (name(means) == word) return means;
     throw BadInput(fmt::format("images mean hard, area, irradiance or solid-angle, not \"{}\" (docs/score.md, \"What the "
                                "numbers mean\")",

@@ -17,6 +17,7 @@ enum class Means {
     Irradiance, // the share of the irradiance that arrives: of a Lambertian light, or of an environment
     SolidAngle, // the visible share of the light's solid angle
 };
+inline constexpr Means allMeans[] = {Means::Hard, Means::Area, Means::Irradiance, Means::SolidAngle};
 std::string_view name(Means means);      // "hard", "area", "irradiance", "solid-angle"
 Means meansNamed(std::string_view word); // throws BadInput naming all
 

@@ -18,17 +18,30 @@
 namespace shadowbench::foreign {
 namespace {
 
-/// The truth that a meaning claims; throws BadInput when the scene's light has none.
+/// The truth that a meaning claims, whether or not the light has it.
+Truth claimedTruth(const Light& light, Means means) {
+    switch (means) {
+    case Means::Hard:
+        return Truth::Hard;
+    case Means::Area:
+        return light.isArea() ? Truth::Soft : Truth::Area; // which other lights do not have
+    case Means::Irradiance:
+        return light.isEnvironment() ? Truth::Soft : Truth::Irradiance;
+    case Means::SolidAngle:
+        return Truth::SolidAngle;
+    }
+    throw InternalError("images of an unknown meaning");
+}
+
+/// Throws BadInput when the scene's light has no such truth.
 Truth truthOf(const Scene& scene, Means means) {
-    const Light& light = scene.light;
-    if (light.isEnvironment() && means == Means::Irradiance) return Truth::Soft;
-    if (!light.isEnvironment() && means == Means::Hard) return Truth::Hard;
-    if (light.isArea() && means == Means::Area) return Truth::Soft;
-    const std::string_view fitting = light.isEnvironment() ? "irradiance"
-                                     : light.isArea()      ? "hard, area, irradiance or solid-angle"
-                                                           : "hard";
-    throw BadInput(fmt::format("scene {} has a light of kind {}, of which images mean {}, not {}", scene.id, name(light.kind),
-                               fitting, name(means)));
+    const Truth truth = claimedTruth(scene.light, means);
+    if (hasTruth(scene.light, truth)) return truth;
+    std::vector<std::string_view> fitting;
+    for (const Means other : allMeans)
+        if (hasTruth(scene.light, claimedTruth(scene.light, other))) fitting.push_back(name(other));
+    throw BadInput(fmt::format("scene {} has a light of kind {}, of which images mean {}, not {}", scene.id,
+                               name(scene.light.kind), fmt::join(fitting, " or "), name(means)));
 }
 
 void requireId(const std::string& id) {
@@ -172,8 +185,8 @@ std::vector<std::pair<Truth, int>> truthsOf(const Scene& scene, const ForeignRow
         truths.emplace_back(truth, frame);
         if (usesPixelAreas(scene, row)) truths.emplace_back(Truth::PixelArea, frame);
     }
-    if (scene.light.isArea() && truth != Truth::Soft && truth == Truth::Hard) truths.emplace_back(Truth::Soft, still);
-    if (scene.light.isArea()) truths.emplace_back(Truth::Area, still);
+    if (scene.light.isArea() && truth == Truth::Hard) truths.emplace_back(Truth::Soft, still);
+    if (scene.light.isArea() && (truth == Truth::Hard || truth == Truth::Soft)) truths.emplace_back(Truth::Area, still);
     return truths;
 }
 

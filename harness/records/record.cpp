@@ -25,9 +25,9 @@ std::string_view name(Status status) {
 
 bool wasScored(Status status) { return status == Status::Scored || status == Status::ExpectedFailure; }
 
-bool isExternal(const Record& record) { return record.technique.starts_with(externalPrefix); }
-
 bool isLevelOfDetail(const Record& record) { return record.values["lod.pop"].has_value(); }
+
+bool isExternal(const Record& record) { return record.technique.starts_with(externalPrefix); }
 
 std::optional<Headline> headline(const Record& record) {
     if (!records::hasAccuracy(record)) return {};

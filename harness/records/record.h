@@ -140,15 +140,14 @@ struct Headline {
 };
 std::optional<Headline> headline(const Record& record);
 
-/// What names the technique of images that another renderer drew (docs/score.md), before that renderer's id; and what their
-/// environment says instead of an OpenGL version.
-inline constexpr std::string_view externalPrefix = "external:";
-inline constexpr std::string_view notDrawnHere = "none: not drawn here";
-
-/// Whether another renderer drew the record's images: neither this program nor its rasteriser can have changed them.
-bool isExternal(const Record& record);
-
 /// Of a level-of-detail technique; such a record has no accuracy.
 bool isLevelOfDetail(const Record& record);
+
+/// What the names of other renderers' techniques begin with, and whether the record is of one.
+inline constexpr std::string_view externalPrefix = "external:";
+bool isExternal(const Record& record);
+
+/// What the environment of such a record says instead of an OpenGL version.
+inline constexpr std::string_view notDrawnHere = "none: not drawn here";
 
 } // namespace shadowbench
