@@ -1,17 +1,16 @@
-#include "base/files.h"
 #include "base/progress_line.h"
+#include "harness/cells/cell_selection.h"
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
 #include "harness/cli/run_result.h"
 #include "harness/foreign/score_images.h"
-#include "harness/metrics/table.h"
-#include "scene/load/load.h"
 #include "techniques/gl/context.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 namespace shadowbench {
 namespace {
@@ -102,8 +101,7 @@ std::vector<Record> joined(const std::filesystem::path& out, const Record& recor
 }
 
 ExitCode score(const ScoreWords& words) {
-    const Scene scene = loadScene(words.scene, profileNamed(words.profile), metrics::boundedMetrics());
-    requireWellPosed(scene);
+    const Scene scene = chosenScenes({words.scene}, profileNamed(words.profile)).front();
     const foreign::ForeignRow row = rowOf(words, scene);
     foreign::requireScorable(scene, row);
     const groundtruth::Cache cache(words.cache.empty() ? groundtruth::defaultCacheFolder() : words.cache);
