@@ -78,7 +78,7 @@ public:
         : frames_(frames), row_(row), warnings_(warnings), truth_(truthOf(frames.scene(), row.means)),
           receivers_(frames, row) {}
 
-    Record record() {
+    Record record(std::map<int, Image<float>>* shown) {
         Record record = blankRecord(frames_.truths(), frames_.scene(), row_);
         std::optional<ImageScores> scores;
         for (const FrameFiles& files : row_.frames) {
@@ -91,6 +91,7 @@ public:
             judge(files, v, mask);
             scores->add(files.frame, v, record);
             if (files.frame == frames_.scored()) scoreApart(files, v, mask, record);
+            if (shown != nullptr) shown->emplace(files.frame, v);
         }
         scores->finish(record);
         record.reason = fmt::format("{}", fmt::join(marks_, "; "));
@@ -193,7 +194,7 @@ std::vector<std::pair<Truth, int>> truthsOf(const Scene& scene, const ForeignRow
 std::string cellId(const Truths& truths, const Scene& scene, const ForeignRow& row) {
     std::string inputs = fmt::format("schema 2\n{}\nexternal:{}\nmeans {}\nframes {}\n", scene.id, row.id, name(row.means),
                                      fmt::join(framesOf(row), " "));
-    for (const auto& [name, value] : row.parameters) inputs += fmt::format("{} {}\n", name, value);
+    for (const auto& [key, value] : row.parameters) inputs += fmt::format("{} {}\n", key, value);
     for (const auto& [truth, frame] : truthsOf(scene, row)) inputs += truths.key(truth, frame) + "\n";
     return hash128(inputs).text();
 }
@@ -217,9 +218,10 @@ Record blankRecord(const Truths& truths, const Scene& scene, const ForeignRow& r
     return record;
 }
 
-Record scoreImages(SceneFrames& frames, const ForeignRow& row, std::vector<std::string>& warnings) {
+Record scoreImages(SceneFrames& frames, const ForeignRow& row, std::vector<std::string>& warnings,
+                   std::map<int, Image<float>>* shown) {
     requireScorable(frames.scene(), row);
-    return RowScores(frames, row, warnings).record();
+    return RowScores(frames, row, warnings).record(shown);
 }
 
 } // namespace shadowbench::foreign

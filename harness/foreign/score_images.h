@@ -5,6 +5,7 @@
 #include "harness/foreign/foreign_row.h"
 #include "harness/records/record.h"
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,8 @@ Record blankRecord(const Truths& truths, const Scene& scene, const ForeignRow& r
 /// the file's name, for images that cannot be read, have another size, or hold no visibility (not finite, outside [0, 1],
 /// unequal channels, transparent), and for those that look black, inverted, flipped, shifted, of another frame or wrongly
 /// encoded; what throws for want of a truth, throws. Needs a GL context: the scene's own hits say which pixels are scored.
-Record scoreImages(SceneFrames& frames, const ForeignRow& row, std::vector<std::string>& warnings);
+/// `shown`, if any, gets visibility by frame, for pictures.
+Record scoreImages(SceneFrames& frames, const ForeignRow& row, std::vector<std::string>& warnings,
+                   std::map<int, Image<float>>* shown = nullptr);
 
 } // namespace shadowbench::foreign

@@ -42,7 +42,7 @@ void requireGrey(const ForeignImage& image, const Pixels& scored) {
     if (largest > allowed)
         throw BadInput(fmt::format("image {} is coloured: red, green and blue differ by {:.3g} at receiver pixel {}; an image "
                                    "of visibility is grey, and of a shaded picture visibility is had with --lit and --unlit",
-                                   image.file.string(), largest, place(scored.empty() ? Image<float>() : image.channels[0], at)));
+                                   image.file.string(), largest, place(image.channels[0], at)));
 }
 
 /// The channels' sum at a pixel.
