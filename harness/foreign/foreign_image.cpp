@@ -131,6 +131,9 @@ ForeignImage readForeign(const fs::path& file, const Reading& reading, std::vect
 
 Image<float> readNumbers(const fs::path& file, glm::ivec2 size) {
     const ImageHeader header = headerOf(file, size);
+    const auto isDepth = [](const std::string& channel) { return isCalled(channel, "Z"); };
+    const auto depth = std::ranges::find_if(header.channels, isDepth);
+    if (std::ranges::count_if(header.channels, isDepth) == 1) return readChannel(file, *depth);
     return readChannel(file, chosenChannels(header, "", file).front());
 }
 

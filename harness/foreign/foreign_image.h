@@ -31,7 +31,7 @@ struct Reading {
 /// encoding, channels among which none is meant, a number that is not finite.
 ForeignImage readForeign(const std::filesystem::path& file, const Reading& reading, std::vector<std::string>& warnings);
 
-/// As numbers without any encoding, finite or not: depths and hit masks.
+/// As numbers without any encoding, finite or not: depths and hit masks. Of several channels the one that is called Z.
 Image<float> readNumbers(const std::filesystem::path& file, glm::ivec2 size);
 
 /// IEC 61966-2-1, either way; values outside [0, 1] stay.

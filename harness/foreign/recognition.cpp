@@ -169,6 +169,7 @@ double errorOf(const Compared& compared) {
 }
 
 std::optional<Finding> uniform(const Compared& compared) {
+    constexpr double most = 0.01; // of the receivers: fewer may be wrong without a mistake in the whole image
     float low = 1, high = 0;
     std::size_t lit = 0, shadowed = 0;
     for (std::size_t i = 0; i < compared.v.size(); ++i) {
@@ -179,11 +180,11 @@ std::optional<Finding> uniform(const Compared& compared) {
     }
     if (high - low > nearlyNothing || lit + shadowed == 0) return {};
     const double all = static_cast<double>(lit + shadowed);
-    if (high < nearlyNothing && lit > 0)
+    if (high < nearlyNothing && static_cast<double>(lit) > most * all)
         return Finding{fmt::format("is black: no receiver has light, and {:.2g} % of them should",
                                    100 * static_cast<double>(lit) / all),
                        true};
-    if (low > 1 - nearlyNothing && shadowed > 0)
+    if (low > 1 - nearlyNothing && static_cast<double>(shadowed) > most * all)
         return Finding{fmt::format("shows no shadow: all receivers are fully lit, and {:.2g} % of them should not be",
                                    100 * static_cast<double>(shadowed) / all),
                        false};
