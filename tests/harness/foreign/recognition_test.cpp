@@ -132,7 +132,7 @@ TEST_F(Recognition, NamesBlackAndGreyImagesAndSuspectsWhiteOnes) {
     const std::optional<Finding> black = uniform(hard(all(0)));
     ASSERT_TRUE(black);
     EXPECT_TRUE(black->certain);
-    EXPECT_TRUE(has(black->sentence, "is black: no receiver has light, and 83 % of them should")) << black->sentence;
+    EXPECT_TRUE(has(black->sentence, "is black: no receiver has light, and 84 % of them should")) << black->sentence;
     EXPECT_TRUE(has(sentenceOf(uniform(hard(all(0.5F)))), "one grey"));
     const std::optional<Finding> white = uniform(hard(all(1)));
     ASSERT_TRUE(white);
