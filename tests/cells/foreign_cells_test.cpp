@@ -167,7 +167,8 @@ TEST_F(Refused, AFlippedAShiftedAndABlackImage) {
         return result;
     };
     const Image<float> right = underPoint().images().begin()->second;
-    expectIn(refusal([&](const Image<float>&) { return changed(right, 0, true); }), "looks upside down: mismatch falls from");
+    expectIn(refusal([&](const Image<float>&) { return changed(right, 0, true); }),
+             "looks upside down: mismatch falls from");
     expectIn(refusal([&](const Image<float>&) { return changed(right, 1, false); }), "looks shifted by (1, 0) pixels");
     expectIn(refusal([&](const Image<float>&) { return Image<float>(96, 96, 0); }), "is black");
     ForeignRow row = underPoint().row(Means::Hard);

@@ -17,8 +17,9 @@ protected:
     static void SetUpTestSuite() {
         folder_ = new Folder;
         scene_ = folder_->write("tiny.toml", tinyScene());
-        const Outcome run = shell("shadowbench run --quiet --cost none --images --technique pcf --technique sm-uniform --scene " +
-                                  scene_ + " --out " + own() + " --cache " + *folder_ / "cache");
+        const Outcome run =
+            shell("shadowbench run --quiet --cost none --images --technique pcf --technique sm-uniform --scene " + scene_ +
+                  " --out " + own() + " --cache " + *folder_ / "cache");
         ASSERT_EQ(run.code, 0) << run.output;
     }
     static void TearDownTestSuite() { delete folder_; }
@@ -28,8 +29,8 @@ protected:
         return own() + "/images/tiny/" + variant + "/" + file;
     }
     static Outcome score(const std::string& options, const std::string& out = "out") {
-        return shell("shadowbench score --quiet --means hard --scene " + scene_ + " --cache " + *folder_ / "cache" + " --out " +
-                     *folder_ / out + " " + options);
+        return shell("shadowbench score --quiet --means hard --scene " + scene_ + " --cache " + *folder_ / "cache" +
+                     " --out " + *folder_ / out + " " + options);
     }
     static std::vector<Record> records(const std::string& out = "out") {
         return readRecords(*folder_ / (out + "/results.jsonl"));
@@ -54,9 +55,9 @@ protected:
 TEST_F(Score, OurOwnImagesScoreWhatTheirCellsScored) {
     const std::vector<Record> own = readRecords(own() + "/results.jsonl");
     for (std::size_t i = 0; i < own.size(); ++i) {
-        const Outcome outcome = score("--name own --image " + image(own[i].variant, "frame-2.exr") + " " +
-                                          image(own[i].variant, "frame-3.exr"),
-                                      own[i].variant);
+        const Outcome outcome =
+            score("--name own --image " + image(own[i].variant, "frame-2.exr") + " " + image(own[i].variant, "frame-3.exr"),
+                  own[i].variant);
         ASSERT_EQ(outcome.code, 0) << outcome.output;
         const auto before = asJson(own[i]), now = asJson(records(own[i].variant).at(0));
         EXPECT_EQ(now["accuracy"], before["accuracy"]);

@@ -176,7 +176,8 @@ TEST(SizeInWords, SaysWhatAWrongSizeIsToTheRightOne) {
 }
 
 TEST(Srgb, IsUndoneByItself) {
-    for (const float v : {0.0F, 0.001F, 0.0031308F, 0.2F, 0.5F, 1.0F}) EXPECT_NEAR(linearFromSrgb(srgbFromLinear(v)), v, 1e-6);
+    for (const float v : {0.0F, 0.001F, 0.0031308F, 0.2F, 0.5F, 1.0F})
+        EXPECT_NEAR(linearFromSrgb(srgbFromLinear(v)), v, 1e-6);
     EXPECT_NEAR(srgbFromLinear(0.5F), 0.7354F, 1e-4);
 }
 

@@ -27,7 +27,8 @@ void writePfm(const fs::path& file, const Image<float>& image) {
     std::ofstream stream(file, std::ios::binary);
     stream << "Pf\n" << image.width() << ' ' << image.height() << "\n-1.0\n";
     for (int y = image.height() - 1; y >= 0; --y)
-        stream.write(reinterpret_cast<const char*>(&image(0, y)), static_cast<std::streamsize>(sizeof(float)) * image.width());
+        stream.write(reinterpret_cast<const char*>(&image(0, y)),
+                     static_cast<std::streamsize>(sizeof(float)) * image.width());
 }
 
 class ForeignFiles : public testing::Test {
@@ -141,7 +142,8 @@ TEST_F(ForeignFiles, MissingDamagedAndOtherFilesAreNamed) {
     for (const std::string name : {"v.exr", "v.png", "v.pfm"}) {
         const fs::path file = folder_.path() / name;
         Image<float> noise(side, side);
-        for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<float>(i * i * 7919 % 1009) / 1009; // packs badly
+        for (std::size_t i = 0; i < noise.size(); ++i)
+            noise[i] = static_cast<float>(i * i * 7919 % 1009) / 1009; // packs badly
         if (name == "v.png")
             writePng(file, ramp_);
         else if (name == "v.pfm")
@@ -178,7 +180,8 @@ TEST_F(ForeignFiles, WhereThereIsNothingToDivideByNothingIsKnown) {
     EXPECT_EQ(found.unknown(3, 0), 1);
     EXPECT_EQ(found.unknown(3, 1), 0);
     for (int x = 0; x < 16; ++x) lit(x, 0) = 0;
-    expectIn(refusal(FrameFiles{.image = exr("i.exr", image), .lit = exr("a.exr", lit)}), "too dark to divide by at 16 of 256");
+    expectIn(refusal(FrameFiles{.image = exr("i.exr", image), .lit = exr("a.exr", lit)}),
+             "too dark to divide by at 16 of 256");
 }
 
 } // namespace
