@@ -24,10 +24,24 @@ void writePng(const std::filesystem::path& file, const Image<float>& grey);
 /// 8-bit RGB PNG of values in [0, 1] (clamped), linear.
 void writePng(const std::filesystem::path& file, const Image<glm::vec3>& colour);
 
+/// What a file says of its image before its pixels are read.
+struct ImageHeader {
+    std::string format; // "openexr", "png", "pnm" (PFM is one), "jpeg" …
+    int width = 0, height = 0;
+    std::vector<std::string> channels; // by index
+    int alpha = -1;                    // index of that channel; −1: there is none
+    int bits = 0;                      // of a number
+    bool floats = false;               // else integers
+    bool whole = true; // one flat picture from (0, 0) on; no window of a larger one, no depth samples
+};
+
+/// Reads the header alone. Throws BadInput for a missing or unreadable file.
+ImageHeader imageHeader(const std::filesystem::path& file);
+
 /// Names of the channels of an EXR or PNG. Throws BadInput for a missing or unreadable file.
 std::vector<std::string> channelNames(const std::filesystem::path& file);
 
-/// Reads one channel (by index) of an EXR or PNG as linear values; integers are divided by their maximum, no gamma applied.
+/// Reads one channel (by index) of an EXR, PNG or PFM as linear values; integers are divided by their maximum, no gamma applied.
 /// Throws BadInput for a missing or unreadable file and for a channel that is not there.
 Image<float> readChannel(const std::filesystem::path& file, int channel);
 

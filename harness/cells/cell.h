@@ -6,15 +6,21 @@
 #include "harness/records/record.h"
 #include "techniques/contract/entry.h"
 
+#include <map>
 #include <optional>
 
 namespace shadowbench {
 
-/// What a cell leaves beside its record: the scored frame's images.
+/// What a cell leaves beside its record: its images of visibility by frame, from the scored one on, and what is true of that.
 struct CellImages {
-    Image<float> visibility;
+    std::map<int, Image<float>> frames;
     const groundtruth::Reference* reference = nullptr;
+
+    [[nodiscard]] const Image<float>& visibility() const { return frames.begin()->second; }
 };
+
+/// What is known of images of visibility, whoever draws them, before they are scored.
+Record blankRecord(const Scene& scene, std::uint32_t seed);
 
 /// What is known of a cell before it runs: everything but scores and costs. Needs a GL context.
 Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::uint32_t seed);

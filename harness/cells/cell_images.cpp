@@ -3,6 +3,7 @@
 #include "base/image_io.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace shadowbench {
 
@@ -20,7 +21,7 @@ Image<glm::vec3> errorPicture(const Image<float>& v, const groundtruth::Referenc
 }
 
 void writeCellImages(const std::filesystem::path& folder, const CellImages& images) {
-    const Image<float>& v = images.visibility;
+    const Image<float>& v = images.visibility();
     const groundtruth::Reference& truth = *images.reference;
     Image<float> error(v.width(), v.height());
     for (std::size_t i = 0; i < v.size(); ++i)
@@ -28,6 +29,8 @@ void writeCellImages(const std::filesystem::path& folder, const CellImages& imag
     writeExr(folder / "visibility.exr", {{"V", &v}});
     writeExr(folder / "reference.exr", {{"V", &truth.visibility}});
     writeExr(folder / "error.exr", {{"error", &error}});
+    for (const auto& [frame, visibility] : images.frames)
+        if (images.frames.size() > 1) writeExr(folder / fmt::format("frame-{}.exr", frame), {{"V", &visibility}});
     writePng(folder / "visibility.png", v);
     writePng(folder / "reference.png", truth.visibility);
     writePng(folder / "error.png", errorPicture(v, truth));

@@ -98,7 +98,7 @@ void SceneCells::score(const techniques::Variant& variant, Record& record, const
     progress(0, variant.name);
     CellImages images;
     scoreCell(frames(), variant, options_.seed, record, images);
-    if (options_.seeds > 1) splitErrorOverSeeds(frames(), variant, options_.seed, options_.seeds, images.visibility, record);
+    if (options_.seeds > 1) splitErrorOverSeeds(frames(), variant, options_.seed, options_.seeds, images.visibility(), record);
     markExpectedFailure(scene_, variant, record);
     if (!options_.images.empty()) writeCellImages(imageFolder(variant), images);
 }

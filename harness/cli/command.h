@@ -18,6 +18,7 @@ using Action = std::function<ExitCode()>;
 void addList(CLI::App& app, Action& action);
 void addRun(CLI::App& app, Action& action);
 void addMerge(CLI::App& app, Action& action);
+void addScore(CLI::App& app, Action& action);
 void addReference(CLI::App& app, Action& action);
 void addSweep(CLI::App& app, Action& action);
 void addRecommend(CLI::App& app, Action& action);

@@ -29,6 +29,7 @@ std::optional<std::string> first(std::initializer_list<std::optional<std::string
 std::string platformOf(const Environment& e) { return e.platform.empty() ? "osmesa" : e.platform; }
 
 std::optional<std::string> rasteriserDifference(const Environment& a, const Environment& b) {
+    if (a.gl == notDrawnHere && b.gl == notDrawnHere) return {}; // another renderer's next version is what is compared
     return first({differs("renderer", a.renderer, b.renderer), differs("gl", a.gl, b.gl),
                   differs("platform", platformOf(a), platformOf(b)), stated("vendor", a.vendor, b.vendor),
                   stated("driver", a.driver, b.driver), differs("raster_threads", a.rasterThreads, b.rasterThreads),

@@ -59,8 +59,8 @@ struct Change {
 /// cells score it alike, and Unjudged if one does not or there is none.
 std::vector<Change> compare(const std::vector<Record>& base, const std::vector<Record>& head);
 
-/// Why comparing the two decides nothing, as a sentence: they are of one program (which `sameProgramIsMeant` allows), or no
-/// cell is scored in both. Nothing where it decides something.
+/// Why comparing the two decides nothing, as a sentence: they are of one program (which `sameProgramIsMeant` allows, and
+/// which may have scored two versions of another renderer), or no cell is scored in both. Nothing where it decides something.
 std::optional<std::string> whyMeaningless(const std::vector<Record>& base, const std::vector<Record>& head,
                                           bool sameProgramIsMeant);
 

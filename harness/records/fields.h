@@ -153,6 +153,7 @@ void fields(auto& visit, Is<Record> auto& r) {
     metricGroup(visit, "lod", r.values);
     metricGroup(visit, "accuracy", hasAccuracy(r), r.values);
     metricGroup(visit, "aliasing", r.values);
+    metricGroup(visit, "off_geometry_edges", r.values);
     visit.figures("figures", r.figures);
     metricGroup(visit, "stability", r.values);
     costFields(visit, r);

@@ -27,10 +27,13 @@ bool wasScored(Status status) { return status == Status::Scored || status == Sta
 
 bool isLevelOfDetail(const Record& record) { return record.values["lod.pop"].has_value(); }
 
+bool isExternal(const Record& record) { return record.technique.starts_with(externalPrefix); }
+
 std::optional<Headline> headline(const Record& record) {
     if (!records::hasAccuracy(record)) return {};
+    const bool labels = record.values["accuracy.mismatch"].has_value();
     const bool soft = isSoft(record.reference) || isSoft(record.softReference);
-    const std::string metric = soft ? "rmse" : "mismatch";
+    const std::string metric = soft || !labels ? "rmse" : "mismatch";
     const std::optional<double> value = metrics::bounded(record.values, metric);
     return value ? std::optional(Headline{metric, *value}) : std::nullopt;
 }

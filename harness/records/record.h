@@ -135,7 +135,8 @@ std::string_view name(Status status);
 bool wasScored(Status status);
 
 /// The metric that ranks a record's accuracy, the same for all records of one scene: "rmse" where a soft truth (oracle
-/// "povray") was used, for a hard technique beside its exact one, else "mismatch"; nothing if it was not scored.
+/// "povray") was used, for a hard technique beside its exact one, and where there are no labels, else "mismatch"; nothing if
+/// it was not scored.
 struct Headline {
     std::string metric;
     double value;
@@ -144,5 +145,12 @@ std::optional<Headline> headline(const Record& record);
 
 /// Of a level-of-detail technique; such a record has no accuracy.
 bool isLevelOfDetail(const Record& record);
+
+/// What the names of other renderers' techniques begin with, and whether the record is of one.
+inline constexpr std::string_view externalPrefix = "external:";
+bool isExternal(const Record& record);
+
+/// What the environment of such a record says instead of an OpenGL version.
+inline constexpr std::string_view notDrawnHere = "none: not drawn here";
 
 } // namespace shadowbench

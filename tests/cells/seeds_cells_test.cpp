@@ -14,7 +14,7 @@ Record scoredBySeeds(const std::string& variant) {
     CellImages images;
     const techniques::Variant chosen = techniques::parseVariant(variant);
     scoreCell(cells.frames(), chosen, 1, record, images);
-    splitErrorOverSeeds(cells.frames(), chosen, 1, 4, images.visibility, record);
+    splitErrorOverSeeds(cells.frames(), chosen, 1, 4, images.visibility(), record);
     return record;
 }
 

@@ -1,0 +1,289 @@
+#include "harness/foreign/recognition.h"
+
+#include "harness/foreign/foreign_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <string_view>
+#include <utility>
+
+namespace shadowbench::foreign {
+namespace {
+
+constexpr float nearlyNothing = 1.0F / 256; // below the first step of an 8-bit file
+
+bool isLit(float v) { return v >= 0.5F; }
+
+double loss(float v, float truth, bool labels) {
+    if (labels) return isLit(v) == isLit(truth) ? 0 : 1;
+    const double difference = static_cast<double>(v) - static_cast<double>(truth);
+    return difference * difference;
+}
+
+/// A mean of losses as an error.
+double asError(double meanLoss, bool labels) { return labels ? meanLoss : std::sqrt(meanLoss); }
+
+std::string fall(double before, double after, bool labels) {
+    if (labels) return fmt::format("mismatch falls from {:.2g} % to {:.2g} %", 100 * before, 100 * after);
+    return fmt::format("the rms error falls from {:.2g} to {:.2g}", before, after);
+}
+
+/// Whether so much error goes that nothing but a mistake explains it: half of it, and more than a technique's odd pixels.
+bool halves(double before, double after, bool labels) {
+    const double notable = labels ? 0.003 : 0.02;
+    return after <= before / 2 && before - after >= notable;
+}
+
+template <class Source>
+Image<float> rearranged(const Image<float>& image, Source source) {
+    Image<float> result(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) result(x, y) = source(x, y);
+    return result;
+}
+
+/// One way in which an image can be wrong, undone.
+struct Undone {
+    std::string_view looks, by;
+    Image<float> v;
+};
+
+std::vector<Undone> turnsOf(const Image<float>& v) {
+    const int right = v.width() - 1, bottom = v.height() - 1;
+    std::vector<Undone> all;
+    all.push_back({"upside down", "flipped", rearranged(v, [&](int x, int y) { return v(x, bottom - y); })});
+    all.push_back({"mirrored", "left and right are swapped", rearranged(v, [&](int x, int y) { return v(right - x, y); })});
+    all.push_back({"turned by half a turn", "turned back",
+                   rearranged(v, [&](int x, int y) { return v(right - x, bottom - y); })});
+    if (v.width() == v.height())
+        all.push_back({"transposed", "rows and columns are swapped", rearranged(v, [&](int x, int y) { return v(y, x); })});
+    all.push_back({"inverted (1 is lit, 0 is shadow)", "subtracted from 1",
+                   rearranged(v, [&](int x, int y) { return 1 - v(x, y); })});
+    return all;
+}
+
+double errorWith(const Compared& compared, const Image<float>& v) {
+    return errorOf({v, compared.truth, compared.scored, compared.labels});
+}
+
+// Shifts.
+
+constexpr int farthest = 2;  // pixels that an image may be shifted by
+constexpr int squares = 8;   // of the image, along each side
+constexpr int enoughAre = 5; // squares that a shift must better
+
+/// Losses in each square of an image.
+using Losses = std::vector<double>;
+
+/// The scored pixels around which all are scored as far as an image may be shifted: geometry's edges say nothing there.
+Image<std::uint8_t> inner(const Image<std::uint8_t>& scored) {
+    Image<std::uint8_t> result(scored.width(), scored.height());
+    for (int y = farthest; y < scored.height() - farthest; ++y)
+        for (int x = farthest; x < scored.width() - farthest; ++x) {
+            bool all = true;
+            for (int dy = -farthest; dy <= farthest && all; ++dy)
+                for (int dx = -farthest; dx <= farthest && all; ++dx) all = scored(x + dx, y + dy) != 0;
+            result(x, y) = all ? 1 : 0;
+        }
+    return result;
+}
+
+Losses lossesWith(const Compared& compared, const Image<std::uint8_t>& pixels, int dx, int dy) {
+    Losses losses(squares * squares);
+    const int width = compared.v.width(), height = compared.v.height();
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            if (pixels(x, y) == 0) continue;
+            const auto square = static_cast<std::size_t>(y * squares / height * squares + x * squares / width);
+            losses[square] += loss(compared.v(x + dx, y + dy), compared.truth(x, y), compared.labels);
+        }
+    return losses;
+}
+
+double sumOf(const Losses& losses) {
+    double sum = 0;
+    for (const double value : losses) sum += value;
+    return sum;
+}
+
+/// Squares that become better and worse.
+struct Votes {
+    int better = 0, worse = 0;
+};
+Votes votes(const Losses& before, const Losses& after, bool labels) {
+    const double notable = labels ? 2 : 0.5; // less is an odd pixel
+    Votes result;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i] + after[i] < notable) continue;
+        if (after[i] < before[i]) ++result.better;
+        if (after[i] > before[i]) ++result.worse;
+    }
+    return result;
+}
+
+/// The grey scored pixels: how bright they are on average, and should be.
+struct Grey {
+    double v = 0, truth = 0;
+    std::size_t count = 0;
+};
+Grey greyOf(const Compared& compared, float (*undo)(float)) {
+    Grey grey;
+    for (std::size_t i = 0; i < compared.v.size(); ++i) {
+        if (compared.scored[i] == 0 || compared.v[i] < 0.02F || compared.v[i] > 0.98F) continue;
+        grey.v += static_cast<double>(undo(compared.v[i]));
+        grey.truth += static_cast<double>(compared.truth[i]);
+        ++grey.count;
+    }
+    if (grey.count == 0) return grey;
+    grey.v /= static_cast<double>(grey.count);
+    grey.truth /= static_cast<double>(grey.count);
+    return grey;
+}
+
+float asItIs(float v) { return v; }
+
+std::optional<Finding> misencodedLabels(const Compared& compared, float (*undo)(float), const std::string& looks,
+                                        const std::string& remedy) {
+    constexpr std::size_t enough = 64;
+    constexpr double notable = 0.1; // sRGB makes an even ramp brighter by 0.19 on average
+    const Grey before = greyOf(compared, asItIs), after = greyOf(compared, undo);
+    const double was = before.v - before.truth, is = after.v - after.truth;
+    if (before.count < enough || std::abs(was) < notable || std::abs(is) > std::abs(was) / 3) return {};
+    return Finding{fmt::format("looks {}: its grey pixels are {:.2g} too {} on average, and {:.2g} when that is undone; {}",
+                               looks, std::abs(was), was > 0 ? "bright" : "dark", std::abs(is), remedy),
+                   false};
+}
+
+} // namespace
+
+double errorOf(const Compared& compared) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < compared.v.size(); ++i) {
+        if (compared.scored[i] == 0) continue;
+        sum += loss(compared.v[i], compared.truth[i], compared.labels);
+        ++count;
+    }
+    return count > 0 ? asError(sum / static_cast<double>(count), compared.labels) : 0;
+}
+
+std::optional<Finding> uniform(const Compared& compared) {
+    constexpr double most = 0.01; // of the receivers: fewer may be wrong without a mistake in the whole image
+    float low = 1, high = 0;
+    std::size_t lit = 0, shadowed = 0;
+    for (std::size_t i = 0; i < compared.v.size(); ++i) {
+        if (compared.scored[i] == 0) continue;
+        low = std::min(low, compared.v[i]);
+        high = std::max(high, compared.v[i]);
+        ++(isLit(compared.truth[i]) ? lit : shadowed);
+    }
+    if (high - low > nearlyNothing || lit + shadowed == 0) return {};
+    const double all = static_cast<double>(lit + shadowed);
+    if (high < nearlyNothing && static_cast<double>(lit) > most * all)
+        return Finding{fmt::format("is black: no receiver has light, and {:.2g} % of them should",
+                                   100 * static_cast<double>(lit) / all),
+                       true};
+    if (low > 1 - nearlyNothing && static_cast<double>(shadowed) > most * all)
+        return Finding{fmt::format("shows no shadow: all receivers are fully lit, and {:.2g} % of them should not be",
+                                   100 * static_cast<double>(shadowed) / all),
+                       false};
+    if (low < nearlyNothing || low > 1 - nearlyNothing) return {};
+    return Finding{fmt::format("is of one grey: all receivers have the visibility {:.3g}", low), true};
+}
+
+std::optional<Finding> turned(const Compared& compared) {
+    const double before = errorOf(compared);
+    std::optional<Finding> best;
+    double least = before;
+    for (const Undone& undone : turnsOf(compared.v)) {
+        const double after = errorWith(compared, undone.v);
+        if (after >= least || !halves(before, after, compared.labels)) continue;
+        least = after;
+        best = Finding{fmt::format("looks {}: {} when {}", undone.looks, fall(before, after, compared.labels), undone.by),
+                       true};
+    }
+    return best;
+}
+
+std::optional<Finding> shifted(const Compared& compared) {
+    const Image<std::uint8_t> pixels = inner(compared.scored);
+    const auto count = static_cast<double>(std::ranges::count(pixels, std::uint8_t{1}));
+    const Losses before = lossesWith(compared, pixels, 0, 0);
+    Losses best = before;
+    std::pair<int, int> by{0, 0};
+    for (int dy = -farthest; dy <= farthest; ++dy)
+        for (int dx = -farthest; dx <= farthest; ++dx) {
+            Losses losses = lossesWith(compared, pixels, dx, dy);
+            if (sumOf(losses) >= sumOf(best)) continue;
+            best = std::move(losses);
+            by = {dx, dy};
+        }
+    if (by == std::pair(0, 0)) return {};
+    const Votes found = votes(before, best, compared.labels);
+    const double share = sumOf(best) / sumOf(before);
+    if (found.better < enoughAre || found.worse > found.better / 3 || share > 0.8) return {};
+    const double was = asError(sumOf(before) / count, compared.labels), is = asError(sumOf(best) / count, compared.labels);
+    return Finding{fmt::format("looks shifted by ({}, {}) pixels: {} when moved back, in {} of {} parts of the image with "
+                               "shadow edges",
+                               by.first, by.second, fall(was, is, compared.labels), found.better, found.better + found.worse),
+                   found.worse <= found.better / 5 && share <= 0.65};
+}
+
+std::optional<Finding> misencoded(const Compared& compared, Encoding encoding) {
+    const bool decoded = encoding == Encoding::Srgb;
+    const auto undo = decoded ? srgbFromLinear : linearFromSrgb;
+    const std::string looks = decoded ? "linear, and was decoded from sRGB" : "sRGB-encoded";
+    const std::string remedy = decoded ? "say --linear" : "say --srgb, or write linear numbers";
+    if (compared.labels) return misencodedLabels(compared, undo, looks, remedy);
+    Image<float> v = compared.v;
+    std::ranges::transform(v, v.begin(), undo);
+    const double before = errorOf(compared), after = errorWith(compared, v);
+    if (!halves(before, after, false)) return {};
+    return Finding{fmt::format("looks {}: {} when that is undone; {}", looks, fall(before, after, false), remedy), true};
+}
+
+std::optional<Finding> shaded(const Compared& compared) {
+    std::vector<float> lit;
+    for (std::size_t i = 0; i < compared.v.size(); ++i)
+        if (compared.scored[i] != 0 && compared.truth[i] > 0.999F) lit.push_back(compared.v[i]);
+    if (lit.size() < 64) return {};
+    const auto high = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() * 9 / 10);
+    std::nth_element(lit.begin(), high, lit.end());
+    if (*high >= 0.9F || *high < nearlyNothing) return {};
+    return Finding{fmt::format("looks like a shaded picture: nine in ten of the fully lit receivers are no brighter than "
+                               "{:.2g}; visibility is 1 there, and is had with --lit and --unlit",
+                               *high),
+                   false};
+}
+
+std::optional<Finding> ofAnotherFrame(const Compared& compared, const std::vector<OtherFrame>& others) {
+    const double before = errorOf(compared);
+    std::optional<Finding> best;
+    double least = before;
+    for (const OtherFrame& other : others) {
+        const double after = errorOf({compared.v, other.truth, compared.scored, compared.labels});
+        if (after >= least || !halves(before, after, compared.labels)) continue;
+        least = after;
+        best = Finding{fmt::format("looks like frame {}: {} against its truth", other.frame,
+                                   fall(before, after, compared.labels)),
+                       true};
+    }
+    return best;
+}
+
+std::vector<Finding> oddities(const Compared& compared, Encoding encoding, const std::vector<OtherFrame>& others) {
+    if (const auto found = uniform(compared)) return {*found};
+    std::vector<Finding> all;
+    if (auto found = turned(compared))
+        all.push_back(*found);
+    else if (found = ofAnotherFrame(compared, others); found)
+        all.push_back(*found);
+    else if (found = shifted(compared); found)
+        all.push_back(*found);
+    if (const auto found = misencoded(compared, encoding)) all.push_back(*found);
+    if (const auto found = shaded(compared)) all.push_back(*found);
+    return all;
+}
+
+} // namespace shadowbench::foreign

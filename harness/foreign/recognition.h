@@ -1,0 +1,59 @@
+// What is wrong with an image as a whole, told from how much nearer the truth it comes when that is undone. Pure functions.
+#pragma once
+
+#include "base/image.h"
+#include "harness/foreign/foreign_row.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowbench::foreign {
+
+/// An image with what is true of it; all of one size.
+struct Compared {
+    const Image<float>& v;
+    const Image<float>& truth;
+    const Image<std::uint8_t>& scored; // 1 at receivers
+    bool labels = false;               // the truth is 0 or 1: errors are shares of wrong labels, else root mean squares
+};
+
+/// Share of the scored pixels with the wrong label (lit: ≥ ½), or the root mean square of V − V*. 0 without such pixels.
+double errorOf(const Compared& compared);
+
+struct Finding {
+    std::string sentence; // "looks upside down: mismatch falls from 31 % to 0.9 % when flipped"
+    bool certain = false; // else suspected
+};
+
+/// No shadow boundary at all: all receivers without light though some have it (certain), all of one grey (certain), or all
+/// fully lit though some have none (suspected: a renderer without shadows draws that).
+std::optional<Finding> uniform(const Compared& compared);
+
+/// Flipped about either axis or both, rows and columns swapped, or 1 − V. Certain where undoing it halves the error.
+std::optional<Finding> turned(const Compared& compared);
+
+/// Shifted by up to two whole pixels each way. Judged in squares of the image apart: a shift makes all of them better when it
+/// is undone, a shadow map's errors some better and some worse.
+std::optional<Finding> shifted(const Compared& compared);
+
+/// sRGB-encoded though taken for linear, or linear though decoded. Certain for graded truths where undoing it halves the
+/// error. Where the truth has labels the grey pixels must be too bright (too dark) on average and come right by it: suspected.
+std::optional<Finding> misencoded(const Compared& compared, Encoding encoding);
+
+/// Brightest receivers well below 1 though much is fully lit: a shaded picture. Suspected.
+std::optional<Finding> shaded(const Compared& compared);
+
+struct OtherFrame {
+    int frame;
+    const Image<float>& truth;
+};
+
+/// Nearer to the truth of another frame: certain where the error is half of that.
+std::optional<Finding> ofAnotherFrame(const Compared& compared, const std::vector<OtherFrame>& others);
+
+/// All of these, the most telling first; at most one of turned, shifted and of another frame.
+std::vector<Finding> oddities(const Compared& compared, Encoding encoding, const std::vector<OtherFrame>& others);
+
+} // namespace shadowbench::foreign
