@@ -16,14 +16,19 @@ const notOnCubes = ["pcf", "pcss", "blur-esm"];
 
 let engine, settings, exported, meshes;
 
-const vector = (numbers) => new BABYLON.Vector3(...numbers);
+// The engine's own coordinates are left-handed. As its glTF loader does, z is mirrored here: the world becomes M · world with
+// M = diag(1, 1, −1, 1), eye space likewise, so `place` is M · matrix, `view` M · matrix · M and `projection` matrix · M.
+const vector = ([x, y, z]) => new BABYLON.Vector3(x, y, -z);
+const mirrorRow = (matrix) => matrix.map((number, i) => (i % 4 === 2 ? -number : number));
+const mirrorColumn = (matrix) => matrix.map((number, i) => (i >> 2 === 2 ? -number : number));
+const matrixOf = (numbers) => BABYLON.Matrix.FromArray(numbers);
 
 class ExportedCamera extends BABYLON.Camera {
     constructor(frame, scene) {
         super("camera", vector(frame.camera.eye), scene);
-        this.exportedView = BABYLON.Matrix.FromArray(frame.view);
+        this.exportedView = matrixOf(mirrorRow(mirrorColumn(frame.view)));
         [this.minZ, this.maxZ] = [frame.camera.near, frame.camera.far];
-        this.freezeProjectionMatrix(BABYLON.Matrix.FromArray(frame.projection));
+        this.freezeProjectionMatrix(matrixOf(mirrorColumn(frame.projection)));
     }
     _getViewMatrix() {
         return this.exportedView;
@@ -33,7 +38,7 @@ class ExportedCamera extends BABYLON.Camera {
 function makeMaterial(scene, doubleSided) {
     const material = new BABYLON.StandardMaterial("white", scene);
     material.specularColor = BABYLON.Color3.Black();
-    material.sideOrientation = BABYLON.Material.CounterClockWiseSideOrientation; // as the engine's glTF loader has it
+    material.sideOrientation = BABYLON.Material.ClockWiseSideOrientation; // as the engine's glTF loader has it
     material.backFaceCulling = !doubleSided;
     material.twoSidedLighting = doubleSided;
     return material;
@@ -55,7 +60,7 @@ function addNodes(frame, scene) {
         geometries.get(mesh).applyToMesh(drawn);
         drawn.material = materials[Number(meshes.get(mesh).doubleSided)];
         drawn.rotationQuaternion = new BABYLON.Quaternion();
-        BABYLON.Matrix.FromArray(matrix).decompose(drawn.scaling, drawn.rotationQuaternion, drawn.position);
+        matrixOf(mirrorRow(matrix)).decompose(drawn.scaling, drawn.rotationQuaternion, drawn.position);
         drawn.computeWorldMatrix(true);
         return drawn;
     });
@@ -111,7 +116,6 @@ async function draw(scene, drawn, target, receiveShadows) {
 globalThis.renderFrame = async (index) => {
     const frame = exported.scene.frames.find((other) => other.index === index);
     const scene = new BABYLON.Scene(engine);
-    scene.useRightHandedSystem = true;
     scene.clearColor = new BABYLON.Color4(0, 0, 0, 0);
     const camera = new ExportedCamera(frame, scene);
     const [width, height] = exported.scene.size;
