@@ -137,6 +137,7 @@ globalThis.renderFrame = async (index) => {
 
 globalThis.start = async (input, chosen) => {
     [exported, settings] = [input, chosen];
+    if (settings.cascades === 1) throw new Error("refused: --cascades 1: the engine has 2 to 4; 0 is one map without cascades");
     engine = new BABYLON.Engine(document.createElement("canvas"), false);
     if (!engine.getCaps().textureFloatRender) throw new Error("refused: this WebGL cannot draw into floats");
     meshes = readMeshes(exported);

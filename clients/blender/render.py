@@ -18,8 +18,13 @@ except ImportError:  # --help needs none of it
     bpy = None
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise BadInput(f"{message}; --help names the options")
+
+
 def read_command_line(words):
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="clients/blender/render", formatter_class=argparse.ArgumentDefaultsHelpFormatter,
         description="Writes the share of the light that arrives at each pixel, 1 = lit, as frame-<number>.pfm.",
         epilog="example: clients/blender/render --scene exported --frames 59 --out images --samples 1024")
@@ -33,8 +38,9 @@ def read_command_line(words):
     parser.add_argument("--pixel", choices=["centre", "area"], default="centre",
                         help="samples at the pixel's centre, or all over its square")
     parser.add_argument("--seed", type=int, default=0, help="of Cycles")
-    parser.add_argument("--cube-size", default="512", help="EEVEE's shadow_cube_size, of point and area lights")
-    parser.add_argument("--cascade-size", default="1024", help="EEVEE's shadow_cascade_size, of directional lights")
+    sizes = [str(2 ** k) for k in range(6, 13)]
+    parser.add_argument("--cube-size", choices=sizes, default="512", help="EEVEE's shadow_cube_size, of point and area lights")
+    parser.add_argument("--cascade-size", choices=sizes, default="1024", help="EEVEE's shadow_cascade_size, of directional lights")
     return parser.parse_args(words)
 
 

@@ -34,7 +34,7 @@ function helpOf(client, settings) {
     ].join("\n");
 }
 
-function valueOf(name, { values, standard }, text) {
+function valueOf(name, { values, standard, whole }, text) {
     if (text === undefined) return standard;
     if (values) {
         if (!values.includes(text)) throw new Failure(badInput, `--${name} ${text}: choose one of ${values.join(", ")}`);
@@ -42,6 +42,8 @@ function valueOf(name, { values, standard }, text) {
     }
     const number = Number(text);
     if (text.trim() === "" || !Number.isFinite(number)) throw new Failure(badInput, `--${name} ${text}: give a number`);
+    if (whole && !(Number.isInteger(number) && number >= whole[0] && number <= whole[1]))
+        throw new Failure(badInput, `--${name} ${text}: give a whole number from ${whole[0]} to ${whole[1]}`);
     return number;
 }
 
@@ -155,7 +157,7 @@ async function render(puppeteer, folder, client, settings) {
 }
 
 /// Renders as the command line says and ends the process with its exit code. `folder` has page.html; `settings` maps an
-/// option to its `values` (or a number if there are none), its `standard` value and `help`.
+/// option to its `values`, or none for a number (`whole`: its bounds, if it is whole), its `standard` value and `help`.
 export async function run(puppeteer, folder, settings) {
     const client = path.basename(folder);
     try {
