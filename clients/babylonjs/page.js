@@ -17,7 +17,8 @@ const notOnCubes = ["pcf", "pcss", "blur-esm"];
 let engine, settings, exported, meshes;
 
 // The engine's own coordinates are left-handed. As its glTF loader does, z is mirrored here: the world becomes M · world with
-// M = diag(1, 1, −1, 1), eye space likewise, so `place` is M · matrix, `view` M · matrix · M and `projection` matrix · M.
+// M = diag(1, 1, −1, 1), eye space likewise: a node's matrix becomes M · matrix, the view M · view · M, the projection
+// projection · M.
 const vector = ([x, y, z]) => new BABYLON.Vector3(x, y, -z);
 const mirrorRow = (matrix) => matrix.map((number, i) => (i % 4 === 2 ? -number : number));
 const mirrorColumn = (matrix) => matrix.map((number, i) => (i >> 2 === 2 ? -number : number));
@@ -137,7 +138,7 @@ globalThis.renderFrame = async (index) => {
 
 globalThis.start = async (input, chosen) => {
     [exported, settings] = [input, chosen];
-    if (settings.cascades === 1) throw new Error("refused: --cascades 1: the engine has 2 to 4; 0 is one map without cascades");
+    if (settings.cascades === 1) throw new Error("refused: --cascades 1: the engine has 2 to 4, and 0 is one plain map");
     engine = new BABYLON.Engine(document.createElement("canvas"), false);
     if (!engine.getCaps().textureFloatRender) throw new Error("refused: this WebGL cannot draw into floats");
     meshes = readMeshes(exported);

@@ -40,8 +40,12 @@ def read_command_line(words):
     parser.add_argument("--seed", type=int, default=0, help="of Cycles")
     sizes = [str(2 ** k) for k in range(6, 13)]
     parser.add_argument("--cube-size", choices=sizes, default="512", help="EEVEE's shadow_cube_size, of point and area lights")
-    parser.add_argument("--cascade-size", choices=sizes, default="1024", help="EEVEE's shadow_cascade_size, of directional lights")
-    return parser.parse_args(words)
+    parser.add_argument("--cascade-size", choices=sizes, default="1024",
+                        help="EEVEE's shadow_cascade_size, of directional lights")
+    options = parser.parse_args(words)
+    if options.samples is not None and options.samples < 1:
+        raise BadInput(f"--samples {options.samples}: give 1 or more")
+    return options
 
 
 def add_meshes(exported):
