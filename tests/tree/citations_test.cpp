@@ -24,7 +24,7 @@ std::vector<std::string> allFiles() {
         if (!top.is_directory() || name == ".git" || name == "build") continue;
         for (auto entry = fs::recursive_directory_iterator(top); entry != fs::recursive_directory_iterator(); ++entry) {
             const std::string path = entry->path().lexically_relative(root).string();
-            if (path == "results/latest") entry.disable_recursion_pending();
+            if (path == "results/latest" || path.ends_with("/node_modules")) entry.disable_recursion_pending();
             if (entry->is_regular_file()) files.push_back(path);
         }
     }

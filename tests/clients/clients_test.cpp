@@ -1,0 +1,88 @@
+// The clients' lists of renderers can be read, and start what is there. Nothing is installed or rendered here: Chromium and
+// Blender run by the clients' own commands.
+#include "base/files.h"
+#include "harness/foreign/renderer.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace shadowbench::foreign {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path clients = fs::path(SOURCE_FOLDER) / "clients";
+
+/// The folders that have a `render`.
+std::vector<fs::path> clientFolders() {
+    std::vector<fs::path> folders;
+    for (const fs::directory_entry& entry : fs::directory_iterator(clients))
+        if (fs::exists(entry.path() / "external.toml")) folders.push_back(entry.path());
+    std::ranges::sort(folders);
+    return folders;
+}
+
+std::vector<Renderer> renderersIn(const fs::path& folder) {
+    std::vector<Renderer> all;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".toml") std::ranges::move(readRenderers(entry.path()), std::back_inserter(all));
+    return all;
+}
+
+bool isExecutable(const fs::path& file) {
+    return (fs::status(file).permissions() & fs::perms::owner_exec) != fs::perms::none;
+}
+
+TEST(Clients, AreThreeJsBabylonJsAndBlender) {
+    std::vector<std::string> names;
+    for (const fs::path& folder : clientFolders()) names.push_back(folder.filename());
+    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "threejs"}));
+}
+
+TEST(Clients, HaveExecutableCommands) {
+    for (const fs::path& folder : clientFolders())
+        for (const char* command : {"render", "setup"}) EXPECT_TRUE(isExecutable(folder / command)) << folder << command;
+    EXPECT_TRUE(isExecutable(clients / "engines"));
+}
+
+TEST(Clients, ListRenderersThatStartTheirOwnCommand) {
+    std::set<std::string> ids;
+    for (const fs::path& folder : clientFolders())
+        for (const Renderer& renderer : renderersIn(folder)) {
+            EXPECT_TRUE(ids.insert(renderer.id).second) << renderer.id << " is there twice";
+            EXPECT_EQ(renderer.command.front(), "./render") << renderer.id;
+            EXPECT_FALSE(renderer.title.empty() || renderer.source.empty() || renderer.settings.empty()) << renderer.id;
+        }
+    EXPECT_GE(ids.size(), 25U);
+}
+
+/// A setting that stands in the command stands in the record, too: what was drawn with can be read there.
+TEST(Clients, SayEachSettingOfTheirCommands) {
+    for (const fs::path& folder : clientFolders())
+        for (const Renderer& renderer : renderersIn(folder)) {
+            const std::size_t own = 7; // ./render --scene {scene} --frames {frames} --out {out}
+            for (std::size_t word = own; word < renderer.command.size(); ++word) {
+                const std::string& option = renderer.command[word];
+                const std::string value = option.substr(option.find('=') + 1);
+                const auto says = [&](const auto& setting) { return setting.second == value; };
+                const bool isInSource = option.starts_with("--engine="); // in the renderer's `source`
+                EXPECT_TRUE(isInSource || std::ranges::any_of(renderer.settings, says)) << renderer.id << ": " << option;
+            }
+        }
+}
+
+/// What npm installs is what was committed.
+TEST(Clients, PinTheirPackages) {
+    for (const char* name : {"threejs", "babylonjs"}) {
+        const auto package = nlohmann::json::parse(readFile(clients / name / "package.json"));
+        const auto lock = nlohmann::json::parse(readFile(clients / name / "package-lock.json"));
+        EXPECT_EQ(package.at("dependencies"), lock.at("packages").at("").at("dependencies")) << name;
+        for (const auto& [dependency, version] : package.at("dependencies").items())
+            EXPECT_EQ(version.get<std::string>().find_first_of("^~*<>"), std::string::npos) << dependency;
+    }
+}
+
+} // namespace
+} // namespace shadowbench::foreign
