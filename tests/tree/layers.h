@@ -31,7 +31,7 @@ struct Include {
 };
 
 /// Whose a header is by how its path begins. `<thread>` needs no line: every module reaches base, which links threads.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 11> packageOfHeader{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 12> packageOfHeader{
     {{"CGAL/", "cgal"},
      {"CLI/", "cli11"},
      {"GL/", "osmesa"},
@@ -40,6 +40,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 11> p
      {"boost/", "boost"},
      {"embree3/", "embree"},
      {"meshoptimizer.h", "meshoptimizer"},
+     {"mustache.hpp", "mustache"},
      {"nlohmann/", "json"},
      {"toml++/", "toml"},
      {"xxhash.h", "xxhash"}}};

@@ -1,0 +1,84 @@
+#include "harness/report/site/site_writer.h"
+
+#include "base/files.h"
+#include "harness/report/site/names.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace shadowbench::site {
+namespace {
+
+/// "scenes/simple.html" → "scenes-simple".
+std::string stemOf(const std::string& address) {
+    std::string stem = address.substr(0, address.rfind('.'));
+    for (char& letter : stem)
+        if (letter == '/') letter = '-';
+    return stem;
+}
+
+} // namespace
+
+std::string rootFrom(const std::string& address) { return address.find('/') == std::string::npos ? "" : "../"; }
+
+SiteWriter::SiteWriter(std::filesystem::path folder, std::vector<Link> navigation)
+    : folder_(std::move(folder)), navigation_(std::move(navigation)) {}
+
+void SiteWriter::add(const Page& page) {
+    const std::string root = rootFrom(page.address);
+    Data data, links{Data::type::list}, scripts{Data::type::list};
+    data.set("title", shown(page.title));
+    data.set("root", root);
+    data.set("main", page.main);
+    for (const Link& link : navigation_) {
+        Data entry;
+        entry.set("name", shown(link.title));
+        entry.set("address", root + link.address);
+        entry.set("here", link.address == page.address);
+        links << entry;
+    }
+    for (const std::string& script : page.scripts) {
+        Data entry;
+        entry.set("script", root + script);
+        scripts << entry;
+    }
+    data.set("links", links);
+    data.set("scripts", scripts);
+    writeFile(folder_ / page.address, render("page.html", data));
+    ++pages_;
+}
+
+std::string SiteWriter::table(const std::string& address, const Table& table) {
+    if (table.rows.empty()) return "";
+    const std::string files = fmt::format("tables/{}-{}", stemOf(address), table.id);
+    writeFile(folder_ / (files + ".csv"), csvOf(table));
+    writeFile(folder_ / (files + ".tex"), latexOf(table, true));
+    writeFile(folder_ / (files + "-full.tex"), latexOf(table, false));
+    writeFile(folder_ / (files + ".md"), markdownOf(table));
+    return render("table.html", tableData(table, rootFrom(address), files));
+}
+
+std::string SiteWriter::chart(const std::string& address, const Chart& chart) const {
+    Data data, options{Data::type::list};
+    data.set("file", rootFrom(address) + "charts/" + chart.name);
+    data.set("title", shown(chart.title));
+    data.set("alternative", shown(chart.text));
+    data.set("interactive", !chart.kind.empty());
+    data.set("kind", chart.kind);
+    data.set("table", chart.table);
+    for (const auto& [name, value] : chart.options) {
+        Data option;
+        option.set("name", name);
+        option.set("value", value);
+        options << option;
+    }
+    data.set("options", options);
+    return render("chart.html", data);
+}
+
+void SiteWriter::writeAssets() const {
+    for (const char* file : {"assets/style.css", "assets/site.js"}) writeFile(folder_ / file, embeddedFile(file));
+    writeFile(folder_ / "assets/d3.js", embeddedFile("d3.min.js"));
+}
+
+} // namespace shadowbench::site
