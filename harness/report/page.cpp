@@ -1,4 +1,4 @@
-// The published page: report.md, results.csv and the charts.
+// The records as Markdown for where no browser is: report.md, with results.csv and the charts.
 #include "base/files.h"
 #include "harness/cells/cell_images.h"
 #include "harness/report/charts.h"
@@ -6,6 +6,7 @@
 #include "harness/report/lod_report.h"
 #include "harness/report/run_report.h"
 #include "harness/report/run_text.h"
+#include "harness/report/slug.h"
 #include "harness/report/summary.h"
 
 #include <algorithm>
@@ -63,21 +64,14 @@ std::string sceneSection(const std::vector<Record>& records, const std::string& 
     return text;
 }
 
-/// A scene id as part of a file name.
-std::string fileStem(const std::string& scene) {
-    std::string stem = scene;
-    std::replace_if(
-        stem.begin(), stem.end(), [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
-    return stem;
-}
-
 /// The pictures that `run --images` has left in the folder: the scene in mid-walk, and one instance's transition by
 /// technique.
 std::string lodPictures(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& folder) {
     std::string frame, rows;
     for (const std::size_t i : ofScene(records, scene)) {
-        const std::string place = "images/" + fileStem(scene) + "/" + fileName(records[i].variant) + "/";
-        if (!isLevelOfDetail(records[i]) || !std::filesystem::exists(folder / (place + "transition.png"))) continue;
+        const std::string place = "images/" + scene + "/" + fileName(records[i].variant) + "/";
+        std::error_code ignored; // a name may be too long for a file
+        if (!isLevelOfDetail(records[i]) || !std::filesystem::exists(folder / (place + "transition.png"), ignored)) continue;
         if (frame.empty()) frame = fmt::format("![{}]({}frame.png)\n\n", markdownText(scene), place);
         rows += fmt::format("| {} | ![transition]({}transition.png) |\n", records[i].variant, place);
     }
@@ -114,7 +108,7 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
         std::vector<std::string> charts;
         const auto keep = [&](const std::string& kind, const std::optional<std::string>& svg) {
             if (!svg) return;
-            charts.push_back(kind + "-" + fileStem(scene) + ".svg");
+            charts.push_back(kind + "-" + slug(scene) + ".svg");
             writeFile(folder / charts.back(), *svg);
             written.charts.push_back(folder / charts.back());
         };

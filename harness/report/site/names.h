@@ -2,15 +2,13 @@
 #pragma once
 
 #include "harness/records/record.h"
+#include "harness/report/slug.h"
 
 #include <string>
 
 namespace shadowbench::site {
 
-/// A name that is safe in a file name and in an address, the same for the same name and another for another:
-/// "pcss:taps=32+32" → "pcss_taps=32+32". Letters, digits and .=+-_, stay; if others go, it is long, or it begins with a dot,
-/// a hash of the name follows.
-std::string slug(const std::string& name);
+using report::slug;
 
 /// From the site's folder: "scenes/simple.html".
 std::string sceneAddress(const std::string& scene);

@@ -1,6 +1,7 @@
 #include "harness/report/site/site_writer.h"
 
 #include "base/files.h"
+#include "embedded_d3.h"
 #include "harness/report/site/names.h"
 
 #include <filesystem>
@@ -26,7 +27,7 @@ SiteWriter::SiteWriter(std::filesystem::path folder, std::vector<Link> navigatio
 
 void SiteWriter::add(const Page& page) {
     const std::string root = rootFrom(page.address);
-    Data data, links{Data::type::list}, scripts{Data::type::list};
+    Data data, links{Data::type::list}, scripts{Data::type::list}, styles{Data::type::list};
     data.set("title", shown(page.title));
     data.set("root", root);
     data.set("main", page.main);
@@ -43,7 +44,13 @@ void SiteWriter::add(const Page& page) {
         scripts << entry;
     }
     data.set("links", links);
+    for (const std::string& style : page.styles) {
+        Data entry;
+        entry.set("style", root + style);
+        styles << entry;
+    }
     data.set("scripts", scripts);
+    data.set("styles", styles);
     writeFile(folder_ / page.address, render("page.html", data));
     ++pages_;
 }
@@ -60,7 +67,7 @@ std::string SiteWriter::table(const std::string& address, const Table& table) {
 
 std::string SiteWriter::chart(const std::string& address, const Chart& chart) const {
     Data data, options{Data::type::list};
-    data.set("file", rootFrom(address) + "charts/" + chart.name);
+    data.set("file", rootFrom(address) + chart.name);
     data.set("title", shown(chart.title));
     data.set("alternative", shown(chart.text));
     data.set("interactive", !chart.kind.empty());
@@ -78,7 +85,7 @@ std::string SiteWriter::chart(const std::string& address, const Chart& chart) co
 
 void SiteWriter::writeAssets() const {
     for (const char* file : {"assets/style.css", "assets/site.js"}) writeFile(folder_ / file, embeddedFile(file));
-    writeFile(folder_ / "assets/d3.js", embeddedFile("d3.min.js"));
+    writeFile(folder_ / "assets/d3.js", embedded::d3().front().text);
 }
 
 } // namespace shadowbench::site

@@ -18,11 +18,12 @@ struct Page {
     std::string title;   // text
     std::string main;    // HTML
     std::vector<std::string> scripts = {"assets/d3.js", "assets/site.js"}; // from the site's folder; classic ones
+    std::vector<std::string> styles = {"assets/style.css"};
 };
 
 /// A chart by gnuplot, which is seen without JavaScript, and what a script draws in its place.
 struct Chart {
-    std::string name;        // of its files: "pareto-simple"
+    std::string name;        // of its files, from the site's folder, without their endings: "charts/sweep-trees-casters"
     std::string title, text; // caption; what a reader who does not see it is told
     std::string kind = {};   // "scatter", "lines", "bars"; "": it stays as it is
     std::string table = {};  // id of the table, on the same page, that it is drawn from
@@ -45,7 +46,7 @@ public:
     /// HTML of a table on the page at `address`; writes its files for papers.
     std::string table(const std::string& address, const Table& table);
 
-    /// HTML of a chart on the page at `address`; its files lie in charts/.
+    /// HTML of a chart on the page at `address`.
     [[nodiscard]] std::string chart(const std::string& address, const Chart& chart) const;
 
     /// Writes style, script and d3. Once, in any order.

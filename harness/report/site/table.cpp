@@ -2,9 +2,9 @@
 
 #include "harness/report/csv_text.h"
 #include "harness/report/site/names.h"
-#include "harness/report/text_table.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace shadowbench::site {
@@ -15,6 +15,7 @@ Data columnData(const Column& column) {
     data.set("title", column.title);
     data.set("hint", column.hint);
     data.set("key", column.key);
+    data.set("unit", column.unit);
     data.set("number", column.number);
     return data;
 }
@@ -82,7 +83,24 @@ std::string latexCharacter(std::string_view letter) {
     return isLatin(letter) ? std::string(letter) : "?";
 }
 
+/// "4.87 %" → 4.87; nothing where no number leads.
+std::optional<double> leadingNumber(const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    return end == text.c_str() || !std::isfinite(value) ? std::nullopt : std::optional(value);
+}
+
 } // namespace
+
+Table tableOf(const report::TextTable& text, const std::string& id, const std::string& caption) {
+    Table table{.id = id, .caption = caption, .columns = {}, .rows = {}};
+    for (const std::string& title : text.titles) table.columns.push_back({.title = title, .number = !table.columns.empty()});
+    for (const std::vector<std::string>& cells : text.rows) {
+        Row& row = table.rows.emplace_back();
+        for (const std::string& cell : cells) row.cells.push_back({cell, row.cells.empty() ? std::nullopt : leadingNumber(cell)});
+    }
+    return table;
+}
 
 Data tableData(const Table& table, const std::string& root, const std::string& files) {
     Data data, columns{Data::type::list}, rows{Data::type::list};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/report/site/template.h"
+#include "harness/report/text_table.h"
 
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@ struct Column {
     std::string title;
     std::string hint = {}; // what it means, in a sentence
     std::string key = {};  // by which the script knows it: a metric's path, or a number that the column stands for
+    std::string unit = {}; // of the values: "share" is shown in per cent
     bool number = true;
     bool brief = true; // has its place in a paper's table, too
 };
@@ -40,6 +42,9 @@ struct Table {
     bool filtered = false; // with fields for family, answer and tolerance above it
     bool headed = true;    // its caption is seen; else only heard
 };
+
+/// A table of text: numbers are read off their text, the first column names the rows.
+Table tableOf(const report::TextTable& text, const std::string& id, const std::string& caption);
 
 /// For the template table.html. `root` leads from the page to the site's folder ("", "../"), `files` from there to the
 /// table's files without their endings ("tables/index-answers").
