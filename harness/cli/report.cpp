@@ -27,7 +27,8 @@ std::vector<Record> recordsOf(const std::vector<std::filesystem::path>& files) {
 }
 
 site::Sources sourcesOf(const ReportOptions& options, const std::filesystem::path& folder) {
-    site::Sources sources{.records = recordsOf(options.records), .images = options.images.empty() ? folder / "images" : options.images};
+    site::Sources sources{.records = recordsOf(options.records),
+                          .images = options.images.empty() ? folder / "images" : options.images};
     if (!options.base.empty()) {
         sources.base = recordsOf({options.base});
         sources.baseName = options.base.string();
@@ -60,14 +61,17 @@ ExitCode makeReport(const ReportOptions& options) {
 void addReport(CLI::App& app, Action& action) {
     const auto options = std::make_shared<ReportOptions>();
     CLI::App* verb = app.add_subcommand("report", "Renders records as pages, tables and charts");
-    verb->footer("Examples:\n  shadowbench report results/latest/results.jsonl\n"
-                 "  shadowbench report results/published/results.jsonl results/sweeps/*/sweep.jsonl --history results/history "
-                 "--out public\n"
-                 "  shadowbench report results/latest/results.jsonl --base before.jsonl --single-file run.html");
-    verb->add_option("records", options->records, "Record files of run and sweep; a folder of a run stands for its results.jsonl")
+    verb->footer(
+        "Examples:\n  shadowbench report results/latest/results.jsonl\n"
+        "  shadowbench report results/published/results.jsonl results/sweeps/*/sweep.jsonl --history results/history "
+        "--out public\n"
+        "  shadowbench report results/latest/results.jsonl --base before.jsonl --single-file run.html");
+    verb->add_option("records", options->records,
+                     "Record files of run and sweep; a folder of a run stands for its results.jsonl")
         ->capture_default_str();
     CLI::Option* out = verb->add_option("--out", options->out, "Folder to write into (default: that of the first records)");
-    verb->add_option("--images", options->images, "Folder of pictures by `run --images` (default: images beside the first records)");
+    verb->add_option("--images", options->images,
+                     "Folder of pictures by `run --images` (default: images beside the first records)");
     verb->add_option("--base", options->base, "Older records: a page says what is worse than there");
     verb->add_option("--history", options->history, "Folder of a history: a page shows figures over commits");
     verb->add_option("--single-file", options->singleFile, "Write everything into this one file instead")->excludes(out);

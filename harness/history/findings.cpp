@@ -19,8 +19,8 @@ Findings findingsOf(const std::filesystem::path& folder, const Selection& select
     findings.unreadable = stored.unreadable;
     findings.history = historyOf(stored.commits, selection);
     if (findings.history.series.empty())
-        throw BadInput(fmt::format("{} holds no records of what was asked for; `shadowbench history add` adds some",
-                                   folder.string()));
+        throw BadInput(
+            fmt::format("{} holds no records of what was asked for; `shadowbench history add` adds some", folder.string()));
     for (const Commit& commit : findings.history.commits)
         findings.subjects.push_back(repository ? repository->subject(commit.hash) : "");
     findings.levels = levelsOf(findings.history, falseAlarms);

@@ -56,7 +56,8 @@ std::string commit(const Record& record) { return record.commit + (record.dirty 
 /// A word as a shell takes it.
 std::string shellWord(const std::string& word) {
     const auto plain = [](char letter) {
-        return std::isalnum(static_cast<unsigned char>(letter)) != 0 || std::string_view("-_=+.,:/").find(letter) != std::string_view::npos;
+        return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+               std::string_view("-_=+.,:/").find(letter) != std::string_view::npos;
     };
     if (!word.empty() && std::ranges::all_of(word, plain)) return word;
     std::string text = "'";

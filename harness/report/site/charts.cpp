@@ -12,7 +12,8 @@ namespace {
 
 std::string programOf(const char* name, const char* package) {
     const auto program = findProgram(name);
-    if (!program) throw Inconclusive(fmt::format("drawing charts: {} is not installed; run `apt-get install {}`", name, package));
+    if (!program)
+        throw Inconclusive(fmt::format("drawing charts: {} is not installed; run `apt-get install {}`", name, package));
     return program->string();
 }
 
@@ -21,12 +22,15 @@ std::string pdfOf(const std::string& svg) {
     const TemporaryFolder folder;
     writeFile(folder.path() / "chart.svg", svg);
     const Command command{programOf("env", "coreutils"),
-                          {"SOURCE_DATE_EPOCH=0", programOf("rsvg-convert", "librsvg2-bin"), "--format=pdf", "--output=chart.pdf", "chart.svg"},
+                          {"SOURCE_DATE_EPOCH=0", programOf("rsvg-convert", "librsvg2-bin"), "--format=pdf",
+                           "--output=chart.pdf", "chart.svg"},
                           folder.path()};
     std::string messages;
     const Finished end = runProcess(command, [&](std::string_view line) { messages.append(line).append(" "); });
     if (end.timedOut || end.signal != 0 || end.exitCode != 0)
-        throw Inconclusive(fmt::format("drawing charts: rsvg-convert ended with status {}, signal {} ({}); reinstall librsvg2-bin", end.exitCode, end.signal, messages));
+        throw Inconclusive(
+            fmt::format("drawing charts: rsvg-convert ended with status {}, signal {} ({}); reinstall librsvg2-bin",
+                        end.exitCode, end.signal, messages));
     return readFile(folder.path() / "chart.pdf");
 }
 

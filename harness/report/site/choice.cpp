@@ -45,7 +45,8 @@ Choice choiceFor(const std::vector<Record>& records, const std::string& scene) {
     else if (!within.empty())
         choice.why = fmt::format("least error of {} within tolerance; none was timed", within.size());
     else if (!scored.empty())
-        choice.why = limits.empty() ? "least error; the scene states no tolerance" : "none is within tolerance; this one is nearest";
+        choice.why =
+            limits.empty() ? "least error; the scene states no tolerance" : "none is within tolerance; this one is nearest";
     else
         choice.why = "no technique was scored";
     if (!choice.take) choice.take = least(records, within.empty() ? scored : within, limits);

@@ -32,19 +32,27 @@ std::string figuresOf(const Judgement& judgement) {
     const Claim& claim = *judgement.claim;
     const std::vector<std::string> found = describedFindings(judgement);
     std::string text = claim.untestable;
-    for (std::size_t i = 0; i < found.size(); ++i) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", claim.checks[i].says, found[i]);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", claim.checks[i].says, found[i]);
     return text;
 }
 
 Table board(const std::vector<Judgement>& judgements) {
     Table table{.id = "claims", .caption = "The papers' claims", .rows = {}, .headed = false};
-    table.columns = {{.title = "claim", .number = false}, {.title = "verdict", .number = false}, {.title = "what is claimed", .number = false},
-                     {.title = "source", .number = false}, {.title = "figures", .number = false, .brief = false}, {.title = "records", .number = false, .brief = false}};
+    table.columns = {{.title = "claim", .number = false},
+                     {.title = "verdict", .number = false},
+                     {.title = "what is claimed", .number = false},
+                     {.title = "source", .number = false},
+                     {.title = "figures", .number = false, .brief = false},
+                     {.title = "records", .number = false, .brief = false}};
     for (const Judgement& judgement : judgements) {
         const Claim& claim = *judgement.claim;
         const std::string basis = basisOf(judgement);
-        table.rows.push_back({{Cell{.text = claim.id, .address = claimAddress(claim)}, Cell{.text = std::string(name(judgement.verdict)), .kind = kindOf(judgement.verdict)},
-                               Cell{claim.says}, Cell{claim.where}, Cell{.text = figuresOf(judgement), .kind = "small"}, Cell{.text = basis.empty() ? "–" : basis, .kind = "small"}}, {}});
+        table.rows.push_back({{Cell{.text = claim.id, .address = claimAddress(claim)},
+                               Cell{.text = std::string(name(judgement.verdict)), .kind = kindOf(judgement.verdict)},
+                               Cell{claim.says}, Cell{claim.where}, Cell{.text = figuresOf(judgement), .kind = "small"},
+                               Cell{.text = basis.empty() ? "–" : basis, .kind = "small"}},
+                              {}});
     }
     return table;
 }
@@ -52,7 +60,8 @@ Table board(const std::vector<Judgement>& judgements) {
 /// The records that a figure is read off, as rows.
 class RecordRows {
 public:
-    RecordRows(const std::vector<Record>& records, const std::filesystem::path& images) : records_(records), images_(images) {}
+    RecordRows(const std::vector<Record>& records, const std::filesystem::path& images)
+        : records_(records), images_(images) {}
 
     void add(const Figure& figure) {
         const auto seen = [&](const Record& record) {
@@ -67,12 +76,15 @@ public:
 
 private:
     void add(const Record& record) {
-        const std::string place = record.sweep ? fmt::format("{} {:g} {}", record.sweep->axis, record.sweep->value, record.sweep->unit) : "–";
-        const std::string address = record.sweep                 ? sweepAddress({record.scene, record.sweep->axis, {}})
+        const std::string place =
+            record.sweep ? fmt::format("{} {:g} {}", record.sweep->axis, record.sweep->value, record.sweep->unit) : "–";
+        const std::string address = record.sweep               ? sweepAddress({record.scene, record.sweep->axis, {}})
                                     : hasCell(record, images_) ? cellAddress(record)
-                                                                 : sceneAddress(record.scene);
-        rows_.push_back({{Cell{.text = record.variant, .address = address}, Cell{record.scene}, Cell{place}, Cell{record.profile}, Cell{report::imageSize(record)},
-                          Cell{std::string(name(record.status))}, Cell{record.commit.substr(0, 12)}, Cell{record.cell.empty() ? "–" : record.cell}}, {}});
+                                                               : sceneAddress(record.scene);
+        rows_.push_back({{Cell{.text = record.variant, .address = address}, Cell{record.scene}, Cell{place},
+                          Cell{record.profile}, Cell{report::imageSize(record)}, Cell{std::string(name(record.status))},
+                          Cell{record.commit.substr(0, 12)}, Cell{record.cell.empty() ? "–" : record.cell}},
+                         {}});
     }
 
     const std::vector<Record>& records_;
@@ -97,21 +109,36 @@ Table recordTable(const Claim& claim, const std::vector<Record>& records, const 
         for (const Figure& figure : figures) found.add(figure);
     }
     Table table{.id = "records", .caption = "The records behind it", .rows = found.rows()};
-    for (const char* title : {"technique", "scene", "at", "profile", "size", "status", "commit", "cell"}) table.columns.push_back({.title = title, .number = false});
+    for (const char* title : {"technique", "scene", "at", "profile", "size", "status", "commit", "cell"})
+        table.columns.push_back({.title = title, .number = false});
     return table;
 }
 
 Table checkTable(const Judgement& judgement) {
-    Table table{.id = "checks", .caption = "What decides it", .columns = {{.title = "check", .number = false}, {.title = "holds", .number = false}, {.title = "figures", .number = false}}, .rows = {}};
+    Table table{.id = "checks",
+                .caption = "What decides it",
+                .columns = {{.title = "check", .number = false},
+                            {.title = "holds", .number = false},
+                            {.title = "figures", .number = false}},
+                .rows = {}};
     const std::vector<std::string> found = describedFindings(judgement);
     for (std::size_t i = 0; i < found.size(); ++i) {
         const std::optional<bool>& holds = judgement.findings[i].holds;
-        table.rows.push_back({{Cell{judgement.claim->checks[i].says}, Cell{.text = !holds ? "not measured" : *holds ? "yes" : "no", .kind = !holds ? "unmeasured" : *holds ? "reproduced" : "refuted"}, Cell{found[i]}}, {}});
+        table.rows.push_back({{Cell{judgement.claim->checks[i].says},
+                               Cell{.text = !holds   ? "not measured"
+                                            : *holds ? "yes"
+                                                     : "no",
+                                    .kind = !holds   ? "unmeasured"
+                                            : *holds ? "reproduced"
+                                                     : "refuted"},
+                               Cell{found[i]}},
+                              {}});
     }
     return table;
 }
 
-void addClaimPage(const Judgement& judgement, const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site) {
+void addClaimPage(const Judgement& judgement, const std::vector<Record>& records, const std::filesystem::path& images,
+                  SiteWriter& site) {
     const Claim& claim = *judgement.claim;
     const std::string address = claimAddress(claim), basis = basisOf(judgement);
     Data data;

@@ -59,7 +59,8 @@ std::vector<Change> shownChanges(const std::vector<Change>& changes) {
     std::vector<Change> sorted = changes;
     std::erase_if(sorted, [](const Change& change) { return change.direction == Direction::Same; });
     std::ranges::stable_sort(sorted, [&](const Change& a, const Change& b) {
-        const auto *const rankA = std::ranges::find(order, a.direction), *const rankB = std::ranges::find(order, b.direction);
+        const auto *const rankA = std::ranges::find(order, a.direction), *const rankB =
+                                                                             std::ranges::find(order, b.direction);
         return rankA != rankB ? rankA < rankB : excess(a) > excess(b);
     });
     return sorted;
@@ -74,18 +75,33 @@ Cell valueCell(const Change& change, const std::optional<double>& value) {
 
 Table changeTable(const std::vector<Change>& changes, const gate::GateOptions& options) {
     Table table{.id = "changes", .caption = "What changed, the worst first", .rows = {}, .filtered = true, .headed = false};
-    table.columns = {{.title = "technique", .number = false}, {.title = "is", .number = false}, {.title = "scene", .number = false}, {.title = "metric", .number = false},
-                     {.title = "base"}, {.title = "head"}, {.title = "allowed", .hint = "So much of a change may be the truth's own error, a stray pixel or noise"},
-                     {.title = "× allowed", .hint = "The change as a multiple of what is allowed"}, {.title = "to see it again", .number = false, .brief = false}};
+    table.columns = {
+        {.title = "technique", .number = false},
+        {.title = "is", .number = false},
+        {.title = "scene", .number = false},
+        {.title = "metric", .number = false},
+        {.title = "base"},
+        {.title = "head"},
+        {.title = "allowed", .hint = "So much of a change may be the truth's own error, a stray pixel or noise"},
+        {.title = "× allowed", .hint = "The change as a multiple of what is allowed"},
+        {.title = "to see it again", .number = false, .brief = false}};
     for (const Change& change : shownChanges(changes)) {
         const TechniqueFacts facts = factsOf(change.variant.substr(0, change.variant.find(':')));
         const double times = excess(change);
-        Row row{{Cell{.text = change.variant, .note = change.sentence}, Cell{.text = directionText(change.direction), .kind = change.direction == Direction::Worse ? "refuted" : change.direction == Direction::Better ? "reproduced" : "unmeasured"},
-                 Cell{change.scene}, Cell{.text = change.metric, .note = std::string(gate::name(change.changeClass))}, valueCell(change, change.base), valueCell(change, change.head),
+        Row row{{Cell{.text = change.variant, .note = change.sentence},
+                 Cell{.text = directionText(change.direction),
+                      .kind = change.direction == Direction::Worse    ? "refuted"
+                              : change.direction == Direction::Better ? "reproduced"
+                                                                      : "unmeasured"},
+                 Cell{change.scene}, Cell{.text = change.metric, .note = std::string(gate::name(change.changeClass))},
+                 valueCell(change, change.base), valueCell(change, change.head),
                  Cell{fmt::format("{:.3g}", change.allowance), change.allowance},
                  change.allowance > 0 && std::isfinite(times) ? Cell{fmt::format("{:.1f}", times), times} : Cell{"–"},
                  Cell{.text = gate::reproduction(change, options), .kind = "code"}},
-                {{"family", facts.family}, {"answer", facts.answer}, {"within", change.direction == Direction::Worse ? "no" : "yes"}, {"baseline", "no"}}};
+                {{"family", facts.family},
+                 {"answer", facts.answer},
+                 {"within", change.direction == Direction::Worse ? "no" : "yes"},
+                 {"baseline", "no"}}};
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -103,10 +119,13 @@ Data pictures(const gate::GateResult& result, const SiteWriter& site) {
     Data cells{Data::type::list};
     for (const gate::FailurePictures& cell : result.pictures) {
         Data list{Data::type::list};
-        for (const auto& [who, folder, name] : {std::tuple("head", &cell.head, "error"), std::tuple("base", &cell.base, "error"), std::tuple("head", &cell.head, "visibility"),
-                                                std::tuple("base", &cell.base, "visibility"), std::tuple("truth", &cell.head, "reference")}) {
+        for (const auto& [who, folder, name] :
+             {std::tuple("head", &cell.head, "error"), std::tuple("base", &cell.base, "error"),
+              std::tuple("head", &cell.head, "visibility"), std::tuple("base", &cell.base, "visibility"),
+              std::tuple("truth", &cell.head, "reference")}) {
             if (folder->empty()) continue;
-            const std::string to = fmt::format("pictures/gate-{}-{}-{}-{}.png", slug(cell.scene), slug(cell.variant), who, name);
+            const std::string to =
+                fmt::format("pictures/gate-{}-{}-{}-{}.png", slug(cell.scene), slug(cell.variant), who, name);
             if (copied(*folder / (std::string(name) + ".png"), to, site).empty()) continue;
             Data entry;
             entry.set("source", to);
@@ -134,14 +153,19 @@ Data sentences(const std::vector<std::string>& lines) {
 } // namespace
 
 void addGatePage(const gate::GateResult& result, const gate::GateOptions& options, SiteWriter& site) {
-    const auto count = [&](Direction direction) { return std::ranges::count(result.changes, direction, &Change::direction); };
+    const auto count = [&](Direction direction) {
+        return std::ranges::count(result.changes, direction, &Change::direction);
+    };
     Data data;
     data.set("verdict", verdictText(result.code()));
-    data.set("kind", result.code() == ExitCode::Pass ? "reproduced" : result.code() == ExitCode::Inconclusive ? "unmeasured" : "refuted");
+    data.set("kind", result.code() == ExitCode::Pass           ? "reproduced"
+                     : result.code() == ExitCode::Inconclusive ? "unmeasured"
+                                                               : "refuted");
     data.set("head", shown(result.head));
     data.set("base", shown(result.base));
-    data.set("counts", fmt::format("{} figures are worse, {} not judged, {} unclear, {} better, {} the same.", count(Direction::Worse), count(Direction::Unjudged),
-                                   count(Direction::Unclear), count(Direction::Better), count(Direction::Same)));
+    data.set("counts", fmt::format("{} figures are worse, {} not judged, {} unclear, {} better, {} the same.",
+                                   count(Direction::Worse), count(Direction::Unjudged), count(Direction::Unclear),
+                                   count(Direction::Better), count(Direction::Same)));
     data.set("table", site.table(address, changeTable(result.changes, options)));
     data.set("cells", pictures(result, site));
     data.set("unjudged", sentences(result.unjudged));
@@ -151,7 +175,9 @@ void addGatePage(const gate::GateResult& result, const gate::GateOptions& option
 
 gate::GateResult comparedWith(const std::vector<Record>& base, const std::vector<Record>& head) {
     gate::GateResult result;
-    const auto nameOf = [](const std::vector<Record>& records) { return records.empty() ? std::string("no records") : records.front().commit; };
+    const auto nameOf = [](const std::vector<Record>& records) {
+        return records.empty() ? std::string("no records") : records.front().commit;
+    };
     result.base = nameOf(base);
     result.head = nameOf(head);
     result.changes = gate::compare(base, head);

@@ -26,7 +26,8 @@ Cell costCell(const Record& record) {
 std::string shortList(const std::vector<Record>& records, const std::vector<std::size_t>& indices) {
     constexpr std::size_t most = 2;
     std::string text;
-    for (std::size_t i = 0; i < std::min(indices.size(), most); ++i) text += (i == 0 ? "" : ", ") + records[indices[i]].variant;
+    for (std::size_t i = 0; i < std::min(indices.size(), most); ++i)
+        text += (i == 0 ? "" : ", ") + records[indices[i]].variant;
     return indices.size() > most ? fmt::format("{} and {} more", text, indices.size() - most) : text.empty() ? "–" : text;
 }
 
@@ -53,14 +54,17 @@ Row answerRow(const std::vector<Record>& records, const std::string& scene, cons
 }
 
 Table answers(const std::vector<Record>& records, const std::filesystem::path& images) {
-    Table table{.id = "answers", .caption = "The technique to take on each scene", .columns = {}, .rows = {}, .headed = false};
-    table.columns = {{.title = "scene", .number = false},
-                     {.title = "take", .number = false},
-                     {.title = "error", .hint = "Share of receiver pixels with the wrong label (per cent), or rms error of visibility under an area light"},
-                     {.title = "× tolerance", .hint = "Its error nearest to a tolerance of the scene, as a multiple of it"},
-                     {.title = "cost", .hint = "Frame time as a multiple of sm-uniform's"},
-                     {.title = "why", .number = false},
-                     {.title = "also within tolerance", .number = false, .brief = false}};
+    Table table{
+        .id = "answers", .caption = "The technique to take on each scene", .columns = {}, .rows = {}, .headed = false};
+    table.columns = {
+        {.title = "scene", .number = false},
+        {.title = "take", .number = false},
+        {.title = "error",
+         .hint = "Share of receiver pixels with the wrong label (per cent), or rms error of visibility under an area light"},
+        {.title = "× tolerance", .hint = "Its error nearest to a tolerance of the scene, as a multiple of it"},
+        {.title = "cost", .hint = "Frame time as a multiple of sm-uniform's"},
+        {.title = "why", .number = false},
+        {.title = "also within tolerance", .number = false, .brief = false}};
     for (const std::string& scene : report::scenes(records)) table.rows.push_back(answerRow(records, scene, images));
     return table;
 }
@@ -91,12 +95,16 @@ public:
         Table table{.id = "all", .caption = "Every technique on every scene", .columns = {}, .rows = {}, .filtered = true};
         table.columns = {{.title = "technique", .number = false},
                          {.title = "within", .hint = "Number of scenes on which it is within tolerance", .key = "within"},
-                         {.title = "cost", .hint = "Frame time as a multiple of sm-uniform's, geometric mean over the scenes", .key = "cost"}};
+                         {.title = "cost",
+                          .hint = "Frame time as a multiple of sm-uniform's, geometric mean over the scenes",
+                          .key = "cost"}};
         for (const std::string& scene : scenes_)
-            table.columns.push_back({.title = shown(scene), .hint = "Error; sorted by its multiple of the tolerance", .key = shown(scene)});
+            table.columns.push_back(
+                {.title = shown(scene), .hint = "Error; sorted by its multiple of the tolerance", .key = shown(scene)});
         std::vector<std::string> variants;
         for (const Record& record : records_)
-            if (!isLevelOfDetail(record) && std::ranges::find(variants, record.variant) == variants.end()) variants.push_back(record.variant);
+            if (!isLevelOfDetail(record) && std::ranges::find(variants, record.variant) == variants.end())
+                variants.push_back(record.variant);
         for (const std::string& variant : variants)
             if (Row row = rowOf(variant); !row.cells.empty()) table.rows.push_back(std::move(row));
         table.note = "Blue: within the scene's tolerance; the further beyond it, the darker the orange. – does not apply.";
@@ -137,10 +145,13 @@ private:
         if (!scored) return row;
         const TechniqueFacts facts = factsOf(first->technique);
         const double cost = timed > 0 ? std::exp(logCost / timed) : 0;
-        row.cells = {Cell{.text = variant, .note = techniqueCell(*first, {}).note}, Cell{std::to_string(within), static_cast<double>(within)},
+        row.cells = {Cell{.text = variant, .note = techniqueCell(*first, {}).note},
+                     Cell{std::to_string(within), static_cast<double>(within)},
                      timed > 0 ? Cell{fmt::format("{:.2f}", cost), cost} : Cell{"–"}};
         row.cells.insert(row.cells.end(), cells.begin(), cells.end());
-        row.marks = {{"family", facts.family}, {"answer", facts.answer}, {"within", within > 0 ? "yes" : "no"},
+        row.marks = {{"family", facts.family},
+                     {"answer", facts.answer},
+                     {"within", within > 0 ? "yes" : "no"},
                      {"baseline", report::isBaseline(*first) ? "yes" : "no"}};
         return row;
     }
@@ -167,7 +178,8 @@ std::string lead(const std::vector<Record>& records) {
 
 } // namespace
 
-void addIndexPage(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site) {
+void addIndexPage(const std::vector<Record>& records, const std::string& command, const std::filesystem::path& images,
+                  SiteWriter& site) {
     Data data;
     data.set("lead", lead(records));
     data.set("answers", site.table(address, answers(records, images)));
@@ -175,7 +187,8 @@ void addIndexPage(const std::vector<Record>& records, const std::filesystem::pat
     data.set("measured", !records.empty());
     data.set("commit", shown(report::commitsOf(records)));
     data.set("environment", shown(report::environmentsOf(records)));
-    data.set("command", records.empty() ? "" : report::runCommand(records));
+    constexpr std::size_t longestCommand = 8000; // bytes; one that is longer is no use to a reader
+    data.set("command", command.size() > longestCommand ? shown(command) : command);
     data.set("data", std::filesystem::exists(site.folder() / "results.jsonl"));
     data.set("time", records.empty() ? "" : shown(records.front().time));
     data.set("profile", records.empty() ? "" : shown(records.front().profile));

@@ -12,7 +12,9 @@
 
 namespace shadowbench::site {
 
-void addIndexPage(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site);
+/// index.html; `command` made the records.
+void addIndexPage(const std::vector<Record>& records, const std::string& command, const std::filesystem::path& images,
+                  SiteWriter& site);
 
 /// scenes/<scene>.html; `drawn`: the charts that the report has written into the site's folder.
 void addScenePage(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images,

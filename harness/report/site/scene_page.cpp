@@ -52,13 +52,15 @@ Data pictureData(const std::string& address, const std::string& caption, const s
 /// Truth, what the chosen technique shows, and where that is wrong.
 Data pictures(const Record& record, const std::filesystem::path& images, const SiteWriter& site) {
     Data list{Data::type::list};
-    for (const auto& [name, caption] : {std::pair("reference", "truth"), std::pair("visibility", "what it shows"), std::pair("error", "error: red too dark, blue too bright")})
+    for (const auto& [name, caption] : {std::pair("reference", "truth"), std::pair("visibility", "what it shows"),
+                                        std::pair("error", "error: red too dark, blue too bright")})
         if (const std::string address = picture(images, record, name, site); !address.empty())
             list << pictureData(address, caption, hasCell(record, images) ? cellAddress(record) : "");
     return list;
 }
 
-void setAnswer(Data& data, const std::vector<Record>& records, const Choice& choice, const std::filesystem::path& images, const SiteWriter& site) {
+void setAnswer(Data& data, const std::vector<Record>& records, const Choice& choice, const std::filesystem::path& images,
+               const SiteWriter& site) {
     data.set("answered", choice.take.has_value());
     data.set("why", choice.why);
     data.set("adequate", choice.adequate);
@@ -81,7 +83,8 @@ void setAnswer(Data& data, const std::vector<Record>& records, const Choice& cho
 /// The charts that the report has drawn, in their places on the page.
 class SceneCharts {
 public:
-    SceneCharts(const std::vector<Record>& records, const std::string& scene, const SiteWriter& site) : records_(records), scene_(scene), site_(site) {}
+    SceneCharts(const std::vector<Record>& records, const std::string& scene, const SiteWriter& site)
+        : records_(records), scene_(scene), site_(site) {}
 
     /// `drawn`: the files of all charts that there are.
     [[nodiscard]] std::string place(const std::vector<std::filesystem::path>& drawn, Chart chart) const {
@@ -93,27 +96,41 @@ public:
     }
 
     [[nodiscard]] Chart pareto() const {
-        Chart chart{.name = "pareto", .title = "Accuracy against cost.",
-                    .text = fmt::format("Error against cost of every technique on {}; the figures are in the table below.", shown(scene_)),
-                    .kind = "scatter", .table = "errors", .options = {{"x", "cost.time.ratio"}, {"y", "error"}}};
+        Chart chart{.name = "pareto",
+                    .title = "Accuracy against cost.",
+                    .text = fmt::format("Error against cost of every technique on {}; the figures are in the table below.",
+                                        shown(scene_)),
+                    .kind = "scatter",
+                    .table = "errors",
+                    .options = {{"x", "cost.time.ratio"}, {"y", "error"}}};
         for (const report::Tolerance& limit : report::tolerances(records_, scene_))
-            if (limit.metric == report::headlineMetric(records_, scene_)) chart.options.emplace_back("tolerance", fmt::format("{}", limit.value));
+            if (limit.metric == report::headlineMetric(records_, scene_))
+                chart.options.emplace_back("tolerance", fmt::format("{}", limit.value));
         return chart;
     }
 
     static Chart convergence() {
-        return {.name = "convergence", .title = "Error over the still frames, from an empty history.",
+        return {.name = "convergence",
+                .title = "Error over the still frames, from an empty history.",
                 .text = "Error of each still frame; the figures are in the table below.",
-                .kind = "lines", .table = "convergence", .options = {{"xlabel", "still frame"}, {"ylabel", "error"}}};
+                .kind = "lines",
+                .table = "convergence",
+                .options = {{"xlabel", "still frame"}, {"ylabel", "error"}}};
     }
 
     static Chart passes() {
-        return {.name = "passes", .title = "Frame time by pass.", .text = "Milliseconds of a frame by pass; the figures are in the table below.",
-                .kind = "bars", .table = "passes", .options = {{"unit", "ms"}}};
+        return {.name = "passes",
+                .title = "Frame time by pass.",
+                .text = "Milliseconds of a frame by pass; the figures are in the table below.",
+                .kind = "bars",
+                .table = "passes",
+                .options = {{"unit", "ms"}}};
     }
 
     static Chart lod() {
-        return {.name = "lod", .title = "Levels of detail along the walk.", .text = "Change of colour and frame time along the walk, by technique."};
+        return {.name = "lod",
+                .title = "Levels of detail along the walk.",
+                .text = "Change of colour and frame time along the walk, by technique."};
     }
 
 private:
@@ -123,7 +140,8 @@ private:
 };
 
 /// One instance through its transition, by technique.
-Data lodPictures(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images, const SiteWriter& site) {
+Data lodPictures(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images,
+                 const SiteWriter& site) {
     Data list{Data::type::list};
     for (const std::size_t i : report::ofScene(records, scene)) {
         if (!isLevelOfDetail(records[i])) continue;

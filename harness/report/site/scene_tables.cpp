@@ -95,16 +95,25 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
     const bool timed = !report::paretoFront(records, scene).empty();
     Table table{.id = "errors", .caption = "Every technique on " + scene, .columns = {}, .rows = {}, .filtered = true};
     table.columns = {{.title = "technique", .number = false},
-                     {.title = "error", .hint = report::meaning(metric), .key = "error", .unit = report::isShare(metric) ? "share" : "1"}};
+                     {.title = "error",
+                      .hint = report::meaning(metric),
+                      .key = "error",
+                      .unit = report::isShare(metric) ? "share" : "1"}};
     if (!limits.empty())
-        table.columns.push_back({.title = "× tolerance",
-                                 .hint = "The error that comes nearest to its tolerance, or exceeds it most, as a multiple of it",
-                                 .key = "tolerance"});
+        table.columns.push_back(
+            {.title = "× tolerance",
+             .hint = "The error that comes nearest to its tolerance, or exceeds it most, as a multiple of it",
+             .key = "tolerance"});
     std::vector<const report::Column*> chosen;
     for (const report::Column& column : report::columns())
-        if (std::ranges::any_of(scored, [&](std::size_t i) { return records[i].values[column.metric].has_value(); })) chosen.push_back(&column);
+        if (std::ranges::any_of(scored, [&](std::size_t i) { return records[i].values[column.metric].has_value(); }))
+            chosen.push_back(&column);
     for (const report::Column* column : chosen) table.columns.push_back(columnOf(*column));
-    if (timed) table.columns.push_back({.title = "front", .hint = "● nothing else has both less error and less cost; ○ the same for a baseline or a large error", .number = false});
+    if (timed)
+        table.columns.push_back(
+            {.title = "front",
+             .hint = "● nothing else has both less error and less cost; ○ the same for a baseline or a large error",
+             .number = false});
 
     const Choice choice = choiceFor(records, scene);
     for (const std::size_t i : scored) {
@@ -125,11 +134,18 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
 
 Table convergenceTable(const std::vector<Record>& records, const std::string& scene) {
     const std::string list = errorList(records, scene), metric = report::headlineMetric(records, scene);
-    Table table{.id = "convergence", .caption = "Error by still frame, from an empty history", .columns = {{.title = "technique", .number = false}}, .rows = {}};
+    Table table{.id = "convergence",
+                .caption = "Error by still frame, from an empty history",
+                .columns = {{.title = "technique", .number = false}},
+                .rows = {}};
     std::size_t frames = 0;
     for (const std::size_t i : report::ofScene(records, scene)) frames = std::max(frames, listOf(records[i], list).size());
     for (std::size_t frame = 1; frame <= frames; ++frame)
-        table.columns.push_back({.title = std::to_string(frame), .hint = "still frame", .key = std::to_string(frame), .unit = report::isShare(metric) ? "share" : "1", .brief = frame == 1 || frame == frames || frame % 10 == 0});
+        table.columns.push_back({.title = std::to_string(frame),
+                                 .hint = "still frame",
+                                 .key = std::to_string(frame),
+                                 .unit = report::isShare(metric) ? "share" : "1",
+                                 .brief = frame == 1 || frame == frames || frame % 10 == 0});
     for (const std::size_t i : report::ofScene(records, scene)) {
         const std::vector<double>& values = listOf(records[i], list);
         if (values.empty()) continue;
@@ -143,10 +159,15 @@ Table convergenceTable(const std::vector<Record>& records, const std::string& sc
 
 Table passTable(const std::vector<Record>& records, const std::string& scene) {
     const std::vector<std::string> names = passNames(records, scene);
-    Table table{.id = "passes", .caption = "Milliseconds of a frame by pass", .columns = {{.title = "technique", .number = false}, {.title = "frame", .key = "total", .unit = "ms"}}, .rows = {}};
-    for (const std::string& name : names) table.columns.push_back({.title = name, .key = name, .unit = "ms", .brief = false});
+    Table table{.id = "passes",
+                .caption = "Milliseconds of a frame by pass",
+                .columns = {{.title = "technique", .number = false}, {.title = "frame", .key = "total", .unit = "ms"}},
+                .rows = {}};
+    for (const std::string& name : names)
+        table.columns.push_back({.title = name, .key = name, .unit = "ms", .brief = false});
     for (const std::size_t i : report::ofScene(records, scene)) {
-        if (std::ranges::none_of(records[i].passes, [](const PassRecord& pass) { return pass.milliseconds.has_value(); })) continue;
+        if (std::ranges::none_of(records[i].passes, [](const PassRecord& pass) { return pass.milliseconds.has_value(); }))
+            continue;
         table.rows.push_back(passRow(records[i], names));
         table.rows.back().marks = marksOf(records, i);
     }
@@ -154,7 +175,12 @@ Table passTable(const std::vector<Record>& records, const std::string& scene) {
 }
 
 Table unscoredTable(const std::vector<Record>& records, const std::string& scene) {
-    Table table{.id = "unscored", .caption = "Not scored on " + scene, .columns = {{.title = "technique", .number = false}, {.title = "status", .number = false}, {.title = "why", .number = false}}, .rows = {}};
+    Table table{.id = "unscored",
+                .caption = "Not scored on " + scene,
+                .columns = {{.title = "technique", .number = false},
+                            {.title = "status", .number = false},
+                            {.title = "why", .number = false}},
+                .rows = {}};
     for (const std::size_t i : report::ofScene(records, scene)) {
         const Record& record = records[i];
         if (wasScored(record.status)) continue;

@@ -13,7 +13,8 @@ namespace shadowbench::site {
 /// A technique's own cell of a table: its name, its title, and the way to its cell's page where there are images.
 Cell techniqueCell(const Record& record, const std::filesystem::path& images);
 
-/// What filters go by: family, answer, whether it is within the tolerances; "baseline", "front" and the interval of its cost.
+/// What filters go by: family, answer, whether it is within the tolerances; "baseline", "front" and the interval of its
+/// cost.
 std::vector<std::pair<std::string, std::string>> marksOf(const std::vector<Record>& records, std::size_t index);
 
 /// Every scored technique with every metric that applies to one of them.

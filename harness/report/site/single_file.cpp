@@ -1,9 +1,9 @@
 // A site as one file: each page becomes a part of it, and what pages need is put into it.
 #include "base/error.h"
 #include "base/files.h"
-#include "harness/report/slug.h"
 #include "harness/report/site/site.h"
 #include "harness/report/site/template.h"
+#include "harness/report/slug.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -28,7 +28,8 @@ std::string base64(std::string_view bytes) {
 }
 
 std::string mediaType(const std::string& extension) {
-    static const std::map<std::string, std::string> types{{".svg", "image/svg+xml"}, {".png", "image/png"}, {".pdf", "application/pdf"}, {".csv", "text/csv"}};
+    static const std::map<std::string, std::string> types{
+        {".svg", "image/svg+xml"}, {".png", "image/png"}, {".pdf", "application/pdf"}, {".csv", "text/csv"}};
     const auto found = types.find(extension);
     return found == types.end() ? "text/plain" : found->second;
 }
@@ -55,7 +56,8 @@ class Folder {
 public:
     explicit Folder(fs::path folder) : folder_(std::move(folder)) {
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_))
-            if (entry.path().extension() == ".html") pages_.insert(entry.path().lexically_relative(folder_).generic_string());
+            if (entry.path().extension() == ".html")
+                pages_.insert(entry.path().lexically_relative(folder_).generic_string());
     }
 
     /// index.html last: it shows where nothing else is asked for.
@@ -76,7 +78,8 @@ public:
         if (pages_.contains(path)) return "#" + idOf(path);
         std::error_code ignored;
         if (!fs::is_regular_file(folder_ / path, ignored)) return address;
-        return fmt::format("data:{};base64,{}", mediaType(fs::path(path).extension().string()), base64(readFile(folder_ / path)));
+        return fmt::format("data:{};base64,{}", mediaType(fs::path(path).extension().string()),
+                           base64(readFile(folder_ / path)));
     }
 
     /// Texts of the files that pages name in `element`'s attribute, each once.
@@ -84,7 +87,8 @@ public:
         std::vector<std::string> files;
         for (const std::string& page : pages_)
             for (const std::string& value : valuesOf(between(text(page), "<head>", "</head>"), element, attribute))
-                if (const std::string path = pathOf(page, value); std::ranges::find(files, path) == files.end()) files.push_back(path);
+                if (const std::string path = pathOf(page, value); std::ranges::find(files, path) == files.end())
+                    files.push_back(path);
         std::string all;
         for (const std::string& file : files) all += readFile(folder_ / file) + "\n";
         return all;
@@ -118,7 +122,8 @@ std::string rewritten(const Folder& folder, const std::string& page, const std::
         else
             result += value;
         result += '"';
-        if (attribute == "href" && !folder.resolved(page, value).starts_with('#')) result += fmt::format(" download=\"{}\"", value.substr(value.rfind('/') + 1));
+        if (attribute == "href" && !folder.resolved(page, value).starts_with('#'))
+            result += fmt::format(" download=\"{}\"", value.substr(value.rfind('/') + 1));
         at = end + 1;
     }
 }

@@ -20,8 +20,9 @@ struct Sources {
     std::optional<history::Findings> findings = {}; // for history.html
 };
 
-/// Writes the report (writeReport in harness/report/run_report.h), index.html, all other pages and what they need; returns the path of index.html. Writes over the files of a former
-/// site in `folder`. Throws Inconclusive when gnuplot is missing or fails.
+/// Writes the report (writeReport in harness/report/run_report.h), index.html, all other pages and what they need; returns
+/// the path of index.html. Writes over the files of a former site in `folder`. Throws Inconclusive when gnuplot is missing
+/// or fails.
 std::filesystem::path writeSite(const Sources& sources, const std::filesystem::path& folder);
 
 /// Writes the site in `folder` as one file that needs no other: pages become parts of it that links show one at a time.

@@ -14,9 +14,9 @@ struct Link {
 };
 
 struct Page {
-    std::string address; // from the site's folder: "scenes/simple.html"
-    std::string title;   // text
-    std::string main;    // HTML
+    std::string address;                                                   // from the site's folder: "scenes/simple.html"
+    std::string title;                                                     // text
+    std::string main;                                                      // HTML
     std::vector<std::string> scripts = {"assets/d3.js", "assets/site.js"}; // from the site's folder; classic ones
     std::vector<std::string> styles = {"assets/style.css"};
 };

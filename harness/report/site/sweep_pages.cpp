@@ -60,10 +60,18 @@ Table curveTable(const Sweep& sweep) {
     const std::vector<double> values = valuesOf(sweep);
     const std::string metric = metricOf(sweep);
     const bool lod = isLevelOfDetail(sweep.records.front());
-    Table table{.id = "curves", .caption = titleOf(sweep), .columns = {{.title = "technique", .number = false}}, .rows = {}, .filtered = true};
+    Table table{.id = "curves",
+                .caption = titleOf(sweep),
+                .columns = {{.title = "technique", .number = false}},
+                .rows = {},
+                .filtered = true};
     for (const double value : values)
-        table.columns.push_back({.title = fmt::format("{:g}", value), .hint = axisLabel(sweep), .key = fmt::format("{}", value),
-                                 .unit = lod ? "ms" : report::isShare(metric) ? "share" : "1"});
+        table.columns.push_back({.title = fmt::format("{:g}", value),
+                                 .hint = axisLabel(sweep),
+                                 .key = fmt::format("{}", value),
+                                 .unit = lod                       ? "ms"
+                                         : report::isShare(metric) ? "share"
+                                                                   : "1"});
     if (!lod) table.columns.push_back({.title = "breaks at", .hint = "The first value at which the tolerance is exceeded"});
     std::vector<std::string> curves;
     for (const Record& record : sweep.records)
@@ -79,7 +87,10 @@ Table curveTable(const Sweep& sweep) {
             last = &record;
         }
         const TechniqueFacts facts = factsOf(last->technique);
-        row.marks = {{"family", facts.family}, {"answer", facts.answer}, {"within", last->sweep->breakPoint ? "no" : "yes"}, {"baseline", report::isBaseline(*last) ? "yes" : "no"}};
+        row.marks = {{"family", facts.family},
+                     {"answer", facts.answer},
+                     {"within", last->sweep->breakPoint ? "no" : "yes"},
+                     {"baseline", report::isBaseline(*last) ? "yes" : "no"}};
         row.cells[0].note = facts.title;
         if (!lod) row.cells.push_back(breakCell(row, *last));
         table.rows.push_back(std::move(row));
@@ -93,7 +104,9 @@ std::vector<Sweep> sweepsOf(const std::vector<Record>& records) {
     std::vector<Sweep> sweeps;
     for (const Record& record : records) {
         if (!record.sweep) continue;
-        const auto same = [&](const Sweep& sweep) { return sweep.scene == record.scene && sweep.axis == record.sweep->axis; };
+        const auto same = [&](const Sweep& sweep) {
+            return sweep.scene == record.scene && sweep.axis == record.sweep->axis;
+        };
         auto sweep = std::ranges::find_if(sweeps, same);
         if (sweep == sweeps.end()) sweep = sweeps.insert(sweeps.end(), {record.scene, record.sweep->axis, {}});
         sweep->records.push_back(record);
@@ -106,17 +119,25 @@ std::string sweepAddress(const Sweep& sweep) { return fmt::format("sweeps/{}.htm
 void addSweepPage(const Sweep& sweep, SiteWriter& site) {
     const std::string address = sweepAddress(sweep), name = "charts/sweep-" + slug(sweep.scene + "-" + sweep.axis);
     const bool lod = isLevelOfDetail(sweep.records.front()), logarithmic = isLogarithmic(sweep.axis);
-    const std::optional<std::string> svg = lod ? std::optional(report::viewportChart(sweep.records)) : report::sweepChart(sweep.records, logarithmic);
+    const std::optional<std::string> svg =
+        lod ? std::optional(report::viewportChart(sweep.records)) : report::sweepChart(sweep.records, logarithmic);
     const std::optional<report::Tolerance> limit = report::tolerance(sweep.records, sweep.scene);
-    Chart chart{.name = name, .title = titleOf(sweep), .text = titleOf(sweep) + "; the figures are in the table below.", .kind = "lines", .table = "curves",
-                .options = {{"xlabel", axisLabel(sweep)}, {"ylabel", lod ? "ms a frame" : report::meaning(metricOf(sweep))}, {"xlog", logarithmic ? "yes" : "no"}}};
+    Chart chart{.name = name,
+                .title = titleOf(sweep),
+                .text = titleOf(sweep) + "; the figures are in the table below.",
+                .kind = "lines",
+                .table = "curves",
+                .options = {{"xlabel", axisLabel(sweep)},
+                            {"ylabel", lod ? "ms a frame" : report::meaning(metricOf(sweep))},
+                            {"xlog", logarithmic ? "yes" : "no"}}};
     if (limit && !lod) chart.options.emplace_back("tolerance", fmt::format("{}", limit->value));
     if (svg) writeChart(site, name, *svg);
     Data data;
     data.set("title", titleOf(sweep));
-    data.set("described", lod ? "Frame times of techniques for levels of detail over the side of the picture."
-                              : fmt::format("{}{}. A technique breaks at the first value at which it exceeds the tolerance.", report::meaning(metricOf(sweep)),
-                                            limit ? ", tolerance " + report::formatBound(*limit) : ""));
+    data.set("described",
+             lod ? "Frame times of techniques for levels of detail over the side of the picture."
+                 : fmt::format("{}{}. A technique breaks at the first value at which it exceeds the tolerance.",
+                               report::meaning(metricOf(sweep)), limit ? ", tolerance " + report::formatBound(*limit) : ""));
     data.set("chart", svg ? site.chart(address, chart) : std::string());
     data.set("table", site.table(address, curveTable(sweep)));
     site.add({address, titleOf(sweep), render("chart-page.html", data)});
@@ -124,7 +145,10 @@ void addSweepPage(const Sweep& sweep, SiteWriter& site) {
 
 void addSweepList(const std::vector<Sweep>& sweeps, SiteWriter& site) {
     Table table{.id = "sweeps", .caption = "Quantities that were moved", .rows = {}, .headed = false};
-    table.columns = {{.title = "sweep", .number = false}, {.title = "techniques"}, {.title = "break"}, {.title = "hold to the end", .number = false}};
+    table.columns = {{.title = "sweep", .number = false},
+                     {.title = "techniques"},
+                     {.title = "break"},
+                     {.title = "hold to the end", .number = false}};
     for (const Sweep& sweep : sweeps) {
         const Table curves = curveTable(sweep);
         std::vector<std::string> holding;
@@ -135,10 +159,13 @@ void addSweepList(const std::vector<Sweep>& sweeps, SiteWriter& site) {
             broken += curves.columns.back().title == "breaks at" && last.value ? 1 : 0;
         }
         const std::size_t most = 6, named = std::min(holding.size(), most);
-        std::string text = fmt::format("{}", fmt::join(holding.begin(), holding.begin() + static_cast<std::ptrdiff_t>(named), ", "));
+        std::string text =
+            fmt::format("{}", fmt::join(holding.begin(), holding.begin() + static_cast<std::ptrdiff_t>(named), ", "));
         if (holding.size() > most) text += fmt::format(" and {} more", holding.size() - most);
         const auto count = [](std::size_t number) { return Cell{std::to_string(number), static_cast<double>(number)}; };
-        table.rows.push_back({{Cell{.text = titleOf(sweep), .address = sweepAddress(sweep)}, count(curves.rows.size()), count(broken), Cell{text.empty() ? "–" : text}}, {}});
+        table.rows.push_back({{Cell{.text = titleOf(sweep), .address = sweepAddress(sweep)}, count(curves.rows.size()),
+                               count(broken), Cell{text.empty() ? "–" : text}},
+                              {}});
     }
     Data data;
     data.set("title", "Sweeps");

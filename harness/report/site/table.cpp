@@ -57,12 +57,39 @@ std::vector<std::size_t> columnsOf(const Table& table, bool brief) {
 
 /// The characters that tables hold and LaTeX has other words for.
 constexpr std::pair<std::string_view, std::string_view> latexWords[] = {
-    {"\\", "\\textbackslash{}"}, {"{", "\\{"}, {"}", "\\}"}, {"&", "\\&"}, {"%", "\\%"}, {"$", "\\$"}, {"#", "\\#"},
-    {"_", "\\_"}, {"~", "\\textasciitilde{}"}, {"^", "\\textasciicircum{}"}, {"<", "\\textless{}"},
-    {">", "\\textgreater{}"}, {"|", "\\textbar{}"}, {"\"", "\\textquotedbl{}"}, {"`", "\\textasciigrave{}"},
-    {"[", "{[}"}, {"]", "{]}"}, {"\n", " "}, {"\r", " "}, {"\t", " "},
-    {"–", "--"}, {"—", "---"}, {"…", "\\dots{}"}, {"×", "$\\times$"}, {"²", "$^2$"}, {"≤", "$\\le$"}, {"≥", "$\\ge$"},
-    {"σ", "$\\sigma$"}, {"●", "$\\bullet$"}, {"○", "$\\circ$"}, {"°", "$^\\circ$"}, {"·", "$\\cdot$"}, {"→", "$\\to$"},
+    {"\\", "\\textbackslash{}"},
+    {"{", "\\{"},
+    {"}", "\\}"},
+    {"&", "\\&"},
+    {"%", "\\%"},
+    {"$", "\\$"},
+    {"#", "\\#"},
+    {"_", "\\_"},
+    {"~", "\\textasciitilde{}"},
+    {"^", "\\textasciicircum{}"},
+    {"<", "\\textless{}"},
+    {">", "\\textgreater{}"},
+    {"|", "\\textbar{}"},
+    {"\"", "\\textquotedbl{}"},
+    {"`", "\\textasciigrave{}"},
+    {"[", "{[}"},
+    {"]", "{]}"},
+    {"\n", " "},
+    {"\r", " "},
+    {"\t", " "},
+    {"–", "--"},
+    {"—", "---"},
+    {"…", "\\dots{}"},
+    {"×", "$\\times$"},
+    {"²", "$^2$"},
+    {"≤", "$\\le$"},
+    {"≥", "$\\ge$"},
+    {"σ", "$\\sigma$"},
+    {"●", "$\\bullet$"},
+    {"○", "$\\circ$"},
+    {"°", "$^\\circ$"},
+    {"·", "$\\cdot$"},
+    {"→", "$\\to$"},
 };
 
 std::size_t characterLength(char first) {
@@ -97,7 +124,8 @@ Table tableOf(const report::TextTable& text, const std::string& id, const std::s
     for (const std::string& title : text.titles) table.columns.push_back({.title = title, .number = !table.columns.empty()});
     for (const std::vector<std::string>& cells : text.rows) {
         Row& row = table.rows.emplace_back();
-        for (const std::string& cell : cells) row.cells.push_back({cell, row.cells.empty() ? std::nullopt : leadingNumber(cell)});
+        for (const std::string& cell : cells)
+            row.cells.push_back({cell, row.cells.empty() ? std::nullopt : leadingNumber(cell)});
     }
     return table;
 }

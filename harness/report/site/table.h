@@ -12,7 +12,7 @@
 namespace shadowbench::site {
 
 struct Column {
-    std::string title;
+    std::string title = {};
     std::string hint = {}; // what it means, in a sentence
     std::string key = {};  // by which the script knows it: a metric's path, or a number that the column stands for
     std::string unit = {}; // of the values: "share" is shown in per cent
@@ -21,23 +21,23 @@ struct Column {
 };
 
 struct Cell {
-    std::string text;                   // "" is shown as it is; "–" does not apply
-    std::optional<double> value = {};   // what it is sorted by and drawn at; unrounded
-    std::string address = {};           // what it leads to, from the site's folder
-    std::string kind = {};              // of style.css: "take", "within", "h3" …
-    std::string note = {};              // what is said when one points at it
+    std::string text = {};            // "" is shown as it is; "–" does not apply
+    std::optional<double> value = {}; // what it is sorted by and drawn at; unrounded
+    std::string address = {};         // what it leads to, from the site's folder
+    std::string kind = {};            // of style.css: "take", "within", "h3" …
+    std::string note = {};            // what is said when one points at it
 };
 
 struct Row {
-    std::vector<Cell> cells;                                  // as many as columns; the first names the row
+    std::vector<Cell> cells = {};                                // as many as columns; the first names the row
     std::vector<std::pair<std::string, std::string>> marks = {}; // attributes data-<first>="<second>"
 };
 
 struct Table {
     std::string id; // of letters and hyphens, one of its kind on a page
     std::string caption;
-    std::vector<Column> columns;
-    std::vector<Row> rows;
+    std::vector<Column> columns = {};
+    std::vector<Row> rows = {};
     std::string note = {}; // below it
     bool filtered = false; // with fields for family, answer and tolerance above it
     bool headed = true;    // its caption is seen; else only heard

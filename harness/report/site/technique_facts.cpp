@@ -16,7 +16,8 @@ std::string familyOf(const std::string& technique) {
         const std::string_view entry = list.substr(0, list.find(';'));
         list.remove_prefix(std::min(entry.size() + 1, list.size()));
         const std::size_t slash = entry.find('/');
-        if (slash != std::string_view::npos && entry.substr(slash + 1) == technique) return std::string(entry.substr(0, slash));
+        if (slash != std::string_view::npos && entry.substr(slash + 1) == technique)
+            return std::string(entry.substr(0, slash));
     }
     return technique == "none" ? "baseline" : technique.starts_with("external:") ? "external" : "other";
 }
