@@ -109,6 +109,17 @@ public:
         return chart;
     }
 
+    /// A chart that a script alone draws.
+    [[nodiscard]] std::string scripted(const std::string& title, const std::string& table, const std::string& xLabel,
+                                       const std::string& yLabel) const {
+        return site_.chart(sceneAddress(scene_), {.name = {},
+                                                  .title = title,
+                                                  .text = title,
+                                                  .kind = "lines",
+                                                  .table = table,
+                                                  .options = {{"xlabel", xLabel}, {"ylabel", yLabel}}});
+    }
+
     static Chart convergence() {
         return {.name = "convergence",
                 .title = "Error over the still frames, from an empty history.",
@@ -129,8 +140,11 @@ public:
 
     static Chart lod() {
         return {.name = "lod",
-                .title = "Levels of detail along the walk.",
-                .text = "Change of colour and frame time along the walk, by technique."};
+                .title = "Change of colour beyond lod-full's along the walk.",
+                .text = "Change of colour and frame time along the walk, by technique; the figures are in the tables below.",
+                .kind = "lines",
+                .table = "walk",
+                .options = {{"xlabel", "frame"}, {"ylabel", "change of colour beyond lod-full's"}}};
     }
 
 private:
@@ -163,16 +177,27 @@ void addScenePage(const std::vector<Record>& records, const std::string& scene, 
     setAnswer(data, records, choiceFor(records, scene), images, site);
     data.set("pareto", charts.place(drawn, charts.pareto()));
     data.set("errors", site.table(address, errorTable(records, scene, images)));
+    const std::string metric = report::headlineMetric(records, scene);
+    const metrics::MetricId errors =
+        metric == "rmse" ? metrics::MetricId("stability.by_frame.rmse") : metrics::MetricId("stability.by_frame.mismatch");
+    const auto frames = [&](const FrameList& list) { return site.table(address, frameTable(records, scene, list, images)); };
     data.set("convergencechart", charts.place(drawn, charts.convergence()));
-    data.set("convergence", site.table(address, convergenceTable(records, scene)));
+    data.set("convergence", frames({errors, metric, "convergence", "Error by still frame, from an empty history"}));
+    data.set("changed", frames({"stability.by_frame.changed", "mismatch", "changed",
+                                "Pixels more than 30/255 off the technique's own last frame, by still frame"}));
+    data.set("changedchart", charts.scripted("Pixels more than 30/255 off the technique's own last frame.", "changed",
+                                             "still frame", "pixels off its last frame"));
+    data.set("walk", frames({"lod.by_frame.walk_pop", "", "walk", "Change of colour beyond lod-full's, by frame"}));
+    data.set("times", frames({"lod.by_frame.milliseconds", "", "times", "Milliseconds, by frame"}));
+    data.set("timeschart", charts.scripted("Frame time along the walk.", "times", "frame", "ms"));
     data.set("passchart", charts.place(drawn, charts.passes()));
-    data.set("passes", site.table(address, passTable(records, scene)));
+    data.set("passes", site.table(address, passTable(records, scene, images)));
     data.set("note", report::rasteriserNote(records, scene));
     data.set("lodchart", charts.place(drawn, charts.lod()));
     data.set("lod", site.table(address, tableOf(report::lodTable(records, scene), "lod", "Levels of detail")));
     data.set("lodpictures", lodPictures(records, scene, images, site));
     data.set("unscored", site.table(address, unscoredTable(records, scene)));
-    for (const char* part : {"pareto", "errors", "convergence", "passes", "lod", "unscored"})
+    for (const char* part : {"pareto", "errors", "convergence", "changed", "passes", "lod", "walk", "times", "unscored"})
         data.set(std::string("has") + part, !data.get(part)->string_value().empty());
     site.add({address, scene, render("scene.html", data)});
 }

@@ -37,15 +37,6 @@ Cell shareCell(const Record& record, const std::vector<Tolerance>& limits) {
     return {fmt::format("{:.2f}", *share), *share, {}, *share <= 1 ? "within" : ""};
 }
 
-const char* errorList(const std::vector<Record>& records, const std::string& scene) {
-    return report::headlineMetric(records, scene) == "rmse" ? "stability.by_frame.rmse" : "stability.by_frame.mismatch";
-}
-
-const std::vector<double>& listOf(const Record& record, const std::string& path) {
-    return path == "stability.by_frame.rmse" ? record.values.list("stability.by_frame.rmse")
-                                             : record.values.list("stability.by_frame.mismatch");
-}
-
 std::vector<std::string> passNames(const std::vector<Record>& records, const std::string& scene) {
     std::vector<std::string> names;
     for (const std::size_t i : report::ofScene(records, scene))
@@ -54,8 +45,8 @@ std::vector<std::string> passNames(const std::vector<Record>& records, const std
     return names;
 }
 
-Row passRow(const Record& record, const std::vector<std::string>& names) {
-    Row row{{{record.variant}, {}}, {}};
+Row passRow(const Record& record, const std::vector<std::string>& names, const std::filesystem::path& images) {
+    Row row{{techniqueCell(record, images), {}}, {}};
     double total = 0;
     for (const std::string& name : names) {
         const auto pass = std::ranges::find(record.passes, name, &PassRecord::name);
@@ -132,32 +123,30 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
     return table;
 }
 
-Table convergenceTable(const std::vector<Record>& records, const std::string& scene) {
-    const std::string list = errorList(records, scene), metric = report::headlineMetric(records, scene);
-    Table table{.id = "convergence",
-                .caption = "Error by still frame, from an empty history",
-                .columns = {{.title = "technique", .number = false}},
-                .rows = {}};
+Table frameTable(const std::vector<Record>& records, const std::string& scene, const FrameList& shown,
+                 const std::filesystem::path& images) {
+    Table table{.id = shown.id, .caption = shown.caption, .columns = {{.title = "technique", .number = false}}};
+    const std::vector<std::size_t> all = report::ofScene(records, scene);
     std::size_t frames = 0;
-    for (const std::size_t i : report::ofScene(records, scene)) frames = std::max(frames, listOf(records[i], list).size());
+    for (const std::size_t i : all) frames = std::max(frames, records[i].values.list(shown.list).size());
     for (std::size_t frame = 1; frame <= frames; ++frame)
         table.columns.push_back({.title = std::to_string(frame),
-                                 .hint = "still frame",
+                                 .hint = "frame",
                                  .key = std::to_string(frame),
-                                 .unit = report::isShare(metric) ? "share" : "1",
+                                 .unit = report::isShare(shown.metric) ? "share" : "1",
                                  .brief = frame == 1 || frame == frames || frame % 10 == 0});
-    for (const std::size_t i : report::ofScene(records, scene)) {
-        const std::vector<double>& values = listOf(records[i], list);
+    for (const std::size_t i : all) {
+        const std::vector<double>& values = records[i].values.list(shown.list);
         if (values.empty()) continue;
-        Row row{{{records[i].variant}}, marksOf(records, i)};
-        for (const double value : values) row.cells.push_back({report::formatValue(metric, value), value});
+        Row row{{techniqueCell(records[i], images)}, marksOf(records, i)};
+        for (const double value : values) row.cells.push_back({report::formatValue(shown.metric, value), value});
         row.cells.resize(frames + 1, Cell{"–"});
         table.rows.push_back(std::move(row));
     }
     return table;
 }
 
-Table passTable(const std::vector<Record>& records, const std::string& scene) {
+Table passTable(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images) {
     const std::vector<std::string> names = passNames(records, scene);
     Table table{.id = "passes",
                 .caption = "Milliseconds of a frame by pass",
@@ -168,7 +157,7 @@ Table passTable(const std::vector<Record>& records, const std::string& scene) {
     for (const std::size_t i : report::ofScene(records, scene)) {
         if (std::ranges::none_of(records[i].passes, [](const PassRecord& pass) { return pass.milliseconds.has_value(); }))
             continue;
-        table.rows.push_back(passRow(records[i], names));
+        table.rows.push_back(passRow(records[i], names, images));
         table.rows.back().marks = marksOf(records, i);
     }
     return table;

@@ -20,11 +20,17 @@ std::vector<std::pair<std::string, std::string>> marksOf(const std::vector<Recor
 /// Every scored technique with every metric that applies to one of them.
 Table errorTable(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images);
 
-/// Error of each still frame from an empty history; without rows where no record has curves.
-Table convergenceTable(const std::vector<Record>& records, const std::string& scene);
+/// A number of each frame, a row a record: those of `list`, shown as values of `metric` (a name for bounds, or "" for what
+/// is no share); without rows where no record has the list.
+struct FrameList {
+    metrics::MetricId list;
+    std::string metric, id, caption;
+};
+Table frameTable(const std::vector<Record>& records, const std::string& scene, const FrameList& shown,
+                 const std::filesystem::path& images);
 
 /// Milliseconds by pass; without rows where no record has them.
-Table passTable(const std::vector<Record>& records, const std::string& scene);
+Table passTable(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images);
 
 /// Techniques that do not apply or ended in an error, with the reason.
 Table unscoredTable(const std::vector<Record>& records, const std::string& scene);

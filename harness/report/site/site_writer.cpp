@@ -68,6 +68,7 @@ std::string SiteWriter::table(const std::string& address, const Table& table) {
 std::string SiteWriter::chart(const std::string& address, const Chart& chart) const {
     Data data, options{Data::type::list};
     data.set("file", rootFrom(address) + chart.name);
+    data.set("drawn", !chart.name.empty());
     data.set("title", shown(chart.title));
     data.set("alternative", shown(chart.text));
     data.set("interactive", !chart.kind.empty());

@@ -23,10 +23,11 @@ struct Page {
 
 /// A chart by gnuplot, which is seen without JavaScript, and what a script draws in its place.
 struct Chart {
-    std::string name;        // of its files, from the site's folder, without their endings: "charts/sweep-trees-casters"
-    std::string title, text; // caption; what a reader who does not see it is told
-    std::string kind = {};   // "scatter", "lines", "bars"; "": it stays as it is
-    std::string table = {};  // id of the table, on the same page, that it is drawn from
+    std::string name = {}; // of its files, from the site's folder, without their endings: "charts/sweep-trees-casters";
+                           // "": there are none, a script alone draws it
+    std::string title = {}, text = {}; // caption; what a reader who does not see it is told
+    std::string kind = {};             // "scatter", "lines", "bars"; "": it stays as it is
+    std::string table = {};            // id of the table, on the same page, that it is drawn from
     std::vector<std::pair<std::string, std::string>> options = {}; // attributes data-<first>="<second>" for the script
 };
 

@@ -120,6 +120,8 @@
   function point(row) {
     for (const lit of document.querySelectorAll("tr.lit")) lit.classList.remove("lit");
     row.classList.add("lit");
+    const folded = row.closest("details");
+    if (folded) folded.open = true;
     row.scrollIntoView({ block: "center" });
   }
 
@@ -157,6 +159,7 @@
     const old = figure.querySelector("svg");
     if (old) old.remove();
     const image = figure.querySelector("img");
+    figure.hidden = false;
     if (image) image.hidden = true;
     const width = Math.max(340, Math.min(1100, figure.clientWidth || 900));
     const svg = d3.create("svg").attr("viewBox", [0, 0, width, height]).attr("role", "img").attr("aria-label", image ? image.alt : "");
