@@ -88,7 +88,7 @@ public:
 
     /// `drawn`: the files of all charts that there are.
     [[nodiscard]] std::string place(const std::vector<std::filesystem::path>& drawn, Chart chart) const {
-        chart.name += "-" + slug(scene_);
+        chart.name = fmt::format("{}-{}", chart.name, slug(scene_));
         const std::filesystem::path file = site_.folder() / (chart.name + ".svg");
         if (std::ranges::find(drawn, file) == drawn.end()) return "";
         writePdf(site_, chart.name);

@@ -69,25 +69,27 @@ public:
 
     [[nodiscard]] std::string text(const std::string& page) const { return readFile(folder_ / page); }
 
-    static std::string idOf(const std::string& page) { return "page-" + report::slug(page); }
+    static std::string idOf(const std::string& page) { return fmt::format("page-{}", report::slug(page)); }
 
     /// An address on a page as it is in the one file: a part of it, data, or itself.
     [[nodiscard]] std::string resolved(const std::string& page, const std::string& address) const {
         if (address.empty() || address.starts_with('#') || address.find(':') != std::string::npos) return address;
         const std::string path = pathOf(page, address.substr(0, address.find('#')));
-        if (pages_.contains(path)) return "#" + idOf(path);
+        if (pages_.contains(path)) return fmt::format("#{}", partOf(path, address));
         std::error_code ignored;
         if (!fs::is_regular_file(folder_ / path, ignored)) return address;
         return fmt::format("data:{};base64,{}", mediaType(fs::path(path).extension().string()),
                            base64(readFile(folder_ / path)));
     }
 
-    /// Texts of the files that pages name in `element`'s attribute, each once.
+    /// Texts of the files in assets/ that pages name in `element`'s attribute, each once. The cells' viewer is left out: it
+    /// shows one scene a page; its pictures stay.
     [[nodiscard]] std::string joined(const std::string& element, const std::string& attribute) const {
         std::vector<std::string> files;
         for (const std::string& page : pages_)
             for (const std::string& value : valuesOf(between(text(page), "<head>", "</head>"), element, attribute))
-                if (const std::string path = pathOf(page, value); std::ranges::find(files, path) == files.end())
+                if (const std::string path = pathOf(page, value);
+                    path.starts_with("assets/") && std::ranges::find(files, path) == files.end())
                     files.push_back(path);
         std::string all;
         for (const std::string& file : files) all += readFile(folder_ / file) + "\n";
@@ -95,6 +97,14 @@ public:
     }
 
 private:
+    /// The id that an address on a page leads to: of the page, or of what it names on it.
+    [[nodiscard]] std::string partOf(const std::string& page, const std::string& address) const {
+        const std::size_t hash = address.find('#');
+        const std::string id = hash == std::string::npos ? "" : address.substr(hash + 1);
+        const bool exists = !id.empty() && text(page).find(fmt::format(" id=\"{}\"", id)) != std::string::npos;
+        return exists ? idOf(page) + "-" + id : idOf(page);
+    }
+
     static std::string pathOf(const std::string& page, const std::string& address) {
         return (fs::path(page).parent_path() / address).lexically_normal().generic_string();
     }
@@ -130,7 +140,7 @@ std::string rewritten(const Folder& folder, const std::string& page, const std::
 
 /// Script text that no "</script>" in it can end.
 std::string inlined(std::string text, std::string_view end) {
-    const std::string start = "</" + std::string(end);
+    const std::string start = fmt::format("</{}", end);
     for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at)) text.insert(at + 1, "\\");
     return text;
 }
