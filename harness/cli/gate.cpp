@@ -5,7 +5,7 @@
 #include "harness/cli/options.h"
 #include "harness/gate/gate_report.h"
 #include "harness/gate/verdict.h"
-#include "harness/report/site/gate_page.h"
+#include "harness/report/site/gate_site.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

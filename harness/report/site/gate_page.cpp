@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "harness/gate/verdict.h"
+#include "harness/report/site/gate_site.h"
 #include "harness/report/site/names.h"
 #include "harness/report/site/technique_facts.h"
 #include "harness/report/summary.h"

@@ -15,7 +15,4 @@ void addGatePage(const gate::GateResult& result, const gate::GateOptions& option
 /// The comparison of records with older ones, as a gate's result.
 gate::GateResult comparedWith(const std::vector<Record>& base, const std::vector<Record>& head);
 
-/// gate.html by itself, with what it needs beside it; its path.
-std::filesystem::path writeGateSite(const gate::GateResult& result, const gate::GateOptions& options);
-
 } // namespace shadowbench::site

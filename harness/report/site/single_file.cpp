@@ -139,10 +139,15 @@ std::string rewritten(const Folder& folder, const std::string& page, const std::
 }
 
 /// Script text that no "</script>" in it can end.
-std::string inlined(std::string text, std::string_view end) {
+std::string inlined(const std::string& text, std::string_view end) {
     const std::string start = fmt::format("</{}", end);
-    for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at)) text.insert(at + 1, "\\");
-    return text;
+    std::string result;
+    std::size_t at = 0;
+    for (std::size_t next = text.find(start); next != std::string::npos; next = text.find(start, at)) {
+        result.append(text, at, next - at).append("<\\/");
+        at = next + 2;
+    }
+    return result.append(text, at, std::string::npos);
 }
 
 } // namespace
