@@ -41,10 +41,10 @@ Table board(const std::vector<Judgement>& judgements) {
     Table table{.id = "claims", .caption = "The papers' claims", .rows = {}, .headed = false};
     table.columns = {{.title = "claim", .number = false},
                      {.title = "verdict", .number = false},
-                     {.title = "what is claimed", .number = false},
+                     {.title = "what is claimed", .number = false, .prose = true},
                      {.title = "source", .number = false},
-                     {.title = "figures", .number = false, .brief = false},
-                     {.title = "records", .number = false, .brief = false}};
+                     {.title = "figures", .number = false, .brief = false, .prose = true},
+                     {.title = "records", .number = false, .brief = false, .prose = true}};
     for (const Judgement& judgement : judgements) {
         const Claim& claim = *judgement.claim;
         const std::string basis = basisOf(judgement);
@@ -117,9 +117,9 @@ Table recordTable(const Claim& claim, const std::vector<Record>& records, const 
 Table checkTable(const Judgement& judgement) {
     Table table{.id = "checks",
                 .caption = "What decides it",
-                .columns = {{.title = "check", .number = false},
+                .columns = {{.title = "check", .number = false, .prose = true},
                             {.title = "holds", .number = false},
-                            {.title = "figures", .number = false}},
+                            {.title = "figures", .number = false, .prose = true}},
                 .rows = {}};
     const std::vector<std::string> found = describedFindings(judgement);
     for (std::size_t i = 0; i < found.size(); ++i) {

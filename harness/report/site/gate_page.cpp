@@ -85,7 +85,7 @@ Table changeTable(const std::vector<Change>& changes, const gate::GateOptions& o
         {.title = "head"},
         {.title = "allowed", .hint = "So much of a change may be the truth's own error, a stray pixel or noise"},
         {.title = "× allowed", .hint = "The change as a multiple of what is allowed"},
-        {.title = "to see it again", .number = false, .brief = false}};
+        {.title = "to see it again", .number = false, .brief = false, .prose = true}};
     for (const Change& change : shownChanges(changes)) {
         const TechniqueFacts facts = factsOf(change.variant.substr(0, change.variant.find(':')));
         const double times = excess(change);
@@ -145,7 +145,7 @@ Data sentences(const std::vector<std::string>& lines) {
     Data list{Data::type::list};
     for (const std::string& line : lines) {
         Data entry;
-        entry.set("sentence", shown(line));
+        entry.set("sentence", shown(line, sentenceRoom));
         list << entry;
     }
     return list;

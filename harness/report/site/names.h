@@ -16,7 +16,10 @@ std::string sceneAddress(const std::string& scene);
 /// From the site's folder: "cells/simple.html#pcss_taps=32+32".
 std::string cellAddress(const Record& record);
 
-/// A name as people see it: the first 160 characters of a longer one, then how many there are.
-std::string shown(const std::string& name);
+inline constexpr std::size_t nameRoom = 160, sentenceRoom = 4000; // bytes
+
+/// Text as people see it: the first `most` bytes of a longer one, then how many there are. By default for names; sentences
+/// have more room.
+std::string shown(const std::string& text, std::size_t most = nameRoom);
 
 } // namespace shadowbench::site

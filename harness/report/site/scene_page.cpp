@@ -173,7 +173,7 @@ void addScenePage(const std::vector<Record>& records, const std::string& scene, 
     const SceneCharts charts(records, scene, site);
     Data data;
     data.set("scene", shown(scene));
-    data.set("described", shown(described(records, scene)));
+    data.set("described", shown(described(records, scene), sentenceRoom));
     setAnswer(data, records, choiceFor(records, scene), images, site);
     data.set("pareto", charts.place(drawn, charts.pareto()));
     data.set("errors", site.table(address, errorTable(records, scene, images)));

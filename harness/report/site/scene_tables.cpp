@@ -168,7 +168,7 @@ Table unscoredTable(const std::vector<Record>& records, const std::string& scene
                 .caption = "Not scored on " + scene,
                 .columns = {{.title = "technique", .number = false},
                             {.title = "status", .number = false},
-                            {.title = "why", .number = false}},
+                            {.title = "why", .number = false, .prose = true}},
                 .rows = {}};
     for (const std::size_t i : report::ofScene(records, scene)) {
         const Record& record = records[i];

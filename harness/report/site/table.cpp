@@ -22,14 +22,14 @@ Data columnData(const Column& column) {
 
 Data cellData(const Cell& cell, const Column& column, const std::string& root) {
     Data data;
-    data.set("text", shown(cell.text));
+    data.set("text", shown(cell.text, column.prose ? sentenceRoom : nameRoom));
     data.set("value", cell.value && std::isfinite(*cell.value) ? fmt::format("{}", *cell.value) : std::string());
     data.set("valued", cell.value.has_value());
     data.set("linked", !cell.address.empty());
     data.set("address", root + cell.address);
     data.set("kind", cell.kind + (column.number ? " number" : ""));
     data.set("noted", !cell.note.empty());
-    data.set("note", shown(cell.note));
+    data.set("note", shown(cell.note, sentenceRoom));
     return data;
 }
 
@@ -184,7 +184,10 @@ std::string latexOf(const Table& table, bool brief) {
     for (const Row& row : table.rows) {
         std::string line;
         for (const std::size_t i : chosen)
-            line += (line.empty() ? "" : " & ") + (row.cells[i].text.empty() ? "{}" : latexText(shown(row.cells[i].text)));
+            line += (line.empty() ? "" : " & ") +
+                    (row.cells[i].text.empty()
+                         ? "{}"
+                         : latexText(shown(row.cells[i].text, table.columns[i].prose ? sentenceRoom : nameRoom)));
         text += fmt::format("    {} \\\\\n", line);
     }
     return text + "    \\bottomrule\n  \\end{tabular}}\n\\end{table}\n";
@@ -195,7 +198,8 @@ std::string markdownOf(const Table& table) {
     for (const Column& column : table.columns) plain.titles.push_back(column.title);
     for (const Row& row : table.rows) {
         std::vector<std::string>& cells = plain.rows.emplace_back();
-        for (const Cell& cell : row.cells) cells.push_back(shown(cell.text));
+        for (std::size_t i = 0; i < row.cells.size(); ++i)
+            cells.push_back(shown(row.cells[i].text, table.columns[i].prose ? sentenceRoom : nameRoom));
     }
     return fmt::format("{}\n", report::markdown(plain));
 }

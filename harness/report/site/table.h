@@ -17,7 +17,8 @@ struct Column {
     std::string key = {};  // by which the script knows it: a metric's path, or a number that the column stands for
     std::string unit = {}; // of the values: "share" is shown in per cent
     bool number = true;
-    bool brief = true; // has its place in a paper's table, too
+    bool brief = true;  // has its place in a paper's table, too
+    bool prose = false; // of sentences: has room for more than a name
 };
 
 struct Cell {

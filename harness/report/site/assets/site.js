@@ -112,6 +112,23 @@
     const families = [...new Set(entry.rows.map((row) => row.dataset.family || ""))].sort();
     return (row) => palette[families.indexOf(row.dataset.family || "") % palette.length];
   };
+  // Swatches by SVG, since a policy of the host may forbid style attributes.
+  function familyKey(entry) {
+    const key = make("span");
+    const seen = new Set();
+    const colour = familyColour(entry);
+    for (const row of entry.rows) {
+      const family = row.dataset.family;
+      if (!family || seen.has(family)) continue;
+      seen.add(family);
+      const label = make("span", { class: "family" });
+      const swatch = d3.create("svg").attr("class", "swatch").attr("viewBox", "0 0 10 10").attr("aria-hidden", "true");
+      swatch.append("circle").attr("cx", 5).attr("cy", 5).attr("r", 5).attr("fill", colour(row));
+      label.append(swatch.node(), family);
+      key.append(label);
+    }
+    return key;
+  }
   const go = (row) => {
     const link = row.querySelector("a[href]");
     if (link) location.href = link.href;
@@ -156,13 +173,13 @@
     group.attr("class", "grid").call(axis);
   }
   function canvas(figure, height) {
-    const old = figure.querySelector("svg");
+    const old = figure.querySelector("svg.plot");
     if (old) old.remove();
     const image = figure.querySelector("img");
     figure.hidden = false;
     if (image) image.hidden = true;
     const width = Math.max(340, Math.min(1100, figure.clientWidth || 900));
-    const svg = d3.create("svg").attr("viewBox", [0, 0, width, height]).attr("role", "img").attr("aria-label", image ? image.alt : "");
+    const svg = d3.create("svg").attr("class", "plot").attr("viewBox", [0, 0, width, height]).attr("role", "img").attr("aria-label", image ? image.alt : "");
     figure.insertBefore(svg.node(), figure.querySelector("figcaption"));
     return { svg, width, height, left: 66, right: 18, top: 16, bottom: 46 };
   }
@@ -188,7 +205,8 @@
       return element;
     };
     const across = select("across", figure.dataset.x), up = select("up", figure.dataset.y);
-    bar.append(make("span", {}, "● within tolerance ○ not · hollow square: draws no shadow · line: front · click a point for its cell"));
+    bar.append(make("span", {}, "● within tolerance, ○ not, □ draws no shadow; line: nothing errs less for less"));
+    bar.append(familyKey(entry));
     figure.prepend(bar);
     const colour = familyColour(entry);
     // As the program judges it (`dominates`): times count with the interval of their rounds.
@@ -241,12 +259,16 @@
     const breakColumn = entry.heads.findIndex((head) => head.textContent === "breaks at");
     const colour = familyColour(entry);
     const limit = figure.dataset.tolerance ? Number(figure.dataset.tolerance) : NaN;
+    const key = make("div", { class: "axes" });
+    key.append(familyKey(entry));
+    figure.prepend(key);
     function draw() {
       const curves = shownRows(entry).map((row) => ({ row, breaks: breakColumn < 0 ? NaN : valueOf(row.cells[breakColumn]),
         points: columns.map((c) => ({ x: c.x, title: c.title, y: valueOf(row.cells[c.column]) })).filter((p) => !Number.isNaN(p.y)) }))
         .filter((curve) => curve.points.length > 0);
       const values = [].concat(...curves.map((curve) => curve.points.map((p) => p.y)));
       const area = canvas(figure, 420);
+      if (area.width > 600) area.right = 190;
       const sx = scaleOf(columns.map((c) => c.x), [area.left, area.width - area.right], figure.dataset.xlog === "yes");
       const sy = scaleOf(values.concat(Number.isNaN(limit) ? [] : [limit]), [area.height - area.bottom, area.top]);
       const unit = columns[0].unit;
@@ -260,6 +282,13 @@
       groups.filter((c) => !Number.isNaN(c.breaks)).append("path").attr("d", d3.symbol().type(d3.symbolCross).size(70))
         .attr("transform", (c) => { const p = c.points.find((q) => q.x === c.breaks) || c.points[0]; return `translate(${sx.at(p.x)},${sy.at(p.y)}) rotate(45)`; })
         .attr("fill", (c) => colour(c.row));
+      let low = Infinity; // names of curves at their ends, where there is room
+      const ends = curves.map((c) => ({ c, y: sy.at(c.points[c.points.length - 1].y) })).sort((a, b) => b.y - a.y);
+      if (area.width > 600) for (const { c, y } of ends) {
+        if (low - y < 12) continue;
+        low = y;
+        area.svg.append("text").attr("class", "name").attr("x", area.width - area.right + 6).attr("y", y + 4).text(nameOf(c.row).slice(0, 30));
+      }
       const heat = (chosen) => groups.select(".curve").classed("dim", (c) => chosen && c !== chosen).classed("hot", (c) => c === chosen);
       groups.selectAll("circle").data((c) => c.points.map((p) => ({ c, p }))).join("circle").attr("r", 5).attr("fill", "transparent")
         .attr("cx", ({ p }) => sx.at(p.x)).attr("cy", ({ p }) => sy.at(p.y))

@@ -32,12 +32,12 @@ TEST(Slug, KeepsWhatIsSafeAndTellsApartWhatIsNot) {
 
 TEST(Shown, CutsLongNamesBetweenCharacters) {
     EXPECT_EQ(shown("short"), "short");
-    std::string name(159, 'a');
+    std::string name = fmt::format("{:a>159}", "");
     for (int i = 0; i < 100; ++i) name += "é";
     const std::string text = shown(name);
     EXPECT_TRUE(has(text, "… (359 bytes)")) << text;
     EXPECT_LT(text.size(), 200U);
-    EXPECT_TRUE(text.starts_with(std::string(159, 'a') + "…")) << text; // no half of the é
+    EXPECT_EQ(text.find("…"), 159U) << text; // no half of the é
 }
 
 TEST(Table, IsCsvWithUnroundedValues) {
