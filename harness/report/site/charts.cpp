@@ -1,4 +1,5 @@
 #include "harness/report/site/charts.h"
+#include "harness/report/site/made_file.h"
 
 #include "base/error.h"
 #include "base/files.h"
@@ -38,11 +39,11 @@ std::string pdfOf(const std::string& svg) {
 
 void writePdf(const SiteWriter& site, const std::string& name) {
     const std::filesystem::path& folder = site.folder();
-    writeFile(folder / (name + ".pdf"), pdfOf(readFile(folder / (name + ".svg"))));
+    writeMade(folder / (name + ".pdf"), pdfOf(readFile(folder / (name + ".svg"))));
 }
 
 void writeChart(const SiteWriter& site, const std::string& name, const std::string& svg) {
-    writeFile(site.folder() / (name + ".svg"), svg);
+    writeMade(site.folder() / (name + ".svg"), svg);
     writePdf(site, name);
 }
 

@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "harness/gate/verdict.h"
 #include "harness/report/site/gate_site.h"
+#include "harness/report/site/made_file.h"
 #include "harness/report/site/names.h"
 #include "harness/report/site/technique_facts.h"
 #include "harness/report/summary.h"
@@ -111,7 +112,7 @@ Table changeTable(const std::vector<Change>& changes, const gate::GateOptions& o
 std::string copied(const std::filesystem::path& source, const std::string& to, const SiteWriter& site) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(source, ignored)) return "";
-    writeFile(site.folder() / to, readFile(source));
+    writeMade(site.folder() / to, readFile(source));
     return to;
 }
 

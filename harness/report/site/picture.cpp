@@ -1,5 +1,6 @@
 #include "base/files.h"
 #include "harness/cells/cell_images.h"
+#include "harness/report/site/made_file.h"
 #include "harness/report/site/names.h"
 #include "harness/report/site/pages.h"
 
@@ -15,7 +16,7 @@ std::string picture(const std::filesystem::path& images, const Record& record, c
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(source, ignored)) return "";
     const std::string address = fmt::format("pictures/{}-{}-{}.png", slug(record.scene), slug(record.variant), name);
-    writeFile(site.folder() / address, readFile(source));
+    writeMade(site.folder() / address, readFile(source));
     return address;
 }
 

@@ -1,7 +1,7 @@
 #include "harness/report/site/site_writer.h"
 
-#include "base/files.h"
 #include "embedded_d3.h"
+#include "harness/report/site/made_file.h"
 #include "harness/report/site/names.h"
 
 #include <filesystem>
@@ -51,17 +51,17 @@ void SiteWriter::add(const Page& page) {
     }
     data.set("scripts", scripts);
     data.set("styles", styles);
-    writeFile(folder_ / page.address, render("page.html", data));
+    writeMade(folder_ / page.address, render("page.html", data));
     ++pages_;
 }
 
 std::string SiteWriter::table(const std::string& address, const Table& table) {
     if (table.rows.empty()) return "";
     const std::string files = fmt::format("tables/{}-{}", stemOf(address), table.id);
-    writeFile(folder_ / (files + ".csv"), csvOf(table));
-    writeFile(folder_ / (files + ".tex"), latexOf(table, true));
-    writeFile(folder_ / (files + "-full.tex"), latexOf(table, false));
-    writeFile(folder_ / (files + ".md"), markdownOf(table));
+    writeMade(folder_ / (files + ".csv"), csvOf(table));
+    writeMade(folder_ / (files + ".tex"), latexOf(table, true));
+    writeMade(folder_ / (files + "-full.tex"), latexOf(table, false));
+    writeMade(folder_ / (files + ".md"), markdownOf(table));
     return render("table.html", tableData(table, rootFrom(address), files));
 }
 
@@ -85,8 +85,8 @@ std::string SiteWriter::chart(const std::string& address, const Chart& chart) co
 }
 
 void SiteWriter::writeAssets() const {
-    for (const char* file : {"assets/style.css", "assets/site.js"}) writeFile(folder_ / file, embeddedFile(file));
-    writeFile(folder_ / "assets/d3.js", embedded::d3().front().text);
+    for (const char* file : {"assets/style.css", "assets/site.js"}) writeMade(folder_ / file, embeddedFile(file));
+    writeMade(folder_ / "assets/d3.js", embedded::d3().front().text);
 }
 
 } // namespace shadowbench::site
