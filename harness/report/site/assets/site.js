@@ -15,7 +15,24 @@
     for (const listener of entry.listeners) listener();
   }
 
+  // Columns keep their widths: a table of thousands of cells then sorts without being measured anew, and does not jump.
+  function freeze(entry) {
+    if (entry.frozen || entry.rows.length < 30) return;
+    entry.frozen = true;
+    const widths = entry.heads.map((head) => head.getBoundingClientRect().width);
+    entry.heads.forEach((head, i) => { head.style.width = widths[i] + "px"; });
+    entry.table.style.width = widths.reduce((sum, width) => sum + width, 0) + "px";
+    entry.table.style.tableLayout = "fixed";
+  }
+  function thaw(entry) {
+    if (!entry.frozen) return;
+    entry.frozen = false;
+    for (const head of entry.heads) head.style.width = "";
+    entry.table.style.width = entry.table.style.tableLayout = "";
+  }
+
   function sortBy(entry, column) {
+    freeze(entry);
     const head = entry.heads[column];
     const down = head.getAttribute("aria-sort") === "ascending";
     for (const other of entry.heads) other.removeAttribute("aria-sort");
@@ -36,6 +53,7 @@
   }
 
   function filter(entry, wanted) {
+    freeze(entry);
     let count = 0;
     const words = wanted.text.toLowerCase().split(/\s+/).filter(Boolean);
     for (const row of entry.rows) {
@@ -81,6 +99,7 @@
     const body = table.tBodies[0];
     const entry = { table, body, rows: [...body.rows], heads: [...table.tHead.rows[0].cells], listeners: [] };
     tables.set(table.dataset.table, entry);
+    addEventListener("resize", () => thaw(entry));
     entry.heads.forEach((head, column) => {
       const button = make("button", { type: "button" }, head.textContent);
       head.replaceChildren(button);
