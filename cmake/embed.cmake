@@ -3,9 +3,10 @@
 # where File is {path relative to root, text}.
 function(embed target name root files)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded)
+  cmake_path(ABSOLUTE_PATH root BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
   add_custom_command(
     OUTPUT ${out}/embedded_${name}.cpp ${out}/embedded_${name}.h
-    COMMAND ${CMAKE_COMMAND} -DNAME=${name} -DROOT=${CMAKE_CURRENT_SOURCE_DIR}/${root} -DOUT=${out} "-DFILES=${files}"
+    COMMAND ${CMAKE_COMMAND} -DNAME=${name} -DROOT=${root} -DOUT=${out} "-DFILES=${files}"
             -P ${CMAKE_CURRENT_SOURCE_DIR}/cmake/embed_files.cmake
     DEPENDS ${files} ${CMAKE_CURRENT_SOURCE_DIR}/cmake/embed_files.cmake
     VERBATIM)

@@ -5,6 +5,7 @@
 #include "harness/cli/options.h"
 #include "harness/gate/gate_report.h"
 #include "harness/gate/verdict.h"
+#include "harness/report/site/gate_site.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -27,6 +28,7 @@ ExitCode gateAndPrint(const gate::GateOptions& options, const GateFiles& files) 
     if (!files.summary.empty()) writeFile(files.summary, gate::gateReport(result, options, "md"));
     if (!files.junit.empty()) writeFile(files.junit, gate::junit(result.changes, result.unjudged));
     fmt::print("{}page: {}\n", gate::gateReport(result, options, "text"), page.string());
+    fmt::print("for browsers: {}\n", site::writeGateSite(result, options).string());
     if (files.annotations) fmt::print("{}", gate::annotations(result.changes));
     return result.code();
 }

@@ -8,8 +8,6 @@
 namespace shadowbench {
 namespace {
 
-constexpr double falseAlarms = 0.05; // of the whole report, among the noisy series
-
 struct AddOptions {
     std::filesystem::path records, to = "results/history";
     bool dirty = false;
@@ -29,26 +27,8 @@ ExitCode add(const AddOptions& options) {
     return ExitCode::Pass;
 }
 
-history::Findings find(const ShowOptions& options) {
-    const auto repository = history::Repository::around(options.from);
-    history::Stored stored = history::readHistory(options.from);
-    history::sortByAncestry(stored.commits, repository);
-    history::Findings findings;
-    findings.unreadable = stored.unreadable;
-    findings.history = history::historyOf(stored.commits, options.selection);
-    if (findings.history.series.empty())
-        throw BadInput(fmt::format("{} holds no records of what was asked for; `shadowbench history add` adds some",
-                                   options.from.string()));
-    for (const history::Commit& commit : findings.history.commits)
-        findings.subjects.push_back(repository ? repository->subject(commit.hash) : "");
-    findings.levels = history::levelsOf(findings.history, falseAlarms);
-    findings.changes = history::changesBetween(findings.history, findings.levels);
-    findings.suspects = history::suspectsOf(findings.history, findings.changes, repository);
-    return findings;
-}
-
 ExitCode show(const ShowOptions& options) {
-    const history::Findings findings = find(options);
+    const history::Findings findings = history::findingsOf(options.from, options.selection);
     fmt::print("{}", history::report(findings, options.format));
     if (options.out.empty()) return ExitCode::Pass;
     const auto files = history::writeReport(findings, options.out);

@@ -1,23 +1,57 @@
-#include "harness/report/run_report.h"
-
+#include "base/temporary_folder.h"
 #include "harness/cli/command.h"
-#include "harness/cli/written_report.h"
+#include "harness/history/history_report.h"
 #include "harness/records/comparability.h"
+#include "harness/report/site/site.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <memory>
 
 namespace shadowbench {
 namespace {
 
 struct ReportOptions {
-    std::filesystem::path records = "results/latest/results.jsonl";
-    std::filesystem::path out; // empty: the folder of the records
+    std::vector<std::filesystem::path> records{"results/latest/results.jsonl"};
+    std::filesystem::path out;    // empty: the folder of the first records
+    std::filesystem::path images; // empty: images/ beside the first records
+    std::filesystem::path base, history, singleFile;
 };
 
+/// All records of the files, in order; a folder stands for its results.jsonl.
+std::vector<Record> recordsOf(std::vector<std::filesystem::path> files) {
+    for (std::filesystem::path& file : files)
+        if (std::filesystem::is_directory(file)) file /= "results.jsonl";
+    return gate::readOfOneDevice(files);
+}
+
+site::Sources sourcesOf(const ReportOptions& options, const std::filesystem::path& folder) {
+    site::Sources sources{.records = recordsOf(options.records),
+                          .images = options.images.empty() ? folder / "images" : options.images};
+    if (!options.base.empty()) {
+        sources.base = recordsOf({options.base});
+        sources.baseName = options.base.string();
+    }
+    if (!options.history.empty()) sources.findings = history::findingsOf(options.history, {});
+    return sources;
+}
+
 ExitCode makeReport(const ReportOptions& options) {
-    const std::filesystem::path out = options.out.empty() ? options.records.parent_path() : options.out;
-    printFiles(report::writeReport(gate::readOfOneDevice({options.records}), out));
+    const std::filesystem::path& first = options.records.front();
+    const std::filesystem::path folder = std::filesystem::is_directory(first) ? first : first.parent_path();
+    const site::Sources sources = sourcesOf(options, folder);
+    if (!options.singleFile.empty()) {
+        const TemporaryFolder parts;
+        site::writeSite(sources, parts.path());
+        site::writeSingleFile(parts.path(), options.singleFile);
+        fmt::print("page: {}\n", options.singleFile.string());
+        return ExitCode::Pass;
+    }
+    const std::filesystem::path out = options.out.empty() ? folder : options.out;
+    const std::filesystem::path data = out / "results.jsonl";
+    std::error_code ignored;
+    if (!options.out.empty() && !std::filesystem::equivalent(first, data, ignored)) writeRecords(data, sources.records);
+    fmt::print("page: {}\n", site::writeSite(sources, out).string());
     return ExitCode::Pass;
 }
 
@@ -25,10 +59,21 @@ ExitCode makeReport(const ReportOptions& options) {
 
 void addReport(CLI::App& app, Action& action) {
     const auto options = std::make_shared<ReportOptions>();
-    CLI::App* verb = app.add_subcommand("report", "Renders records as tables, charts and a page");
-    verb->footer("Example:\n  shadowbench report results/latest/results.jsonl --out results/published");
-    verb->add_option("records", options->records, "results.jsonl")->capture_default_str();
-    verb->add_option("--out", options->out, "Folder to write into (default: that of the records)");
+    CLI::App* verb = app.add_subcommand("report", "Renders records as pages, tables and charts");
+    verb->footer(
+        "Examples:\n  shadowbench report results/latest/results.jsonl\n"
+        "  shadowbench report results/published/results.jsonl results/sweeps/*/sweep.jsonl --history results/history "
+        "--out public\n"
+        "  shadowbench report results/latest/results.jsonl --base before.jsonl --single-file run.html");
+    verb->add_option("records", options->records,
+                     "Record files of run and sweep; a folder of a run stands for its results.jsonl")
+        ->capture_default_str();
+    CLI::Option* out = verb->add_option("--out", options->out, "Folder to write into (default: that of the first records)");
+    verb->add_option("--images", options->images,
+                     "Folder of pictures by `run --images` (default: images beside the first records)");
+    verb->add_option("--base", options->base, "Older records: a page says what is worse than there");
+    verb->add_option("--history", options->history, "Folder of a history: a page shows figures over commits");
+    verb->add_option("--single-file", options->singleFile, "Write everything into this one file instead")->excludes(out);
     verb->callback([&action, options] { action = [options] { return makeReport(*options); }; });
 }
 

@@ -1,7 +1,7 @@
 #include "harness/cli/run_result.h"
 
-#include "harness/cli/written_report.h"
 #include "harness/report/lod_report.h"
+#include "harness/report/site/site.h"
 #include "harness/report/summary.h"
 #include "harness/report/terminal_summary.h"
 
@@ -10,9 +10,9 @@
 namespace shadowbench {
 
 ExitCode reportResult(const RunResult& result, const std::filesystem::path& out) {
-    const report::Written written = report::writeReport(result.records, out);
+    const std::filesystem::path page = site::writeSite({.records = result.records, .images = out / "images"}, out);
     for (const std::string& scene : report::scenes(result.records)) {
-        for (const std::string& table : {report::terminalSummary(result.records, scene, written.page.string()),
+        for (const std::string& table : {report::terminalSummary(result.records, scene, page.string()),
                                          report::lodTerminalTable(result.records, scene)})
             if (!table.empty()) fmt::print("{}\n", table);
     }
@@ -20,7 +20,7 @@ ExitCode reportResult(const RunResult& result, const std::filesystem::path& out)
         if (record.status == Status::Error)
             fmt::print(stderr, "error: {} on {}: {}\n", record.variant, record.scene, record.reason);
     fmt::print("records: {}\n", (out / "results.jsonl").string());
-    printFiles(written);
+    fmt::print("page: {}\n", page.string());
     return result.code;
 }
 

@@ -19,6 +19,10 @@ struct Findings {
     std::vector<Suspects> suspects;
 };
 
+/// What the history in `folder` shows of `selection`, with one false alarm in twenty such reports. Throws BadInput where the
+/// folder holds nothing of it.
+Findings findingsOf(const std::filesystem::path& folder, const Selection& selection);
+
 /// The unit that figures of a metric are written in: shares in per cent, instructions in millions.
 struct Unit {
     double factor = 1;

@@ -37,7 +37,16 @@ void runGnuplot(const std::filesystem::path& folder, const std::string& script) 
                                        end.exitCode, end.signal, messages));
 }
 
-constexpr int legendRow = 22; // pixels
+constexpr int legendRow = 22;            // pixels
+constexpr std::size_t longestText = 200; // bytes: no chart has room for more, and drawing a million letters takes minutes
+
+/// The text, or its beginning and "…".
+std::string shortened(const std::string& text) {
+    if (text.size() <= longestText) return text;
+    std::size_t end = longestText;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end; // a character stays whole
+    return text.substr(0, end).append("…");
+}
 
 struct Tick {
     double value;
@@ -69,7 +78,7 @@ std::string svgOf(const std::string& script, int width, int height) {
 
 std::string literal(const std::string& text) {
     std::string result = "'";
-    for (const char letter : text) {
+    for (const char letter : shortened(text)) {
         if (letter == '\'') result += '\'';
         const bool control = static_cast<unsigned char>(letter) < 0x20;
         result += control ? ' ' : letter;

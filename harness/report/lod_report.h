@@ -3,6 +3,8 @@
 
 #include "harness/records/record.h"
 
+#include "harness/report/text_table.h"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +16,9 @@ std::string lodTerminalTable(const std::vector<Record>& records, const std::stri
 
 /// The same in Markdown, with every column and what they mean.
 std::string lodMarkdownTable(const std::vector<Record>& records, const std::string& scene);
+
+/// The same without what surrounds it; without rows where there are no level-of-detail records.
+TextTable lodTable(const std::vector<Record>& records, const std::string& scene);
 
 /// Change of colour beyond lod-full's and frame time along the walk, as SVG; nothing without curves.
 std::optional<std::string> lodChart(const std::vector<Record>& records, const std::string& scene);

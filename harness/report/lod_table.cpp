@@ -103,6 +103,10 @@ std::string lodTerminalTable(const std::vector<Record>& records, const std::stri
            aligned(table(scored, false));
 }
 
+TextTable lodTable(const std::vector<Record>& records, const std::string& scene) {
+    return table(lodRecords(records, scene), true);
+}
+
 std::string lodMarkdownTable(const std::vector<Record>& records, const std::string& scene) {
     const auto scored = lodRecords(records, scene);
     if (scored.empty()) return "";

@@ -1,13 +1,13 @@
-// The published page: report.md, results.csv and the charts.
+// The records as Markdown for where no browser is: report.md, with results.csv and the charts.
 #include "base/files.h"
 #include "harness/cells/cell_images.h"
 #include "harness/report/charts.h"
 #include "harness/report/cost_report.h"
 #include "harness/report/lod_report.h"
 #include "harness/report/run_report.h"
+#include "harness/report/run_text.h"
+#include "harness/report/slug.h"
 #include "harness/report/summary.h"
-#include "scene/load/load.h"
-#include "techniques/catalog.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -51,59 +51,6 @@ image of any size. × bare: the pass' time as a multiple of the least that it ne
 source. A pass without a least of its own is work of the processor, or what an implementation adds.
 )";
 
-/// Distinct descriptions in order of first occurrence, joined.
-template <typename Describe>
-std::string distinct(const std::vector<Record>& records, const Describe& describe) {
-    std::vector<std::string> found;
-    for (const Record& record : records) {
-        const std::string text = describe(record);
-        if (!text.empty() && std::find(found.begin(), found.end(), text) == found.end()) found.push_back(text);
-    }
-    return fmt::format("{}", fmt::join(found, "; "));
-}
-
-std::string environment(const Record& record) {
-    const Environment& e = record.environment;
-    if (e.renderer.empty()) return "";
-    std::string how; // a rasteriser in software draws
-    if (e.vectorBits > 0)
-        how = fmt::format(", {}, {} bit vectors",
-                          e.rasterThreads == 0 ? "no raster threads" : fmt::format("{} raster threads", e.rasterThreads),
-                          e.vectorBits);
-    if (e.platform == "egl") how += ", through EGL";
-    return fmt::format("{}, OpenGL {}{}, {}, {}", e.renderer, e.gl, how, e.cpu, e.compiler);
-}
-
-std::string tools(const std::optional<ReferenceInfo>& reference) {
-    std::string text;
-    if (!reference) return text;
-    for (const auto& [tool, version] : reference->tools)
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", tool, version);
-    return text;
-}
-
-std::string truths(const Record& record) {
-    std::string text;
-    for (const std::optional<ReferenceInfo>& reference : {record.reference, record.softReference}) {
-        if (!reference) continue;
-        const std::string by = tools(reference);
-        text += fmt::format("{}{}{}", text.empty() ? "" : " and ", truth(*reference), by.empty() ? "" : " by " + by);
-    }
-    return text;
-}
-
-std::string commit(const Record& record) { return record.commit + (record.dirty ? " with uncommitted changes" : ""); }
-
-/// The truths of a scene; the longest description is the one of a hard technique beside a soft truth, which names both.
-std::string sceneTruth(const std::vector<Record>& records, const std::string& scene) {
-    std::string longest;
-    for (const std::size_t i : ofScene(records, scene)) {
-        const std::string text = truths(records[i]);
-        if (text.size() > longest.size()) longest = text;
-    }
-    return longest;
-}
-
 std::string sceneSection(const std::vector<Record>& records, const std::string& scene,
                          const std::vector<std::string>& charts) {
     const Record& first = records[ofScene(records, scene).front()];
@@ -117,43 +64,18 @@ std::string sceneSection(const std::vector<Record>& records, const std::string& 
     return text;
 }
 
-/// A scene id as part of a file name.
-std::string fileStem(const std::string& scene) {
-    std::string stem = scene;
-    std::replace_if(
-        stem.begin(), stem.end(), [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
-    return stem;
-}
-
 /// The pictures that `run --images` has left in the folder: the scene in mid-walk, and one instance's transition by
 /// technique.
 std::string lodPictures(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& folder) {
     std::string frame, rows;
     for (const std::size_t i : ofScene(records, scene)) {
-        const std::string place = "images/" + fileStem(scene) + "/" + fileName(records[i].variant) + "/";
-        if (!isLevelOfDetail(records[i]) || !std::filesystem::exists(folder / (place + "transition.png"))) continue;
+        const std::string place = "images/" + scene + "/" + fileName(records[i].variant) + "/";
+        std::error_code ignored; // a name may be too long for a file
+        if (!isLevelOfDetail(records[i]) || !std::filesystem::exists(folder / (place + "transition.png"), ignored)) continue;
         if (frame.empty()) frame = fmt::format("![{}]({}frame.png)\n\n", markdownText(scene), place);
         rows += fmt::format("| {} | ![transition]({}transition.png) |\n", records[i].variant, place);
     }
     return rows.empty() ? "" : frame + "| technique | one instance through its transition |\n|:---|:---|\n" + rows + "\n";
-}
-
-/// Words of `chosen` as repeated options; nothing if they are all there are.
-std::string options(const std::string& option, const std::vector<std::string>& chosen, const std::vector<std::string>& all) {
-    if (std::is_permutation(chosen.begin(), chosen.end(), all.begin(), all.end())) return "";
-    std::string text;
-    for (const std::string& word : chosen) text += " " + option + " " + word;
-    return text;
-}
-
-std::string command(const std::vector<Record>& records) {
-    std::vector<std::string> variants, everyVariant;
-    for (const Record& record : records)
-        if (std::find(variants.begin(), variants.end(), record.variant) == variants.end())
-            variants.push_back(record.variant);
-    for (const techniques::Variant& variant : techniques::matchVariants("*")) everyVariant.push_back(variant.name);
-    return "./bench run" + options("--scene", scenes(records), standardScenes()) +
-           options("--technique", variants, everyVariant) + " --profile " + records.front().profile;
 }
 
 /// costs.md; "" where no record has passes with times.
@@ -172,8 +94,8 @@ std::string costPage(const std::vector<Record>& records) {
 std::string head(const std::vector<Record>& records) {
     std::string text = "# Shadow techniques against the truth\n\n";
     if (records.empty()) return text + "No records.\n";
-    text += fmt::format("Commit {}. Measured on {}. Made again by:\n\n```\n{}\n```\n\n", distinct(records, commit),
-                        markdownText(distinct(records, environment)), command(records));
+    text += fmt::format("Commit {}. Measured on {}. Made again by:\n\n```\n{}\n```\n\n", commitsOf(records),
+                        markdownText(environmentsOf(records)), runCommand(records));
     return text;
 }
 
@@ -186,7 +108,7 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
         std::vector<std::string> charts;
         const auto keep = [&](const std::string& kind, const std::optional<std::string>& svg) {
             if (!svg) return;
-            charts.push_back(kind + "-" + fileStem(scene) + ".svg");
+            charts.push_back(kind + "-" + slug(scene) + ".svg");
             writeFile(folder / charts.back(), *svg);
             written.charts.push_back(folder / charts.back());
         };

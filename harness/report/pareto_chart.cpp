@@ -13,6 +13,7 @@ namespace {
 
 constexpr int width = 960, height = 620;
 constexpr double left = 96, right = 936, top = 84, bottom = 540; // of the plot, pixels, y down
+constexpr std::size_t longestLabel = 100;                        // letters: as wide as two thirds of the plot
 constexpr glm::dvec2 letter(6.4, 16);                            // of a label at 12 points, pixels
 
 struct Point {
@@ -85,7 +86,7 @@ std::string block(const std::string& name, const std::vector<Place>& places, con
 std::string labels(const std::vector<Point>& all, const Canvas& canvas, const std::optional<double>& toleranceLine) {
     std::vector<LabelledPoint> named;
     named.reserve(all.size());
-    for (const Point& point : all) named.push_back({canvas.at(point.place), point.variant});
+    for (const Point& point : all) named.push_back({canvas.at(point.place), point.variant.substr(0, longestLabel)});
     std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;
     const std::vector<Place> front = corners(all, canvas);
     for (std::size_t i = 1; i < front.size(); ++i) lines.emplace_back(canvas.at(front[i - 1]), canvas.at(front[i]));

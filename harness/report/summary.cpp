@@ -139,19 +139,14 @@ std::string truth(const ReferenceInfo& reference) {
 }
 
 std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::pair<std::size_t, Place>> candidates;
+    for (const std::size_t i : ofScene(records, scene))
+        if (const std::optional<Place> here = place(records[i])) candidates.emplace_back(i, *here);
+    std::ranges::stable_sort(candidates, {}, [](const auto& candidate) { return candidate.second.cost; });
     std::vector<std::size_t> front;
-    const std::vector<std::size_t> candidates = ofScene(records, scene);
-    for (const std::size_t i : candidates) {
-        const std::optional<Place> here = place(records[i]);
-        if (!here) continue;
-        const bool beaten = std::any_of(candidates.begin(), candidates.end(), [&](std::size_t j) {
-            const std::optional<Place> other = place(records[j]);
-            return other && dominates(*other, *here);
-        });
-        if (!beaten) front.push_back(i);
-    }
-    std::stable_sort(front.begin(), front.end(),
-                     [&](std::size_t a, std::size_t b) { return place(records[a])->cost < place(records[b])->cost; });
+    for (const auto& [i, here] : candidates)
+        if (std::ranges::none_of(candidates, [&](const auto& other) { return dominates(other.second, here); }))
+            front.push_back(i);
     return front;
 }
 

@@ -41,6 +41,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 12> p
      {"boost/", "boost"},
      {"embree3/", "embree"},
      {"meshoptimizer.h", "meshoptimizer"},
+     {"mustache.hpp", "mustache"},
      {"nlohmann/", "json"},
      {"toml++/", "toml"},
      {"xxhash.h", "xxhash"}}};

@@ -91,6 +91,12 @@ std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& re
 
 Judgement judge(const Claim& claim, const std::vector<Record>& records);
 
+/// What each check of a claim found, in words: "accuracy.mismatch of a on s = 0.0147 ≤ 0.5 × …: no".
+std::vector<std::string> describedFindings(const Judgement& judgement);
+
+/// "measured on basic, paper, 700²; computed again in double precision by Suite.Name"; "" where neither is known.
+std::string basisOf(const Judgement& judgement);
+
 /// "text" for a terminal, "md" or "json": every claim with its verdict and the figures it rests on.
 std::string claimsReport(const std::vector<Judgement>& judgements, const std::string& format);
 

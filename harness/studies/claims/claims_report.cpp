@@ -56,15 +56,6 @@ std::string described(const Check& check, const Finding& finding) {
     return fmt::format("{} {} {}: {}", valued(check.left, finding.left), sign, right, outcome(finding));
 }
 
-/// "measured on basic, paper, 700²; computed again in double precision by Suite.Name"
-std::string basisOf(const Judgement& judgement) {
-    std::string text;
-    if (!judgement.basis.empty()) text = fmt::format("measured on {}", fmt::join(judgement.basis, "; "));
-    if (!judgement.claim->replay.empty())
-        text += fmt::format("{}computed again in double precision by {}", text.empty() ? "" : "; ", judgement.claim->replay);
-    return text;
-}
-
 std::string asText(const Judgement& judgement) {
     const Claim& claim = *judgement.claim;
     std::string text = fmt::format("{}: {}\n    {} ({})\n", claim.id, name(judgement.verdict), claim.says, claim.where);
@@ -107,6 +98,21 @@ Json asJson(const Judgement& judgement) {
 }
 
 } // namespace
+
+std::vector<std::string> describedFindings(const Judgement& judgement) {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < judgement.findings.size(); ++i)
+        lines.push_back(described(judgement.claim->checks[i], judgement.findings[i]));
+    return lines;
+}
+
+std::string basisOf(const Judgement& judgement) {
+    std::string text;
+    if (!judgement.basis.empty()) text = fmt::format("measured on {}", fmt::join(judgement.basis, "; "));
+    if (!judgement.claim->replay.empty())
+        text += fmt::format("{}computed again in double precision by {}", text.empty() ? "" : "; ", judgement.claim->replay);
+    return text;
+}
 
 std::string claimsReport(const std::vector<Judgement>& judgements, const std::string& format) {
     if (format == "json") {

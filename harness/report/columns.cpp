@@ -1,0 +1,54 @@
+#include "harness/report/columns.h"
+
+#include "harness/report/summary.h"
+
+#include <fmt/format.h>
+
+namespace shadowbench::report {
+namespace {
+
+template <int places, int factor = 1>
+std::string decimals(double value) {
+    return fmt::format("{:.{}f}", value / factor, places);
+}
+
+} // namespace
+
+std::span<const Column> columns() {
+    static constexpr Column all[] = {
+        {"false shadow", false, "accuracy.false_shadow", percent},
+        {"leak", false, "accuracy.leak", percent},
+        {"edge error px", false, "accuracy.edge_error.mean", decimals<2>},
+        {"median", true, "accuracy.edge_error.median", decimals<2>},
+        {"missing edges", true, "accuracy.edge_error.missing", percent},
+        {"islands", true, "accuracy.edge_error.islands", decimals<0>},
+        {"off-edge error", true, "accuracy.mismatch_off_edge", percent},
+        {"bad30", true, "accuracy.bad30", percent},
+        {"SSIM", true, "accuracy.ssim", decimals<3>},
+        {"area rmse", true, "accuracy.pixel_area.rmse", decimals<4>},
+        {"area bad30", true, "accuracy.pixel_area.bad30", percent},
+        {"area SSIM", true, "accuracy.pixel_area.ssim", decimals<3>},
+        {"penumbra rmse", true, "accuracy.penumbra_rmse", decimals<4>},
+        {"penumbra width", true, "accuracy.penumbra_width_error", percent},
+        {"umbra leak", true, "accuracy.umbra_leak", decimals<4>},
+        {"texel px", true, "aliasing.median", decimals<2>},
+        {"texel px p95", true, "aliasing.p95", decimals<2>},
+        {"flicker", false, "stability.flicker.mean", decimals<4>},
+        {"floor", true, "stability.flicker.floor", decimals<4>},
+        {"flips", true, "stability.flip_rate", percent},
+        {"moving rmse", true, "stability.moving_rmse", decimals<4>},
+        {"ghost half-life", true, "stability.ghost_half_life", decimals<1>},
+        {"seeds: bias", true, "stability.seeds.bias", decimals<4>},
+        {"systematic", true, "stability.seeds.systematic", decimals<4>},
+        {"noise", true, "stability.seeds.noise", decimals<4>},
+        {"converged at", true, "stability.convergence", decimals<0>},
+        {"MiB", true, "cost.work.bytes", decimals<1, 1 << 20>},
+        {"ms", true, "cost.time.median", decimals<2>},
+        {"processor", true, "cost.time.processor", percent},
+        {"× bare", true, "cost.time.bare_ratio", decimals<2>},
+        {"cost", false, "cost.time.ratio", decimals<2>},
+    };
+    return all;
+}
+
+} // namespace shadowbench::report

@@ -1,0 +1,371 @@
+// Sorts and filters tables and draws charts from what they show. Tables and gnuplot's charts are there without it.
+"use strict";
+(function () {
+  const valueOf = (cell) => (cell && cell.hasAttribute("data-v") ? Number.parseFloat(cell.dataset.v) : NaN);
+  const tables = new Map(); // id → {table, body, rows, heads, listeners}
+  const make = (name, attributes, text) => {
+    const element = document.createElement(name);
+    for (const key in attributes || {}) element.setAttribute(key, attributes[key]);
+    if (text !== undefined) element.textContent = text;
+    return element;
+  };
+
+  // ---- tables ----
+  function changed(entry) {
+    for (const listener of entry.listeners) listener();
+  }
+
+  // Columns keep their widths: a table of thousands of cells then sorts without being measured anew, and does not jump.
+  function freeze(entry) {
+    if (entry.frozen || entry.rows.length < 30) return;
+    entry.frozen = true;
+    const widths = entry.heads.map((head) => head.getBoundingClientRect().width);
+    entry.heads.forEach((head, i) => { head.style.width = widths[i] + "px"; });
+    entry.table.style.width = widths.reduce((sum, width) => sum + width, 0) + "px";
+    entry.table.style.tableLayout = "fixed";
+  }
+  function thaw(entry) {
+    if (!entry.frozen) return;
+    entry.frozen = false;
+    for (const head of entry.heads) head.style.width = "";
+    entry.table.style.width = entry.table.style.tableLayout = "";
+  }
+
+  function sortBy(entry, column) {
+    freeze(entry);
+    const head = entry.heads[column];
+    const down = head.getAttribute("aria-sort") === "ascending";
+    for (const other of entry.heads) other.removeAttribute("aria-sort");
+    head.setAttribute("aria-sort", down ? "descending" : "ascending");
+    const keys = entry.rows.map((row, place) => {
+      const cell = row.cells[column];
+      return { row, place, number: valueOf(cell), text: cell.textContent };
+    });
+    const sign = down ? -1 : 1;
+    keys.sort((a, b) => {
+      const noneA = Number.isNaN(a.number), noneB = Number.isNaN(b.number);
+      if (!noneA && !noneB) return sign * (a.number - b.number) || a.place - b.place;
+      if (noneA !== noneB) return noneA ? 1 : -1; // what has no number stays at the end
+      return sign * a.text.localeCompare(b.text, "en", { numeric: true }) || a.place - b.place;
+    });
+    entry.rows = keys.map((key) => key.row);
+    entry.body.append(...entry.rows);
+  }
+
+  function filter(entry, wanted) {
+    freeze(entry);
+    let count = 0;
+    const words = wanted.text.toLowerCase().split(/\s+/).filter(Boolean);
+    for (const row of entry.rows) {
+      const name = row.cells[0].textContent.toLowerCase();
+      const seen = words.every((word) => name.includes(word)) && (!wanted.family || row.dataset.family === wanted.family) &&
+        (!wanted.answer || row.dataset.answer === wanted.answer) && (!wanted.within || row.dataset.within === "yes");
+      row.hidden = !seen;
+      if (seen) ++count;
+    }
+    changed(entry);
+    return count;
+  }
+
+  function addFilters(form, entry) {
+    const values = (key) => [...new Set(entry.rows.map((row) => row.dataset[key]).filter(Boolean))].sort();
+    const text = make("input", { type: "search", placeholder: "part of a name", "aria-label": "Technique" });
+    const choose = (label, options) => {
+      const select = make("select");
+      select.append(make("option", { value: "" }, "all"));
+      for (const option of options) select.append(make("option", { value: option }, option));
+      const around = make("label", {}, label);
+      around.append(select);
+      return [around, select];
+    };
+    const [familyLabel, family] = choose("family", values("family"));
+    const [answerLabel, answer] = choose("answer", values("answer"));
+    const within = make("input", { type: "checkbox" });
+    const withinLabel = make("label");
+    withinLabel.append(within, "within tolerance only");
+    const said = make("output", { "aria-live": "polite" });
+    form.append(text, familyLabel, answerLabel, withinLabel, said);
+    const apply = () => {
+      const count = filter(entry, { text: text.value, family: family.value, answer: answer.value, within: within.checked });
+      said.textContent = count + " of " + entry.rows.length;
+    };
+    form.addEventListener("submit", (event) => event.preventDefault());
+    form.addEventListener("input", apply);
+    form.hidden = false;
+    apply();
+  }
+
+  for (const table of document.querySelectorAll("table[data-table]")) {
+    const body = table.tBodies[0];
+    const entry = { table, body, rows: [...body.rows], heads: [...table.tHead.rows[0].cells], listeners: [] };
+    tables.set(table.dataset.table, entry);
+    addEventListener("resize", () => thaw(entry));
+    entry.heads.forEach((head, column) => {
+      const button = make("button", { type: "button" }, head.textContent);
+      head.replaceChildren(button);
+      button.addEventListener("click", () => sortBy(entry, column));
+    });
+  }
+  for (const form of document.querySelectorAll("form[data-filters]")) {
+    if (tables.has(form.dataset.filters)) addFilters(form, tables.get(form.dataset.filters));
+  }
+
+  // ---- what charts share ----
+  if (typeof d3 === "undefined") return;
+  const palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8C8C8C"];
+  const hint = make("div", { class: "hint", role: "status" });
+  hint.hidden = true;
+  document.body.append(hint);
+  function say(text, event) {
+    hint.textContent = text;
+    hint.hidden = false;
+    const box = hint.getBoundingClientRect();
+    hint.style.left = Math.max(4, Math.min(event.clientX + 14, innerWidth - box.width - 8)) + "px";
+    hint.style.top = Math.max(4, Math.min(event.clientY + 14, innerHeight - box.height - 8)) + "px";
+  }
+  const hush = () => { hint.hidden = true; };
+  const written = (value, unit) => (unit === "share" ? d3.format(".3~g")(100 * value) + " %" : d3.format(".4~g")(value));
+  const shownRows = (entry) => entry.rows.filter((row) => !row.hidden);
+  const nameOf = (row) => row.cells[0].textContent;
+  const familyColour = (entry) => {
+    const families = [...new Set(entry.rows.map((row) => row.dataset.family || ""))].sort();
+    return (row) => palette[families.indexOf(row.dataset.family || "") % palette.length];
+  };
+  // Swatches by SVG, since a policy of the host may forbid style attributes.
+  function familyKey(entry) {
+    const key = make("span");
+    const seen = new Set();
+    const colour = familyColour(entry);
+    for (const row of entry.rows) {
+      const family = row.dataset.family;
+      if (!family || seen.has(family)) continue;
+      seen.add(family);
+      const label = make("span", { class: "family" });
+      const swatch = d3.create("svg").attr("class", "swatch").attr("viewBox", "0 0 10 10").attr("aria-hidden", "true");
+      swatch.append("circle").attr("cx", 5).attr("cy", 5).attr("r", 5).attr("fill", colour(row));
+      label.append(swatch.node(), family);
+      key.append(label);
+    }
+    return key;
+  }
+  const go = (row) => {
+    const link = row.querySelector("a[href]");
+    if (link) location.href = link.href;
+    else point(row);
+  };
+  function point(row) {
+    for (const lit of document.querySelectorAll("tr.lit")) lit.classList.remove("lit");
+    row.classList.add("lit");
+    const folded = row.closest("details");
+    if (folded) folded.open = true;
+    row.scrollIntoView({ block: "center" });
+  }
+
+  // Logarithmic where all is above 0 and spans a decade; zeros lie on a floor below the rest.
+  function scaleOf(values, range, logarithmic) {
+    const above = values.filter((value) => value > 0);
+    const log = logarithmic !== false && above.length > 0 && values.every((value) => value >= 0) &&
+      (logarithmic || d3.max(above) / d3.min(above) > 10);
+    if (!log) {
+      const [low, high] = d3.extent(values.length ? values : [0, 1]);
+      const room = (high - low || Math.abs(high) || 1) * 0.05;
+      const linear = d3.scaleLinear().domain([low - room, high + room]).range(range);
+      return { at: linear, axis: linear, log: false };
+    }
+    const low = d3.min(above), zeros = above.length < values.length;
+    const floor = low / 3;
+    const axis = d3.scaleLog().domain([zeros ? floor / 1.3 : low / 1.25, d3.max(above) * 1.25]).range(range).clamp(true);
+    return { at: (value) => axis(value > 0 ? value : floor), axis, log: true, floor: zeros ? floor : 0 };
+  }
+  function drawAxis(group, scale, side, unit, length) {
+    const make = side === "x" ? d3.axisBottom : d3.axisLeft;
+    const axis = make(scale.axis).tickSize(-length).tickPadding(7);
+    if (scale.log) axis.ticks(5, "~g");
+    else axis.ticks(6);
+    const short = (value) => (unit === "share" ? d3.format(".3~g")(100 * value) + " %" : d3.format(".4~g")(value));
+    if (scale.log) {
+      let ticks = scale.axis.ticks(6).filter((value) => /^[125]/.test(value.toExponential()));
+      if (ticks.length > 9) ticks = ticks.filter((value) => /^1/.test(value.toExponential()));
+      if (scale.floor) ticks = [scale.floor, ...ticks.filter((value) => value > scale.floor * 1.5)];
+      axis.tickValues(ticks).tickFormat((value) => (value === scale.floor ? short(0) : short(value)));
+    } else axis.tickFormat(short);
+    group.attr("class", "grid").call(axis);
+  }
+  function canvas(figure, height) {
+    const old = figure.querySelector("svg.plot");
+    if (old) old.remove();
+    const image = figure.querySelector("img");
+    figure.hidden = false;
+    if (image) image.hidden = true;
+    const width = Math.max(340, Math.min(1100, figure.clientWidth || 900));
+    const svg = d3.create("svg").attr("class", "plot").attr("viewBox", [0, 0, width, height]).attr("role", "img").attr("aria-label", image ? image.alt : "");
+    figure.insertBefore(svg.node(), figure.querySelector("figcaption"));
+    return { svg, width, height, left: 66, right: 18, top: 16, bottom: 46 };
+  }
+  function labels(area, x, y) {
+    area.svg.append("text").attr("x", (area.left + area.width - area.right) / 2).attr("y", area.height - 8).attr("text-anchor", "middle").text(x);
+    area.svg.append("text").attr("transform", "rotate(-90)").attr("x", -(area.top + area.height - area.bottom) / 2).attr("y", 15).attr("text-anchor", "middle").text(y);
+  }
+
+  // ---- accuracy against cost, or any two columns ----
+  function scatter(figure, entry) {
+    const columns = entry.heads.map((head, column) => ({ column, key: head.dataset.key, unit: head.dataset.unit, title: head.textContent }))
+      .filter(({ column }) => entry.rows.some((row) => !Number.isNaN(valueOf(row.cells[column]))));
+    if (columns.length < 2) return;
+    const bar = make("div", { class: "axes" });
+    const select = (label, key) => {
+      const element = make("select");
+      columns.forEach((column, i) => element.append(make("option", { value: i }, column.title)));
+      const found = columns.findIndex((column) => column.key === key);
+      element.value = String(Math.max(0, found));
+      const around = make("label", {}, label + " ");
+      around.append(element);
+      bar.append(around);
+      return element;
+    };
+    const across = select("across", figure.dataset.x), up = select("up", figure.dataset.y);
+    bar.append(make("span", {}, "● within tolerance, ○ not, □ draws no shadow; line: nothing errs less for less"));
+    bar.append(familyKey(entry));
+    figure.prepend(bar);
+    const colour = familyColour(entry);
+    // As the program judges it (`dominates`): times count with the interval of their rounds.
+    const beats = (a, b) => (a.y <= b.y && a.x * (1 + a.spread) < b.x * (1 - b.spread)) ||
+      (a.y < b.y && !(a.x * (1 - a.spread) > b.x * (1 + b.spread)));
+
+    function draw() {
+      const x = columns[across.value], y = columns[up.value];
+      const points = shownRows(entry).map((row) => ({ row, x: valueOf(row.cells[x.column]), y: valueOf(row.cells[y.column]),
+        spread: x.key === "cost.time.ratio" ? Number(row.dataset.spread) || 0 : 0 })).filter((p) => !Number.isNaN(p.x) && !Number.isNaN(p.y));
+      const area = canvas(figure, 460);
+      const limit = y.key === figure.dataset.y && figure.dataset.tolerance ? Number(figure.dataset.tolerance) : NaN;
+      const sx = scaleOf(points.map((p) => p.x), [area.left, area.width - area.right]);
+      const sy = scaleOf(points.map((p) => p.y).concat(Number.isNaN(limit) ? [] : [limit]), [area.height - area.bottom, area.top]);
+      drawAxis(area.svg.append("g").attr("transform", `translate(0,${area.height - area.bottom})`), sx, "x", x.unit, area.height - area.top - area.bottom);
+      drawAxis(area.svg.append("g").attr("transform", `translate(${area.left},0)`), sy, "y", y.unit, area.width - area.left - area.right);
+      labels(area, x.title === "cost" ? "cost: frame time as a multiple of sm-uniform's" : x.title, y.title);
+      const front = points.filter((p) => !points.some((q) => beats(q, p))).sort((a, b) => a.x - b.x || b.y - a.y);
+      if (!Number.isNaN(limit)) area.svg.append("line").attr("class", "limit").attr("x1", area.left).attr("x2", area.width - area.right).attr("y1", sy.at(limit)).attr("y2", sy.at(limit));
+      area.svg.append("path").attr("class", "front").attr("d", d3.line().x((p) => sx.at(p.x)).y((p) => sy.at(p.y)).curve(d3.curveStepAfter)(front));
+      const placed = [];
+      for (const p of front.filter((q) => q.row.dataset.baseline !== "yes")) {
+        const left = sx.at(p.x) > area.width * 0.62, width = nameOf(p.row).length * 5.8;
+        const at = { x: sx.at(p.x) + (left ? -10 - width : 10), y: sy.at(p.y) - 8, width };
+        if (placed.some((q) => Math.abs(q.y - at.y) < 12 && at.x < q.x + q.width && q.x < at.x + at.width)) continue;
+        placed.push(at);
+        area.svg.append("text").attr("class", "name").attr("x", at.x).attr("y", at.y).text(nameOf(p.row).slice(0, 48));
+      }
+      const symbol = (p) => d3.symbol().size(75).type(p.row.dataset.baseline === "yes" ? d3.symbolSquare : d3.symbolCircle)();
+      area.svg.append("g").selectAll("a").data(points).join("path").attr("class", "dot").attr("d", symbol)
+        .attr("transform", (p) => `translate(${sx.at(p.x)},${sy.at(p.y)})`).attr("stroke", (p) => colour(p.row))
+        .attr("fill", (p) => (p.row.dataset.within === "yes" && p.row.dataset.baseline !== "yes" ? colour(p.row) : "transparent"))
+        .attr("tabindex", 0).attr("role", "link").attr("aria-label", (p) => `${nameOf(p.row)}, ${x.title} ${written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`)
+        .on("click", (p) => go(p.row)).on("keydown", (p) => { if (d3.event.key === "Enter") go(p.row); })
+        .on("mousemove", (p) => say(`${nameOf(p.row)}\n${p.row.cells[0].title}\n${x.title} ${written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`, d3.event))
+        .on("mouseout", hush);
+    }
+    across.addEventListener("input", draw);
+    up.addEventListener("input", draw);
+    entry.listeners.push(draw);
+    addEventListener("resize", draw);
+    draw();
+  }
+
+  // ---- a curve a row over the columns that stand for numbers ----
+  function lines(figure, entry) {
+    const columns = entry.heads.map((head, column) => ({ column, x: Number.parseFloat(head.dataset.key), title: head.textContent, unit: head.dataset.unit }))
+      .filter(({ x }) => !Number.isNaN(x));
+    if (columns.length < 2) return;
+    const breakColumn = entry.heads.findIndex((head) => head.textContent === "breaks at");
+    const colour = familyColour(entry);
+    const limit = figure.dataset.tolerance ? Number(figure.dataset.tolerance) : NaN;
+    const key = make("div", { class: "axes" });
+    key.append(familyKey(entry));
+    figure.prepend(key);
+    function draw() {
+      const curves = shownRows(entry).map((row) => ({ row, breaks: breakColumn < 0 ? NaN : valueOf(row.cells[breakColumn]),
+        points: columns.map((c) => ({ x: c.x, title: c.title, y: valueOf(row.cells[c.column]) })).filter((p) => !Number.isNaN(p.y)) }))
+        .filter((curve) => curve.points.length > 0);
+      const values = [].concat(...curves.map((curve) => curve.points.map((p) => p.y)));
+      const area = canvas(figure, 420);
+      if (area.width > 600) area.right = 190;
+      const sx = scaleOf(columns.map((c) => c.x), [area.left, area.width - area.right], figure.dataset.xlog === "yes");
+      const sy = scaleOf(values.concat(Number.isNaN(limit) ? [] : [limit]), [area.height - area.bottom, area.top]);
+      const unit = columns[0].unit;
+      drawAxis(area.svg.append("g").attr("transform", `translate(0,${area.height - area.bottom})`), sx, "x", "1", area.height - area.top - area.bottom);
+      drawAxis(area.svg.append("g").attr("transform", `translate(${area.left},0)`), sy, "y", unit, area.width - area.left - area.right);
+      labels(area, figure.dataset.xlabel || "", figure.dataset.ylabel || "");
+      if (!Number.isNaN(limit)) area.svg.append("line").attr("class", "limit").attr("x1", area.left).attr("x2", area.width - area.right).attr("y1", sy.at(limit)).attr("y2", sy.at(limit));
+      const line = d3.line().x((p) => sx.at(p.x)).y((p) => sy.at(p.y));
+      const groups = area.svg.append("g").selectAll("g").data(curves).join("g");
+      groups.append("path").attr("class", "curve").attr("stroke", (c) => colour(c.row)).attr("d", (c) => line(c.points));
+      groups.filter((c) => !Number.isNaN(c.breaks)).append("path").attr("d", d3.symbol().type(d3.symbolCross).size(70))
+        .attr("transform", (c) => { const p = c.points.find((q) => q.x === c.breaks) || c.points[0]; return `translate(${sx.at(p.x)},${sy.at(p.y)}) rotate(45)`; })
+        .attr("fill", (c) => colour(c.row));
+      let low = Infinity; // names of curves at their ends, where there is room
+      const ends = curves.map((c) => ({ c, y: sy.at(c.points[c.points.length - 1].y) })).sort((a, b) => b.y - a.y);
+      if (area.width > 600) for (const { c, y } of ends) {
+        if (low - y < 12) continue;
+        low = y;
+        area.svg.append("text").attr("class", "name").attr("x", area.width - area.right + 6).attr("y", y + 4).text(nameOf(c.row).slice(0, 30));
+      }
+      const heat = (chosen) => groups.select(".curve").classed("dim", (c) => chosen && c !== chosen).classed("hot", (c) => c === chosen);
+      groups.selectAll("circle").data((c) => c.points.map((p) => ({ c, p }))).join("circle").attr("r", 5).attr("fill", "transparent")
+        .attr("cx", ({ p }) => sx.at(p.x)).attr("cy", ({ p }) => sy.at(p.y))
+        .on("mousemove", ({ c, p }) => { heat(c); say(`${nameOf(c.row)}\n${p.title}: ${written(p.y, unit)}` + (Number.isNaN(c.breaks) ? "" : `\nbreaks at ${c.breaks}`), d3.event); })
+        .on("mouseout", () => { heat(null); hush(); }).on("click", ({ c }) => go(c.row));
+      groups.append("path").attr("d", (c) => line(c.points)).attr("fill", "none").attr("stroke", "transparent").attr("stroke-width", 9)
+        .on("mousemove", (c) => { heat(c); say(nameOf(c.row), d3.event); }).on("mouseout", () => { heat(null); hush(); }).on("click", (c) => go(c.row)).lower();
+    }
+    entry.listeners.push(draw);
+    addEventListener("resize", draw);
+    draw();
+  }
+
+  // ---- a bar a row, stacked by column ----
+  function bars(figure, entry) {
+    const columns = entry.heads.map((head, column) => ({ column, title: head.textContent, key: head.dataset.key })).filter((c) => c.key && c.key !== "total");
+    const most = (c) => d3.sum(entry.rows, (row) => valueOf(row.cells[c.column]) || 0);
+    const named = columns.slice().sort((a, b) => most(b) - most(a)).slice(0, 6).map((c) => c.title);
+    const colour = (title) => (named.includes(title) ? palette[named.indexOf(title)] : "#8C8C8C");
+    function draw() {
+      const rows = shownRows(entry).map((row) => ({ row, total: valueOf(row.cells[1]) })).sort((a, b) => a.total - b.total);
+      const area = canvas(figure, 60 + 17 * rows.length + 30);
+      area.left = Math.min(230, area.width * 0.4);
+      const totals = rows.map((r) => r.total), median = totals[Math.floor(totals.length / 2)] || 1;
+      const longest = Math.min(d3.max(totals) || 1, 4 * median); // a few cost many times what most do
+      const sx = d3.scaleLinear().domain([0, longest]).range([area.left, area.width - 64]);
+      drawAxis(area.svg.append("g").attr("transform", `translate(0,${area.height - 40})`), { axis: sx }, "x", "1", area.height - 60);
+      area.svg.append("text").attr("x", (area.left + area.width) / 2).attr("y", area.height - 6).attr("text-anchor", "middle").text((figure.dataset.unit || "") + " a frame");
+      rows.forEach(({ row, total }, i) => {
+        const y = 24 + 17 * i;
+        let from = 0;
+        const text = area.svg.append("text").attr("x", area.left - 6).attr("y", y + 10).attr("text-anchor", "end").attr("font-size", 11).text(nameOf(row).slice(0, 34));
+        text.style("cursor", "pointer").on("click", () => point(row));
+        for (const c of columns) {
+          const value = valueOf(row.cells[c.column]);
+          if (!(value > 0)) continue;
+          const to = Math.min(from + value, longest);
+          if (to > from) area.svg.append("rect").attr("x", sx(from)).attr("y", y).attr("width", sx(to) - sx(from)).attr("height", 13).attr("fill", colour(c.title))
+            .on("mousemove", () => say(`${nameOf(row)}\n${c.title}: ${written(value)} ms of ${written(total)} ms`, d3.event)).on("mouseout", hush);
+          from += value;
+        }
+        area.svg.append("text").attr("x", sx(Math.min(total, longest)) + 5).attr("y", y + 10).attr("font-size", 11).text((total > longest ? "› " : "") + written(total));
+      });
+      let x = 8;
+      for (const title of [...named, "other passes"]) {
+        area.svg.append("rect").attr("x", x).attr("y", 4).attr("width", 11).attr("height", 11).attr("fill", colour(title));
+        area.svg.append("text").attr("x", x + 15).attr("y", 14).attr("font-size", 11).text(title);
+        x += 30 + title.length * 6;
+      }
+    }
+    entry.listeners.push(draw);
+    addEventListener("resize", draw);
+    draw();
+  }
+
+  const kinds = { scatter, lines, bars };
+  for (const figure of document.querySelectorAll("figure[data-chart]")) {
+    const entry = tables.get(figure.dataset.table);
+    if (entry && kinds[figure.dataset.chart]) kinds[figure.dataset.chart](figure, entry);
+  }
+})();

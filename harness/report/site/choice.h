@@ -1,0 +1,27 @@
+// Which technique to take on a scene, and why.
+#pragma once
+
+#include "harness/records/record.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowbench::site {
+
+struct Choice {
+    std::optional<std::size_t> take; // index in the records; nothing if no technique was scored
+    bool adequate = false;           // within the scene's tolerances
+    std::string why;                 // "cheapest of 12 within tolerance"
+    std::vector<std::size_t> others; // that are within the tolerances too, by cost
+};
+
+/// The cheapest technique within all tolerances of the scene; where none was timed, the one that errs least of those within;
+/// where none is within, the one that comes nearest; without tolerances, the one of the least error. Techniques that draw no
+/// shadow do not count.
+Choice choiceFor(const std::vector<Record>& records, const std::string& scene);
+
+/// "0.5 %", "31.2 %", "0.0312": the headline error of a scored record.
+std::string errorText(const Record& record);
+
+} // namespace shadowbench::site

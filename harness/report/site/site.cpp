@@ -1,0 +1,78 @@
+#include "harness/report/site/site.h"
+
+#include "base/files.h"
+#include "harness/report/run_report.h"
+#include "harness/report/run_text.h"
+#include "harness/report/site/names.h"
+#include "harness/report/site/pages.h"
+#include "harness/report/site/viewer/cells.h"
+#include "harness/report/summary.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <tuple>
+
+namespace shadowbench::site {
+namespace {
+
+std::vector<Link> navigationOf(const Sources& sources, const std::vector<Record>& measured,
+                               const std::vector<Sweep>& sweeps) {
+    std::vector<Link> links{{"Choose", "index.html"}};
+    for (const std::string& scene : report::scenes(measured)) links.push_back({scene, sceneAddress(scene)});
+    if (!sweeps.empty()) links.push_back({"Sweeps", "sweeps.html"});
+    links.push_back({"Claims", "claims.html"});
+    if (!measured.empty()) links.push_back({"Truth", "truth.html"});
+    if (sources.base) links.push_back({"Gate", "gate.html"});
+    if (sources.findings) links.push_back({"History", "history.html"});
+    return links;
+}
+
+/// Records of one scene that were measured at another profile, size or seed than its first ones stand apart, as a scene of
+/// their own: "basic, paper, 700²". Their errors and costs are not those of the others.
+std::vector<Record> apart(std::vector<Record> records) {
+    std::map<std::string, const Record*> firsts;
+    std::vector<std::string> names;
+    for (const Record& record : records) {
+        const Record& first = *firsts.try_emplace(record.scene, &record).first->second;
+        const bool same = std::tie(first.profile, first.width, first.height, first.seed) ==
+                          std::tie(record.profile, record.width, record.height, record.seed);
+        names.push_back(same ? record.scene
+                             : fmt::format("{}, {}, {}{}", record.scene, record.profile, report::imageSize(record),
+                                           record.seed == first.seed ? "" : fmt::format(", seed {}", record.seed)));
+    }
+    for (std::size_t i = 0; i < records.size(); ++i) records[i].scene = names[i];
+    return records;
+}
+
+} // namespace
+
+std::filesystem::path writeSite(const Sources& sources, const std::filesystem::path& folder) {
+    std::vector<Record> measured = sources.records;
+    std::erase_if(measured, [](const Record& record) { return record.sweep.has_value(); });
+    const std::string command = measured.empty() ? "" : report::runCommand(measured);
+    measured = apart(std::move(measured));
+    const std::vector<Sweep> sweeps = sweepsOf(sources.records);
+    SiteWriter site(folder, navigationOf(sources, measured, sweeps));
+
+    const report::Written report = report::writeReport(measured, folder);
+    writeFile(folder / "results.csv", report::csv(sources.records));
+    addIndexPage(measured, command, sources.images, site);
+    for (const std::string& scene : report::scenes(measured))
+        addScenePage(measured, scene, sources.images, report.charts, site);
+    for (const Sweep& sweep : sweeps) addSweepPage(sweep, site);
+    if (!sweeps.empty()) addSweepList(sweeps, site);
+    addClaimPages(sources.records, sources.images, site);
+    if (!measured.empty()) addTruthPages(measured, sources.images, site);
+    if (sources.base) {
+        gate::GateOptions options;
+        options.base = sources.baseName;
+        addGatePage(comparedWith(*sources.base, sources.records), options, site);
+    }
+    if (sources.findings) addHistoryPage(*sources.findings, site);
+    writeCells(measured, sources.images, site);
+    site.writeAssets();
+    return folder / "index.html";
+}
+
+} // namespace shadowbench::site

@@ -1,0 +1,15 @@
+// What the catalogue says of a technique, for filters and captions.
+#pragma once
+
+#include <string>
+
+namespace shadowbench::site {
+
+struct TechniqueFacts {
+    std::string title;  // "Percentage-closer soft shadows"; the id of one that the catalogue lacks
+    std::string family; // its folder: "soft"; "other" of one that the catalogue lacks, "external" of another renderer
+    std::string answer; // "hard", "filtered", "soft", "colour", "other"
+};
+TechniqueFacts factsOf(const std::string& technique);
+
+} // namespace shadowbench::site

@@ -1,0 +1,167 @@
+// Whole sites, made from records.
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "harness/report/site/gate_page.h"
+#include "harness/report/site/names.h"
+#include "harness/report/site/site.h"
+#include "tests/support/report_examples.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+namespace shadowbench::site {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Values of all attributes `name` in the HTML.
+std::vector<std::string> attributes(const std::string& html, const std::string& name) {
+    std::vector<std::string> values;
+    const std::string start = " " + name + "=\"";
+    for (std::size_t at = html.find(start); at != std::string::npos; at = html.find(start, at + 1)) {
+        const std::size_t from = at + start.size();
+        values.push_back(html.substr(from, html.find('"', from) - from));
+    }
+    return values;
+}
+
+std::vector<Record> bothScenes() {
+    std::vector<Record> records = hardScene();
+    for (const Record& record : softScene()) records.push_back(record);
+    return records;
+}
+
+class Site : public testing::Test {
+protected:
+    [[nodiscard]] const fs::path& folder() const { return folder_.path(); }
+    [[nodiscard]] std::string text(const std::string& file) const { return readFile(folder() / file); }
+
+    [[nodiscard]] std::vector<fs::path> pages() const {
+        std::vector<fs::path> found;
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder()))
+            if (entry.path().extension() == ".html") found.push_back(entry.path());
+        return found;
+    }
+
+    /// Addresses on pages that lead nowhere.
+    [[nodiscard]] std::set<std::string> deadLinks() const {
+        std::set<std::string> dead;
+        for (const fs::path& page : pages()) {
+            const std::string html = readFile(page);
+            for (const char* name : {"href", "src"})
+                for (const std::string& address : attributes(html, name)) {
+                    const std::string path = address.substr(0, address.find('#'));
+                    if (path.empty() || path.starts_with("data:")) continue;
+                    if (!fs::exists(page.parent_path() / path)) dead.insert(page.filename().string() + ": " + address);
+                }
+        }
+        return dead;
+    }
+
+private:
+    TemporaryFolder folder_;
+};
+
+TEST_F(Site, HasAPageASceneAClaimAndATruthAndNoDeadLink) {
+    writeFile(folder() / "results.jsonl", "");
+    EXPECT_EQ(writeSite({.records = bothScenes()}, folder()), folder() / "index.html");
+    for (const char* file :
+         {"index.html", "scenes/dueling-frusta.html", "scenes/overlapping-occluders.html", "claims.html", "claims/K4.html",
+          "truth.html", "truth/dueling-frusta.html", "assets/d3.js", "pareto-dueling-frusta.svg",
+          "pareto-dueling-frusta.pdf", "tables/index-answers.tex", "report.md", "results.csv"})
+        EXPECT_TRUE(fs::exists(folder() / file)) << file;
+    EXPECT_EQ(deadLinks(), std::set<std::string>());
+}
+
+TEST_F(Site, AnswersOnItsFirstPageWhichTechniqueToTake) {
+    writeSite({.records = bothScenes()}, folder());
+    const std::string page = text("index.html");
+    const std::string answers =
+        page.substr(page.find("data-table=\"answers\""), page.find("</table>") - page.find("data-table=\"answers\""));
+    EXPECT_TRUE(has(answers, "sm-history:base=lispsm")) << answers;
+    EXPECT_TRUE(has(answers, "cheapest of 2 within tolerance")) << answers;
+}
+
+TEST_F(Site, ShowsEveryFigureUnroundedWithoutAScript) {
+    writeSite({.records = hardScene()}, folder());
+    const std::string page = text("scenes/dueling-frusta.html");
+    for (const char* part : {"data-v=\"0.0487\"", "data-v=\"4.7\"", "<img src=\"../pareto-dueling-frusta.svg\"",
+                             "needs an area light", "data-chart=\"scatter\""})
+        EXPECT_TRUE(has(page, part)) << part;
+    EXPECT_FALSE(has(page, "<style"));
+    EXPECT_EQ(attributes(page, "style"), std::vector<std::string>());
+    EXPECT_EQ(attributes(page, "onclick"), std::vector<std::string>());
+}
+
+TEST_F(Site, OfTheSameRecordsIsTheSameBytes) {
+    writeSite({.records = bothScenes()}, folder());
+    const TemporaryFolder other;
+    writeSite({.records = bothScenes()}, other.path());
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder())) {
+        if (!entry.is_regular_file()) continue;
+        const fs::path twin = other.path() / entry.path().lexically_relative(folder());
+        EXPECT_EQ(readFile(entry.path()), readFile(twin)) << entry.path();
+    }
+}
+
+TEST_F(Site, ShowsHostileNamesAsText) {
+    const std::string script = "\"'><script>alert(1)</script><img src=x onerror=alert(1)>", longest(1000000, 'x');
+    std::vector<Record> records = hardScene();
+    for (Record& record : records) record.scene = script;
+    records[1].variant = script;
+    records[1].technique = "NaN";
+    records[2].variant = longest;
+    records[2].profile = records[2].commit = records[2].environment.cpu = script;
+    records[3].variant = "../../../escape";
+    records[4].reason = script;
+    writeSite({.records = records}, folder());
+    EXPECT_EQ(deadLinks(), std::set<std::string>());
+    std::size_t bytes = 0;
+    for (const fs::path& page : pages()) {
+        const std::string html = readFile(page);
+        EXPECT_FALSE(has(html, "<script>")) << page;
+        EXPECT_FALSE(has(html, "<img src=x")) << page;
+        bytes += html.size();
+    }
+    EXPECT_LT(bytes, 1000000U); // the long name is cut
+    EXPECT_TRUE(has(text("index.html"), "&lt;script&gt;alert(1)&lt;/script&gt;"));
+}
+
+TEST_F(Site, OfNoRecordsSaysSo) {
+    writeSite({.records = {}}, folder());
+    EXPECT_TRUE(has(text("index.html"), "There are no records."));
+}
+
+TEST_F(Site, FitsIntoOneFileThatNeedsNoOther) {
+    writeSite({.records = bothScenes()}, folder());
+    const fs::path file = folder() / "single.html";
+    writeSingleFile(folder(), file);
+    const std::string html = readFile(file);
+    std::set<std::string> ids;
+    for (const std::string& id : attributes(html, "id")) EXPECT_TRUE(ids.insert(id).second) << id << " twice";
+    for (const char* name : {"href", "src"})
+        for (const std::string& address : attributes(html.substr(0, html.rfind("<script>")), name)) {
+            EXPECT_TRUE(address.starts_with("#") || address.starts_with("data:")) << address;
+            EXPECT_TRUE(!address.starts_with("#") || ids.contains(address.substr(1))) << address;
+        }
+    EXPECT_TRUE(has(html, "data:image/svg+xml;base64,"));
+}
+
+TEST_F(Site, ComparesWithOlderRecordsAndShowsTheWorstFirst) {
+    std::vector<Record> base = bothScenes(), head = bothScenes();
+    for (Record& record : head) record.commit = "decade";
+    head[2].values["accuracy.mismatch"] = 0.002;
+    head[1].values["accuracy.mismatch"] = 0.4;
+    writeSite({.records = head, .base = base, .baseName = "before.jsonl"}, folder());
+    const std::string page = text("gate.html");
+    EXPECT_TRUE(has(page, "Accuracy or stability is worse")) << page;
+
+    EXPECT_TRUE(has(page, "./bench run --images --cost none")) << page;
+    EXPECT_LT(page.find(">sm-uniform<"), page.find(">sm-history:base=lispsm<"));
+}
+
+} // namespace
+} // namespace shadowbench::site
