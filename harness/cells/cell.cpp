@@ -164,7 +164,6 @@ void splitErrorOverSeeds(SceneFrames& frames, const techniques::Variant& variant
 void timeCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record) {
     const auto technique = variant.entry->make(variant.parameters);
     timing::Sequence sequence{*technique, renderScored(frames, variant, *technique, seed), seed};
-    timing::settle(frames.stage(), sequence);
     timing::measureTimes(frames.stage(), variant, sequence, record);
 }
 

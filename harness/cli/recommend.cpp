@@ -89,14 +89,15 @@ void addRecommend(CLI::App& app, Action& action) {
         ->capture_default_str();
     verb->add_option("--tolerance", options.casters.tolerance,
                      "Such as mismatch=0.01, or a number alone: of mismatch under a hard light, penumbra_rmse under an area "
-                     "light; repeatable, of which technique, map and samples take the first (default: the scene's)");
+                     "light; repeatable, and all of them must hold (default: the scene's)");
     verb->add_option("--bands", options.casters.bands,
                      "Distances from the eye between which casters share a level, in m, comma-separated (default: where the "
                      "scene changes its levels)")
         ->delimiter(',');
     verb->add_option("--levels", words->levels,
                      "Triangles of an object's levels, finest first, by simplification: 600,300,150 or, if several objects "
-                     "have levels, rotors=600,300,150; repeatable (default: the scene's)");
+                     "have levels, rotors=600,300,150; repeatable (default: the scene's, and below the last a quarter "
+                     "of the triangles each, down to no caster at all)");
     verb->add_option("--frame", words->frame, "Frame number (default: the scored one)")->check(CLI::NonNegativeNumber);
     verb->add_option("--light-samples", options.casters.lightSamples,
                      "Points of an area light that the casters' levels are verified from")

@@ -122,10 +122,12 @@ double FramePasses::processorShare() const {
 
 FramePasses countPasses(const RenderFrame& render) { return measured<WorkSection>(render); }
 
-void timePasses(FramePasses& counted, const RenderFrame& render, int rounds) {
+void timePasses(FramePasses& counted, const RenderFrame& render, int rounds, double budgetMilliseconds) {
     std::vector<FramePasses> timed;
     std::vector<double> outside;
+    const double start = rasterMilliseconds();
     for (int round = 0; round < rounds; ++round) {
+        if (round > 0 && rasterMilliseconds() - start > budgetMilliseconds) break;
         timed.push_back(measured<TimeSection>(render));
         outside.push_back(timed.back().outside.milliseconds);
     }

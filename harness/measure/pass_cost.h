@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,9 @@ using RenderFrame = std::function<void(techniques::PassListener& listener)>;
 FramePasses countPasses(const RenderFrame& render);
 
 /// Renders `rounds` ≥ 1 frames more to time the passes of `counted`: medians over these, for a pass over those that it ran
-/// in.
-void timePasses(FramePasses& counted, const RenderFrame& render, int rounds);
+/// in. After the first, none begins once the budget is spent.
+void timePasses(FramePasses& counted, const RenderFrame& render, int rounds,
+                double budgetMilliseconds = std::numeric_limits<double>::infinity());
 
 /// Both.
 FramePasses measurePasses(const RenderFrame& render, int rounds);

@@ -36,7 +36,7 @@ TEST_F(Recommend, PrintsTheLevelOfEachBandAndTheTrianglesSaved) {
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("% saved"), std::string::npos) << outcome.output;
     EXPECT_NE(outcome.output.find("verified by rays"), std::string::npos) << outcome.output;
-    EXPECT_NE(outcome.output.find("720 180 80 20"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("720 180 80 20 4 0"), std::string::npos) << outcome.output;
 }
 
 TEST_F(Recommend, PrintsTheSameAsJson) {
@@ -59,7 +59,7 @@ TEST_F(Recommend, PrintsTheSameAsJson) {
 }
 
 TEST_F(Recommend, SaysWhenTheChainHasNoCoarserLevel) {
-    const Outcome outcome = recommend("--tolerance 0.5 --scene " + scene_);
+    const Outcome outcome = recommend("--tolerance 0.5 --levels 720,180 --scene " + scene_);
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("none in the chain"), std::string::npos) << outcome.output;
     EXPECT_NE(outcome.output.find("give more with --levels"), std::string::npos) << outcome.output;

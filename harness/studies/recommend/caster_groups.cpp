@@ -27,6 +27,7 @@ void requireLevels(const Scene& scene) {
 }
 
 void add(const CasterGroup& group, std::size_t level, Snapshot& snapshot) {
+    if (group.levels[level]->triangles.empty()) return;
     snapshot.batches.push_back({group.levels[level], glm::vec3(0.8F), false, group.placements});
 }
 
@@ -75,6 +76,17 @@ std::vector<Level> simplifiedChain(const std::shared_ptr<const Mesh>& finest, co
     }
     levels.back().until = std::numeric_limits<double>::infinity();
     return levels;
+}
+
+/// Adds coarser levels, the last of which casts nothing.
+void lengthen(std::vector<Level>& levels) {
+    constexpr std::size_t step = 4, least = 4; // a tetrahedron is the least that encloses anything
+    const auto last = [&] { return levels.back().mesh->triangles.size(); };
+    for (std::size_t wanted = last() / step; wanted >= least; wanted /= step) {
+        auto mesh = std::make_shared<const Mesh>(simplified(*levels.front().mesh, static_cast<int>(wanted)));
+        if (!mesh->triangles.empty() && mesh->triangles.size() < last()) levels.push_back({std::move(mesh)});
+    }
+    levels.push_back({std::make_shared<const Mesh>()});
 }
 
 } // namespace
@@ -139,6 +151,8 @@ Scene withChains(const Scene& scene, const Chains& chains) {
             throw BadInput(fmt::format("the mesh of {} cannot be simplified below {} triangles", object.name,
                                        object.levels.front().mesh->triangles.size()));
     }
+    for (Object& object : result.objects)
+        if (object.levels.size() > 1 && !chains.contains(object.name) && !chains.contains("")) lengthen(object.levels);
     return result;
 }
 

@@ -62,10 +62,12 @@ private:
 /// Levels by object name: triangles, finest first.
 using Chains = std::map<std::string, std::vector<int>>;
 
-/// The scene with the levels of the named objects replaced by simplifications of their finest one: a number of at least its
-/// triangles stands for itself, and a level that the simplifier cannot make smaller than the one before is left out. Objects
-/// keep drawing distances of no meaning: for Casters only. The name "" stands for the only object with levels. Throws
-/// BadInput for an unknown name and for numbers that do not fall.
+/// The scene with the chains that `Casters` choose from. The levels of the named objects are replaced by simplifications of
+/// their finest one: a number of at least its triangles stands for itself, and a level that the simplifier cannot make
+/// smaller than the one before is left out. The chains of all others go on below their last level, with a quarter of the
+/// triangles each time, down to no caster at all, so that none is chosen for want of a coarser one. Objects keep drawing
+/// distances of no meaning. The name "" stands for the only object with levels. Throws BadInput for an unknown name and for
+/// numbers that do not fall.
 Scene withChains(const Scene& scene, const Chains& chains);
 
 } // namespace shadowbench::recommend

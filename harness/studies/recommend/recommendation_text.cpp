@@ -38,10 +38,15 @@ std::string distances(const GroupLevel& group) {
     return fmt::format("{:g} to {:g} m", group.from, group.until);
 }
 
+/// Such a group has no coarser level anywhere.
+bool castsNothing(const GroupLevel& group) { return group.chain[group.level] == 0; }
+
 std::string groupTable(const CasterRecommendation& c) {
     report::TextTable table{{"casters", "distance", "instances", "levels", "cast at", "triangles", "one level coarser"}, {}};
     for (const GroupLevel& group : c.groups) {
-        const std::string coarser = group.coarser ? shown(group.coarser->verified, c.tolerance) : "none in the chain";
+        const std::string coarser = group.coarser         ? shown(group.coarser->verified, c.tolerance)
+                                    : castsNothing(group) ? "there is none"
+                                                          : "none in the chain";
         table.rows.push_back({group.object, distances(group), fmt::format("{}", group.instances),
                               fmt::format("{}", fmt::join(group.chain, " ")), fmt::format("{}", group.chain[group.level]),
                               fmt::format("{}", group.triangles()), coarser});
@@ -49,22 +54,26 @@ std::string groupTable(const CasterRecommendation& c) {
     return report::aligned(table);
 }
 
-/// How many groups could cast at a coarser level.
+/// How many groups could cast at a coarser level of their chain, and how many are at its end and cast all the same.
 std::size_t coarserLevels(const CasterRecommendation& c) {
     return static_cast<std::size_t>(
         std::ranges::count_if(c.groups, [](const GroupLevel& g) { return g.coarser.has_value(); }));
 }
 
+std::size_t endsOfChains(const CasterRecommendation& c) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(c.groups, [](const GroupLevel& g) { return !g.coarser && !castsNothing(g); }));
+}
+
 std::string verification(const CasterRecommendation& c) {
     std::string line = fmt::format("{} by {}: at these levels {}", c.verified ? "verified" : "NOT VERIFIED", c.verifier,
                                    shown(c.verifiedErrors, c.tolerance));
-    const std::size_t coarser = coarserLevels(c);
-    if (c.verified && coarser > 0) line += ", with any one group a level coarser above tolerance";
-    if (coarser < c.groups.size())
+    if (c.verified && coarserLevels(c) > 0) line += ", with any one group a level coarser above tolerance";
+    if (const std::size_t ends = endsOfChains(c); ends > 0)
         line +=
             fmt::format("; {} of {} groups cast at the end of their chain, and nothing says that a coarser level would not "
                         "do: give more with --levels",
-                        c.groups.size() - coarser, c.groups.size());
+                        ends, c.groups.size());
     return line;
 }
 

@@ -129,6 +129,24 @@ TEST(Casters, OfASceneWithoutLevelsAreAnError) {
     EXPECT_THROW(Casters(loadScene("trees", Profile::Gate), 0, {9, 7}), BadInput);
 }
 
+TEST(Chains, GoOnDownToNoCasterAtAll) {
+    const Scene windmills = loadScene("windmills", Profile::Gate);
+    const auto triangles = [&](const Chains& chains) {
+        const Scene scene = withChains(windmills, chains);
+        std::vector<std::vector<std::size_t>> all;
+        for (std::size_t i = 1; i < 3; ++i) {
+            all.emplace_back();
+            for (const Level& level : scene.objects[i].levels) all.back().push_back(level.mesh->triangles.size());
+        }
+        return all;
+    };
+    const auto longer = triangles({});
+    EXPECT_GT(longer[0].size(), windmills.objects[1].levels.size());
+    EXPECT_EQ(longer[0].back(), 0U);
+    EXPECT_TRUE(std::ranges::is_sorted(longer[0], std::greater<>()));
+    EXPECT_EQ(triangles({{"rotors", {600, 300}}})[1], (std::vector<std::size_t>{600, 300})); // as asked for
+}
+
 TEST(Chains, ReplaceTheLevelsOfAnObject) {
     const Scene simple = loadScene("simple", Profile::Gate);
     const std::vector<Level> levels = withChains(simple, {{"", {500, 180, 80}}}).objects[1].levels;
