@@ -39,7 +39,7 @@ void expectOneLine(const Outcome& outcome, int code, const std::string& text) {
 }
 
 TEST_F(Gl, BothPlatformsDrawTheSameImagesAndSayWhichDrewThem) {
-    const std::string rows = "--technique sm-uniform --technique pcss --technique volume-zfail --technique vsm --technique "
+    const std::string rows = "--technique sm-uniform --technique pcf --technique volume-zfail --technique vsm --technique "
                              "sm-alias-free ";
     ASSERT_EQ(run("", rows + "--gl osmesa", "osmesa").code, 0);
     ASSERT_EQ(run("", rows + "--gl egl", "egl").code, 0);
