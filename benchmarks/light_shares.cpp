@@ -48,7 +48,7 @@ std::vector<Named> namedScenes(const std::vector<std::string>& chosen) {
     for (const std::string& id : chosen.empty() ? builtinScenes() : chosen) {
         const Scene scene = loadScene(id, Profile::Gate);
         if (scene.light.kind == LightKind::Rectangle || scene.light.kind == LightKind::Disk)
-            found.push_back({id, snapshot(scene, scene.timeline.still - 1), scene.size});
+            found.push_back({scene.id, snapshot(scene, scene.timeline.still - 1), scene.size});
     }
     const std::size_t rectangles = found.size();
     for (std::size_t i = 0; chosen.empty() && i < rectangles && found.size() < wantedScenes; ++i) {

@@ -31,7 +31,8 @@ public:
 
     /// Proportional to the irradiance through the part; the factor is the light's radiance over the receiver's normal.
     [[nodiscard]] double irradiance(const LightPart& part) const { return irradiance(part, mostCuts); }
-    [[nodiscard]] double solidAngle(const LightPart& part) const; // steradian
+    /// Steradian. Near the light it errs by some 1e-16 over the share of the light's size that the point is away.
+    [[nodiscard]] double solidAngle(const LightPart& part) const;
     [[nodiscard]] double of(Share share, const LightPart& part) const {
         return share == Share::Irradiance ? irradiance(part) : solidAngle(part);
     }
