@@ -58,12 +58,12 @@ std::vector<Undone> turnsOf(const Image<float>& v) {
     std::vector<Undone> all;
     all.push_back({"upside down", "flipped", rearranged(v, [&](int x, int y) { return v(x, bottom - y); })});
     all.push_back({"mirrored", "left and right are swapped", rearranged(v, [&](int x, int y) { return v(right - x, y); })});
-    all.push_back({"turned by half a turn", "turned back",
-                   rearranged(v, [&](int x, int y) { return v(right - x, bottom - y); })});
+    all.push_back(
+        {"turned by half a turn", "turned back", rearranged(v, [&](int x, int y) { return v(right - x, bottom - y); })});
     if (v.width() == v.height())
         all.push_back({"transposed", "rows and columns are swapped", rearranged(v, [&](int x, int y) { return v(y, x); })});
-    all.push_back({"inverted (1 is lit, 0 is shadow)", "subtracted from 1",
-                   rearranged(v, [&](int x, int y) { return 1 - v(x, y); })});
+    all.push_back(
+        {"inverted (1 is lit, 0 is shadow)", "subtracted from 1", rearranged(v, [&](int x, int y) { return 1 - v(x, y); })});
     return all;
 }
 
@@ -186,7 +186,7 @@ std::optional<Finding> uniform(const Compared& compared) {
     }
     if (high - low > nearlyNothing || lit + shadowed == 0) return {};
     const double all = static_cast<double>(lit + shadowed);
-    if (high < nearlyNothing && static_cast<double>(lit) > most * all)
+    if (high<nearlyNothing&& static_cast<double>(lit)> most * all)
         return Finding{fmt::format("is black: no receiver has light, and {:.2g} % of them should",
                                    100 * static_cast<double>(lit) / all),
                        true};
@@ -228,11 +228,12 @@ std::optional<Finding> shifted(const Compared& compared) {
     if (by == std::pair(0, 0)) return {};
     const Votes found = votes(before, best, compared.labels);
     const double share = sumOf(best) / sumOf(before);
-    if (found.better < enoughAre || found.worse > found.better / 3 || share > 0.8) return {};
+    if (found.better < enoughAre || found.worse > found.better / 2 || share > 0.85) return {};
     const double was = asError(sumOf(before) / count, compared.labels), is = asError(sumOf(best) / count, compared.labels);
     return Finding{fmt::format("looks shifted by ({}, {}) pixels: {} when moved back, in {} of {} parts of the image with "
                                "shadow edges",
-                               by.first, by.second, fall(was, is, compared.labels), found.better, found.better + found.worse),
+                               by.first, by.second, fall(was, is, compared.labels), found.better,
+                               found.better + found.worse),
                    found.worse <= found.better / 5 && share <= 0.65};
 }
 
@@ -271,9 +272,9 @@ std::optional<Finding> ofAnotherFrame(const Compared& compared, const std::vecto
         const double after = errorOf({compared.v, other.truth, compared.scored, compared.labels});
         if (after >= least || !halves(before, after, compared.labels)) continue;
         least = after;
-        best = Finding{fmt::format("looks like frame {}: {} against its truth", other.frame,
-                                   fall(before, after, compared.labels)),
-                       true};
+        best = Finding{
+            fmt::format("looks like frame {}: {} against its truth", other.frame, fall(before, after, compared.labels)),
+            true};
     }
     return best;
 }
