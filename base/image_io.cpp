@@ -91,8 +91,8 @@ void writePng(const fs::path& file, const Image<glm::vec3>& colour) {
 ImageHeader imageHeader(const fs::path& file) {
     const auto input = openImage(file);
     const OIIO::ImageSpec& spec = input->spec();
-    const bool window = spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
-                        spec.height != spec.full_height;
+    const bool window =
+        spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width || spec.height != spec.full_height;
     return {.format = input->format_name(),
             .width = spec.width,
             .height = spec.height,

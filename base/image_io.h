@@ -32,7 +32,7 @@ struct ImageHeader {
     int alpha = -1;                    // index of that channel; −1: there is none
     int bits = 0;                      // of a number
     bool floats = false;               // else integers
-    bool whole = true; // one flat picture from (0, 0) on; no window of a larger one, no depth samples
+    bool whole = true;                 // one flat picture from (0, 0) on; no window of a larger one, no depth samples
 };
 
 /// Reads the header alone. Throws BadInput for a missing or unreadable file.
@@ -41,8 +41,8 @@ ImageHeader imageHeader(const std::filesystem::path& file);
 /// Names of the channels of an EXR or PNG. Throws BadInput for a missing or unreadable file.
 std::vector<std::string> channelNames(const std::filesystem::path& file);
 
-/// Reads one channel (by index) of an EXR, PNG or PFM as linear values; integers are divided by their maximum, no gamma applied.
-/// Throws BadInput for a missing or unreadable file and for a channel that is not there.
+/// Reads one channel (by index) of an EXR, PNG or PFM as linear values; integers are divided by their maximum, no gamma
+/// applied. Throws BadInput for a missing or unreadable file and for a channel that is not there.
 Image<float> readChannel(const std::filesystem::path& file, int channel);
 
 /// The same by the channel's name: OpenEXR keeps channels sorted by name, so that the order of writing says nothing about

@@ -11,7 +11,8 @@
 
 namespace shadowbench {
 
-/// What a cell leaves beside its record: its images of visibility by frame, from the scored one on, and what is true of that.
+/// What a cell leaves beside its record: its images of visibility by frame, from the scored one on, and what is true of
+/// that.
 struct CellImages {
     std::map<int, Image<float>> frames;
     const groundtruth::Reference* reference = nullptr;

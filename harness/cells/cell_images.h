@@ -11,8 +11,8 @@ namespace shadowbench {
 /// dark background outside the receivers.
 Image<glm::vec3> errorPicture(const Image<float>& v, const groundtruth::Reference& truth);
 
-/// Writes <folder>/{visibility,reference,error}.{exr,png} of the scored frame and, where others move after it, all of them as
-/// frame-<index>.exr, which `score` reads.
+/// Writes <folder>/{visibility,reference,error}.{exr,png} of the scored frame and, where others move after it, all of them
+/// as frame-<index>.exr, which `score` reads.
 void writeCellImages(const std::filesystem::path& folder, const CellImages& images);
 
 /// A variant's name as a file name: "pcss:taps=32+32" → "pcss_taps=32+32".

@@ -176,12 +176,13 @@ ImageScores::ImageScores(SceneFrames& frames, const Judgement& judgement, Receiv
     : frames_(frames), judgement_(judgement), receivers_(std::move(receivers)), variant_(std::move(variant)) {
     const bool remembers = judgement.stillFrames || judgement.remembers;
     const Truth areas = judgement.pixelAreas ? Truth::PixelArea : judgement.truth;
-    sequences_ = std::make_unique<Sequences>(Sequences{
-        {}, MovingFrameScores(judgement.truth, remembers), MovingFrameScores(areas, remembers)});
+    sequences_ = std::make_unique<Sequences>(
+        Sequences{{}, MovingFrameScores(judgement.truth, remembers), MovingFrameScores(areas, remembers)});
     if (!judgement.stillFrames) return;
     Truths& truths = frames.truths();
     sequences_->still.emplace(truths.at(judgement.truth, frames.scored()),
-                              truths.at(gradedBy(frames.scene(), judgement), frames.scored()), judgement.truth == Truth::Hard);
+                              truths.at(gradedBy(frames.scene(), judgement), frames.scored()),
+                              judgement.truth == Truth::Hard);
 }
 
 ImageScores::~ImageScores() = default;

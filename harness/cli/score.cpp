@@ -71,9 +71,10 @@ foreign::ForeignRow rowOf(const ScoreWords& words, const Scene& scene) {
     const std::vector<int> frames = framesOf(words, scene);
     const std::size_t images = words.images.size();
     if (frames.size() != images)
-        throw BadInput(fmt::format("{} images and {} frames: name the frame of each image by --frame, in the same order; scene "
-                                   "{} is scored on {} frames",
-                                   images, frames.size(), scene.id, scoredFrames(scene).size()));
+        throw BadInput(
+            fmt::format("{} images and {} frames: name the frame of each image by --frame, in the same order; scene "
+                        "{} is scored on {} frames",
+                        images, frames.size(), scene.id, scoredFrames(scene).size()));
     for (std::size_t i = 0; i < images; ++i)
         row.frames.push_back({.frame = frames[i],
                               .image = words.images[i],
@@ -149,8 +150,9 @@ void addScore(CLI::App& app, Action& action) {
     verb->add_option("--means", words->means, "What the images show")
         ->required()
         ->type_name("TEXT:{hard,area,irradiance,solid-angle}");
-    verb->add_option("--lit", words->lit, "The same pictures without shadows: --image are then shaded pictures, and visibility "
-                                          "is (image - unlit) / (lit - unlit)");
+    verb->add_option("--lit", words->lit,
+                     "The same pictures without shadows: --image are then shaded pictures, and visibility "
+                     "is (image - unlit) / (lit - unlit)");
     verb->add_option("--unlit", words->unlit, "The same without that light (default: black)");
     verb->add_option("--hits", words->hits, "Where the renderer saw something: > 0.5 of its hit mask");
     verb->add_option("--depth", words->depth, "How far what it saw was, in metres");
@@ -158,19 +160,21 @@ void addScore(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"z", "distance"}))
         ->capture_default_str();
     CLI::Option* linear = verb->add_flag("--linear", words->linear, "The numbers are linear (default of EXR and PFM)");
-    verb->add_flag("--srgb", words->srgb, "The numbers are sRGB-encoded; an 8 or 16 bit file must be said to be one or the other")
+    verb->add_flag("--srgb", words->srgb,
+                   "The numbers are sRGB-encoded; an 8 or 16 bit file must be said to be one or the other")
         ->excludes(linear);
-    verb->add_option("--channel", words->channel, "Channel of the images (default: the only one, or the grey of R, G and B)");
+    verb->add_option("--channel", words->channel,
+                     "Channel of the images (default: the only one, or the grey of R, G and B)");
     verb->add_option("--name", words->id, "Name of the row: its technique is external:NAME")->capture_default_str();
     verb->add_option("--renderer", words->renderer, "What drew the images, with its version and device, for the record");
     verb->add_flag("--history", words->history, "The renderer keeps a history from frame to frame: look for ghosts");
     verb->add_flag("--leave-out-edges", words->leaveOutEdges, "Score nothing where geometry has edges");
-    verb->add_flag("--as-it-is", words->asItIs, "Score what looks black, flipped, shifted or wrongly encoded, with a warning");
+    verb->add_flag("--as-it-is", words->asItIs,
+                   "Score what looks black, flipped, shifted or wrongly encoded, with a warning");
     addProfileOption(*verb, words->profile);
     verb->add_option("--out", words->out, "Folder of records and report; rows that it already holds stay")
         ->capture_default_str();
-    verb->add_option("--cache", words->cache,
-                     "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
+    verb->add_option("--cache", words->cache, "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     verb->add_flag("--quiet", words->quiet, "No progress");
     verb->callback([&action, words] { action = [words] { return score(*words); }; });
 }

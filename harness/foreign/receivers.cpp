@@ -16,7 +16,7 @@ using groundtruth::Surface;
 constexpr std::uint32_t anySurface = std::numeric_limits<std::uint32_t>::max(); // hit where the truth has none
 
 bool isDistance(float depth) {
-    constexpr float nothing = 1e9F; // what renderers write where nothing was hit
+    constexpr float nothing = 1e9F;      // what renderers write where nothing was hit
     return depth > 0 && depth < nothing; // false for a NaN
 }
 
@@ -137,8 +137,7 @@ const metrics::Mask& RowReceivers::scored(Truth truth) {
     if (const auto found = masks_.find(key); found != masks_.end()) return found->second;
     metrics::Mask mask = seen(truth);
     if (!leftOut_.empty()) mask = withoutPixels(mask, leftOut_);
-    if (row_.leaveOutEdges)
-        mask = withoutPixels(mask, geometryEdges(frames_.truth(truth), frames_.stage().shown().camera));
+    if (row_.leaveOutEdges) mask = withoutPixels(mask, geometryEdges(frames_.truth(truth), frames_.stage().shown().camera));
     return masks_.emplace(key, std::move(mask)).first->second;
 }
 

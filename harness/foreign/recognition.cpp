@@ -24,8 +24,12 @@ double loss(float v, float truth, bool labels) {
 /// A mean of losses as an error.
 double asError(double meanLoss, bool labels) { return labels ? meanLoss : std::sqrt(meanLoss); }
 
+std::string percent(double share) {
+    return share >= 0.1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
+}
+
 std::string fall(double before, double after, bool labels) {
-    if (labels) return fmt::format("mismatch falls from {:.2g} % to {:.2g} %", 100 * before, 100 * after);
+    if (labels) return fmt::format("mismatch falls from {} to {}", percent(before), percent(after));
     return fmt::format("the rms error falls from {:.2g} to {:.2g}", before, after);
 }
 
@@ -54,12 +58,12 @@ std::vector<Undone> turnsOf(const Image<float>& v) {
     std::vector<Undone> all;
     all.push_back({"upside down", "flipped", rearranged(v, [&](int x, int y) { return v(x, bottom - y); })});
     all.push_back({"mirrored", "left and right are swapped", rearranged(v, [&](int x, int y) { return v(right - x, y); })});
-    all.push_back({"turned by half a turn", "turned back",
-                   rearranged(v, [&](int x, int y) { return v(right - x, bottom - y); })});
+    all.push_back(
+        {"turned by half a turn", "turned back", rearranged(v, [&](int x, int y) { return v(right - x, bottom - y); })});
     if (v.width() == v.height())
         all.push_back({"transposed", "rows and columns are swapped", rearranged(v, [&](int x, int y) { return v(y, x); })});
-    all.push_back({"inverted (1 is lit, 0 is shadow)", "subtracted from 1",
-                   rearranged(v, [&](int x, int y) { return 1 - v(x, y); })});
+    all.push_back(
+        {"inverted (1 is lit, 0 is shadow)", "subtracted from 1", rearranged(v, [&](int x, int y) { return 1 - v(x, y); })});
     return all;
 }
 
@@ -145,10 +149,12 @@ float asItIs(float v) { return v; }
 
 std::optional<Finding> misencodedLabels(const Compared& compared, float (*undo)(float), const std::string& looks,
                                         const std::string& remedy) {
-    constexpr std::size_t enough = 64;
-    constexpr double notable = 0.1; // sRGB makes an even ramp brighter by 0.19 on average
+    constexpr std::size_t enough = 24;
+    constexpr double least = 0.1; // sRGB makes an even ramp brighter by 0.19 on average
     const Grey before = greyOf(compared, asItIs), after = greyOf(compared, undo);
     const double was = before.v - before.truth, is = after.v - after.truth;
+    const double chance = 0.29 / std::sqrt(static_cast<double>(before.count)); // of ramps whose centres are lit or not
+    const double notable = std::max(least, 3 * chance);
     if (before.count < enough || std::abs(was) < notable || std::abs(is) > std::abs(was) / 3) return {};
     return Finding{fmt::format("looks {}: its grey pixels are {:.2g} too {} on average, and {:.2g} when that is undone; {}",
                                looks, std::abs(was), was > 0 ? "bright" : "dark", std::abs(is), remedy),
@@ -180,7 +186,7 @@ std::optional<Finding> uniform(const Compared& compared) {
     }
     if (high - low > nearlyNothing || lit + shadowed == 0) return {};
     const double all = static_cast<double>(lit + shadowed);
-    if (high < nearlyNothing && static_cast<double>(lit) > most * all)
+    if (high<nearlyNothing&& static_cast<double>(lit)> most * all)
         return Finding{fmt::format("is black: no receiver has light, and {:.2g} % of them should",
                                    100 * static_cast<double>(lit) / all),
                        true};
@@ -222,11 +228,12 @@ std::optional<Finding> shifted(const Compared& compared) {
     if (by == std::pair(0, 0)) return {};
     const Votes found = votes(before, best, compared.labels);
     const double share = sumOf(best) / sumOf(before);
-    if (found.better < enoughAre || found.worse > found.better / 3 || share > 0.8) return {};
+    if (found.better < enoughAre || found.worse > found.better / 2 || share > 0.85) return {};
     const double was = asError(sumOf(before) / count, compared.labels), is = asError(sumOf(best) / count, compared.labels);
     return Finding{fmt::format("looks shifted by ({}, {}) pixels: {} when moved back, in {} of {} parts of the image with "
                                "shadow edges",
-                               by.first, by.second, fall(was, is, compared.labels), found.better, found.better + found.worse),
+                               by.first, by.second, fall(was, is, compared.labels), found.better,
+                               found.better + found.worse),
                    found.worse <= found.better / 5 && share <= 0.65};
 }
 
@@ -265,9 +272,9 @@ std::optional<Finding> ofAnotherFrame(const Compared& compared, const std::vecto
         const double after = errorOf({compared.v, other.truth, compared.scored, compared.labels});
         if (after >= least || !halves(before, after, compared.labels)) continue;
         least = after;
-        best = Finding{fmt::format("looks like frame {}: {} against its truth", other.frame,
-                                   fall(before, after, compared.labels)),
-                       true};
+        best = Finding{
+            fmt::format("looks like frame {}: {} against its truth", other.frame, fall(before, after, compared.labels)),
+            true};
     }
     return best;
 }

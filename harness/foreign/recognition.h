@@ -34,12 +34,13 @@ std::optional<Finding> uniform(const Compared& compared);
 /// Flipped about either axis or both, rows and columns swapped, or 1 − V. Certain where undoing it halves the error.
 std::optional<Finding> turned(const Compared& compared);
 
-/// Shifted by up to two whole pixels each way. Judged in squares of the image apart: a shift makes all of them better when it
-/// is undone, a shadow map's errors some better and some worse.
+/// Shifted by up to two whole pixels each way. Judged in squares of the image apart: a shift makes all of them better when
+/// it is undone, a shadow map's errors some better and some worse.
 std::optional<Finding> shifted(const Compared& compared);
 
 /// sRGB-encoded though taken for linear, or linear though decoded. Certain for graded truths where undoing it halves the
-/// error. Where the truth has labels the grey pixels must be too bright (too dark) on average and come right by it: suspected.
+/// error. Where the truth has labels the grey pixels must be too bright (too dark) on average and come right by it:
+/// suspected.
 std::optional<Finding> misencoded(const Compared& compared, Encoding encoding);
 
 /// Brightest receivers well below 1 though much is fully lit: a shaded picture. Suspected.

@@ -49,7 +49,8 @@ void requireId(const std::string& id) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
     });
     if (!valid)
-        throw BadInput(fmt::format("\"{}\" is no name for a row: take lower-case letters, digits, \".\", \"_\" and \"-\"", id));
+        throw BadInput(
+            fmt::format("\"{}\" is no name for a row: take lower-case letters, digits, \".\", \"_\" and \"-\"", id));
 }
 
 std::vector<int> framesOf(const ForeignRow& row) {
@@ -86,8 +87,9 @@ public:
             const metrics::Mask& mask = receivers_.scored(truth_);
             requireReceivers(mask, files);
             if (!scores)
-                scores.emplace(frames_, judgement(v, mask), [this](Truth t) -> const metrics::Mask& { return receivers_.scored(t); },
-                               record.variant);
+                scores.emplace(
+                    frames_, judgement(v, mask), [this](Truth t) -> const metrics::Mask& { return receivers_.scored(t); },
+                    record.variant);
             judge(files, v, mask);
             scores->add(files.frame, v, record);
             if (files.frame == frames_.scored()) scoreApart(files, v, mask, record);
@@ -113,7 +115,8 @@ private:
 
     void requireReceivers(const metrics::Mask& mask, const FrameFiles& files) {
         if (mask.count == 0)
-            throw BadInput(fmt::format("image {}: no pixel of frame {} is left to score", files.image.string(), files.frame));
+            throw BadInput(
+                fmt::format("image {}: no pixel of frame {} is left to score", files.image.string(), files.frame));
     }
 
     [[nodiscard]] Judgement judgement(const Image<float>& v, const metrics::Mask& mask) const {
@@ -136,6 +139,8 @@ private:
                 fmt::format("image {} (frame {}) {}", files.image.string(), files.frame, finding.sentence);
             if (finding.certain && !row_.asItIs)
                 throw BadInput(sentence + "; correct it, or say --as-it-is if it is what was meant");
+            const std::string kind = finding.sentence.substr(0, finding.sentence.find(':'));
+            if (!kinds_.insert(kind).second) continue; // said of an earlier frame
             warn(sentence);
             marks_.push_back(fmt::format("frame {} {}", files.frame, finding.sentence));
         }
@@ -152,8 +157,7 @@ private:
         const metrics::Mask inside = withoutPixels(mask, geometryEdges(truth, frames_.stage().shown().camera));
         if (inside.count == 0) return;
         const metrics::ScoredFrame frame{v, truth, inside};
-        if (truth_ == Truth::Hard)
-            record.values["off_geometry_edges.mismatch"] = metrics::labelErrors(frame).mismatch;
+        if (truth_ == Truth::Hard) record.values["off_geometry_edges.mismatch"] = metrics::labelErrors(frame).mismatch;
         record.values["off_geometry_edges.rmse"] = metrics::rmse(frame);
         record.values["off_geometry_edges.pixels"] = static_cast<double>(inside.count);
     }
@@ -163,7 +167,8 @@ private:
     std::vector<std::string>& warnings_;
     Truth truth_;
     RowReceivers receivers_;
-    std::vector<std::string> marks_;
+    std::vector<std::string> marks_; // of what is odd, for the record
+    std::set<std::string> kinds_;    // that were said
 };
 
 } // namespace
@@ -173,9 +178,10 @@ void requireScorable(const Scene& scene, const ForeignRow& row) {
     truthOf(scene, row.means);
     const std::vector<int> given = framesOf(row), all = scoredFrames(scene);
     if (given == all || given == std::vector{all.front()}) return;
-    throw BadInput(fmt::format("row {} has images of the frames {}; scene {} is scored on frame {}, or on all of {}, in this "
-                               "order",
-                               row.id, fmt::join(given, ", "), scene.id, all.front(), fmt::join(all, ", ")));
+    throw BadInput(
+        fmt::format("row {} has images of the frames {}; scene {} is scored on frame {}, or on all of {}, in this "
+                    "order",
+                    row.id, fmt::join(given, ", "), scene.id, all.front(), fmt::join(all, ", ")));
 }
 
 std::vector<std::pair<Truth, int>> truthsOf(const Scene& scene, const ForeignRow& row) {

@@ -40,9 +40,10 @@ void requireGrey(const ForeignImage& image, const Pixels& scored) {
         at = i;
     }
     if (largest > allowed)
-        throw BadInput(fmt::format("image {} is coloured: red, green and blue differ by {:.3g} at receiver pixel {}; an image "
-                                   "of visibility is grey, and of a shaded picture visibility is had with --lit and --unlit",
-                                   image.file.string(), largest, place(image.channels[0], at)));
+        throw BadInput(
+            fmt::format("image {} is coloured: red, green and blue differ by {:.3g} at receiver pixel {}; an image "
+                        "of visibility is grey, and of a shaded picture visibility is had with --lit and --unlit",
+                        image.file.string(), largest, place(image.channels[0], at)));
 }
 
 /// The channels' sum at a pixel.
@@ -74,9 +75,10 @@ void requireShares(const Image<float>& v, const Pixels& scored, const std::files
         farthest = i;
     }
     if (outside == 0) return;
-    throw BadInput(fmt::format("image {} lies outside [0, 1] at {} of {} receiver pixels, farthest at {}: {:.4g}; visibility "
-                               "is a share, and of a shaded picture it is had with --lit and --unlit",
-                               file.string(), outside, all, place(v, farthest), v[farthest]));
+    throw BadInput(
+        fmt::format("image {} lies outside [0, 1] at {} of {} receiver pixels, farthest at {}: {:.4g}; visibility "
+                    "is a share, and of a shaded picture it is had with --lit and --unlit",
+                    file.string(), outside, all, place(v, farthest), v[farthest]));
 }
 
 Visibility quotient(const ForeignImage& image, const ForeignImage& lit, const ForeignImage* unlit, const Pixels& scored) {
@@ -110,13 +112,15 @@ Visibility quotient(const ForeignImage& image, const ForeignImage& lit, const Fo
         result.v[i] = std::clamp(v, 0.0F, 1.0F);
     }
     if (20 * unknown > all)
-        throw BadInput(fmt::format("image {} is too dark to divide by at {} of {} receiver pixels: light them more, or write "
-                                   "floats",
-                                   lit.file.string(), unknown, all));
+        throw BadInput(
+            fmt::format("image {} is too dark to divide by at {} of {} receiver pixels: light them more, or write "
+                        "floats",
+                        lit.file.string(), unknown, all));
     if (100 * far > all)
-        throw BadInput(fmt::format("image {} divided by {} lies outside [0, 1] by more than 0.1 at {} of {} receiver pixels: "
-                                   "the pictures differ in more than shadows",
-                                   image.file.string(), lit.file.string(), far, all));
+        throw BadInput(
+            fmt::format("image {} divided by {} lies outside [0, 1] by more than 0.1 at {} of {} receiver pixels: "
+                        "the pictures differ in more than shadows",
+                        image.file.string(), lit.file.string(), far, all));
     return result;
 }
 

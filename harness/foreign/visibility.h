@@ -19,8 +19,8 @@ struct Visibility {
 /// The grey of `image`. Throws BadInput where its channels differ or it is transparent at a scored pixel.
 Image<float> greyOf(const ForeignImage& image, const Pixels& scored);
 
-/// Throws BadInput, with `file`, how many and how far, for scored pixels outside [0, 1] by more than the rounding of a 16-bit
-/// float.
+/// Throws BadInput, with `file`, how many and how far, for scored pixels outside [0, 1] by more than the rounding of a
+/// 16-bit float.
 void requireShares(const Image<float>& v, const Pixels& scored, const std::filesystem::path& file);
 
 /// (image − unlit) / (lit − unlit), each summed over the channels; `unlit` may be null: black. Unknown where the divisor is

@@ -1,4 +1,5 @@
 // Images of this program's own techniques, written as float EXR and scored as another renderer's, score what they scored.
+#include "base/error.h"
 #include "base/image_io.h"
 #include "base/temporary_folder.h"
 #include "harness/foreign/receivers.h"
@@ -7,6 +8,7 @@
 #include "tests/support/stages.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace shadowbench::foreign {

@@ -3,6 +3,7 @@
 #include "harness/records/record.h"
 #include "tests/support/program.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -53,13 +54,13 @@ protected:
 };
 
 TEST_F(Score, OurOwnImagesScoreWhatTheirCellsScored) {
-    const std::vector<Record> own = readRecords(own() + "/results.jsonl");
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        const Outcome outcome =
-            score("--name own --image " + image(own[i].variant, "frame-2.exr") + " " + image(own[i].variant, "frame-3.exr"),
-                  own[i].variant);
+    const std::vector<Record> cells = readRecords(own() + "/results.jsonl");
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const Outcome outcome = score("--name own --image " + image(cells[i].variant, "frame-2.exr") + " " +
+                                          image(cells[i].variant, "frame-3.exr"),
+                                      cells[i].variant);
         ASSERT_EQ(outcome.code, 0) << outcome.output;
-        const auto before = asJson(own[i]), now = asJson(records(own[i].variant).at(0));
+        const auto before = asJson(cells[i]), now = asJson(records(cells[i].variant).at(0));
         EXPECT_EQ(now["accuracy"], before["accuracy"]);
         EXPECT_EQ(now["stability"], before["stability"]);
         EXPECT_EQ(now["images"], before["images"]);
