@@ -32,6 +32,7 @@ struct Figure {
 };
 
 std::string rasteriser(const Environment& e) {
+    if (e.gl == notDrawnHere) return e.gl; // the next version of another renderer is what a series shows
     return fmt::format("{}, {}, {} raster threads, {} bits", e.renderer, e.gl, e.rasterThreads, e.vectorBits);
 }
 
