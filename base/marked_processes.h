@@ -1,5 +1,5 @@
-// Processes known by a variable of their environment, which they hand on to all that they start, wherever that goes: a process
-// group is left with setsid(), and a daemon has no parent.
+// Processes known by a variable of their environment, which they hand on to all that they start, wherever that goes: a
+// process group is left with setsid(), and a daemon has no parent.
 #pragma once
 
 #include <string>

@@ -27,7 +27,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t longestLine = 4096; // a child that never ends a line must not fill our memory
+constexpr std::size_t longestLine = 4096;    // a child that never ends a line must not fill our memory
 constexpr std::uintmax_t fullPipe = 1 << 20; // bytes, the most that a pipe holds
 
 std::string reason(int error) { return std::generic_category().message(error); }

@@ -123,6 +123,9 @@ struct Scene {
 /// World from object of an instance after `frames` frames of its object's motion.
 glm::dmat4 placeAt(const Object& object, const Instance& instance, double frames);
 
+/// Frames that are scored: the last still one and the moving ones.
+std::vector<int> scoredFrames(const Scene& scene);
+
 /// The scene at `frame`, from −Timeline::approach; levels of detail chosen by distance from the eye.
 Snapshot snapshot(const Scene& scene, int frame);
 

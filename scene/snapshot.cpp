@@ -67,6 +67,12 @@ glm::dmat4 placeAt(const Object& object, const Instance& instance, double frames
     return turn == 0 ? world : glm::rotate(world, glm::radians(turn), object.motion.axis);
 }
 
+std::vector<int> scoredFrames(const Scene& scene) {
+    std::vector<int> frames;
+    for (int frame = scene.timeline.still - 1; frame < scene.timeline.frames(); ++frame) frames.push_back(frame);
+    return frames;
+}
+
 Snapshot snapshot(const Scene& scene, int frame) {
     const double now = motionFrame(scene, frame);
     const double before = motionFrame(scene, std::max(frame - 1, -scene.timeline.approach));

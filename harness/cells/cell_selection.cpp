@@ -17,8 +17,8 @@ namespace {
 
 std::vector<techniques::Variant> matchExternal(const std::string& pattern, const ExternalTechniques* external) {
     if (external == nullptr)
-        throw BadInput(fmt::format("there is no \"{}\" without a file that describes renderers: name it with --external",
-                                   pattern));
+        throw BadInput(
+            fmt::format("there is no \"{}\" without a file that describes renderers: name it with --external", pattern));
     std::vector<techniques::Variant> matches;
     std::vector<std::string> names;
     for (const techniques::Variant& variant : external->variants()) {

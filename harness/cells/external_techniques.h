@@ -17,7 +17,8 @@ class ExternalTechniques {
 public:
     virtual ~ExternalTechniques() = default;
 
-    /// All of them, by names that begin with `externalPrefix`; valid as long as this object. Their entries make no technique.
+    /// All of them, by names that begin with `externalPrefix`; valid as long as this object. Their entries make no
+    /// technique.
     [[nodiscard]] virtual const std::vector<techniques::Variant>& variants() const = 0;
 
     /// Why a variant has no cell on the scene; nothing if it has.

@@ -79,12 +79,6 @@ groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame
     return request;
 }
 
-std::vector<int> scoredFrames(const Scene& scene) {
-    std::vector<int> frames;
-    for (int frame = scene.timeline.still - 1; frame < scene.timeline.frames(); ++frame) frames.push_back(frame);
-    return frames;
-}
-
 std::vector<std::pair<Truth, int>> askedTruths(const Scene& scene) {
     std::vector<std::pair<Truth, int>> asked;
     for (const int frame : scoredFrames(scene))

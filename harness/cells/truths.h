@@ -32,9 +32,6 @@ std::vector<Truth> truthsOf(const Light& light); // of those before Area, by whi
 /// the scene's light does not have.
 groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame);
 
-/// Frames that are scored: the last still one and the moving ones.
-std::vector<int> scoredFrames(const Scene& scene);
-
 /// All that a run of the scene asks for: truthsOf its light for each scored frame, and Area for the last still one.
 std::vector<std::pair<Truth, int>> askedTruths(const Scene& scene);
 

@@ -24,6 +24,7 @@ void addSweep(CLI::App& app, Action& action);
 void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addPapers(CLI::App& app, Action& action);
+void addExport(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addHistory(CLI::App& app, Action& action);

@@ -35,7 +35,7 @@ ExitCode dispatch(int argc, char** argv) {
 
     Action action;
     for (const auto& add : {addList, addRun, addMerge, addScore, addReference, addSweep, addRecommend, addClaims, addPapers,
-                            addCompare, addGate, addHistory, addCache, addReport, addCountFrames, addTimeFrames})
+                            addExport, addCompare, addGate, addHistory, addCache, addReport, addCountFrames, addTimeFrames})
         add(app, action);
     addDocuments(app, action);
 

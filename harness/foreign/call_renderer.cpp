@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t mostOutput = 16 << 20;                 // bytes; a verbose renderer says some MiB
+constexpr std::uintmax_t mostOutput = 16 << 20;                  // bytes; a verbose renderer says some MiB
 constexpr std::uintmax_t largestFile = std::uintmax_t{16} << 30; // bytes, of one file that it writes
-constexpr std::size_t longestQuote = 200;                       // characters of what it said
+constexpr std::size_t longestQuote = 200;                        // characters of what it said
 
 /// What can stand in one line of ours.
 std::string printable(std::string_view line) {
@@ -69,7 +69,8 @@ std::string others(const fs::path& out) {
     return printable(fmt::format("the folder holds {}{}", fmt::join(names, ", "), all > names.size() ? " …" : ""));
 }
 
-std::vector<std::string> environmentOf(const Renderer& renderer, std::vector<std::string> variables, const fs::path& scratch) {
+std::vector<std::string> environmentOf(const Renderer& renderer, std::vector<std::string> variables,
+                                       const fs::path& scratch) {
     std::vector<std::pair<std::string, std::string>> own = renderer.environment;
     own.emplace_back("TMPDIR", scratch.string()); // what it leaves there is removed
     for (const auto& [name, value] : own) {
@@ -115,11 +116,10 @@ Rendered callRenderer(const Renderer& renderer, const fs::path& scene, const std
     const TemporaryFolder scratch;
     Command command{programOf(renderer), {}, renderer.folder};
     for (std::size_t i = 1; i < renderer.command.size(); ++i)
-        command.arguments.push_back(filledIn(renderer.command[i],
-                                             {{"scene", scene.string()},
-                                              {"frames", fmt::format("{}", fmt::join(frames, ","))},
-                                              {"out", out.string()}},
-                                             renderer.isShellLine));
+        command.arguments.push_back(filledIn(
+            renderer.command[i],
+            {{"scene", scene.string()}, {"frames", fmt::format("{}", fmt::join(frames, ","))}, {"out", out.string()}},
+            renderer.isShellLine));
     command.limit = renderer.limit;
     command.cpuLimit.reset();
     command.memoryLimit.reset();

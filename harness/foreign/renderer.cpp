@@ -16,9 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono;
 
-const std::vector<std::string> keys = {"id",      "title",      "source",   "command",     "means",
-                                       "encoding", "channel",   "depth_is",  "history",     "leave_out_edges",
-                                       "as_it_is", "frames",    "time_limit", "settings", "environment"};
+const std::vector<std::string> keys = {"id",       "title",   "source",     "command",  "means",
+                                       "encoding", "channel", "depth_is",   "history",  "leave_out_edges",
+                                       "as_it_is", "frames",  "time_limit", "settings", "environment"};
 const std::vector<std::string> placeholders = {"scene", "frames", "out"};
 
 std::string textOf(const toml::node& entry) {
@@ -33,9 +33,10 @@ std::string idIn(const TomlValue& value) {
         return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '.' || c == '_' || c == '-';
     };
     if (id.empty() || !std::ranges::all_of(id, isAllowed) || id.front() == '.' || id.front() == '-')
-        value.fail(fmt::format("\"{}\" cannot be an id: it is made of lower-case letters, digits, \"_\", \".\" and \"-\", and "
-                               "begins with one of the first three",
-                               id));
+        value.fail(
+            fmt::format("\"{}\" cannot be an id: it is made of lower-case letters, digits, \"_\", \".\" and \"-\", and "
+                        "begins with one of the first three",
+                        id));
     return id;
 }
 
@@ -154,7 +155,8 @@ std::string filledIn(std::string text, const std::vector<std::pair<std::string, 
     std::string filled;
     for (std::size_t at = 0; at < text.size();) {
         const auto stands = std::ranges::find_if(values, [&](const auto& value) {
-            return text.compare(at, value.first.size() + 2, "{" + value.first + "}") == 0 && (at == 0 || text[at - 1] != '$');
+            return text.compare(at, value.first.size() + 2, "{" + value.first + "}") == 0 &&
+                   (at == 0 || text[at - 1] != '$');
         });
         if (stands == values.end()) {
             filled += text[at++];

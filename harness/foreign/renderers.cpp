@@ -79,13 +79,10 @@ std::string contentOf(const Renderer& renderer) {
 /// A complaint about images in words of a TOML file: without the folder, which is gone by the time it is read, and with keys
 /// for the options of `score`.
 std::string inWordsOfTheFile(std::string text, const fs::path& folder) {
-    const std::vector<std::pair<std::string, std::string>> words{{folder.string() + "/", ""},
-                                                                 {"--lit", "frame-…-lit"},
-                                                                 {"--unlit", "frame-…-unlit"},
-                                                                 {"--as-it-is", "`as_it_is = true`"},
-                                                                 {"--channel", "`channel`"},
-                                                                 {"--linear", "`encoding = \"linear\"`"},
-                                                                 {"--srgb", "`encoding = \"srgb\"`"}};
+    const std::vector<std::pair<std::string, std::string>> words{
+        {folder.string() + "/", ""},         {"--lit", "frame-…-lit"},   {"--unlit", "frame-…-unlit"},
+        {"--as-it-is", "`as_it_is = true`"}, {"--channel", "`channel`"}, {"--linear", "`encoding = \"linear\"`"},
+        {"--srgb", "`encoding = \"srgb\"`"}};
     for (const auto& [option, key] : words)
         for (std::size_t at = text.find(option); at != std::string::npos; at = text.find(option, at + key.size()))
             text.replace(at, option.size(), key);

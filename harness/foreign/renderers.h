@@ -9,8 +9,8 @@
 
 namespace shadowbench::foreign {
 
-/// The renderers of all files (renderer.h), each called with the environment variables that this process has now. Null for no
-/// file. Throws BadInput as readRenderers, and for an id that two files have.
+/// The renderers of all files (renderer.h), each called with the environment variables that this process has now. Null for
+/// no file. Throws BadInput as readRenderers, and for an id that two files have.
 std::shared_ptr<const ExternalTechniques> renderersOf(const std::vector<std::filesystem::path>& files);
 
 } // namespace shadowbench::foreign

@@ -16,9 +16,10 @@ namespace {
 using Json = nlohmann::json;
 
 [[noreturn]] void refuse(const std::string& what) {
-    throw Inconclusive(fmt::format("its timing.json {}; it is {{\"milliseconds\": 1.25, \"device\": \"…\"}}, or milliseconds "
-                                   "is a list of the frames' times",
-                                   what));
+    throw Inconclusive(
+        fmt::format("its timing.json {}; it is {{\"milliseconds\": 1.25, \"device\": \"…\"}}, or milliseconds "
+                    "is a list of the frames' times",
+                    what));
 }
 
 double timeIn(const Json& json) {

@@ -1,8 +1,8 @@
 #include "harness/gate/judged_cells.h"
 
 #include "base/files.h"
-#include "harness/cells/cell_selection.h"
 #include "harness/cells/cell.h"
+#include "harness/cells/cell_selection.h"
 #include "harness/cells/lod_cell.h"
 #include "harness/cells/truths.h"
 #include "harness/gate/choices.h"
@@ -245,7 +245,8 @@ std::vector<TimedCell> JudgedCells::timedCells(const MeasuredProgram& base, cons
         if (!has(base, scene)) continue;
         std::vector<std::string> known;
         std::ranges::copy_if(scene.variants, std::back_inserter(known), [&](const std::string& variant) {
-            return !isExternal(variant) && !techniques::parseVariant(variant).isLod() && base.knowsVariant(variant) && head.knowsVariant(variant);
+            return !isExternal(variant) && !techniques::parseVariant(variant).isLod() && base.knowsVariant(variant) &&
+                   head.knowsVariant(variant);
         });
         for (const std::string& variant : coveredOf(watchlist.timed, scenes, scene.id, known))
             if (!notApplicable(loadScene(scene.argument, profile), techniques::parseVariant(variant)))

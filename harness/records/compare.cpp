@@ -326,7 +326,7 @@ std::optional<std::string> whyMeaningless(const std::vector<Record>& base, const
     const auto before = programsOf(base);
     const auto& [commit, dirty, program] = before.empty() ? std::tuple<std::string, bool, std::string>() : *before.begin();
     const bool ours = std::ranges::none_of(head, isExternal); // another renderer may have changed
-    const bool known = !dirty || !program.empty(); // two trees with changes have one commit
+    const bool known = !dirty || !program.empty();            // two trees with changes have one commit
     if (!sameProgramIsMeant && ours && known && before.size() == 1 && before == programsOf(head))
         return fmt::format(
             "both are records of one program, commit {}: compared with itself it is never worse; name records "

@@ -14,7 +14,7 @@ namespace {
 constexpr int width = 960, height = 620;
 constexpr double left = 96, top = 84, bottom = 540; // of the plot, pixels, y down
 constexpr double widest = 936, besideStrip = 700;   // its right side; beside a strip of rows without a place
-constexpr glm::dvec2 letter(6.4, 16);                            // of a label at 12 points, pixels
+constexpr glm::dvec2 letter(6.4, 16);               // of a label at 12 points, pixels
 
 /// A row of a renderer whose cost is not measured here, so that it has an error and no place.
 struct External {
@@ -74,7 +74,8 @@ private:
     double right_;
 };
 
-Canvas canvas(const std::vector<Point>& all, const std::vector<External>& beside, const std::optional<double>& toleranceLine) {
+Canvas canvas(const std::vector<Point>& all, const std::vector<External>& beside,
+              const std::optional<double>& toleranceLine) {
     std::vector<double> costs, errors;
     for (const External& row : beside) errors.push_back(row.error);
     for (const Point& point : all) {
@@ -152,8 +153,7 @@ std::string strip(const std::vector<External>& rows, const Canvas& canvas) {
         script += fmt::format("set label '' at {} point pt {} ps 1.2 lw 2 lc rgb '{}'\n", Canvas::screen(named.back().at),
                               row.adequate ? 13 : 12, vermilion);
     }
-    const std::vector<PlacedLabel> placed =
-        placeLabels(named, {{x + 4, top}, {width - 4, bottom - 2}}, {}, letter);
+    const std::vector<PlacedLabel> placed = placeLabels(named, {{x + 4, top}, {width - 4, bottom - 2}}, {}, letter);
     for (std::size_t i = 0; i < placed.size(); ++i) script += labelScript(named[i], placed[i], "#444444");
     return script;
 }

@@ -114,11 +114,10 @@ Sky readSky(const TomlValue& value, const std::filesystem::path& folder) {
 Sun readSun(const TomlValue& value) {
     constexpr double kHemisphere = 180;
     value.only({"direction", "diameter", "radiance"});
-    const glm::dvec3 direction = value.get("direction").vector();
-    if (!(glm::length(direction) > 0)) value.get("direction").fail("expected a vector other than zero");
+    const glm::dvec3 direction = readDirection(value.get("direction"));
     const double diameter = value.get("diameter").positive();
     if (diameter > kHemisphere) value.get("diameter").fail(fmt::format("expected degrees, at most {:g}", kHemisphere));
-    return {glm::normalize(direction), diameter, value.get("radiance").positive()};
+    return {direction, diameter, value.get("radiance").positive()};
 }
 
 bool isBlack(const Sky& sky) {

@@ -3,7 +3,9 @@
 #include "scene/sky.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace shadowbench {
 namespace {
@@ -15,12 +17,6 @@ LightKind readKind(const TomlValue& value) {
     for (const LightKind kind : kinds) names.emplace_back(name(kind));
     const std::string word = value.oneOf(names);
     return kinds[static_cast<std::size_t>(std::find(names.begin(), names.end(), word) - names.begin())];
-}
-
-glm::dvec3 readDirection(const TomlValue& value) {
-    const glm::dvec3 direction = value.vector();
-    if (!(glm::length(direction) > 0)) value.fail("expected a vector other than zero");
-    return glm::normalize(direction);
 }
 
 /// A light that is somewhere, or a directional one.
@@ -46,6 +42,14 @@ void readLocalLight(const TomlValue& value, Scene& scene) {
 }
 
 } // namespace
+
+glm::dvec3 readDirection(const TomlValue& value) {
+    constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon(); // of a squared length, at most
+    const glm::dvec3 direction = value.vector();
+    if (!(glm::length(direction) > 0)) value.fail("expected a vector other than zero");
+    if (std::abs(glm::dot(direction, direction) - 1) <= kRounding) return direction;
+    return glm::normalize(direction);
+}
 
 void readLight(const TomlValue& value, const std::filesystem::path& folder, Scene& scene) {
     value.only({"kind", "centre", "direction", "u", "v", "path", "sky", "suns"});

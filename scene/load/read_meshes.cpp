@@ -1,4 +1,6 @@
 #include "base/error.h"
+#include "base/files.h"
+#include "scene/exchange/gltf.h"
 #include "scene/load/scene_file.h"
 #include "scene/meshes/import.h"
 #include "scene/meshes/primitives.h"
@@ -101,12 +103,12 @@ Recipe recipe(const TomlValue& value, int level) {
 } // namespace
 
 std::shared_ptr<const Mesh> MeshStore::get(const TomlValue& value, int triangles) {
-    value.only({"plane", "box", "sphere", "column", "bumpy", "windmill_tower", "windmill_rotor", "tree", "file", "closed",
-                "simplify"});
-    if (value.find("file")) return imported(value.only({"file", "closed", "simplify"}), triangles);
+    value.only({"plane", "box", "sphere", "column", "bumpy", "windmill_tower", "windmill_rotor", "tree", "file", "part",
+                "closed", "simplify"});
+    if (value.find("file")) return imported(value.only({"file", "part", "closed", "simplify"}), triangles);
     const std::vector<TomlValue> members = value.members();
     if (members.size() != 1) value.fail(fmt::format("expected one kind of mesh, got {}", members.size()));
-    if (members[0].lastKey() == "closed" || members[0].lastKey() == "simplify")
+    if (members[0].lastKey() == "closed" || members[0].lastKey() == "simplify" || members[0].lastKey() == "part")
         members[0].fail("belongs to a mesh from a file");
     return generated(members[0], triangles);
 }
@@ -121,20 +123,33 @@ std::shared_ptr<const Mesh> MeshStore::generated(const TomlValue& generator, int
     return mesh;
 }
 
+/// A file is read once, however many of its meshes a scene takes.
+const Mesh& MeshStore::partOf(const std::filesystem::path& file, const TomlValue& part) {
+    if (file.extension() != ".gltf") throw BadInput("a part is a mesh of a .gltf file, by name");
+    const auto [known, isNew] = parts_.try_emplace(file);
+    if (isNew) known->second = exchange::readGltfMeshes(file);
+    const std::string wanted = part.text();
+    if (const auto found = known->second.find(wanted); found != known->second.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [name, mesh] : known->second) names.push_back(name);
+    throw BadInput(fmt::format("{} has no mesh \"{}\"{}", file.string(), wanted, didYouMean(wanted, names)));
+}
+
 std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, int triangles) {
     const TomlValue name = value.get("file");
     const auto closed = value.find("closed");
     const auto simplify = value.find("simplify");
     if (simplify && triangles > 0) simplify->fail("the levels of lod state the triangles; leave this one out");
     const int wanted = simplify ? simplify->integer(4, kMostTriangles) : triangles;
+    const auto part = value.find("part");
     const std::filesystem::path file = folder_ / name.text();
-    std::shared_ptr<const Mesh>& mesh =
-        meshes_[fmt::format("file {} {} {}", file.string(), closed && closed->boolean(), wanted)];
+    std::shared_ptr<const Mesh>& mesh = meshes_[fmt::format("file {} {} {} {}", file.string(), closed && closed->boolean(),
+                                                            wanted, part ? "part " + part->text() : "")];
     if (mesh != nullptr) return mesh;
 
     Mesh made;
     try {
-        made = importMesh(file);
+        made = part ? partOf(file, *part) : importMesh(file);
     } catch (const BadInput& error) {
         name.fail(error.what());
     }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 
 namespace shadowbench {
 namespace {
@@ -70,8 +71,29 @@ std::vector<Level> readLevels(const TomlValue& value, MeshStore& meshes) {
     return {{meshes.get(value.get("mesh"))}};
 }
 
+/// World from object, 16 numbers column by column: a shift, a turn and one scale, so that a spin never shears the object.
+glm::dmat4 readMatrix(const TomlValue& value) {
+    constexpr double kRounding = 1e-6; // of sines and scales: that of 32-bit floats, and room
+    const std::vector<TomlValue> numbers = value.list();
+    if (numbers.size() != 16) value.fail(fmt::format("expected 16 numbers, column by column, got {}", numbers.size()));
+    glm::dmat4 matrix;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = numbers[i].number();
+    if (glm::transpose(matrix)[3] != glm::dvec4(0, 0, 0, 1))
+        value.fail("expected numbers 4, 8 and 12 to be 0 and number 16 to be 1: a shift, a turn and a scale");
+    const glm::dmat3 axes(matrix);
+    if (!(glm::determinant(axes) > 0)) value.fail("is flat or mirrors the object; expected a determinant above 0");
+    const double scale = glm::length(axes[0]);
+    for (int i = 0; i < 3; ++i)
+        if (std::abs(glm::dot(axes[i], axes[(i + 1) % 3])) > kRounding * scale * scale ||
+            std::abs(glm::length(axes[i]) - scale) > kRounding * scale)
+            value.fail("stretches or shears the object; expected a shift, a turn and one scale");
+    return matrix;
+}
+
 glm::dmat4 readPlace(const TomlValue& value) {
-    value.only({"at", "turn", "scale"});
+    value.only({"at", "turn", "scale", "matrix"});
+    if (value.find("matrix")) return readMatrix(value.only({"matrix"}).get("matrix"));
     const auto at = value.find("at"), turn = value.find("turn"), scale = value.find("scale");
     return placed(at ? at->vector() : glm::dvec3(0), turn ? turn->number() : 0.0, scale ? scale->positive() : 1.0);
 }
@@ -129,10 +151,20 @@ std::vector<glm::dmat4> readPlaces(const TomlValue& value, const glm::dvec3& eye
     return places;
 }
 
-/// Each instance's turn at rest: one for all, or its own at random.
+std::vector<double> readPhaseList(const TomlValue& list, std::size_t count) {
+    const std::vector<TomlValue> given = list.list();
+    if (given.size() != count)
+        list.fail(fmt::format("expected {} numbers, one for each instance, got {}", count, given.size()));
+    std::vector<double> phases;
+    for (const TomlValue& phase : given) phases.push_back(phase.number());
+    return phases;
+}
+
+/// Each instance's turn at rest: one for all, a list of them, or its own at random.
 std::vector<double> readPhases(const TomlValue& spin, std::size_t count) {
     const auto phase = spin.find("phase");
     if (!phase) return std::vector<double>(count, 0.0);
+    if (phase->isList()) return readPhaseList(*phase, count);
     if (!phase->isText()) return std::vector<double>(count, phase->number());
     phase->oneOf({"random"});
     std::vector<double> phases(count);
@@ -142,9 +174,7 @@ std::vector<double> readPhases(const TomlValue& spin, std::size_t count) {
 
 void readSpin(const TomlValue& spin, Object& object) {
     spin.only({"axis", "degrees_per_frame", "phase"});
-    const glm::dvec3 axis = spin.get("axis").vector();
-    if (!(glm::length(axis) > 0)) spin.get("axis").fail("expected a vector other than zero");
-    object.motion.axis = glm::normalize(axis);
+    object.motion.axis = readDirection(spin.get("axis"));
     object.motion.degreesPerFrame = spin.get("degrees_per_frame").number();
     const std::vector<double> phases = readPhases(spin, object.instances.size());
     for (std::size_t i = 0; i < phases.size(); ++i) object.instances[i].phase = phases[i];

@@ -147,6 +147,26 @@ void requireNoProblem(const TomlValue& root, const Scene& scene) {
     (inner ? *inner : section).fail(problem->sentence);
 }
 
+/// An exported scene is named by its folder (docs/exchange.md); other names stay as they are.
+fs::path sceneFileOf(const fs::path& given) {
+    std::error_code failed;
+    for (const char* other : {".gltf", ".glb", ".obj", ".ply", ".json"})
+        if (given.extension() == other)
+            throw BadInput(fmt::format("cannot load {} as a scene; name a .toml file, whose meshes may come from it, or the "
+                                       "folder of an exported scene",
+                                       given.string()));
+    if (!fs::is_directory(given, failed)) return given;
+    if (!fs::exists(given / "scene.json", failed))
+        throw BadInput(
+            fmt::format("cannot load {}: it is a folder without an exported scene; name a .toml file", given.string()));
+    std::vector<fs::path> files;
+    for (fs::directory_iterator entry(given, failed), end; !failed && entry != end; entry.increment(failed))
+        if (entry->path().extension() == ".toml") files.push_back(entry->path());
+    if (files.size() == 1) return files.front();
+    throw BadInput(fmt::format("{} has {} .toml files, where an exported scene has one; name a file", given.string(),
+                               files.empty() ? "no" : "several"));
+}
+
 } // namespace
 
 Scene parseScene(std::string_view toml, const fs::path& file, Profile profile, const std::vector<std::string>& metrics) {
@@ -185,7 +205,7 @@ Scene loadScene(const std::string& idOrFile, Profile profile, const std::vector<
     const std::vector<std::string> ids = builtinScenes();
     if (std::find(ids.begin(), ids.end(), idOrFile) != ids.end())
         return parseScene(builtinSceneText(idOrFile), "scene/library/" + idOrFile + ".toml", profile, metrics);
-    const fs::path file(idOrFile);
+    const fs::path file = sceneFileOf(idOrFile);
     std::error_code ignored;
     if (file.extension() == ".toml" || file.has_parent_path() || fs::exists(file, ignored))
         return parseScene(readFile(file), file, profile, metrics);

@@ -31,9 +31,11 @@ public:
 private:
     std::shared_ptr<const Mesh> generated(const TomlValue& generator, int triangles);
     std::shared_ptr<const Mesh> imported(const TomlValue& value, int triangles);
+    const Mesh& partOf(const std::filesystem::path& file, const TomlValue& part);
 
     std::filesystem::path folder_; // that mesh files are relative to
     std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
+    std::map<std::filesystem::path, std::map<std::string, Mesh>> parts_; // of glTF files, by name
 };
 
 /// `[light]`; `folder` is what image files are relative to.
@@ -41,6 +43,10 @@ void readLight(const TomlValue& value, const std::filesystem::path& folder, Scen
 
 /// The `sky` and the `suns` of a `[light]` that is an environment.
 EnvironmentLight readEnvironment(const TomlValue& light, const std::filesystem::path& folder);
+
+/// A vector other than zero, made of unit length. One that has it already, to rounding, stays as it is: what export writes
+/// is read as the very same numbers.
+glm::dvec3 readDirection(const TomlValue& value);
 
 /// One `[[object]]`; `eye` is where scattered instances keep clear of. `number` counts from 1.
 Object readObject(const TomlValue& value, int number, const glm::dvec3& eye, MeshStore& meshes);

@@ -27,8 +27,8 @@ protected:
     /// Our own images, which the scripts copy.
     static void SetUpTestSuite() {
         shared_ = std::make_unique<Folder>();
-        const Outcome own = shell("shadowbench run --quiet --cost none --images --technique pcf --technique none --scene " + scene() + options() +
-                                  " --out " + own_());
+        const Outcome own = shell("shadowbench run --quiet --cost none --images --technique pcf --technique none --scene " +
+                                  scene() + options() + " --out " + own_());
         ASSERT_EQ(own.code, 0) << own.output;
     }
     static void TearDownTestSuite() { shared_.reset(); }
@@ -40,8 +40,8 @@ protected:
     static std::string copies() { return "cp " + images() + "/frame-*.exr {out}"; }
 
     [[nodiscard]] Outcome run(const std::string& more) const {
-        return shell("shadowbench run --quiet --cost none --scene " + scene() + options() + " --external " + file_ + " --out " +
-                     out_ + " " + more);
+        return shell("shadowbench run --quiet --cost none --scene " + scene() + options() + " --external " + file_ +
+                     " --out " + out_ + " " + more);
     }
     [[nodiscard]] std::vector<Record> records() const { return readRecords(out_ + "/results.jsonl"); }
     [[nodiscard]] std::optional<Record> record(const std::string& variant) const {
@@ -79,7 +79,8 @@ TEST_F(External, RowScoresAsTheTechniqueThatDrewTheImages) {
     EXPECT_EQ(copy->external->reported->milliseconds, 1.25);
     EXPECT_TRUE(contains(outcome.output, "external:copy")) << outcome.output;
     const std::string page = readFile(out_ + "/report.md");
-    EXPECT_TRUE(contains(page, "as the renderers themselves report it, not measured here: external:copy 1.25 ms (a fast GPU)"));
+    EXPECT_TRUE(
+        contains(page, "as the renderers themselves report it, not measured here: external:copy 1.25 ms (a fast GPU)"));
     EXPECT_TRUE(contains(page, "external:copy: Our own (a copy)"));
     EXPECT_TRUE(contains(page, "--technique external:copy --external RENDERERS.toml")) << page;
     EXPECT_TRUE(contains(readFile(out_ + "/results.csv"), "external.reported.milliseconds"));
@@ -91,8 +92,8 @@ TEST_F(External, EachFailureIsOneLineAndHarmsNoOtherRow) {
           entry("fails", "echo no GPU >&2; exit 3") + entry("floods", "yes") + entry("nothing", "true") +
           entry("still-only", "cp " + images() + "/frame-2.exr {out}") +
           entry("half", copies() + "; for f in {out}/*; do head -c 300 $f > half; mv half $f; done") +
-          entry("small", small + "2.pfm; " + small + "3.pfm") + entry("timing", copies() + "; echo '{' > {out}/timing.json") +
-          entry("good", copies()));
+          entry("small", small + "2.pfm; " + small + "3.pfm") +
+          entry("timing", copies() + "; echo '{' > {out}/timing.json") + entry("good", copies()));
     const Outcome outcome = run("--technique pcf --technique 'external:*'");
     EXPECT_EQ(outcome.code, 5) << outcome.output;
     const auto says = [&](const std::string& id, const std::string& what) {
@@ -128,7 +129,8 @@ TEST_F(External, RowsOnTheStillFrameAloneHaveNoStability) {
 
 TEST_F(External, FinishedCellsAreKeptUntilSomethingOfThemChanges) {
     const auto calls = [&] { return readFile(folder_ / "calls"); };
-    const std::string script = folder_.write("copy.sh", "echo $1 >> calls\n" + std::string("cp ") + images() + "/frame-*.exr $2\n");
+    const std::string script =
+        folder_.write("copy.sh", "echo $1 >> calls\n" + std::string("cp ") + images() + "/frame-*.exr $2\n");
     const auto renderers = [&](const std::string& more) {
         return "[[renderer]]\nid = \"a\"\ncommand = [\"sh\", \"copy.sh\", \"{frames}\", \"{out}\", \"{scene}\"]\n" + more;
     };

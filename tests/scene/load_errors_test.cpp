@@ -36,6 +36,10 @@ std::string withObject(const std::string& body) {
     return with(kCamera, kLight, "[[object]]\n" + body + "\n"); // the body begins on line 5
 }
 
+std::string withMatrix(const std::string& numbers) {
+    return withObject("mesh = { box = { size = [2, 1, 2] } }\nplace = [{ matrix = [" + numbers + "] }]");
+}
+
 std::string withLight(const std::string& inside) { return with(kCamera, "light = { " + inside + " }\n", kObject); }
 
 std::string withCamera(const std::string& inside) { return with("camera = { " + inside + " }\n", kLight, kObject); }
@@ -122,6 +126,26 @@ const std::vector<Mistake>& mistakes() {
          "scenes/x.toml:3: light.v: is parallel to u"},
         {"SlantedDisk", withLight("kind = \"disk\", centre = [0, 5, 0], u = [1, 0, 1], v = [0, 0, 1]"),
          "scenes/x.toml:3: light.v: the diameters of a disk"},
+        {"MatrixOfTwelveNumbers", withObject("mesh = { box = { size = [2, 1, 2] } }\nplace = [{ matrix = [1, 0, 0] }]"),
+         "scenes/x.toml:6: object[1].place[1].matrix: expected 16 numbers, column by column, got 3"},
+        {"MatrixByRows", withMatrix("1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"),
+         "scenes/x.toml:6: object[1].place[1].matrix: expected numbers 4, 8 and 12 to be 0 and number 16 to be 1"},
+        {"MatrixThatMirrors", withMatrix("-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"),
+         "scenes/x.toml:6: object[1].place[1].matrix: is flat or mirrors the object"},
+        {"MatrixThatShears", withMatrix("1, 0, 0, 0, 0.3, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"),
+         "scenes/x.toml:6: object[1].place[1].matrix: stretches or shears the object"},
+        {"MatrixOfThreeScales", withMatrix("1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"),
+         "scenes/x.toml:6: object[1].place[1].matrix: stretches or shears the object"},
+        {"MatrixAndScale", withObject("mesh = { box = { size = [2, 1, 2] } }\nplace = [{ matrix = [1], scale = 2 }]"),
+         "scenes/x.toml:6: object[1].place[1].scale: unknown key"},
+        {"PhasesOfOtherInstances",
+         withObject(
+             "mesh = { box = { size = [2, 1, 2] } }\nspin = { axis = [0, 1, 0], degrees_per_frame = 1, phase = [1, 2] }"),
+         "scenes/x.toml:6: object[1].spin.phase: expected 1 numbers, one for each instance, got 2"},
+        {"PartWithoutAFile", withObject("mesh = { part = \"plate\" }"),
+         "scenes/x.toml:5: object[1].mesh.part: belongs to a mesh from a file"},
+        {"PartOfAnObj", withObject("mesh = { file = \"x.obj\", part = \"plate\" }"),
+         "scenes/x.toml:5: object[1].mesh.file: a part is a mesh of a .gltf file"},
         {"PointLightOnASurface", withLight("kind = \"point\", centre = [0.2, 0.5, 0.3]"),
          "scenes/x.toml:3: light.centre: the light lies on a surface"},
         {"AreaLightCutsASurface", withLight("kind = \"rectangle\", centre = [1, 0, 0], u = [0.5, 0, 0], v = [0, 0, 0.5]"),
@@ -242,7 +266,8 @@ TEST(LoaderErrors, AnUnknownIdNamesTheNearestSceneAndAll) {
 }
 
 TEST(LoaderErrors, AMissingFileAndAFolderAreNamed) {
-    for (const auto& [file, reason] : {std::pair{"/nowhere/x.toml", "No such file"}, std::pair{"/tmp", "it is a folder"}}) {
+    for (const auto& [file, reason] : {std::pair{"/nowhere/x.toml", "No such file"}, std::pair{"/tmp", "it is a folder"},
+                                       std::pair{"exported/scene.gltf", "folder of an exported scene"}}) {
         try {
             loadScene(file, Profile::Gate);
             ADD_FAILURE() << file << " loaded";

@@ -83,7 +83,8 @@ TEST_F(CallingARenderer, SaysHowItDied) {
 
 TEST_F(CallingARenderer, StopsOneThatFloodsItsOutputInOneLine) {
     const std::string said = failure("yes \"$(printf 'a\\033[0m%0300d' 1)\"");
-    EXPECT_TRUE(said.starts_with("its command wrote more than 16 MiB to its standard output and was killed; it last said: a [0m"))
+    EXPECT_TRUE(
+        said.starts_with("its command wrote more than 16 MiB to its standard output and was killed; it last said: a [0m"))
         << said;
     EXPECT_LT(said.size(), 350U);
 }
@@ -93,9 +94,10 @@ TEST_F(CallingARenderer, NamesWhatIsMissing) {
                                  "folder is empty");
     EXPECT_TRUE(failure("rm -r $2").ends_with("the folder is gone"));
     fs::create_directories(out());
-    EXPECT_EQ(failure(": > $2/frame-59.exr; : > $2/frame-060.exr"),
-              "its command wrote no image of frame 60 (frame-60.exr, .png or .pfm in {out}): the folder holds frame-060.exr, "
-              "frame-59.exr");
+    EXPECT_EQ(
+        failure(": > $2/frame-59.exr; : > $2/frame-060.exr"),
+        "its command wrote no image of frame 60 (frame-60.exr, .png or .pfm in {out}): the folder holds frame-060.exr, "
+        "frame-59.exr");
     EXPECT_EQ(failure(writesBoth + ": > $2/frame-59.png"),
               "its command wrote both frame-59.exr and frame-59.png: which one is meant?");
 }
@@ -114,8 +116,9 @@ TEST_F(CallingARenderer, ReadsTheCostThatItReports) {
     EXPECT_EQ(reported(R"({"milliseconds": 1.25, "device": "a GPU"})")->milliseconds, 1.25);
     EXPECT_EQ(reported(R"({"milliseconds": 1.25, "device": "a GPU"})")->device, "a GPU");
     EXPECT_EQ(reported(R"({"milliseconds": [3, 1, 2, 10]})")->milliseconds, 2.5);
-    for (const char* wrong : {"{", "[]", "{}", R"({"milliseconds": 0})", R"({"milliseconds": "1"})", R"({"milliseconds": []})",
-                              R"({"milliseconds": 1, "devise": "x"})", R"({"milliseconds": 1, "device": 3})"})
+    for (const char* wrong :
+         {"{", "[]", "{}", R"({"milliseconds": 0})", R"({"milliseconds": "1"})", R"({"milliseconds": []})",
+          R"({"milliseconds": 1, "devise": "x"})", R"({"milliseconds": 1, "device": 3})"})
         EXPECT_TRUE(failure(writesBoth + "echo '" + wrong + "' > $2/timing.json").starts_with("its timing.json ")) << wrong;
 }
 

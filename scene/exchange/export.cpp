@@ -1,0 +1,115 @@
+#include "scene/exchange/export.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/image_io.h"
+#include "scene/exchange/gltf.h"
+#include "scene/exchange/texts.h"
+#include "scene/sky.h"
+
+#include <fmt/format.h>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+namespace shadowbench::exchange {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDescription = "scene.json"; // written last: a folder that has it is complete
+
+bool isThere(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+/// The files of the export that `folder` holds, by the list in its scene.json; nothing if it holds none.
+std::vector<std::string> earlierExport(const fs::path& folder) {
+    if (!isThere(folder / kDescription)) return {};
+    const auto json = nlohmann::json::parse(readFile(folder / kDescription), nullptr, false);
+    std::vector<std::string> files;
+    if (!json.is_object() || json.value("format", nlohmann::json()) != "shadowbench-scene") return files;
+    for (const auto& file : json.value("files", nlohmann::json::array()))
+        if (file.is_string() && !fs::path(file.get<std::string>()).has_parent_path())
+            files.push_back(file.get<std::string>());
+    return files;
+}
+
+/// Nothing of the user's is overwritten: the folder is new, empty, or an earlier export's, whose files are removed.
+void clear(const fs::path& folder) {
+    if (folder.empty()) throw BadInput("cannot export into a folder without a name; name one");
+    if (!isThere(folder)) return;
+    std::error_code failed;
+    if (!fs::is_directory(folder, failed))
+        throw BadInput(fmt::format("cannot export into {}: it is a file; name a folder", folder.string()));
+    const std::vector<std::string> earlier = earlierExport(folder);
+    if (earlier.empty() && !fs::is_empty(folder, failed))
+        throw BadInput(
+            fmt::format("cannot export into {}: it holds other files; name a new or an empty folder", folder.string()));
+    for (const std::string& file : earlier)
+        if (fs::is_regular_file(folder / file, failed)) fs::remove(folder / file, failed);
+}
+
+/// Files that are all written, or none: what is there when something fails is removed again.
+class Files {
+public:
+    explicit Files(fs::path folder) : folder_(std::move(folder)), madeFolder_(!isThere(folder_)) {}
+    Files(const Files&) = delete;
+    Files& operator=(const Files&) = delete;
+    ~Files() {
+        if (complete_) return;
+        std::error_code ignored;
+        for (const std::string& name : names_) fs::remove(folder_ / name, ignored);
+        if (madeFolder_) fs::remove(folder_, ignored); // unless something else is in it
+    }
+
+    void add(const std::string& name, std::string_view content) {
+        addWith(name, [&](const fs::path& file) { writeFile(file, content); });
+    }
+    void addWith(const std::string& name, const std::function<void(const fs::path&)>& write) {
+        write(folder_ / name);
+        names_.push_back(name);
+    }
+    std::vector<std::string> complete() {
+        complete_ = true;
+        return names_;
+    }
+
+private:
+    fs::path folder_;
+    bool madeFolder_;
+    bool complete_ = false;
+    std::vector<std::string> names_;
+};
+
+const Image<float>* skyImageOf(const Scene& scene) {
+    if (!scene.light.isEnvironment()) return nullptr;
+    const auto* sky = std::get_if<ImageSky>(&scene.light.environment->sky);
+    return sky == nullptr ? nullptr : &sky->radiance;
+}
+
+} // namespace
+
+Exported exportScene(const Scene& scene, const fs::path& folder) {
+    const Parts parts(scene);
+    const std::vector<int> frames = scoredFrames(scene);
+    const GltfFiles gltf = gltfOf(scene, snapshot(scene, frames.front()), parts);
+    const std::string sceneFile = scene.id + ".toml";
+    const Image<float>* sky = skyImageOf(scene);
+    FileNames names{sceneFile, {"scene.bin", "scene.gltf", "scene.mtl", "scene.obj", sceneFile}};
+    if (sky != nullptr) names.all.emplace_back("sky.exr");
+    names.all.emplace_back(kDescription);
+
+    clear(folder);
+    Files files(folder);
+    files.add("scene.bin", gltf.bin);
+    files.add("scene.gltf", gltf.gltf);
+    files.add("scene.mtl", mtlOf(parts));
+    files.add("scene.obj", objOf(parts));
+    files.add(sceneFile, tomlOf(scene, parts));
+    if (sky != nullptr) files.addWith("sky.exr", [&](const fs::path& file) { writeExr(file, {{"Y", sky}}); });
+    files.add(kDescription, sceneJsonOf(scene, parts, frames, names));
+    return {files.complete(), frames};
+}
+
+} // namespace shadowbench::exchange

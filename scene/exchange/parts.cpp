@@ -1,0 +1,58 @@
+#include "scene/exchange/parts.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace shadowbench::exchange {
+namespace {
+
+/// OBJ ends a name at a blank, and other programs rename what they cannot write.
+std::string plain(const std::string& name) {
+    std::string result;
+    for (const char c : name) {
+        const bool kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-';
+        result += kept ? c : '_';
+    }
+    return result.empty() ? "object" : result;
+}
+
+std::string firstFree(const std::string& name, const std::set<std::string>& taken) {
+    std::string word = name;
+    for (int number = 2; taken.contains(word); ++number) word = fmt::format("{}_{}", name, number);
+    return word;
+}
+
+} // namespace
+
+Parts::Parts(const Scene& scene) {
+    std::uint32_t id = 0;
+    for (const Object& object : scene.objects) {
+        const std::string name = plain(object.name);
+        for (std::size_t i = 0; i < object.levels.size(); ++i)
+            add(object.levels[i], object.colour, object.levels.size() == 1 ? name : fmt::format("{}-level{}", name, i));
+        for (std::size_t i = 0; i < object.instances.size(); ++i) instanceNames_.push_back(fmt::format("{}-{}", name, ++id));
+    }
+}
+
+void Parts::add(const Level& level, const glm::vec3& colour, const std::string& name) {
+    const glm::vec3 shown = level.colour.value_or(colour);
+    const auto [known, isNew] = index_.try_emplace({level.mesh.get(), shown.x, shown.y, shown.z}, list_.size());
+    if (!isNew) return;
+    list_.push_back({firstFree(name, taken_), level.mesh, shown});
+    taken_.insert(list_.back().name);
+}
+
+std::size_t Parts::indexOf(const Mesh* mesh, const glm::vec3& colour) const {
+    return index_.at({mesh, colour.x, colour.y, colour.z});
+}
+
+std::vector<Node> nodesOf(const Snapshot& frame, const Parts& parts) {
+    std::vector<Node> nodes;
+    for (const Batch& batch : frame.batches)
+        for (const Placement& placement : batch.placements)
+            nodes.push_back({&placement, parts.indexOf(batch.mesh.get(), batch.colour)});
+    std::ranges::sort(nodes, {}, [](const Node& node) { return node.placement->id; });
+    return nodes;
+}
+
+} // namespace shadowbench::exchange

@@ -1,0 +1,134 @@
+// The reader of meshes. assimp's rounds matrices and may reorder vertices; here each mesh is as it lies in the file.
+#include "base/error.h"
+#include "base/files.h"
+#include "scene/exchange/gltf.h"
+
+#include <cstring>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace shadowbench::exchange {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr int kTriangles = 4;
+constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126; // glTF's numbers for the types of components
+
+std::size_t sizeOf(int component) { return component == kByte ? 1 : component == kShort ? 2 : 4; }
+
+/// The numbers of an accessor: `count` elements, `stride` bytes from one to the next.
+struct Elements {
+    const char* first;
+    std::size_t count, stride;
+    int component;
+};
+
+class Reader {
+public:
+    explicit Reader(const fs::path& file) : file_(file), gltf_(parse(readFile(file))) {}
+
+    std::map<std::string, Mesh> meshes() {
+        if (gltf_.value(Json::json_pointer("/asset/version"), std::string()) != "2.0") fail("it is no glTF 2.0");
+        std::map<std::string, Mesh> result;
+        for (const Json& mesh : list("meshes")) {
+            const std::string name = mesh.value("name", std::string());
+            auto read = triangleList(mesh);
+            if (read && !name.empty()) result.emplace(name, std::move(*read));
+        }
+        return result;
+    }
+
+    [[noreturn]] void fail(const std::string& sentence) const {
+        throw BadInput(fmt::format("cannot read {}: {}", file_.string(), sentence));
+    }
+
+private:
+    [[nodiscard]] Json parse(const std::string& text) const {
+        try {
+            return Json::parse(text);
+        } catch (const Json::exception& error) {
+            fail(fmt::format("it is not valid JSON ({})", error.what()));
+        }
+    }
+
+    [[nodiscard]] Json list(const char* name) const { return gltf_.value(name, Json::array()); }
+
+    [[nodiscard]] const Json& entry(const char* listName, std::size_t index) const {
+        const auto entries = gltf_.find(listName);
+        if (entries == gltf_.end() || index >= entries->size()) fail(fmt::format("it has no {}[{}]", listName, index));
+        return (*entries)[index];
+    }
+
+    const std::string& bytesOf(std::size_t buffer) {
+        const auto [known, isNew] = buffers_.try_emplace(buffer);
+        if (!isNew) return known->second;
+        const auto uri = entry("buffers", buffer).value("uri", std::string());
+        if (uri.empty() || uri.starts_with("data:"))
+            fail("a buffer is inside of the file; export it with its buffers beside");
+        return known->second = readFile(file_.parent_path() / uri);
+    }
+
+    Elements elementsOf(std::size_t accessor, std::size_t components) {
+        const Json& a = entry("accessors", accessor);
+        if (!a.contains("bufferView") || a.contains("sparse")) fail(fmt::format("accessors[{}] is sparse", accessor));
+        const Json& view = entry("bufferViews", a.at("bufferView"));
+        const std::string& bytes = bytesOf(view.at("buffer"));
+        const int component = a.at("componentType");
+        const std::size_t width = components * sizeOf(component), count = a.at("count");
+        const std::size_t stride = view.value("byteStride", width);
+        const std::size_t first = view.value("byteOffset", std::size_t{0}) + a.value("byteOffset", std::size_t{0});
+        if (count == 0 || stride < width || first > bytes.size() || count - 1 > (bytes.size() - first) / stride ||
+            (count - 1) * stride + width > bytes.size() - first)
+            fail(fmt::format("accessors[{}] reaches beyond its buffer", accessor));
+        return {bytes.data() + first, count, stride, component};
+    }
+
+    /// Nothing for strips, points, lines, several primitives and compressed ones.
+    std::optional<Mesh> triangleList(const Json& mesh) {
+        const Json& primitives = mesh.at("primitives");
+        if (primitives.size() != 1) return std::nullopt;
+        const Json& primitive = primitives[0];
+        if (primitive.value("mode", kTriangles) != kTriangles || !primitive.contains("indices")) return std::nullopt;
+        Mesh result;
+        readPositions(elementsOf(primitive.at("attributes").at("POSITION"), 3), result);
+        readIndices(elementsOf(primitive.at("indices"), 1), result);
+        return result;
+    }
+
+    void readPositions(const Elements& elements, Mesh& mesh) const {
+        if (elements.component != kFloat) fail("positions are no 32-bit floats");
+        mesh.positions.resize(elements.count);
+        for (std::size_t i = 0; i < elements.count; ++i)
+            std::memcpy(&mesh.positions[i], elements.first + i * elements.stride, sizeof(glm::vec3));
+    }
+
+    void readIndices(const Elements& elements, Mesh& mesh) const {
+        if (elements.component == kFloat || elements.count % 3 != 0) fail("indices are no list of triangles");
+        mesh.triangles.resize(elements.count / 3);
+        for (std::size_t i = 0; i < elements.count; ++i) {
+            std::uint32_t index = 0; // little-endian, as glTF's buffers are
+            std::memcpy(&index, elements.first + i * elements.stride, sizeOf(elements.component));
+            mesh.triangles[i / 3][static_cast<int>(i % 3)] = index;
+        }
+    }
+
+    fs::path file_;
+    Json gltf_;
+    std::map<std::size_t, std::string> buffers_;
+};
+
+} // namespace
+
+std::map<std::string, Mesh> readGltfMeshes(const fs::path& file) {
+    Reader reader(file);
+    try {
+        return reader.meshes();
+    } catch (const Json::exception& error) {
+        reader.fail(fmt::format("a value is missing or of another kind than glTF asks for ({})", error.what()));
+    }
+}
+
+} // namespace shadowbench::exchange

@@ -1,0 +1,181 @@
+// The writer: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html and its extension KHR_lights_punctual.
+#include "scene/exchange/gltf.h"
+#include "scene/exchange/json_values.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+namespace shadowbench::exchange {
+namespace {
+
+constexpr int kFloat = 5126, kUnsignedInt = 5125;  // glTF's numbers for the types of components …
+constexpr int kVertices = 34962, kIndices = 34963; // … and the uses of buffer views
+
+/// One after the other in one buffer; a mesh that several parts show is there once.
+class Buffer {
+public:
+    /// Accessors of the mesh's positions and indices.
+    std::pair<std::size_t, std::size_t> accessorsOf(const Mesh& mesh) {
+        const auto [known, isNew] = places_.try_emplace(&mesh);
+        if (isNew) known->second = {addPositions(mesh), addIndices(mesh)};
+        return known->second;
+    }
+
+    Json views = Json::array(), accessors = Json::array();
+    std::string bytes;
+
+private:
+    std::size_t add(const void* data, std::size_t size, int target, Json accessor) {
+        views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", size}, {"target", target}});
+        bytes.append(static_cast<const char*>(data), size);
+        accessor["bufferView"] = views.size() - 1;
+        accessors.push_back(std::move(accessor));
+        return accessors.size() - 1;
+    }
+
+    std::size_t addPositions(const Mesh& mesh) {
+        static_assert(sizeof(glm::vec3) == 12, "positions are written as they lie in memory");
+        const Bounds box = mesh.bounds();
+        return add(mesh.positions.data(), mesh.positions.size() * sizeof(glm::vec3), kVertices,
+                   {{"componentType", kFloat},
+                    {"count", mesh.positions.size()},
+                    {"type", "VEC3"},
+                    {"min", listOf(box.low)},
+                    {"max", listOf(box.high)}});
+    }
+
+    std::size_t addIndices(const Mesh& mesh) {
+        static_assert(sizeof(glm::uvec3) == 12, "indices are written as they lie in memory");
+        return add(mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3), kIndices,
+                   {{"componentType", kUnsignedInt}, {"count", 3 * mesh.triangles.size()}, {"type", "SCALAR"}});
+    }
+
+    std::map<const Mesh*, std::pair<std::size_t, std::size_t>> places_;
+};
+
+/// What only shadowbench reads.
+Json ours(Json members) { return {{"shadowbench", std::move(members)}}; }
+
+Json materialOf(const Part& part) {
+    return {{"name", part.name},
+            {"pbrMetallicRoughness",
+             {{"baseColorFactor", {part.colour.x, part.colour.y, part.colour.z, 1}},
+              {"metallicFactor", 0},
+              {"roughnessFactor", 1}}},
+            {"doubleSided", !part.mesh->closed}};
+}
+
+Json meshOf(const Part& part, std::size_t material, Buffer& buffer) {
+    const auto [positions, indices] = buffer.accessorsOf(*part.mesh);
+    return {{"name", part.name},
+            {"primitives",
+             Json::array({{{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", material}}})}};
+}
+
+/// An identity is left out: glTF calls for it.
+void place(Json& node, const glm::dmat4& world) {
+    if (world != glm::dmat4(1)) node["matrix"] = listOf(world);
+}
+
+/// A turn that takes −z to `forward`, and a place.
+glm::dmat4 lookingAlong(const glm::dvec3& forward, const glm::dvec3& from) {
+    const glm::dvec3 up = std::abs(forward.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    return glm::inverse(glm::lookAt(from, from + forward, up));
+}
+
+Json cameraNode(const Camera& camera) {
+    const auto [right, up, forward] = camera.basis();
+    Json node{{"name", "camera"}, {"camera", 0}};
+    place(node, {glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(-forward, 0), glm::dvec4(camera.eye, 1)});
+    return node;
+}
+
+Json cameraOf(const Camera& camera, const glm::ivec2& size) {
+    return {{"name", "camera"},
+            {"type", "perspective"},
+            {"perspective",
+             {{"aspectRatio", static_cast<double>(size.x) / size.y},
+              {"yfov", glm::radians(camera.fovy)},
+              {"zfar", camera.far},
+              {"znear", camera.near}}},
+            {"extras", ours(jsonOf(camera, size))}};
+}
+
+bool isDistant(const Light& light) { return light.kind == LightKind::Directional || light.isEnvironment(); }
+
+Json lightNode(const Snapshot& frame) {
+    const Light& light = frame.light;
+    const Bounds all = frame.bounds();
+    Json node{{"name", "light"}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+    if (isDistant(light)) // it has no place; viewers show it outside of what it lights
+        place(node, lookingAlong(light.direction, all.centre() - glm::distance(all.low, all.high) * light.direction));
+    else
+        place(node, glm::translate(glm::dmat4(1), light.centre));
+    return node;
+}
+
+/// As bright as makes a white surface that faces the light at the camera's target white: π lux.
+double intensityOf(const Snapshot& frame) {
+    if (isDistant(frame.light)) return glm::pi<double>();
+    const double distance = glm::distance(frame.light.centre, frame.camera.target);
+    return distance > 0 ? glm::pi<double>() * distance * distance : glm::pi<double>();
+}
+
+Json lightsOf(const Snapshot& frame) {
+    return Json::array({{{"name", "light"},
+                         {"type", isDistant(frame.light) ? "directional" : "point"},
+                         {"intensity", intensityOf(frame)},
+                         {"extras", ours(jsonOf(frame.light))}}});
+}
+
+Json assetOf(const Scene& scene, const Snapshot& frame) {
+    return {{"version", "2.0"},
+            {"generator", "shadowbench"},
+            {"extras", ours({{"scene", scene.id},
+                             {"profile", name(scene.profile)},
+                             {"frame", frame.frame},
+                             {"size", {scene.size.x, scene.size.y}}})}};
+}
+
+Json instanceNodes(const Snapshot& frame, const Parts& parts) {
+    Json nodes = Json::array();
+    for (const Node& node : nodesOf(frame, parts)) {
+        nodes.push_back({{"name", parts.instanceName(node.placement->id)},
+                         {"mesh", node.part},
+                         {"extras", ours({{"id", node.placement->id}})}});
+        place(nodes.back(), node.placement->world);
+    }
+    return nodes;
+}
+
+} // namespace
+
+GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts) {
+    Json gltf{{"asset", assetOf(scene, frame)}};
+    gltf["extensionsUsed"] = Json::array({"KHR_lights_punctual"});
+    gltf["extensions"]["KHR_lights_punctual"]["lights"] = lightsOf(frame);
+    gltf["cameras"] = Json::array({cameraOf(frame.camera, scene.size)});
+
+    Buffer buffer;
+    for (const Part& part : parts.list()) {
+        gltf["materials"].push_back(materialOf(part));
+        gltf["meshes"].push_back(meshOf(part, gltf["materials"].size() - 1, buffer));
+    }
+    Json nodes = instanceNodes(frame, parts);
+    nodes.push_back(cameraNode(frame.camera));
+    nodes.push_back(lightNode(frame));
+    Json roots = Json::array();
+    for (std::size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
+    gltf["nodes"] = std::move(nodes);
+    gltf["scenes"] = Json::array({{{"name", scene.id}, {"nodes", std::move(roots)}}});
+    gltf["scene"] = 0;
+    gltf["accessors"] = std::move(buffer.accessors);
+    gltf["bufferViews"] = std::move(buffer.views);
+    gltf["buffers"] = Json::array({{{"uri", "scene.bin"}, {"byteLength", buffer.bytes.size()}}});
+    return {textOf(gltf, 2), std::move(buffer.bytes)};
+}
+
+} // namespace shadowbench::exchange
