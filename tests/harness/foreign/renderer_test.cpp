@@ -126,6 +126,16 @@ TEST_F(RenderersFile, RefusesCommandsThatCannotBeCalled) {
     EXPECT_EQ(command("\"x {scene} {out} ${home} {A} awk '{ print }'\""), "") << "braces of the shell's own";
 }
 
+TEST_F(RenderersFile, OfTheDocumentationCanBeRead) {
+    const std::string page = readFile(std::filesystem::path(SOURCE_FOLDER) / "docs/external.md");
+    const std::string fence = "```toml\n";
+    const std::size_t begin = page.find(fence) + fence.size();
+    const auto renderers = read(page.substr(begin, page.find("```", begin) - begin));
+    ASSERT_EQ(renderers.size(), 1U);
+    EXPECT_EQ(renderers[0].id, "my-engine");
+    EXPECT_EQ(renderers[0].settings.size(), 2U);
+}
+
 TEST(FilledIn, ReplacesPlaceholdersAndNothingElse) {
     const std::vector<std::pair<std::string, std::string>> values{{"scene", "/tmp/it's"}, {"out", "{scene}"}};
     EXPECT_EQ(filledIn("--scene={scene}:{out} {other} {scene", values, false), "--scene=/tmp/it's:{scene} {other} {scene");
