@@ -24,8 +24,12 @@ double loss(float v, float truth, bool labels) {
 /// A mean of losses as an error.
 double asError(double meanLoss, bool labels) { return labels ? meanLoss : std::sqrt(meanLoss); }
 
+std::string percent(double share) {
+    return share >= 0.1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
+}
+
 std::string fall(double before, double after, bool labels) {
-    if (labels) return fmt::format("mismatch falls from {:.2g} % to {:.2g} %", 100 * before, 100 * after);
+    if (labels) return fmt::format("mismatch falls from {} to {}", percent(before), percent(after));
     return fmt::format("the rms error falls from {:.2g} to {:.2g}", before, after);
 }
 
@@ -145,10 +149,12 @@ float asItIs(float v) { return v; }
 
 std::optional<Finding> misencodedLabels(const Compared& compared, float (*undo)(float), const std::string& looks,
                                         const std::string& remedy) {
-    constexpr std::size_t enough = 64;
-    constexpr double notable = 0.1; // sRGB makes an even ramp brighter by 0.19 on average
+    constexpr std::size_t enough = 24;
+    constexpr double least = 0.1; // sRGB makes an even ramp brighter by 0.19 on average
     const Grey before = greyOf(compared, asItIs), after = greyOf(compared, undo);
     const double was = before.v - before.truth, is = after.v - after.truth;
+    const double chance = 0.29 / std::sqrt(static_cast<double>(before.count)); // of ramps whose centres are lit or not
+    const double notable = std::max(least, 3 * chance);
     if (before.count < enough || std::abs(was) < notable || std::abs(is) > std::abs(was) / 3) return {};
     return Finding{fmt::format("looks {}: its grey pixels are {:.2g} too {} on average, and {:.2g} when that is undone; {}",
                                looks, std::abs(was), was > 0 ? "bright" : "dark", std::abs(is), remedy),
