@@ -3,6 +3,7 @@
 #include "base/descriptor.h"
 #include "base/error.h"
 #include "base/interrupts.h"
+#include "base/marked_processes.h"
 
 #include <algorithm>
 #include <array>
@@ -26,8 +27,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t longestLine = 4096; // a child that never ends a line must not fill our memory
-constexpr rlim_t mostOpenFiles = 64;      // its own, its libraries' and a few of its work
+constexpr std::size_t longestLine = 4096;    // a child that never ends a line must not fill our memory
+constexpr std::uintmax_t fullPipe = 1 << 20; // bytes, the most that a pipe holds
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -56,14 +57,17 @@ struct Launch {
     std::vector<std::string> words, variables;
     std::vector<char*> argv, envp;
 
-    explicit Launch(const Command& c) : command(c) {
+    /// `mark`: a variable by which what the child starts is known again; "": none.
+    explicit Launch(const Command& c, const std::string& mark = "") : command(c) {
         words.push_back(c.program.string());
         words.insert(words.end(), c.arguments.begin(), c.arguments.end());
         const char* path = std::getenv("PATH");
-        variables = {"HOME=" + c.folder.string(), "TMPDIR=" + c.folder.string(), "LC_ALL=C",
-                     std::string("PATH=") + (path != nullptr ? path : "/usr/bin:/bin")};
+        variables = c.environment.value_or(
+            std::vector<std::string>{"HOME=" + c.folder.string(), "TMPDIR=" + c.folder.string(), "LC_ALL=C",
+                                     std::string("PATH=") + (path != nullptr ? path : "/usr/bin:/bin")});
         for (const std::string& name : c.inherited)
             if (const char* value = std::getenv(name.c_str())) variables.push_back(name + "=" + value);
+        if (!mark.empty()) variables.push_back(mark);
         for (std::string& word : words) argv.push_back(word.data());
         for (std::string& variable : variables) envp.push_back(variable.data());
         argv.push_back(nullptr);
@@ -78,8 +82,8 @@ struct Launch {
         limit(RLIMIT_CORE, 0);
         if (command.cpuLimit) limit(RLIMIT_CPU, static_cast<rlim_t>(command.cpuLimit->count()));
         limit(RLIMIT_FSIZE, command.fileLimit);
-        limit(RLIMIT_AS, command.memoryLimit);
-        limit(RLIMIT_NOFILE, mostOpenFiles);
+        if (command.memoryLimit) limit(RLIMIT_AS, *command.memoryLimit);
+        if (command.openFiles) limit(RLIMIT_NOFILE, *command.openFiles);
         stayOn(command.cpu);
         sigset_t none;
         sigemptyset(&none);
@@ -148,10 +152,10 @@ std::string lastLine(int file) {
     return std::string(text.substr(text.rfind('\n') + 1)); // npos + 1 is the start
 }
 
-/// A running child, killed with its group when it goes out of scope.
+/// A running child, killed with its group when it goes out of scope; with `mark`, all that have it in their environment.
 class Child {
 public:
-    explicit Child(pid_t pid) : pid_(pid) {}
+    explicit Child(pid_t pid, std::string mark = "") : pid_(pid), mark_(std::move(mark)) {}
     ~Child() {
         if (pid_ > 0) kill();
     }
@@ -174,11 +178,13 @@ public:
         while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
         }
         pid_ = -1;
+        if (!mark_.empty()) endMarked(mark_);
         return status;
     }
 
 private:
     pid_t pid_;
+    std::string mark_;
 };
 
 /// Cuts a stream of bytes into lines.
@@ -187,6 +193,7 @@ public:
     explicit Lines(const OnLine& onLine) : onLine_(onLine) {}
 
     void add(std::string_view bytes) {
+        bytes_ += bytes.size();
         for (const char c : bytes) {
             if (c == '\n' || c == '\r')
                 flush();
@@ -198,10 +205,12 @@ public:
         if (!line_.empty() && onLine_) onLine_(line_);
         line_.clear();
     }
+    [[nodiscard]] std::uintmax_t bytes() const { return bytes_; } // so far
 
 private:
     const OnLine& onLine_;
     std::string line_;
+    std::uintmax_t bytes_ = 0;
 };
 
 bool readable(int fd, std::chrono::milliseconds wait) {
@@ -219,8 +228,8 @@ bool readSome(int fd, Lines& lines) {
 }
 
 Finished decoded(int status) {
-    if (WIFSIGNALED(status)) return {0, WTERMSIG(status), false};
-    return {WEXITSTATUS(status), 0, false};
+    if (WIFSIGNALED(status)) return {.signal = WTERMSIG(status)};
+    return {.exitCode = WEXITSTATUS(status)};
 }
 
 bool executable(const std::filesystem::path& file) {
@@ -243,10 +252,17 @@ std::optional<std::filesystem::path> findProgram(const std::filesystem::path& na
     return std::nullopt;
 }
 
+std::vector<std::string> ownEnvironment() {
+    std::vector<std::string> variables;
+    for (char** variable = environ; *variable != nullptr; ++variable) variables.emplace_back(*variable);
+    return variables;
+}
+
 Finished runProcess(const Command& command, const OnLine& onLine) {
-    const Launch launch(command);
+    const std::string mark = command.endsStrays ? newMark() : "";
+    const Launch launch(command, mark);
     auto [output, outputEnd] = makePipe();
-    Child child(start(launch, openNothing().get(), outputEnd.get(), outputEnd.get()));
+    Child child(start(launch, openNothing().get(), outputEnd.get(), outputEnd.get()), mark);
     outputEnd.close();
 
     Lines lines(onLine);
@@ -263,13 +279,17 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
         if (!status && DeferredInterrupts::pending())
             throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()),
                                Failure::Transient);
-        if (!status && Clock::now() >= end) {
-            Finished late = decoded(child.kill());
-            late.timedOut = true;
-            return late;
+        const bool late = Clock::now() >= end, flooded = command.outputLimit && lines.bytes() > *command.outputLimit;
+        if (!status && (late || flooded)) {
+            Finished stopped = decoded(child.kill());
+            stopped.timedOut = late;
+            stopped.flooded = flooded && !late;
+            return stopped;
         }
     }
-    while (open && readable(output.get(), {})) open = readSome(output.get(), lines); // what was still in the pipe
+    const std::uintmax_t last = lines.bytes() + fullPipe; // a stray could fill it for ever
+    while (open && lines.bytes() < last && readable(output.get(), {}))
+        open = readSome(output.get(), lines); // what was still in the pipe
     lines.flush();
     return decoded(*status);
 }

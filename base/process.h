@@ -24,16 +24,26 @@ struct Command {
     // Of all its threads. A process under any such limit reads its own CPU time from a clock of some milliseconds: the
     // kernel then takes it from what it has last added up.
     std::optional<std::chrono::seconds> cpuLimit{120};
-    std::uintmax_t fileLimit = 64 << 20;                  // bytes, largest file the child may write
-    std::uintmax_t memoryLimit = std::uintmax_t{4} << 30; // bytes of address space, more than is ever used of it
-    std::optional<int> cpu = {};                          // the only one it may run on
-    std::vector<std::string> inherited = {};              // environment variables that it has as this process has them
+    std::uintmax_t fileLimit = 64 << 20; // bytes, largest file the child may write
+    // Bytes of address space, more than is ever used of it; none: some programs reserve terabytes.
+    std::optional<std::uintmax_t> memoryLimit = std::uintmax_t{4} << 30;
+    std::optional<std::uintmax_t> openFiles = 64; // its own, its libraries' and a few of its work; none: as many as we may
+    std::optional<int> cpu = {};                  // the only one it may run on
+    // All variables that the child sees, as NAME=value; none: HOME and TMPDIR, a language of C, and our PATH.
+    std::optional<std::vector<std::string>> environment = {};
+    std::vector<std::string> inherited = {};        // names of further variables that it has as this process has them
+    std::optional<std::uintmax_t> outputLimit = {}; // bytes of standard output and error; the group is killed after them
+    bool endsStrays = false; // processes that left the group (setsid, daemons) are killed as well, as soon as the child ends
 };
+
+/// The variables of this process, for Command::environment.
+std::vector<std::string> ownEnvironment();
 
 struct Finished {
     int exitCode = 0; // when signal is 0
     int signal = 0;   // that ended the child; 0 if it exited
     bool timedOut = false;
+    bool flooded = false; // wrote more than Command::outputLimit
 };
 
 /// Called with each complete line (ended by '\n' or '\r', terminator removed) of the child's standard output and error.

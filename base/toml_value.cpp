@@ -57,6 +57,13 @@ std::string TomlValue::text() const {
     return node_->as_string()->get();
 }
 
+std::string TomlValue::scalar() const {
+    if (node_->is_string()) return text();
+    if (!node_->is_number() && !node_->is_boolean())
+        fail(fmt::format("expected a text, a number, true or false, got {}", got()));
+    return got();
+}
+
 std::string TomlValue::oneOf(const std::vector<std::string>& words) const {
     std::string word = text();
     if (std::find(words.begin(), words.end(), word) == words.end())

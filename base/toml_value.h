@@ -34,6 +34,7 @@ public:
 
     [[nodiscard]] bool boolean() const;
     [[nodiscard]] std::string text() const;
+    [[nodiscard]] std::string scalar() const; // a text, a number, or true or false, as a text
     std::string oneOf(const std::vector<std::string>& words) const;
     [[nodiscard]] double number() const; // finite, and no larger than the source allows
     [[nodiscard]] double positive() const;

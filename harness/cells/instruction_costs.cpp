@@ -27,7 +27,7 @@ std::string reachable(const std::string& scene) {
 std::vector<Job> jobsFor(std::vector<Record>& records, const InstructionOptions& options) {
     std::vector<Job> jobs;
     for (Record& record : records) {
-        if (!wasScored(record.status) || record.values["cost.instructions"]) continue;
+        if (!wasScored(record.status) || record.values["cost.instructions"] || isExternal(record)) continue;
         if (jobs.empty() || jobs.back().records.front()->scene != record.scene || jobs.back().records.size() == cellsPerJob)
             jobs.push_back({{reachable(options.scenes.at(record.scene)), {}, options.profile, record.seed}, {}});
         jobs.back().work.variants.push_back(record.variant);

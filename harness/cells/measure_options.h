@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 
 namespace shadowbench {
+
+class ExternalTechniques;
 
 struct MeasureOptions {
     std::uint32_t seed = 1;
@@ -12,6 +15,7 @@ struct MeasureOptions {
     bool time = true;             // wall time
     std::filesystem::path images; // folder of <scene>/<variant>/; empty: no images are written
     bool otherScreen = false;     // costs by pass on an image of another size, too
+    std::shared_ptr<const ExternalTechniques> external{}; // that may be among the techniques; null: none
 
     /// Whether clocks decide a figure.
     [[nodiscard]] bool timed() const { return time || otherScreen; }

@@ -1,7 +1,7 @@
 #include "harness/cells/scene_cells.h"
 
-#include "harness/cells/cell.h"
 #include "harness/cells/cell_images.h"
+#include "harness/cells/external_techniques.h"
 #include "harness/cells/lod_images.h"
 #include "harness/measure/frame_passes.h"
 #include "harness/metrics/values.h"
@@ -40,10 +40,12 @@ SceneCells::SceneCells(const Scene& scene, const groundtruth::Cache& cache, Meas
     : scene_(scene), options_(std::move(options)), cache_(cache), truths_(scene, cache), lodScene_(scene) {}
 
 std::optional<std::string> SceneCells::notApplicable(const techniques::Variant& variant) const {
+    if (isExternal(variant)) return options_.external->notApplicable(scene_, variant);
     return variant.isLod() ? lod::notApplicable(scene_) : shadowbench::notApplicable(scene_, variant);
 }
 
 std::string SceneCells::id(const techniques::Variant& variant) const {
+    if (isExternal(variant)) return options_.external->cellId(truths_, scene_, variant);
     return variant.isLod() ? lod::lodCellId(scene_, variant)
                            : cellId(truths_, scene_, variant, options_.seed, options_.seeds);
 }
@@ -66,6 +68,7 @@ Record SceneCells::failed(const techniques::Variant& variant, const std::string&
 }
 
 std::vector<std::pair<Truth, int>> SceneCells::truthsOf(const techniques::Variant& variant) const {
+    if (isExternal(variant)) return options_.external->truthsOf(scene_, variant);
     std::vector<std::pair<Truth, int>> truths;
     if (variant.isLod()) return truths;
     const int still = scene_.timeline.still - 1;
@@ -97,10 +100,18 @@ void SceneCells::score(const techniques::Variant& variant, Record& record, const
     for (const auto& [truth, frame] : truthsOf(variant)) computeTruth(truth, frame, progress);
     progress(0, variant.name);
     CellImages images;
-    scoreCell(frames(), variant, options_.seed, record, images);
-    if (options_.seeds > 1) splitErrorOverSeeds(frames(), variant, options_.seed, options_.seeds, images.visibility(), record);
+    if (isExternal(variant))
+        options_.external->score(frames(), variant, record, images, progress);
+    else
+        scoreOwn(variant, record, images);
     markExpectedFailure(scene_, variant, record);
     if (!options_.images.empty()) writeCellImages(imageFolder(variant), images);
+}
+
+void SceneCells::scoreOwn(const techniques::Variant& variant, Record& record, CellImages& images) {
+    scoreCell(frames(), variant, options_.seed, record, images);
+    if (options_.seeds > 1)
+        splitErrorOverSeeds(frames(), variant, options_.seed, options_.seeds, images.visibility(), record);
 }
 
 void SceneCells::scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress) {
@@ -116,6 +127,7 @@ void SceneCells::scoreLod(const techniques::Variant& variant, Record& record, co
 }
 
 void SceneCells::time(const techniques::Variant& variant, Record& record) {
+    if (isExternal(variant)) return;
     if (variant.isLod()) {
         if (options_.time) lod::timeLodCell(lodScene_, variant, record);
         return;

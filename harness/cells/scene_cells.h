@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "harness/cells/cell.h"
 #include "harness/cells/lod_cell.h"
 #include "harness/cells/measure_options.h"
 #include "harness/cells/scene_frames.h"
@@ -56,6 +57,7 @@ public:
     void measure(const techniques::Variant& variant, Record& record, const Progress& progress);
 
 private:
+    void scoreOwn(const techniques::Variant& variant, Record& record, CellImages& images);
     void scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress);
     SceneFrames& frames();
     [[nodiscard]] std::filesystem::path imageFolder(const techniques::Variant& variant) const;

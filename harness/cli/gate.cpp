@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
+#include "harness/foreign/renderers.h"
 #include "harness/gate/gate_report.h"
 #include "harness/gate/verdict.h"
 #include "harness/report/site/gate_site.h"
@@ -58,6 +59,7 @@ void addGate(CLI::App& app, Action& action) {
         "Examples:\n  shadowbench gate --base origin/main --junit gate.xml --summary gate.md --annotations\n"
         "  shadowbench gate --base ../main/build/release --technique 'sm-*' --scene windmills --cost none\n"
         "  shadowbench gate --base results/published/results.jsonl\n"
+        "  shadowbench gate --base engine-before/results.jsonl --technique 'external:*' --external engine.toml --cost none\n"
         "Exits with 0 when nothing is worse, 3 when only cost is, 4 when accuracy or stability is, and 5 when "
         "something could\n"
         "not be judged, or base and head are one program. The stricter of both sides' policies judges. A killed gate "
@@ -67,6 +69,8 @@ void addGate(CLI::App& app, Action& action) {
                      "A build folder or program, a git revision (built once and kept), or records (then no time is judged)");
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
     verb->add_option("--technique", options->techniques, "Variant, or a glob over ids; repeatable (default: all)");
+    verb->add_option("--external", options->externalFiles,
+                     "File that describes renderers to call, whose rows are compared with those of --base; repeatable");
     addProfileOption(*verb, *profile);
     verb->add_option("--cost", *cost,
                      "What is judged beside accuracy and stability: instructions, time, both as instructions,time, or none")
@@ -90,6 +94,7 @@ void addGate(CLI::App& app, Action& action) {
             options->profile = profileNamed(*profile);
             options->instructions = std::ranges::find(*cost, "instructions") != cost->end();
             options->time = std::ranges::find(*cost, "time") != cost->end();
+            options->external = foreign::renderersOf(options->externalFiles);
             return gateAndPrint(*options, *files);
         };
     });

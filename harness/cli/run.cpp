@@ -3,6 +3,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
 #include "harness/cli/run_result.h"
+#include "harness/foreign/renderers.h"
 #include "harness/runs/measure_part.h"
 
 #include <CLI/CLI.hpp>
@@ -67,6 +68,7 @@ void addRun(CLI::App& app, Action& action) {
     const auto profile = std::make_shared<std::string>("gate");
     const auto cost = std::make_shared<std::vector<std::string>>(1, "time");
     const auto images = std::make_shared<bool>(false);
+    const auto external = std::make_shared<std::vector<std::filesystem::path>>();
     const auto part = std::make_shared<PartOptions>();
     CLI::App* verb = app.add_subcommand("run", "Renders and scores cells: scenes × techniques");
     verb->footer(
@@ -74,6 +76,8 @@ void addRun(CLI::App& app, Action& action) {
         "volume-zfail\n"
         "  shadowbench run --scene my.toml --technique pcss:taps=32+32,map=2048 --profile standard --images --out "
         "results/mine\n  shadowbench run --cost instructions --scene windmills\n"
+        "  shadowbench run --technique 'external:*' --external engine.toml    (renderers that are not ours: "
+        "docs/external.md)\n"
         "Large runs, in parts:\n  shadowbench run --profile paper --out results/large --shard 2/8    (and 1/8 … "
         "8/8, anywhere)\n  shadowbench merge results/large\n"
         "A part exits with 0 once it has measured its cells, whatever they score: merge judges. It exits with 75 "
@@ -81,6 +85,8 @@ void addRun(CLI::App& app, Action& action) {
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
     verb->add_option("--technique", options->techniques,
                      "Variant such as pcss:taps=32+32, or a glob over ids; repeatable (default: all)");
+    verb->add_option("--external", *external,
+                     "File that describes renderers to call, whose techniques are external:ID; repeatable");
     addProfileOption(*verb, *profile);
     verb->add_option("--out", options->out, "Folder of records and report")->capture_default_str();
     verb->add_option("--cache", options->cache,
@@ -114,8 +120,9 @@ void addRun(CLI::App& app, Action& action) {
     shard->excludes(cell, manifest);
     cell->excludes(manifest);
     verb->add_flag("--quiet", options->quiet, "No progress");
-    verb->callback([&action, options, profile, cost, images, part] {
-        action = [options, profile, cost, images, part] {
+    verb->callback([&action, options, profile, cost, images, external, part] {
+        action = [options, profile, cost, images, external, part] {
+            options->measure.external = foreign::renderersOf(*external);
             options->profile = profileNamed(*profile);
             options->measure.time = std::find(cost->begin(), cost->end(), "time") != cost->end();
             options->measure.otherScreen = std::find(cost->begin(), cost->end(), "screen") != cost->end();

@@ -18,7 +18,9 @@ Failing failingCells(const std::vector<Change>& changes, const JudgedCells& judg
     for (const Change& change : changes) {
         const bool drawn = change.direction == Direction::Worse && change.changeClass != Class::Instructions &&
                            change.changeClass != Class::Time && change.changeClass != Class::BreakPoint;
-        if (!drawn || !judged.chooses(change.scene, change.variant) || cells.size() == mostCells) continue;
+        if (!drawn || change.variant.starts_with(externalPrefix) || !judged.chooses(change.scene, change.variant) ||
+            cells.size() == mostCells)
+            continue;
         if (std::ranges::find(cells, std::pair(change.scene, change.variant)) == cells.end())
             cells.emplace_back(change.scene, change.variant);
     }

@@ -53,6 +53,10 @@ public:
         result_.head = commit.hash.substr(0, 12) + (commit.dirty ? " with changes" : "");
         if (base.kind == Baseline::Kind::Records)
             judgeAgainstRecords(base, head);
+        else if (options_.external != nullptr)
+            throw BadInput(fmt::format("--external needs records as --base, made by `run --external`: {} is a program, for "
+                                       "which the same renderers would be called again",
+                                       base.name));
         else
             judgeAgainstProgram(MeasuredProgram(base.file, cache_), head);
         return std::move(result_);
@@ -75,7 +79,8 @@ private:
         if (options_.instructions && !counted)
             result_.notes.emplace_back("instructions are not judged: the base's records hold none");
         const bool instructions = options_.instructions && counted;
-        const std::vector<Record> now = measure(head, "head", instructions);
+        std::vector<Record> now = measure(head, "head", instructions);
+        std::ranges::move(measureSteps(head, "head", cells_.externalSteps()), std::back_inserter(now));
         judgeRecords(before, now, cells_.steps(head, instructions));
         if (const auto why = whyMeaningless(before, now, options_.aa)) result_.unjudged.push_back(*why);
         judgeAgainstAnchors(now);
@@ -128,8 +133,12 @@ private:
     }
 
     std::vector<Record> measure(const MeasuredProgram& program, const char* who, bool instructions) {
+        return measureSteps(program, who, cells_.steps(program, instructions));
+    }
+
+    std::vector<Record> measureSteps(const MeasuredProgram& program, const char* who, const std::vector<Step>& steps) {
         StageLine line(who, options_.quiet);
-        Measured measured = program.measure(cells_.steps(program, instructions), line.progress());
+        Measured measured = program.measure(steps, line.progress());
         for (const StepTime& step : measured.times)
             result_.times.push_back({fmt::format("{}: {}", who, step.name), step.seconds});
         return std::move(measured.records);

@@ -7,15 +7,22 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
+
+namespace shadowbench {
+class ExternalTechniques;
+}
 
 namespace shadowbench::gate {
 
 struct GateOptions {
-    std::string base;                    // see findBaseline
-    std::vector<std::string> scenes;     // ids or files; empty: the standard scenes
-    std::vector<std::string> techniques; // variants or globs; empty: all
+    std::string base;                                   // see findBaseline
+    std::vector<std::string> scenes;                    // ids or files; empty: the standard scenes
+    std::vector<std::string> techniques;                // variants or globs; empty: all
+    std::vector<std::filesystem::path> externalFiles;   // of renderers that are not ours …
+    std::shared_ptr<const ExternalTechniques> external; // … and their techniques; null: none. The base must be records
     Profile profile = Profile::Gate;
     std::filesystem::path bounds = "harness/gate/bounds.toml";
     std::filesystem::path out = "results/gate"; // of the report and the pictures of failing cells

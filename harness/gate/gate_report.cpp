@@ -74,8 +74,10 @@ std::string quoted(const std::string& word) {
 } // namespace
 
 std::string reproduction(const Change& change, const GateOptions& options) {
-    const std::string which = fmt::format("--scene {} --technique {} --profile {} --seed {}", quoted(change.scene),
-                                          quoted(change.variant), name(options.profile), options.seed);
+    std::string which = fmt::format("--scene {} --technique {} --profile {} --seed {}", quoted(change.scene),
+                                    quoted(change.variant), name(options.profile), options.seed);
+    for (const auto& file : options.externalFiles)
+        if (change.variant.starts_with(externalPrefix)) which += " --external " + quoted(file.string());
     switch (change.changeClass) {
     case Class::Time:
         return fmt::format("./bench gate --base {} --cost time {}", quoted(options.base), which);

@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "harness/cells/cell.h"
+#include "harness/cells/cell_selection.h"
 #include "harness/cells/lod_cell.h"
 #include "harness/cells/truths.h"
 #include "harness/gate/choices.h"
@@ -37,13 +38,14 @@ JudgedScene loadJudged(const std::string& idOrFile, Profile profile) {
     return {scene.id, fs::absolute(idOrFile).string(), readFile(idOrFile), truthKeys(scene), {}};
 }
 
-std::vector<std::string> namesOf(const std::vector<std::string>& patterns) {
+std::vector<std::string> namesOf(const GateOptions& options) {
     std::vector<std::string> names;
-    for (const std::string& pattern : patterns.empty() ? std::vector<std::string>{"*"} : patterns)
-        for (const techniques::Variant& variant : techniques::matchVariants(pattern))
-            if (std::ranges::find(names, variant.name) == names.end()) names.push_back(variant.name);
+    for (const techniques::Variant& variant : shadowbench::chosenVariants(options.techniques, options.external.get()))
+        names.push_back(variant.name);
     return names;
 }
+
+bool isExternal(const std::string& variant) { return variant.starts_with(externalPrefix); }
 
 /// Those of `variants` that a watch of `scene` covers; all of them if no watch names any of the scenes.
 std::vector<std::string> coveredOf(const std::vector<Watch>& watches, const std::vector<JudgedScene>& scenes,
@@ -113,7 +115,7 @@ bool belongsTo(const Scene& scene, const std::string& name) {
 
 JudgedCells::JudgedCells(const GateOptions& options, const std::optional<Policy>& base,
                          const std::vector<std::string>& baseVariants)
-    : profile(options.profile), seed(options.seed) {
+    : profile(options.profile), seed(options.seed), externalFiles_(options.externalFiles) {
     Policy policy = policyOf(options);
     if (base) {
         const Policy more = gate::loosened(*base, policy);
@@ -154,7 +156,7 @@ void JudgedCells::addCounted(const std::vector<std::string>& chosen) {
 
 std::vector<std::string> JudgedCells::chosenVariants(const GateOptions& options,
                                                      const std::vector<std::string>& baseVariants) {
-    std::vector<std::string> chosen = namesOf(options.techniques);
+    std::vector<std::string> chosen = namesOf(options);
     if (!options.techniques.empty()) return chosen;
     for (const std::string& variant : baseVariants) {
         const std::optional<std::string> name = ownName(variant);
@@ -221,13 +223,30 @@ std::vector<Step> JudgedCells::steps(const MeasuredProgram& program, bool instru
     return steps;
 }
 
+std::vector<Step> JudgedCells::externalSteps() const {
+    std::vector<std::string> more{"--cost", "none"};
+    for (const fs::path& file : externalFiles_) more.insert(more.end(), {"--external", fs::absolute(file).string()});
+    std::vector<Step> steps;
+    for (const JudgedScene& scene : scenes) {
+        const std::vector<std::string> variants = those(scene.variants, isExternal);
+        if (!variants.empty())
+            steps.push_back({.name = scene.id + ", other renderers",
+                             .arguments = arguments("run", scene, profile, seed, more),
+                             .techniques = variants,
+                             .records = "results.jsonl",
+                             .isAlwaysRun = true});
+    }
+    return steps;
+}
+
 std::vector<TimedCell> JudgedCells::timedCells(const MeasuredProgram& base, const MeasuredProgram& head) const {
     std::vector<TimedCell> cells;
     for (const JudgedScene& scene : scenes) {
         if (!has(base, scene)) continue;
         std::vector<std::string> known;
         std::ranges::copy_if(scene.variants, std::back_inserter(known), [&](const std::string& variant) {
-            return !techniques::parseVariant(variant).isLod() && base.knowsVariant(variant) && head.knowsVariant(variant);
+            return !isExternal(variant) && !techniques::parseVariant(variant).isLod() && base.knowsVariant(variant) &&
+                   head.knowsVariant(variant);
         });
         for (const std::string& variant : coveredOf(watchlist.timed, scenes, scene.id, known))
             if (!notApplicable(loadScene(scene.argument, profile), techniques::parseVariant(variant)))

@@ -38,6 +38,9 @@ struct JudgedCells {
     /// that the watchlist names are counted, or of all when it names none of the scenes.
     [[nodiscard]] std::vector<Step> steps(const MeasuredProgram& program, bool instructions) const;
 
+    /// The runs in which this program calls the renderers that are not ours.
+    [[nodiscard]] std::vector<Step> externalSteps() const;
+
     /// Cells that both programs have and whose time is compared: those that the watchlist names, or all when it names none
     /// of the scenes.
     [[nodiscard]] std::vector<TimedCell> timedCells(const MeasuredProgram& base, const MeasuredProgram& head) const;
@@ -45,6 +48,8 @@ struct JudgedCells {
     [[nodiscard]] bool chooses(const std::string& scene, const std::string& variant) const;
 
 private:
+    std::vector<std::filesystem::path> externalFiles_;
+
     [[nodiscard]] std::vector<std::string> chosenVariants(const GateOptions& options,
                                                           const std::vector<std::string>& baseVariants);
     void addChoices(const GateOptions& options, const std::vector<std::string>& chosen);

@@ -169,6 +169,7 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
         const auto i = static_cast<std::size_t>(index);
         Step step = steps[i];
         const fs::path out = records_ / hash128(text(step)).text(), done = out / "done";
+        if (step.isAlwaysRun) fs::remove_all(out);
         if (!fs::exists(done)) {
             const auto start = Clock::now();
             if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");

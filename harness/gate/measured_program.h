@@ -20,6 +20,7 @@ struct Step {
     std::vector<std::string> techniques; // canonical names
     std::string records;                 // the file that it leaves in --out
     std::string inputs = {};             // content of the files that `arguments` name, and keys of truths
+    bool isAlwaysRun = false;            // it depends on programs that nobody can hash: nothing of it is kept
 };
 
 struct StepTime {

@@ -32,6 +32,7 @@ struct Figure {
 };
 
 std::string rasteriser(const Environment& e) {
+    if (e.gl == notDrawnHere) return e.gl; // the next version of another renderer is what a series shows
     const bool osMesa = e.platform.empty() || e.platform == "osmesa"; // which older records do not say
     return fmt::format("{}, {}, {} raster threads, {} bits{}", e.renderer, e.gl, e.rasterThreads, e.vectorBits,
                        osMesa ? "" : ", through " + e.platform);

@@ -60,7 +60,8 @@ struct Change {
 std::vector<Change> compare(const std::vector<Record>& base, const std::vector<Record>& head);
 
 /// Why comparing the two decides nothing, as a sentence: they are of one program (which `sameProgramIsMeant` allows, and
-/// which may have scored two versions of another renderer), or no cell is scored in both. Nothing where it decides something.
+/// which may have scored two versions of another renderer), or no cell is scored in both. Nothing where it decides
+/// something.
 std::optional<std::string> whyMeaningless(const std::vector<Record>& base, const std::vector<Record>& head,
                                           bool sameProgramIsMeant);
 

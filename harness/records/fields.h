@@ -114,6 +114,17 @@ void fields(auto& visit, Is<OtherScreen> auto& o) {
     visit.objects("by_pass", o.passes);
 }
 
+void fields(auto& visit, Is<ReportedCost> auto& r) {
+    visit("milliseconds", r.milliseconds);
+    visit.text("device", r.device);
+}
+
+void fields(auto& visit, Is<ExternalInfo> auto& e) {
+    visit.text("title", e.title);
+    visit.text("source", e.source);
+    visit("reported", e.reported);
+}
+
 void costFields(auto& visit, Is<Record> auto& r) {
     constexpr std::string_view key = "cost";
     visit.group(key.data(), r.values.any(metrics::linesOf(key)) || !r.passes.empty(), [&](auto& inner) {
@@ -157,6 +168,7 @@ void fields(auto& visit, Is<Record> auto& r) {
     visit.figures("figures", r.figures);
     metricGroup(visit, "stability", r.values);
     costFields(visit, r);
+    visit("external", r.external);
     visit.bounds("tolerances", r.tolerances);
 }
 

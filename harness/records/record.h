@@ -80,6 +80,18 @@ struct OtherScreen {
     std::vector<PassRecord> passes;
 };
 
+/// What a renderer that is not ours says of its own cost: never compared with what is measured here.
+struct ReportedCost {
+    double milliseconds = 0; // of a frame
+    std::string device = {}; // "" if it does not say
+};
+
+/// A renderer that is not ours, of which this program has the images alone.
+struct ExternalInfo {
+    std::string title, source; // "" where nobody says
+    std::optional<ReportedCost> reported = {};
+};
+
 struct Record {
     int schemaVersion = 1;
     std::string scene, technique, variant;
@@ -106,6 +118,7 @@ struct Record {
     std::vector<PassRecord> passes;              // of the frame whose work was measured; empty in older records
     std::optional<OtherScreen> otherScreen;      // where costs were measured on an image of another size, too
     std::map<std::string, double> figures;       // of the scored frame, by names that `list techniques` explains
+    std::optional<ExternalInfo> external;        // of renderers that the program called
     std::map<std::string, double> tolerances;    // the scene's: the worst error that a viewer accepts, by names for bounds
 };
 

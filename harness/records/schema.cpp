@@ -79,6 +79,25 @@ constexpr const char* withoutMetrics = R"({
       "minProperties": 1,
       "additionalProperties": {"type": "number"}
     },
+    "external": {
+      "type": "object",
+      "description": "of a renderer that is not ours, which the program called",
+      "additionalProperties": false,
+      "properties": {
+        "title": {"type": "string", "minLength": 1},
+        "source": {"type": "string", "minLength": 1},
+        "reported": {
+          "type": "object",
+          "description": "what the renderer says of its own cost; not measured here, and compared with nothing",
+          "additionalProperties": false,
+          "required": ["milliseconds"],
+          "properties": {
+            "milliseconds": {"$ref": "#/definitions/size", "description": "of a frame"},
+            "device": {"type": "string", "minLength": 1}
+          }
+        }
+      }
+    },
     "tolerances": {
       "type": "object",
       "description": "the worst errors a viewer of this scene accepts, by metric",

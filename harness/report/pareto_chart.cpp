@@ -12,9 +12,17 @@ namespace shadowbench::report {
 namespace {
 
 constexpr int width = 960, height = 620;
-constexpr double left = 96, right = 936, top = 84, bottom = 540; // of the plot, pixels, y down
-constexpr std::size_t longestLabel = 100;                        // letters: as wide as two thirds of the plot
-constexpr glm::dvec2 letter(6.4, 16);                            // of a label at 12 points, pixels
+constexpr double left = 96, top = 84, bottom = 540; // of the plot, pixels, y down
+constexpr double widest = 936, besideStrip = 700;   // its right side; beside a strip of rows without a place
+constexpr std::size_t longestLabel = 100;           // letters: as wide as two thirds of the plot
+constexpr glm::dvec2 letter(6.4, 16);               // of a label at 12 points, pixels
+
+/// A row of a renderer whose cost is not measured here, so that it has an error and no place.
+struct External {
+    std::string variant;
+    double error;
+    bool adequate;
+};
 
 struct Point {
     std::string variant;
@@ -38,12 +46,23 @@ std::vector<Point> points(const std::vector<Record>& records, const std::string&
     return result;
 }
 
+std::vector<External> externals(const std::vector<Record>& records, const std::string& scene) {
+    const std::vector<Tolerance> limits = tolerances(records, scene);
+    std::vector<External> result;
+    for (const std::size_t i : ofScene(records, scene))
+        if (const auto error = headline(records[i]); error && isExternal(records[i]))
+            result.push_back({records[i].variant, error->value, isWithin(records[i], limits)});
+    return result;
+}
+
 class Canvas {
 public:
-    Canvas(const LogAxis& cost, const LogAxis& error) : cost_(cost), error_(error) {}
+    Canvas(const LogAxis& cost, const LogAxis& error, double right) : cost_(cost), error_(error), right_(right) {}
 
+    [[nodiscard]] double right() const { return right_; }
+    [[nodiscard]] double rowOf(double error) const { return bottom - (bottom - top) * error_.position(error); }
     [[nodiscard]] glm::dvec2 at(const Place& place) const {
-        return {left + (right - left) * cost_.position(place.cost), bottom - (bottom - top) * error_.position(place.error)};
+        return {left + (right_ - left) * cost_.position(place.cost), rowOf(place.error)};
     }
     [[nodiscard]] static std::string screen(glm::dvec2 pixel) {
         return fmt::format("screen {:.5f}, screen {:.5f}", pixel.x / width, 1 - pixel.y / height);
@@ -53,16 +72,19 @@ public:
 
 private:
     LogAxis cost_, error_;
+    double right_;
 };
 
-Canvas canvas(const std::vector<Point>& all, const std::optional<double>& toleranceLine) {
+Canvas canvas(const std::vector<Point>& all, const std::vector<External>& beside,
+              const std::optional<double>& toleranceLine) {
     std::vector<double> costs, errors;
+    for (const External& row : beside) errors.push_back(row.error);
     for (const Point& point : all) {
         costs.push_back(point.place.cost);
         errors.push_back(point.place.error);
     }
     if (toleranceLine) errors.push_back(*toleranceLine);
-    return {LogAxis(costs), LogAxis(errors)};
+    return {LogAxis(costs), LogAxis(errors), beside.empty() ? widest : besideStrip};
 }
 
 std::vector<Place> corners(const std::vector<Point>& all, const Canvas& canvas) {
@@ -83,6 +105,21 @@ std::string block(const std::string& name, const std::vector<Place>& places, con
     return text + "EOD\n";
 }
 
+std::string labelScript(const LabelledPoint& point, const PlacedLabel& placed, const char* colour) {
+    const Box& box = placed.box;
+    const int side = placed.side.x;
+    const double x = side > 0 ? box.low.x : side < 0 ? box.high.x : 0.5 * (box.low.x + box.high.x);
+    std::string script = fmt::format("set label {} at {} {} front font ',12' textcolor rgb '{}'\n", literal(point.text),
+                                     Canvas::screen({x, 0.5 * (box.low.y + box.high.y)}),
+                                     side > 0   ? "left"
+                                     : side < 0 ? "right"
+                                                : "center",
+                                     colour);
+    if (!placed.leader) return script;
+    return script + fmt::format("set arrow from {} to {} nohead lc rgb '#9A9A9A' lw 1\n", Canvas::screen(point.at),
+                                Canvas::screen(box.closest(point.at)));
+}
+
 std::string labels(const std::vector<Point>& all, const Canvas& canvas, const std::optional<double>& toleranceLine) {
     std::vector<LabelledPoint> named;
     named.reserve(all.size());
@@ -92,26 +129,33 @@ std::string labels(const std::vector<Point>& all, const Canvas& canvas, const st
     for (std::size_t i = 1; i < front.size(); ++i) lines.emplace_back(canvas.at(front[i - 1]), canvas.at(front[i]));
     if (toleranceLine) {
         const double y = canvas.at({*toleranceLine, 1}).y;
-        lines.emplace_back(glm::dvec2(left, y), glm::dvec2(right, y));
+        lines.emplace_back(glm::dvec2(left, y), glm::dvec2(canvas.right(), y));
     }
 
-    const std::vector<PlacedLabel> placed = placeLabels(named, {{left + 4, top}, {right, bottom - 2}}, lines, letter);
+    const std::vector<PlacedLabel> placed =
+        placeLabels(named, {{left + 4, top}, {canvas.right(), bottom - 2}}, lines, letter);
     std::string script;
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-        const Box& box = placed[i].box;
-        const int side = placed[i].side.x;
-        const double x = side > 0 ? box.low.x : side < 0 ? box.high.x : 0.5 * (box.low.x + box.high.x);
-        script += fmt::format("set label {} at {} {} front font ',12' textcolor rgb '{}'\n", literal(named[i].text),
-                              Canvas::screen({x, 0.5 * (box.low.y + box.high.y)}),
-                              side > 0   ? "left"
-                              : side < 0 ? "right"
-                                         : "center",
-                              all[i].onFront ? blue : "#444444");
-        if (!placed[i].leader) continue;
-        const glm::dvec2 near = box.closest(named[i].at);
-        script += fmt::format("set arrow from {} to {} nohead lc rgb '#9A9A9A' lw 1\n", Canvas::screen(named[i].at),
-                              Canvas::screen(near));
+    for (std::size_t i = 0; i < placed.size(); ++i)
+        script += labelScript(named[i], placed[i], all[i].onFront ? blue : "#444444");
+    return script;
+}
+
+/// The rows without a cost, by their errors alone, in a strip of their own right of the plot.
+std::string strip(const std::vector<External>& rows, const Canvas& canvas) {
+    if (rows.empty()) return "";
+    const double x = canvas.right() + 24;
+    const auto text = [&](const char* words, double y) {
+        return fmt::format("set label '{}' at {} left font ',12'\n", words, Canvas::screen({x - 8, y}));
+    };
+    std::string script = text("cost not measured here:", top - 24) + text("other renderers", top - 8);
+    std::vector<LabelledPoint> named;
+    for (const External& row : rows) {
+        named.push_back({{x, canvas.rowOf(row.error)}, row.variant});
+        script += fmt::format("set label '' at {} point pt {} ps 1.2 lw 2 lc rgb '{}'\n", Canvas::screen(named.back().at),
+                              row.adequate ? 13 : 12, vermilion);
     }
+    const std::vector<PlacedLabel> placed = placeLabels(named, {{x + 4, top}, {width - 4, bottom - 2}}, {}, letter);
+    for (std::size_t i = 0; i < placed.size(); ++i) script += labelScript(named[i], placed[i], "#444444");
     return script;
 }
 
@@ -169,10 +213,11 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
     const std::vector<Tolerance> limits = tolerances(records, scene);
     const auto limit = std::ranges::find(limits, metric, &Tolerance::metric);
     const std::optional<double> toleranceLine = limit == limits.end() ? std::nullopt : std::optional(limit->value);
-    const Canvas area = canvas(all, toleranceLine);
+    const std::vector<External> beside = externals(records, scene);
+    const Canvas area = canvas(all, beside, toleranceLine);
     const bool share = isShare(metric);
 
-    std::string script = plotArea(left / width, right / width, top, bottom, height);
+    std::string script = plotArea(left / width, area.right() / width, top, bottom, height);
     script += fmt::format("set label {} at {} left font ',18'\n", literal(scene), Canvas::screen({left, 26}));
     script += "unset key\n" + key(limits);
     if (toleranceLine)
@@ -184,6 +229,7 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
     script += area.cost().script("x", 1, "×");
     script += area.error().script("y", share ? 100 : 1, share ? " %%" : "");
     script += labels(all, area, toleranceLine);
+    script += strip(beside, area);
     script += plotCommand(all, area, toleranceLine);
     return svgOf(script, width, height);
 }

@@ -79,13 +79,20 @@ std::string options(const std::string& option, const std::vector<std::string>& c
 } // namespace
 
 std::string runCommand(const std::vector<Record>& records) {
-    std::vector<std::string> variants, everyVariant;
-    for (const Record& record : records)
-        if (std::find(variants.begin(), variants.end(), record.variant) == variants.end())
-            variants.push_back(record.variant);
+    std::vector<std::string> variants, everyVariant, external;
+    for (const Record& record : records) {
+        std::vector<std::string>& known = isExternal(record) ? external : variants;
+        const bool isMade = record.external || !isExternal(record); // `score` has no part in a run
+        if (isMade && std::find(known.begin(), known.end(), record.variant) == known.end()) known.push_back(record.variant);
+    }
     for (const techniques::Variant& variant : techniques::matchVariants("*")) everyVariant.push_back(variant.name);
-    return "./bench run" + options("--scene", scenes(records), standardScenes()) +
-           options("--technique", variants, everyVariant) + " --profile " + shellWord(records.front().profile);
+    std::string chosen = options("--technique", variants, everyVariant);
+    if (!external.empty()) {
+        if (!chosen.empty() || variants.empty()) chosen += options("--technique", external, {});
+        chosen += " --external RENDERERS.toml";
+    }
+    return "./bench run" + options("--scene", scenes(records), standardScenes()) + chosen + " --profile " +
+           shellWord(records.front().profile);
 }
 
 std::string commitsOf(const std::vector<Record>& records) { return distinct(records, commit); }

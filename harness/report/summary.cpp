@@ -47,7 +47,7 @@ std::vector<std::size_t> ofScene(const std::vector<Record>& records, const std::
 std::optional<Place> place(const Record& record) {
     const std::optional<Headline> error = headline(record);
     const std::optional<double>& cost = record.values["cost.time.ratio"];
-    if (!error || !cost) return {};
+    if (!error || !cost || isExternal(record)) return {};
     return Place{error->value, *cost, costSpread(record)};
 }
 
@@ -113,6 +113,17 @@ std::string formatBound(const Tolerance& limit) {
 std::string formatBounds(const std::vector<Tolerance>& limits) {
     std::vector<std::string> parts;
     for (const Tolerance& limit : limits) parts.push_back(limit.metric + " " + formatBound(limit));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string reportedCosts(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::string> parts;
+    for (const std::size_t i : ofScene(records, scene)) {
+        if (!records[i].external || !records[i].external->reported) continue;
+        const ReportedCost& cost = *records[i].external->reported;
+        const std::string device = cost.device.empty() ? "" : fmt::format(" ({})", cost.device);
+        parts.push_back(fmt::format("{} {:.3g} ms{}", records[i].variant, cost.milliseconds, device));
+    }
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 

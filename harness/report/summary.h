@@ -15,7 +15,8 @@ std::vector<std::string> scenes(const std::vector<Record>& records);
 /// Indices of the records of `scene`, in order.
 std::vector<std::size_t> ofScene(const std::vector<Record>& records, const std::string& scene);
 
-/// A record's place on the accuracy–cost plane; nothing unless it was scored and timed.
+/// A record's place on the accuracy–cost plane; nothing unless it was scored and timed, and for other renderers, whose costs
+/// are not measured here.
 struct Place {
     double error;          // headline
     double cost;           // ratio to sm-uniform
@@ -79,6 +80,9 @@ std::string formatBounds(const std::vector<Tolerance>& limits);
 
 /// Where a technique fails, as its document says it: "Shades nothing but its plane"; "" for an unknown one.
 std::string admittedFailure(const std::string& technique);
+
+/// What other renderers of `scene` say of their own costs: "external:three-pcf 1.25 ms (NVIDIA H100), …"; "" if none does.
+std::string reportedCosts(const std::vector<Record>& records, const std::string& scene);
 
 /// "256²", "800 × 600".
 std::string imageSize(const Record& record);

@@ -56,6 +56,8 @@ TextTable table(const std::vector<Record>& records, const std::string& scene, bo
 /// "planar-hard (Projected shadow on a plane; its weakness: Shades nothing but its plane)": what does here may not do
 /// elsewhere.
 std::string withTitle(const Record& record) {
+    if (record.external && !record.external->title.empty())
+        return fmt::format("{} ({})", record.variant, record.external->title);
     const auto all = techniques::catalog();
     const auto entry = std::ranges::find(all, record.technique, &techniques::Entry::id);
     if (entry == all.end()) return record.variant;
@@ -89,6 +91,8 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
                             ? fmt::format("no technique is within tolerance ({})", bound)
                             : fmt::format("within tolerance ({}), none of them timed: {}", bound, fmt::join(within, ", ")));
     }
+    if (const std::string reported = reportedCosts(records, scene); !reported.empty())
+        lines.push_back("time of a frame as the renderers themselves report it, not measured here: " + reported);
     std::vector<std::pair<std::string, std::string>> inapplicable; // reason → variants, in order of first occurrence
     for (const std::size_t i : ofScene(records, scene)) {
         const Record& record = records[i];
@@ -103,6 +107,18 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
     }
     for (const auto& [reason, variants] : inapplicable)
         lines.push_back(fmt::format("not applicable: {} ({})", variants, reason));
+    return lines;
+}
+
+/// "external:three-pcf: three.js PCF 1024² (three.js r160)".
+std::vector<std::string> rendererLines(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::string> lines;
+    for (const std::size_t i : ofScene(records, scene)) {
+        if (!records[i].external) continue;
+        const auto& [title, source, reported] = *records[i].external;
+        const std::string by = source.empty() ? "" : title.empty() ? source : fmt::format(" ({})", source);
+        if (!title.empty() || !by.empty()) lines.push_back(fmt::format("{}: {}{}", records[i].variant, title, by));
+    }
     return lines;
 }
 
@@ -141,6 +157,7 @@ std::string markdownTable(const std::vector<Record>& records, const std::string&
     std::string text = markdown(table(records, scene, true));
     for (const std::string& line : footnotes(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
     if (const std::string note = rasteriserNote(records, scene); !note.empty()) text += fmt::format("\n{}\n", note);
+    for (const std::string& line : rendererLines(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
     for (const std::string& line : figureLines(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
     return text;
 }

@@ -32,8 +32,16 @@ std::vector<std::size_t> frontAndCheapest(const std::vector<Record>& records, co
     return rows;
 }
 
+/// Adds other renderers' rows, which are never on the front, and says whether there are any.
+bool addExternal(const std::vector<Record>& records, const std::vector<std::size_t>& all, std::vector<std::size_t>& rows) {
+    const std::size_t before = rows.size();
+    for (const std::size_t i : all)
+        if (isExternal(records[i]) && std::ranges::find(rows, i) == rows.end()) rows.push_back(i);
+    return rows.size() > before;
+}
+
 /// "not applicable: 4, errors: 1"; "" if all are scored.
-std::string others(const std::vector<Record>& records, const std::string& scene) {
+std::string unscoredOf(const std::vector<Record>& records, const std::string& scene) {
     std::size_t inapplicable = 0, errors = 0;
     for (const std::size_t i : ofScene(records, scene)) {
         if (records[i].status == Status::NotApplicable) ++inapplicable;
@@ -49,16 +57,17 @@ std::string others(const std::vector<Record>& records, const std::string& scene)
 
 std::string terminalSummary(const std::vector<Record>& records, const std::string& scene, const std::string& page) {
     const std::vector<std::size_t> all = scored(records, scene);
-    const std::string unscored = others(records, scene);
+    const std::string unscored = unscoredOf(records, scene);
     if (all.empty()) return unscored.empty() ? "" : fmt::format(" {}: no technique is scored{}\n", scene, unscored);
     std::vector<std::size_t> rows = frontAndCheapest(records, scene);
     const bool timed = !rows.empty();
     if (!timed) rows = leastErrors(records, all);
+    const std::string others = addExternal(records, all, rows) ? " and other renderers" : "";
 
     std::vector<Record> chosen;
     for (const std::size_t i : rows) chosen.push_back(records[i]);
     std::string text = terminalTable(chosen, scene);
-    const std::string which = timed ? "Pareto front" : "least errors";
+    const std::string which = (timed ? "Pareto front" : "least errors") + others;
     text += fmt::format(" {}: {} of {} techniques{}; the full table: {}\n", which, rows.size(), all.size(), unscored, page);
     return text;
 }

@@ -88,7 +88,7 @@ std::vector<ManifestCell> plannedCells(const RunOptions& options) {
     cell.dirty = commit.dirty;
     cell.program = programHash();
 
-    const std::vector<techniques::Variant> variants = chosenVariants(options.techniques);
+    const std::vector<techniques::Variant> variants = chosenVariants(options.techniques, options.measure.external.get());
     const groundtruth::Cache noTruths{options.cache}; // ids need the truths' keys only
     std::vector<ManifestCell> cells;
     for (const Scene& scene : chosenScenes(options.scenes, options.profile)) {

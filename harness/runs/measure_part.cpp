@@ -31,7 +31,8 @@ bool isValid(const std::filesystem::path& folder, const ManifestCell& cell) {
 class Part {
 public:
     Part(const RunOptions& options, const std::vector<ManifestCell>& manifest, CellRange range)
-        : options_(options), manifest_(manifest), range_(range), variants_(chosenVariants(options.techniques)),
+        : options_(options), manifest_(manifest), range_(range),
+          variants_(chosenVariants(options.techniques, options.measure.external.get())),
           names_(chosenSceneNames(options.scenes)),
           cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache) {
         if (options.instructions) timing::valgrindVersion(); // to fail before the long part

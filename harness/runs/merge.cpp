@@ -78,10 +78,13 @@ std::optional<Found> find(const std::vector<fs::path>& folders, const ManifestCe
 }
 
 void requireOneEnvironment(const std::vector<Found>& cells) {
+    const Found* first = nullptr;   // that was drawn here: where other renderers ran is not our concern
     const Found* counted = nullptr; // the first with a Valgrind
     for (const Found& found : cells) {
+        if (isExternal(found.cell.record)) continue;
+        if (first == nullptr) first = &found;
         if (counted == nullptr && found.cell.record.environment.valgrind) counted = &found;
-        for (const Found* other : {&cells.front(), counted == nullptr ? &cells.front() : counted})
+        for (const Found* other : {first, counted == nullptr ? first : counted})
             if (const auto differs =
                     gate::difference(other->cell.record.environment, found.cell.record.environment, gate::Surroundings::All))
                 throw Inconclusive(fmt::format("cells were measured in different environments: {} in {} and {}; measure all "
@@ -109,7 +112,7 @@ Merged merge(std::vector<fs::path> folders) {
     std::vector<Found> cells;
     for (std::size_t i = 0; i < manifest.size(); ++i)
         if (auto found = find(folders, manifest[i], i + 1, merged.missing)) cells.push_back(std::move(*found));
-    if (!cells.empty()) requireOneEnvironment(cells);
+    requireOneEnvironment(cells);
     if (merged.missing.empty()) merged.result = resultOf(cells);
     return merged;
 }
@@ -124,6 +127,7 @@ Record withoutTimings(Record record) {
         if (pass.bare) pass.bare->milliseconds.reset();
     }
     record.otherScreen.reset(); // measured for its times
+    if (record.external) record.external->reported.reset();
     return record;
 }
 

@@ -40,8 +40,9 @@ std::vector<Record> finishedRecords(const RunOptions& options) {
     return records;
 }
 
-/// Whether all times that are asked for have been taken.
+/// Whether all times that are asked for have been taken; of other renderers none are.
 bool isTimed(const Record& record, const MeasureOptions& options) {
+    if (isExternal(record)) return true;
     const bool own = record.values["cost.time.median"] || record.values["lod.time.median"];
     return (own || !options.time) && (record.otherScreen || isLevelOfDetail(record) || !options.otherScreen);
 }
@@ -63,7 +64,7 @@ MeasuredCell tried(const SceneCells& cells, const techniques::Variant& variant, 
 class Runner {
 public:
     explicit Runner(const RunOptions& options)
-        : options_(options), variants_(chosenVariants(options.techniques)),
+        : options_(options), variants_(chosenVariants(options.techniques, options.measure.external.get())),
           scenes_(chosenScenes(options.scenes, options.profile)), finished_(finishedRecords(options)),
           cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), known_(cellCount()) {
         if (options.instructions) timing::valgrindVersion(); // to fail before the long part

@@ -74,6 +74,19 @@ TEST(Series, ASecondMeasurementOfACommitReplacesTheFirstUnlessItIsNoisy) {
     EXPECT_TRUE(history.series[1].noisy);
 }
 
+TEST(Series, FollowsAnotherRendererFromVersionToVersion) {
+    std::vector<Commit> commits = leaks({0.1, 0.2});
+    for (Commit& commit : commits) {
+        Record& record = commit.records[0];
+        record.technique = record.variant = "external:my-engine";
+        record.environment.gl = notDrawnHere;
+        record.environment.renderer = "my engine of " + commit.hash;
+    }
+    const Findings findings = findingsOf(commits, onlyLeak);
+    ASSERT_EQ(findings.history.series.size(), 1U);
+    EXPECT_EQ(findings.changes.size(), 1U);
+}
+
 /// Series of one metric when the second commit's record is changed.
 template <typename Change>
 std::size_t seriesWhen(const std::string& metric, const Change& change) {

@@ -1,0 +1,146 @@
+// What a TOML of renderers may say, and that everything else is refused by file, line and key.
+#include "harness/foreign/renderer.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench::foreign {
+namespace {
+
+using namespace std::chrono_literals;
+
+class RenderersFile : public ::testing::Test {
+protected:
+    std::vector<Renderer> read(const std::string& text) const {
+        writeFile(file(), text);
+        return readRenderers(file());
+    }
+    [[nodiscard]] std::string refusal(const std::string& text) const {
+        try {
+            read(text);
+        } catch (const BadInput& error) {
+            const std::string what = error.what(), prefix = folder_.path().string() + "/";
+            return what.starts_with(prefix) ? what.substr(prefix.size()) : what;
+        }
+        return "";
+    }
+    /// A renderer with the lines, where something is wrong.
+    [[nodiscard]] std::string refusalOf(const std::string& lines) const {
+        return refusal("[[renderer]]\nid = \"a\"\ncommand = [\"x\", \"{scene}\", \"{out}\"]\n" + lines + "\n");
+    }
+    [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "r.toml"; }
+
+    TemporaryFolder folder_;
+};
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(RenderersFile, GivesARendererAllThatItSays) {
+    const auto renderers = read(R"(
+[[renderer]]
+id = "three-pcf"
+title = "three.js, PCF"
+source = "three.js r160"
+command = ["./render", "--scene={scene}", "--frames", "{frames}", "--out", "{out}"]
+means = "irradiance"
+encoding = "srgb"
+channel = "R"
+depth_is = "distance"
+history = true
+leave_out_edges = true
+as_it_is = true
+frames = "still"
+time_limit = 2.5
+settings = { map = 1024, bias = 0.5, filter = "pcf", flat = true }
+environment = { DISPLAY = ":7" }
+[[renderer]]
+id = "plain"
+command = "render {scene} > {out}/log"
+)");
+    ASSERT_EQ(renderers.size(), 2U);
+    const Renderer& r = renderers[0];
+    EXPECT_EQ(r.id, "three-pcf");
+    EXPECT_EQ(r.title, "three.js, PCF");
+    EXPECT_EQ(r.source, "three.js r160");
+    EXPECT_EQ(r.command.size(), 6U);
+    EXPECT_EQ(r.means, Means::Irradiance);
+    EXPECT_EQ(r.encoding, Encoding::Srgb);
+    EXPECT_EQ(r.channel, "R");
+    EXPECT_EQ(r.depth, Depth::FromEye);
+    EXPECT_TRUE(r.remembers && r.leaveOutEdges && r.asItIs);
+    EXPECT_FALSE(r.moving);
+    EXPECT_EQ(r.limit, 2500ms);
+    const std::vector<std::pair<std::string, std::string>> settings{
+        {"bias", "0.5"}, {"filter", "pcf"}, {"flat", "true"}, {"map", "1024"}};
+    EXPECT_EQ(r.settings, settings);
+    EXPECT_EQ(r.environment.front(), std::pair(std::string("DISPLAY"), std::string(":7")));
+    EXPECT_EQ(r.folder, folder_.path());
+    const Renderer& plain = renderers[1];
+    EXPECT_EQ(plain.command, (std::vector<std::string>{"/bin/sh", "-c", "render {scene} > {out}/log"}));
+    EXPECT_TRUE(plain.isShellLine && plain.moving && !plain.asItIs);
+    EXPECT_EQ(plain.means, Means::Hard);
+    EXPECT_EQ(plain.encoding, Encoding::OfFormat);
+    EXPECT_EQ(plain.limit, 10min);
+}
+
+TEST_F(RenderersFile, TakesTheEntryForAnotherOneWhenItSaysSomethingElse) {
+    const std::string entry = "[[renderer]]\nid = \"a\"\ncommand = [\"x\", \"{scene}\", \"{out}\"]\n";
+    const std::string text = read(entry)[0].text;
+    EXPECT_EQ(read("# a comment\n" + entry + "[[renderer]]\nid = \"b\"\ncommand = \"{scene}{out}\"\n")[0].text, text);
+    EXPECT_NE(read(entry + "time_limit = 3\n")[0].text, text);
+    EXPECT_NE(read(entry + "settings.map = 512\n")[0].text, text);
+}
+
+TEST_F(RenderersFile, NamesLineAndKeyOfWhatIsWrong) {
+    EXPECT_TRUE(refusalOf("encodin = \"linear\"").starts_with("r.toml:4: renderer[1].encodin: unknown key (did you mean"))
+        << refusalOf("encodin = \"linear\"");
+    EXPECT_TRUE(contains(refusalOf("means = \"soft\""), "r.toml:4: renderer[1].means: expected one of hard, area,"));
+    EXPECT_TRUE(contains(refusalOf("time_limit = 0"), "expected a number above 0"));
+    EXPECT_TRUE(contains(refusalOf("settings = { map = [1] }"), "renderer[1].settings.map: expected a text, a number"));
+    EXPECT_TRUE(contains(refusalOf("environment = { A = 1 }"), "renderer[1].environment.A: expected a text"));
+    EXPECT_TRUE(contains(refusalOf("[[renderer]]\nid = \"a\"\ncommand = \"{scene}{out}\""), "another renderer \"a\""));
+    EXPECT_TRUE(contains(refusal("[[rendrer]]\n"), "r.toml:1: rendrer: unknown key (did you mean \"renderer\"?)"));
+    EXPECT_TRUE(contains(refusal("renderer = []\n"), "describe a renderer under [[renderer]]"));
+    EXPECT_TRUE(contains(refusal("renderer = 3\n"), "r.toml:1: renderer: expected a list"));
+    EXPECT_TRUE(contains(refusal("renderer = [3]\n"), "expected a table"));
+    EXPECT_TRUE(contains(refusal(""), "renderer: missing"));
+    EXPECT_TRUE(contains(refusal("[[renderer]\n"), "not valid TOML"));
+}
+
+TEST_F(RenderersFile, RefusesIdsThatCannotBePartOfATechniquesName) {
+    for (const char* id : {"", "A", "a b", "a:b", "a,b", "../a", "-a"})
+        EXPECT_TRUE(contains(refusal(std::string("[[renderer]]\nid = \"") + id + "\"\ncommand = \"{scene}{out}\"\n"),
+                             "cannot be an id"))
+            << id;
+}
+
+TEST_F(RenderersFile, RefusesCommandsThatCannotBeCalled) {
+    const auto command = [&](const std::string& value) { return refusal("[[renderer]]\nid = \"a\"\ncommand = " + value); };
+    EXPECT_TRUE(contains(command("[]"), "is empty"));
+    EXPECT_TRUE(contains(command("[\"x\", \"{sceen}\", \"{out}\"]"), "no placeholder {sceen} (did you mean \"scene\"?)"));
+    EXPECT_TRUE(contains(command("[\"x\", \"{out}\"]"), "{scene} is missing"));
+    EXPECT_TRUE(contains(command("\"x {scene}\""), "{out} is missing"));
+    EXPECT_EQ(command("\"x {scene} {out} ${home} {A} awk '{ print }'\""), "") << "braces of the shell's own";
+}
+
+TEST_F(RenderersFile, OfTheDocumentationCanBeRead) {
+    const std::string page = readFile(std::filesystem::path(SOURCE_FOLDER) / "docs/external.md");
+    const std::string fence = "```toml\n";
+    const std::size_t begin = page.find(fence) + fence.size();
+    const auto renderers = read(page.substr(begin, page.find("```", begin) - begin));
+    ASSERT_EQ(renderers.size(), 1U);
+    EXPECT_EQ(renderers[0].id, "my-engine");
+    EXPECT_EQ(renderers[0].settings.size(), 2U);
+}
+
+TEST(FilledIn, ReplacesPlaceholdersAndNothingElse) {
+    const std::vector<std::pair<std::string, std::string>> values{{"scene", "/tmp/it's"}, {"out", "{scene}"}};
+    EXPECT_EQ(filledIn("--scene={scene}:{out} {other} {scene", values, false), "--scene=/tmp/it's:{scene} {other} {scene");
+    EXPECT_EQ(filledIn("ls {scene} ${scene}", values, true), "ls '/tmp/it'\\''s' ${scene}");
+}
+
+} // namespace
+} // namespace shadowbench::foreign
