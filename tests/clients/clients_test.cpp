@@ -4,6 +4,7 @@
 #include "harness/foreign/renderer.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -29,6 +30,13 @@ std::vector<Renderer> renderersIn(const fs::path& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
         if (entry.path().extension() == ".toml") std::ranges::move(readRenderers(entry.path()), std::back_inserter(all));
     return all;
+}
+
+/// The same text, or the same number written otherwise (0.0001, 1e-04).
+bool isSame(const std::string& a, const std::string& b) {
+    char* end = nullptr;
+    const double number = std::strtod(a.c_str(), &end);
+    return a == b || (end != a.c_str() && *end == '\0' && number == std::strtod(b.c_str(), nullptr));
 }
 
 bool isExecutable(const fs::path& file) {
@@ -66,7 +74,7 @@ TEST(Clients, SayEachSettingOfTheirCommands) {
             for (std::size_t word = own; word < renderer.command.size(); ++word) {
                 const std::string& option = renderer.command[word];
                 const std::string value = option.substr(option.find('=') + 1);
-                const auto says = [&](const auto& setting) { return setting.second == value; };
+                const auto says = [&](const auto& setting) { return isSame(value, setting.second); };
                 const bool isInSource = option.starts_with("--engine="); // in the renderer's `source`
                 EXPECT_TRUE(isInSource || std::ranges::any_of(renderer.settings, says)) << renderer.id << ": " << option;
             }
