@@ -1,5 +1,6 @@
 #include "harness/report/site/scene_tables.h"
 
+#include "harness/metrics/table.h"
 #include "harness/report/columns.h"
 #include "harness/report/run_report.h"
 #include "harness/report/site/choice.h"

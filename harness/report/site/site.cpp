@@ -19,12 +19,12 @@ namespace {
 std::vector<Link> navigationOf(const Sources& sources, const std::vector<Record>& measured,
                                const std::vector<Sweep>& sweeps) {
     std::vector<Link> links{{"Choose", "index.html"}};
-    for (const std::string& scene : report::scenes(measured)) links.push_back({scene, sceneAddress(scene)});
     if (!sweeps.empty()) links.push_back({"Sweeps", "sweeps.html"});
     links.push_back({"Claims", "claims.html"});
     if (!measured.empty()) links.push_back({"Truth", "truth.html"});
     if (sources.base) links.push_back({"Gate", "gate.html"});
     if (sources.findings) links.push_back({"History", "history.html"});
+    for (const std::string& scene : report::scenes(measured)) links.push_back({scene, sceneAddress(scene)}); // may be many
     return links;
 }
 

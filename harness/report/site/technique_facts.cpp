@@ -2,6 +2,7 @@
 
 #include "embedded_families.h"
 #include "techniques/catalog.h"
+#include "techniques/contract/entry.h"
 
 #include <algorithm>
 #include <string_view>
