@@ -6,6 +6,7 @@
 #include "harness/cells/environment.h"
 #include "harness/measure/frame_cost.h"
 #include "harness/metrics/frames.h"
+#include "harness/metrics/pixels.h"
 #include "techniques/contract/applicability.h"
 #include "techniques/gl/context.h"
 
@@ -134,6 +135,13 @@ public:
         metrics::compute<Kind>(frames_, values);
     }
 
+    void keep(CellImages& images) const {
+        if (frames_.pairs.empty()) return;
+        for (const Kept& frame : kept_) images.sequence.push_back(frame.v);
+        images.flicker.emplace_back(kept_.front().v.width(), kept_.front().v.height());
+        for (const metrics::FramePair& pair : frames_.pairs) images.flicker.push_back(metrics::flickerMap(pair));
+    }
+
 private:
     struct Kept {
         Image<float> v;
@@ -213,6 +221,10 @@ bool usesPixelAreas(const Scene& scene, const techniques::Variant& variant) {
     return scene.timeline.moving > 0 || !scene.light.isArea();
 }
 
+Truth sequenceTruth(const Scene& scene, const techniques::Variant& variant) {
+    return usesPixelAreas(scene, variant) ? Truth::PixelArea : mainTruth(scene, variant);
+}
+
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed,
                    int seeds) {
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
@@ -247,7 +259,7 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     const Truth graded = gradedTruth(scene);
     StillFrameScores still(frames.truths().at(kind, scored), frames.truths().at(graded, scored), kind == Truth::Hard);
     MovingFrameScores moving(kind, temporal);
-    MovingFrameScores movingAreas(usesPixelAreas(scene, variant) ? Truth::PixelArea : kind, temporal);
+    MovingFrameScores movingAreas(sequenceTruth(scene, variant), temporal);
     Hasher128 shown;
     std::uint64_t bytes = 0;
     const int first = -scene.timeline.approach;
@@ -267,7 +279,8 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
             record.figures =
                 techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame - first, seed)));
             measureAliasing(*technique, frames, mask, record);
-            images = {v, &frames.truth(graded)};
+            images.visibility = v;
+            images.reference = &frames.truth(graded);
             bytes = gl::Context::current().tally().bytes - bytesBefore;
         }
         movingAreas.add(frames, v);
@@ -275,6 +288,7 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     }
     moving.finish<metrics::OfMovingFrames>(record.values);
     movingAreas.finish<metrics::OfMovingAreas>(record.values);
+    if (images.wantsSequence) movingAreas.keep(images);
     record.images = shown.digest().text();
 
     frames.show(scored);

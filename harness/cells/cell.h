@@ -10,10 +10,13 @@
 
 namespace shadowbench {
 
-/// What a cell leaves beside its record: the scored frame's images.
+/// What a cell leaves beside its record: the scored frame's images and, where `wantsSequence` is set, those of the sequence.
 struct CellImages {
     Image<float> visibility;
     const groundtruth::Reference* reference = nullptr;
+    bool wantsSequence = false;
+    std::vector<Image<float>> sequence = {}; // V of the scored frame and the moving ones; empty where none moves
+    std::vector<Image<float>> flicker = {};  // of each of them since the one before; of the first 0
 };
 
 /// What is known of a cell before it runs: everything but scores and costs. Needs a GL context.
@@ -21,6 +24,9 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
 
 /// The truth that a technique's answer is measured by frame after frame.
 Truth mainTruth(const Scene& scene, const techniques::Variant& variant);
+
+/// The truth that the changes from frame to frame are compared with.
+Truth sequenceTruth(const Scene& scene, const techniques::Variant& variant);
 
 /// Whether a cell is scored against the truth of pixel areas: hard and filtered answers are, under an area light only by
 /// what changes from frame to frame.

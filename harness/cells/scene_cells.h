@@ -11,11 +11,14 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace shadowbench {
+
+struct CellImages;
 
 class SceneCells {
 public:
@@ -58,6 +61,8 @@ public:
 private:
     void scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress);
     SceneFrames& frames();
+    void keepImages(const techniques::Variant& variant, const CellImages& images);
+    std::vector<Image<float>> truthSequence(Truth truth);
     [[nodiscard]] std::filesystem::path imageFolder(const techniques::Variant& variant) const;
 
     const Scene& scene_;
@@ -66,6 +71,7 @@ private:
     Truths truths_;
     lod::LodScene lodScene_;
     std::optional<SceneFrames> frames_;
+    std::set<Truth> keptTruths_, keptSequences_; // whose files this object has written
 };
 
 } // namespace shadowbench
