@@ -16,7 +16,7 @@ void append(Sentences& to, const nlohmann::json& sentences) {
 constexpr const char* unnamed = R"js(
   [...document.querySelectorAll("img:not([alt])")].map((e) => "no text for the picture " + e.src).concat(
   [...document.querySelectorAll("button, select, input, a[href]")].filter((e) => !e.closest("[hidden]")).filter((e) =>
-    !(e.textContent.trim() || e.getAttribute("aria-label") || e.title || (e.labels && e.labels.length)))
+    !(e.textContent.trim() || e.querySelector("img[alt]") || e.getAttribute("aria-label") || e.title || (e.labels && e.labels.length)))
     .map((e) => "no name for " + e.outerHTML.slice(0, 120)),
   document.querySelectorAll("h1").length === 1 ? [] : ["not one heading h1"],
   document.title ? [] : ["no title"],

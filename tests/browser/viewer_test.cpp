@@ -85,7 +85,7 @@ TEST_F(Cells, HaveThePixelValuesOfTheExrBitForBit) {
         for (std::size_t i = 0; i < expected.size(); ++i)
             ASSERT_EQ(values[i].get<double>(), static_cast<double>(expected[i])) << variant << " " << i;
     }
-    EXPECT_EQ(faultsOf(*tab, page()), Sentences());
+    EXPECT_EQ(tab->complaints(), Sentences());
 }
 
 TEST_F(Cells, ShowTheValuesOfThePixelUnderThePointer) {
@@ -218,7 +218,7 @@ TEST_F(Cells, HaveEveryPictureWithoutJavaScript) {
     EXPECT_EQ(missingContent(*tab), Sentences());
     EXPECT_EQ(tab->value("document.querySelectorAll('.cell-pictures img').length"), 3 * tinyRun().records().size());
     EXPECT_EQ(tab->value("document.querySelector('.viewer').hidden"), true);
-    EXPECT_EQ(faultsOf(*tab, page()), Sentences());
+    EXPECT_EQ(tab->complaints(), Sentences());
 }
 
 TEST_F(Cells, SayWhichFileOfPixelValuesIsMissing) {
@@ -250,7 +250,7 @@ TEST_F(Cells, ShowHostileNamesAsText) {
     const auto tab = chromium().tab();
     tab->open(pages.front());
     tab->waitFor(shown);
-    EXPECT_EQ(faultsOf(*tab, pages.front()), Sentences());
+    EXPECT_EQ(tab->complaints(), Sentences());
     EXPECT_NE(tab->value("document.title"), "ran");
     EXPECT_NE(tab->value("document.querySelector('[name=cell]').textContent").get<std::string>().find("<img src=x"),
               std::string::npos);

@@ -33,7 +33,7 @@
   }
 
   function others(catalogue) {
-    const truths = catalogue.truths.map((truth) => element("option", { value: truth.name }, truth.label));
+    const truths = catalogue.truths.map((truth) => element("option", { value: truth.name }, "truth, " + truth.label));
     const cells = catalogue.cells.map((cell) => element("option", { value: "cell:" + cell.slug }, cell.variant));
     return element("select", { name: "against" },
       element("optgroup", { label: "Truth" }, ...truths), element("optgroup", { label: "Another technique" }, ...cells));

@@ -153,6 +153,7 @@
 
     choose(pixel) {
       if (!pixel) return;
+      this.hovered = null; // a pointer that rests somewhere does not hide what keys choose
       this.change({ pixel });
       this.spoken.textContent = this.readout.text();
     }
