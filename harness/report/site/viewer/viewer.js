@@ -63,7 +63,7 @@
         this.legend, this.readout.list, this.status, this.spoken, this.help);
       this.root.hidden = false;
       document.addEventListener("keydown", (event) => {
-        if (!this.help.open && shadowbench.actOnKey(event, this.act)) event.preventDefault();
+        if (this.isSeen() && !this.help.open && shadowbench.actOnKey(event, this.act)) event.preventDefault();
       });
       window.addEventListener("hashchange", () => this.follow());
       new ResizeObserver(() => this.draw()).observe(this.root);
@@ -252,8 +252,12 @@
       this.remember();
     }
 
+    // In a site of one file, the pages that are not looked at are hidden.
+    isSeen() { return this.root.offsetParent !== null; }
+
     remember() {
       clearTimeout(this.remembering);
+      if (!this.isSeen()) return;
       this.remembering = setTimeout(() => {
         const address = shadowbench.addressOf(this.view);
         if (address !== location.hash) history.replaceState(null, "", address);
