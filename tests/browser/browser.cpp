@@ -33,9 +33,20 @@ std::string chromium() {
 
 std::vector<std::string> arguments(const std::string& program, const std::string& profile) {
     // As root, Chromium starts only without its sandbox; the pages are our own.
-    return {program, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-            "--disable-background-networking", "--disable-component-update", "--disable-extensions", "--hide-scrollbars",
-            "--force-color-profile=srgb", "--remote-debugging-pipe", "--user-data-dir=" + profile, "about:blank"};
+    return {program,
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            "--no-first-run",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-extensions",
+            "--hide-scrollbars",
+            "--force-color-profile=srgb",
+            "--remote-debugging-pipe",
+            "--user-data-dir=" + profile,
+            "about:blank"};
 }
 
 /// In the child, between fork and exec.

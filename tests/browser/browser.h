@@ -1,5 +1,5 @@
-// Debian's Chromium without a window, driven over a pipe by its own protocol (chromedevtools.github.io/devtools-protocol): no
-// driver program, no port, no library beside the one for JSON.
+// Debian's Chromium without a window, driven over a pipe by its own protocol (chromedevtools.github.io/devtools-protocol):
+// no driver program, no port, no library beside the one for JSON.
 #pragma once
 
 #include <filesystem>
@@ -47,8 +47,8 @@ public:
     /// PNG.
     std::string screenshot();
 
-    /// What went wrong since the tab was made: exceptions, messages of console.error and console.warn, files that did not load,
-    /// what a content security policy blocked.
+    /// What went wrong since the tab was made: exceptions, messages of console.error and console.warn, files that did not
+    /// load, what a content security policy blocked.
     [[nodiscard]] const std::vector<std::string>& complaints() const { return complaints_; }
 
 private:

@@ -14,8 +14,8 @@ using Sentences = std::vector<std::string>;
 /// The site's pages, sorted.
 std::vector<std::filesystem::path> pagesOf(const std::filesystem::path& site);
 
-/// The page that is open: complaints of the browser; a heading and a title; a text for each picture; fields and buttons with a
-/// name; links to pages and files that are there.
+/// The page that is open: complaints of the browser; a heading and a title; a text for each picture; fields and buttons with
+/// a name; links to pages and files that are there.
 Sentences faultsOf(Tab& tab, const std::filesystem::path& page);
 
 /// Whether the page that is open is wider than the window: what must be scrolled sideways to be read.

@@ -200,8 +200,9 @@ TEST_F(Cells, ShowTheFramesOfTheSequenceAndWhatFlickers) {
     EXPECT_EQ(tab->value("Number(document.querySelector('[name=frame]').max)"), 1);
     tab->press(".");
     EXPECT_NE(address(*tab).find("frame=1"), std::string::npos);
-    EXPECT_NE(tab->value("document.querySelector('.viewer figcaption').textContent").get<std::string>().find("moving frame 1"),
-              std::string::npos);
+    EXPECT_NE(
+        tab->value("document.querySelector('.viewer figcaption').textContent").get<std::string>().find("moving frame 1"),
+        std::string::npos);
 }
 
 TEST_F(Cells, FitPhonesAndWideScreensLightAndDark) {

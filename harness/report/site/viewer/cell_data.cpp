@@ -20,8 +20,8 @@ std::string inScript(const Json& value) {
 }
 
 Json ofCell(const ShownCell& cell) {
-    Json json{{"slug", cell.slug}, {"variant", cell.variant}, {"error", cell.error}, {"truth", cell.truth},
-              {"data", cell.data}};
+    Json json{
+        {"slug", cell.slug}, {"variant", cell.variant}, {"error", cell.error}, {"truth", cell.truth}, {"data", cell.data}};
     if (const auto& frames = cell.sequence)
         json["frames"] = {{"count", frames->count},
                           {"picture", frames->picture},

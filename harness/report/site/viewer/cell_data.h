@@ -18,7 +18,7 @@ struct ShownTruth {
 };
 
 struct ShownSequence {
-    int count = 0;                              // frames, the scored one with them
+    int count = 0;                               // frames, the scored one with them
     std::string picture, truth, flicker, moving; // addresses; the truth's name
 };
 

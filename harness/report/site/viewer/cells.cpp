@@ -25,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t leastErrors = 10; // rows with a sequence where no time makes a front
-constexpr std::array<std::string_view, 11> scripts{"pixels.js", "colours.js",   "worst.js",   "address.js",
-                                                   "pane.js",   "controls.js",  "readout.js", "pointer.js",
-                                                   "keys.js",   "layers.js",    "viewer.js"};
+constexpr std::array<std::string_view, 11> scripts{"pixels.js", "colours.js",  "worst.js",   "address.js",
+                                                   "pane.js",   "controls.js", "readout.js", "pointer.js",
+                                                   "keys.js",   "layers.js",   "viewer.js"};
 
 /// The files of one scene's cells.
 class ScenePage {
@@ -42,7 +42,8 @@ public:
     void add(const Record& record, bool withSequence) {
         const fs::path folder = cellFolder(images_, scene_, record.variant);
         const Image<float> v = readChannel(folder / "visibility.exr", "V");
-        ShownCell cell{slug(record.variant), shown(record.variant), errorOf(record), truthOf(record, names_), {}, {}, {}, {}};
+        ShownCell cell{
+            slug(record.variant), shown(record.variant), errorOf(record), truthOf(record, names_), {}, {}, {}, {}};
         const KeptTruth& truth = truths_.at(cell.truth);
         if (!v.sameSize(truth.visibility) || !seen_.insert(cell.slug).second) return;
         shown_.width = v.width();
@@ -142,7 +143,9 @@ void writeScene(const std::vector<Record>& records, const std::vector<std::size_
     if (shownScene.cells.empty()) return;
     const std::string catalogue = fmt::format("cells/{}/cells.js", shownScene.slug);
     writeFile(site.folder() / catalogue, catalogueScript(shownScene));
-    site.add({fmt::format("cells/{}.html", shownScene.slug), shownScene.title + ", pixel by pixel", cellsPage(shownScene),
+    site.add({fmt::format("cells/{}.html", shownScene.slug),
+              shownScene.title + ", pixel by pixel",
+              cellsPage(shownScene),
               {"assets/viewer.js", catalogue}});
 }
 

@@ -82,9 +82,7 @@ TEST(PixelScript, CallsTheViewerWithItsNameAndChannels) {
     EXPECT_TRUE(packed({}).ends_with("=") || packed({}).size() % 4 == 0);
 }
 
-TEST(PixelScript, OfAFlatImageIsSmall) {
-    EXPECT_LT(packed(std::vector<float>(65536, 1)).size(), 1000U);
-}
+TEST(PixelScript, OfAFlatImageIsSmall) { EXPECT_LT(packed(std::vector<float>(65536, 1)).size(), 1000U); }
 
 TEST(DifferencePicture, IsOrangeForFalseShadowBlueForLeakAndDarkWhereRight) {
     const KeptTruth truth = halfPlane();
