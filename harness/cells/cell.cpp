@@ -86,6 +86,10 @@ bool usesPixelAreas(const Scene& scene, const techniques::Variant& variant) {
     return usesPixelAreas(scene, mainTruth(scene, variant));
 }
 
+Truth sequenceTruth(const Scene& scene, const techniques::Variant& variant) {
+    return usesPixelAreas(scene, variant) ? Truth::PixelArea : mainTruth(scene, variant);
+}
+
 std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed,
                    int seeds) {
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
@@ -138,6 +142,7 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
         images.frames.emplace(frame, std::move(v));
     }
     scores.finish(record);
+    if (images.wantsFlicker) images.flicker = scores.flickerMaps();
 
     frames.show(scored);
     const int next = scene.timeline.frames() - first; // of the technique's sequence

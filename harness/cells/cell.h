@@ -8,6 +8,7 @@
 
 #include <map>
 #include <optional>
+#include <vector>
 
 namespace shadowbench {
 
@@ -16,6 +17,8 @@ namespace shadowbench {
 struct CellImages {
     std::map<int, Image<float>> frames;
     const groundtruth::Reference* reference = nullptr;
+    bool wantsFlicker = false;
+    std::vector<Image<float>> flicker = {}; // where wanted: of each of them since the one before; of the first 0
 
     [[nodiscard]] const Image<float>& visibility() const { return frames.begin()->second; }
 };
@@ -28,6 +31,9 @@ Record blankRecord(const Scene& scene, const techniques::Variant& variant, std::
 
 /// The truth that a technique's answer is measured by frame after frame.
 Truth mainTruth(const Scene& scene, const techniques::Variant& variant);
+
+/// The truth that the changes from frame to frame are compared with.
+Truth sequenceTruth(const Scene& scene, const techniques::Variant& variant);
 
 /// Whether a cell is scored against the truth of pixel areas: hard and filtered answers are, under an area light only by
 /// what changes from frame to frame.

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "groundtruth/area_comparison.h"
 #include "harness/metrics/frames.h"
+#include "harness/metrics/pixels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -132,6 +133,15 @@ public:
         metrics::compute<Kind>(frames_, values);
     }
 
+    [[nodiscard]] std::vector<Image<float>> flickerMaps() const {
+        std::vector<Image<float>> maps;
+        for (const metrics::FramePair& pair : frames_.pairs) {
+            if (maps.empty()) maps.emplace_back(pair.now.v.width(), pair.now.v.height());
+            maps.push_back(metrics::flickerMap(pair));
+        }
+        return maps;
+    }
+
 private:
     struct Kept {
         Image<float> v;
@@ -208,5 +218,7 @@ void ImageScores::finish(Record& record) const {
     sequences_->movingAreas.finish<metrics::OfMovingAreas>(record.values);
     record.images = shown_.digest().text();
 }
+
+std::vector<Image<float>> ImageScores::flickerMaps() const { return sequences_->movingAreas.flickerMaps(); }
 
 } // namespace shadowbench

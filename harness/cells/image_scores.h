@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace shadowbench {
 
@@ -47,6 +48,9 @@ public:
 
     /// Fills in stability and the hash of the images, once all are added.
     void finish(Record& record) const;
+
+    /// What `flicker` is the mean of, of the scored frame (nothing) and each moving one; empty where nothing moves.
+    [[nodiscard]] std::vector<Image<float>> flickerMaps() const;
 
 private:
     struct Sequences;

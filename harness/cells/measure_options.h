@@ -13,7 +13,8 @@ struct MeasureOptions {
     std::uint32_t seed = 1;
     int seeds = 1;                // from it on; with two or more the error of what depends on the seed is split
     bool time = true;             // wall time
-    std::filesystem::path images; // folder of <scene>/<variant>/; empty: no images are written
+    std::filesystem::path images; // folder of what is kept for pages (harness/cells/kept_images.h); empty: nothing is
+    bool pictures = false;        // for people, too: visibility, reference and error as EXR and PNG
     bool otherScreen = false;     // costs by pass on an image of another size, too
     std::shared_ptr<const ExternalTechniques> external{}; // that may be among the techniques; null: none
 

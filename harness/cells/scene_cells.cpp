@@ -2,6 +2,7 @@
 
 #include "harness/cells/cell_images.h"
 #include "harness/cells/external_techniques.h"
+#include "harness/cells/kept_images.h"
 #include "harness/cells/lod_images.h"
 #include "harness/measure/frame_passes.h"
 #include "harness/metrics/values.h"
@@ -100,12 +101,30 @@ void SceneCells::score(const techniques::Variant& variant, Record& record, const
     for (const auto& [truth, frame] : truthsOf(variant)) computeTruth(truth, frame, progress);
     progress(0, variant.name);
     CellImages images;
+    images.wantsFlicker = !options_.images.empty();
     if (isExternal(variant))
         options_.external->score(frames(), variant, record, images, progress);
     else
         scoreOwn(variant, record, images);
     markExpectedFailure(scene_, variant, record);
-    if (!options_.images.empty()) writeCellImages(imageFolder(variant), images);
+    if (!options_.images.empty()) keepImages(variant, images);
+}
+
+void SceneCells::keepImages(const techniques::Variant& variant, const CellImages& images) {
+    keepCell(imageFolder(variant), images);
+    if (options_.pictures) writeCellImages(imageFolder(variant), images);
+    for (const auto& [truth, frame] : truthsOf(variant))
+        if (frame == scene_.timeline.still - 1 && keptTruths_.insert(truth).second)
+            keepTruth(truthFile(options_.images, scene_.id, name(truth)), truths_.at(truth, frame));
+    const Truth moving = sequenceTruth(scene_, variant);
+    if (images.frames.size() > 1 && keptSequences_.insert(moving).second)
+        keepSequence(truthSequenceFile(options_.images, scene_.id, name(moving)), truthSequence(moving));
+}
+
+std::vector<Image<float>> SceneCells::truthSequence(Truth truth) {
+    std::vector<Image<float>> images;
+    for (const int frame : truths_.scoredFrames()) images.push_back(truths_.at(truth, frame).visibility);
+    return images;
 }
 
 void SceneCells::scoreOwn(const techniques::Variant& variant, Record& record, CellImages& images) {
@@ -117,7 +136,7 @@ void SceneCells::scoreOwn(const techniques::Variant& variant, Record& record, Ce
 void SceneCells::scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress) {
     lod::KeepPicture keep;
     std::optional<lod::LodImages> images;
-    if (!options_.images.empty()) {
+    if (options_.pictures) {
         images.emplace(lodScene_.reference(progress));
         keep = [&images](int frame, const metrics::ColourImage& picture) { images->keep(frame, picture); };
     }
@@ -143,7 +162,7 @@ void SceneCells::measure(const techniques::Variant& variant, Record& record, con
 }
 
 std::filesystem::path SceneCells::imageFolder(const techniques::Variant& variant) const {
-    return options_.images / scene_.id / fileName(variant.name);
+    return cellFolder(options_.images, scene_.id, variant.name);
 }
 
 } // namespace shadowbench

@@ -12,11 +12,14 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace shadowbench {
+
+struct CellImages;
 
 class SceneCells {
 public:
@@ -60,6 +63,8 @@ private:
     void scoreOwn(const techniques::Variant& variant, Record& record, CellImages& images);
     void scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress);
     SceneFrames& frames();
+    void keepImages(const techniques::Variant& variant, const CellImages& images);
+    std::vector<Image<float>> truthSequence(Truth truth);
     [[nodiscard]] std::filesystem::path imageFolder(const techniques::Variant& variant) const;
 
     const Scene& scene_;
@@ -68,6 +73,7 @@ private:
     Truths truths_;
     lod::LodScene lodScene_;
     std::optional<SceneFrames> frames_;
+    std::set<Truth> keptTruths_, keptSequences_; // whose files this object has written
 };
 
 } // namespace shadowbench

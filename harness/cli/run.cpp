@@ -99,7 +99,7 @@ void addRun(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
     verb->add_flag("--resume", options->resume, "Keep the cells that --out already holds of this program, run the rest");
-    verb->add_flag("--images", *images, "Write visibility, reference and error of each cell as EXR and PNG");
+    verb->add_flag("--images", *images, "Write visibility, reference and error of each cell as EXR and PNG, too, and pictures of walks");
     verb->add_option("--cost", *cost,
                      "What is measured beside work counters: time, instructions (under Valgrind, the same in every run), "
                      "screen (times by pass on an image of 1024², too, which show what grows with the screen), several as "
@@ -127,7 +127,8 @@ void addRun(CLI::App& app, Action& action) {
             options->measure.time = std::find(cost->begin(), cost->end(), "time") != cost->end();
             options->measure.otherScreen = std::find(cost->begin(), cost->end(), "screen") != cost->end();
             options->instructions = std::find(cost->begin(), cost->end(), "instructions") != cost->end();
-            if (*images) options->measure.images = options->out / "images";
+            options->measure.images = options->out / "images";
+            options->measure.pictures = *images;
             return part->any() ? runPart(*options, *part) : runAndPrint(*options);
         };
     });

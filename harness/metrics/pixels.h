@@ -51,6 +51,9 @@ struct Change {
 /// Of every pixel of both masks that the frame before shows (see `flicker` in table.h).
 std::vector<Change> changes(const FramePair& pair);
 
+/// What `flicker` is the mean of, at the pixels of `pair.now`; 0 where a pixel has no change.
+Image<float> flickerMap(const FramePair& pair);
+
 /// Reprojected pixels whose class changed while the truth's did not, and how many were compared (see `flipRate`).
 struct Flips {
     std::size_t flipped = 0, compared = 0;

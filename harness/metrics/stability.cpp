@@ -65,6 +65,18 @@ std::optional<Looked> lookUp(const ScoredFrame& frame, glm::vec2 position, std::
     return Looked{frame.v(nearest->x, nearest->y), frame.truth.visibility(nearest->x, nearest->y)};
 }
 
+/// Calls `found` with the index and the change of every pixel of both masks that the frame before shows.
+template <class Found>
+void forEachChange(const FramePair& pair, const Found& found) {
+    requireOneSize(pair);
+    const auto& [now, before, warp] = pair;
+    for (std::size_t i = 0; i < warp.size(); ++i) {
+        if (!now.mask.scored[i] || !isSomewhere(warp[i])) continue;
+        const std::optional<Looked> previous = lookUp(before, warp[i], now.truth.id[i]);
+        if (previous) found(i, Change{now.v[i] - previous->v, now.truth.visibility[i] - previous->exact});
+    }
+}
+
 /// Squares of V − V*, summed over pixels and frames.
 struct SquareSum {
     double sum = 0;
@@ -103,14 +115,16 @@ Image<glm::vec2> warp(const Snapshot& now, glm::ivec2 size, const groundtruth::R
 }
 
 std::vector<Change> changes(const FramePair& pair) {
-    requireOneSize(pair);
-    const auto& [now, before, warp] = pair;
     std::vector<Change> result;
-    for (std::size_t i = 0; i < warp.size(); ++i) {
-        if (!now.mask.scored[i] || !isSomewhere(warp[i])) continue;
-        const std::optional<Looked> previous = lookUp(before, warp[i], now.truth.id[i]);
-        if (previous) result.push_back({now.v[i] - previous->v, now.truth.visibility[i] - previous->exact});
-    }
+    forEachChange(pair, [&](std::size_t, const Change& change) { result.push_back(change); });
+    return result;
+}
+
+Image<float> flickerMap(const FramePair& pair) {
+    Image<float> result(pair.warp.width(), pair.warp.height());
+    forEachChange(pair, [&](std::size_t i, const Change& change) {
+        result[i] = static_cast<float>(std::abs(change.drawn - change.exact));
+    });
     return result;
 }
 

@@ -83,7 +83,7 @@ std::vector<ManifestCell> plannedCells(const RunOptions& options) {
     cell.profile = name(options.profile);
     cell.seed = options.measure.seed;
     cell.cost = costsOf(options);
-    cell.images = !options.measure.images.empty();
+    cell.images = options.measure.pictures;
     cell.commit = commit.hash;
     cell.dirty = commit.dirty;
     cell.program = programHash();

@@ -31,7 +31,7 @@ struct Include {
 };
 
 /// Whose a header is by how its path begins. `<thread>` needs no line: every module reaches base, which links threads.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 12> packageOfHeader{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 13> packageOfHeader{
     {{"CGAL/", "cgal"},
      {"CLI/", "cli11"},
      {"EGL/", "gl"},
@@ -44,7 +44,8 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 12> p
      {"mustache.hpp", "mustache"},
      {"nlohmann/", "json"},
      {"toml++/", "toml"},
-     {"xxhash.h", "xxhash"}}};
+     {"xxhash.h", "xxhash"},
+     {"zlib.h", "zlib"}}};
 
 /// Libraries that every module links, the operating system's headers, and Valgrind's, which are macros only.
 inline constexpr std::array<std::string_view, 4> headersOfAll{"fmt/", "glm/", "sys/", "valgrind/"};

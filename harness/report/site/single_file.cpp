@@ -96,6 +96,17 @@ public:
         return all;
     }
 
+    /// The scripts that hold the pixel values of cells, sorted.
+    [[nodiscard]] std::string pixelScripts() const {
+        std::set<fs::path> files;
+        std::error_code missing;
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_ / "cells", missing))
+            if (entry.path().extension() == ".js" && entry.path().filename() != "cells.js") files.insert(entry.path());
+        std::string all;
+        for (const fs::path& file : files) all += readFile(file);
+        return all;
+    }
+
 private:
     /// The id that an address on a page leads to: of the page, or of what it names on it.
     [[nodiscard]] std::string partOf(const std::string& page, const std::string& address) const {
@@ -165,7 +176,7 @@ void writeSingleFile(const fs::path& folder, const fs::path& file) {
     data.set("navigation", rewritten(site, "index.html", between(index, "<header class=\"top\">", "</header>")));
     data.set("parts", parts);
     data.set("style", inlined(site.joined("<link rel=\"stylesheet\"", "href"), "style"));
-    data.set("script", inlined(site.joined("<script", "src"), "script"));
+    data.set("script", inlined(site.joined("<script", "src") + site.pixelScripts(), "script"));
     writeFile(file, render("single.html", data));
 }
 

@@ -9,11 +9,16 @@
 
 namespace shadowbench::site {
 
-/// Whether `images`, the folder that `run --images` writes, holds the pictures of a record's cell, so that its page exists
-/// (`cellAddress` in harness/report/site/names.h).
+/// Whether `images`, the folder that `run` fills (harness/cells/kept_images.h), holds a record's cell and a truth of its
+/// size, so that its page exists (`cellAddress` in harness/report/site/names.h).
 bool hasCell(const Record& record, const std::filesystem::path& images);
 
+/// Which cells' sequences the pages hold: those of the Pareto fronts (where nothing was timed, of the ten rows of a scene
+/// with least error), or all.
+enum class Sequences { Fronts, All };
+
 /// Writes cells/<scene>.html for every scene of which `images` holds cells, with what the pages need beside them.
-void writeCells(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site);
+void writeCells(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site,
+                Sequences sequences = Sequences::Fronts);
 
 } // namespace shadowbench::site
