@@ -52,20 +52,5 @@ TEST(Pages, HaveEveryTableAndPictureWithoutJavaScript) {
     }
 }
 
-TEST(Pages, SortATableWhenAHeadIsPressed) {
-    const auto tab = chromium().tab();
-    tab->open(siteFolder() / "index.html");
-    const std::string column =
-        "[...document.querySelector('table[data-table]').tBodies[0].rows].map((r) => r.innerText).join()";
-    const auto before = tab->value(column);
-    const std::string press = "(() => { const heads = document.querySelectorAll('table[data-table] thead th');"
-                              "const h = heads[heads.length - 1]; (h.querySelector('button') || h).click(); })()";
-    tab->value(press);
-    const auto rising = tab->value(column);
-    tab->value(press);
-    const auto falling = tab->value(column);
-    EXPECT_TRUE(rising != before || falling != before);
-}
-
 } // namespace
 } // namespace shadowbench::browser

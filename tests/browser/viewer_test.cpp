@@ -161,6 +161,7 @@ TEST_F(Cells, GoToTheWorstPixelFirst) {
 TEST_F(Cells, KeepThePlaceWhenAnotherTechniqueIsChosen) {
     const auto tab = open("#" + uniform + "&pixel=12,30&zoom=30&mode=slider");
     tab->press("]");
+    tab->waitFor("!location.hash.startsWith('#" + uniform + "')");
     const std::string seen = address(*tab);
     EXPECT_FALSE(seen.starts_with("#" + uniform)) << seen;
     for (const char* part : {"pixel=12,30", "zoom=30", "mode=slider"}) EXPECT_NE(seen.find(part), std::string::npos) << seen;
