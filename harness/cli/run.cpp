@@ -99,7 +99,8 @@ void addRun(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
     verb->add_flag("--resume", options->resume, "Keep the cells that --out already holds of this program, run the rest");
-    verb->add_flag("--images", *images, "Write visibility, reference and error of each cell as EXR and PNG, too, and pictures of walks");
+    verb->add_flag("--images", *images,
+                   "Write visibility, reference and error of each cell as EXR and PNG, too, and pictures of walks");
     verb->add_option("--cost", *cost,
                      "What is measured beside work counters: time, instructions (under Valgrind, the same in every run), "
                      "screen (times by pass on an image of 1024², too, which show what grows with the screen), several as "

@@ -219,6 +219,9 @@ Record blankRecord(const Truths& truths, const Scene& scene, const ForeignRow& r
     record.environment.rasterThreads = 0;
     record.environment.vectorBits = 0;
     record.environment.mesa.clear();
+    record.environment.platform.clear();
+    record.environment.vendor.clear();
+    record.environment.driver.clear();
     record.tolerances = scene.tolerance;
     record.cell = cellId(truths, scene, row);
     return record;

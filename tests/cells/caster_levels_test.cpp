@@ -65,7 +65,9 @@ TEST(CasterLevels, AreTheFinestWhereNoErrorIsAccepted) {
 }
 
 TEST(CasterLevels, SayWhereTheChainThatWasAskedForEnds) {
-    CasterOptions options{.tolerance = {"0.5"}, .chains = {{"", {252, 60}}}};
+    CasterOptions options;
+    options.tolerance = {"0.5"};
+    options.chains = {{"", {252, 60}}};
     const CasterRecommendation r = recommendCasters(columns("{ at = [0.013, 7, 0.017] }"), options);
     EXPECT_EQ(r.groups[0].level, 1U);
     EXPECT_FALSE(r.groups[0].coarser);
