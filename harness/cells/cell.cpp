@@ -39,7 +39,7 @@ void measureAliasing(const techniques::Technique& technique, SceneFrames& frames
 }
 
 /// By what the variant's images are scored.
-Judgement judgementOf(const Scene& scene, const techniques::Variant& variant) {
+ScoringRule scoringRuleOf(const Scene& scene, const techniques::Variant& variant) {
     const bool temporal = variant.entry->temporal;
     return {.truth = mainTruth(scene, variant),
             .graded = variant.entry->answer == Answer::Filtered || temporal,
@@ -122,7 +122,7 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     const auto technique = variant.entry->make(variant.parameters);
 
     ImageScores scores(
-        frames, judgementOf(scene, variant), [&](Truth truth) -> const Mask& { return frames.mask(truth); }, variant.name);
+        frames, scoringRuleOf(scene, variant), [&](Truth truth) -> const Mask& { return frames.mask(truth); }, variant.name);
     std::uint64_t bytes = 0;
     const int first = -scene.timeline.approach;
     for (int frame = temporal ? first : scored; frame < scene.timeline.frames(); ++frame) {

@@ -62,7 +62,7 @@ void score(const metrics::ScoredFrame& frame, Record& record) {
 
 /// The last still frame, which is shown, against every truth it is scored by (docs/metrics.md, "Which truth a cell is scored
 /// against").
-void scoreStillFrame(SceneFrames& frames, const Judgement& judgement, const Receivers& receivers, const Image<float>& v,
+void scoreStillFrame(SceneFrames& frames, const ScoringRule& rule, const Receivers& receivers, const Image<float>& v,
                      Record& record) {
     const Scene& scene = frames.scene();
     const int frame = frames.scored();
@@ -72,15 +72,15 @@ void scoreStillFrame(SceneFrames& frames, const Judgement& judgement, const Rece
         if (truth == Truth::Soft && scene.light.isArea()) reference->area = besideArea(frames, receivers, v);
         score<metrics::OfVisibility>({v, frames.truth(truth), alignedMask(receivers, truth, frame)}, record);
     };
-    if (judgement.truth != Truth::Hard) return scoreSoft(judgement.truth, record.reference);
+    if (rule.truth != Truth::Hard) return scoreSoft(rule.truth, record.reference);
     const metrics::ScoredFrame labels{v, frames.truth(Truth::Hard), alignedMask(receivers, Truth::Hard, frame)};
     record.reference = described(Truth::Hard);
     score<metrics::OfLabels>(labels, record);
     if (scene.light.isArea())
         scoreSoft(Truth::Soft, record.softReference);
-    else if (judgement.graded)
+    else if (rule.graded)
         score<metrics::OfVisibility>(labels, record);
-    if (!judgement.pixelAreas) return;
+    if (!rule.pixelAreas) return;
     record.pixelReference = described(Truth::PixelArea);
     if (!scene.light.isArea())
         score<metrics::OfPixelAreas>({v, frames.truth(Truth::PixelArea), receivers(Truth::PixelArea)}, record);
@@ -165,8 +165,8 @@ void requireAnswers(const Image<float>& v, const Mask& mask, const std::string& 
 }
 
 /// What visibility is graded against frame by frame: images of another meaning by their own truth.
-Truth gradedBy(const Scene& scene, const Judgement& judgement) {
-    return judgement.truth == Truth::Hard ? gradedTruth(scene) : judgement.truth;
+Truth gradedBy(const Scene& scene, const ScoringRule& rule) {
+    return rule.truth == Truth::Hard ? gradedTruth(scene) : rule.truth;
 }
 
 } // namespace
@@ -182,32 +182,30 @@ bool usesPixelAreas(const Scene& scene, Truth truth) {
 
 Truth gradedTruth(const Scene& scene) { return hasTruth(scene.light, Truth::Soft) ? Truth::Soft : Truth::Hard; }
 
-ImageScores::ImageScores(SceneFrames& frames, const Judgement& judgement, Receivers receivers, std::string variant)
-    : frames_(frames), judgement_(judgement), receivers_(std::move(receivers)), variant_(std::move(variant)) {
-    const bool remembers = judgement.stillFrames || judgement.remembers;
-    const Truth areas = judgement.pixelAreas ? Truth::PixelArea : judgement.truth;
+ImageScores::ImageScores(SceneFrames& frames, const ScoringRule& rule, Receivers receivers, std::string variant)
+    : frames_(frames), rule_(rule), receivers_(std::move(receivers)), variant_(std::move(variant)) {
+    const bool remembers = rule.stillFrames || rule.remembers;
+    const Truth areas = rule.pixelAreas ? Truth::PixelArea : rule.truth;
     sequences_ = std::make_unique<Sequences>(
-        Sequences{{}, MovingFrameScores(judgement.truth, remembers), MovingFrameScores(areas, remembers)});
-    if (!judgement.stillFrames) return;
+        Sequences{{}, MovingFrameScores(rule.truth, remembers), MovingFrameScores(areas, remembers)});
+    if (!rule.stillFrames) return;
     Truths& truths = frames.truths();
-    sequences_->still.emplace(truths.at(judgement.truth, frames.scored()),
-                              truths.at(gradedBy(frames.scene(), judgement), frames.scored()),
-                              judgement.truth == Truth::Hard);
+    sequences_->still.emplace(truths.at(rule.truth, frames.scored()),
+                              truths.at(gradedBy(frames.scene(), rule), frames.scored()), rule.truth == Truth::Hard);
 }
 
 ImageScores::~ImageScores() = default;
 
 void ImageScores::add(int frame, const Image<float>& v, Record& record) {
     shown_.add(v.data(), v.size() * sizeof(float));
-    const Mask& mask = alignedMask(receivers_, judgement_.truth, frame);
+    const Mask& mask = alignedMask(receivers_, rule_.truth, frame);
     requireAnswers(v, mask, variant_, frame);
     auto& [still, moving, movingAreas] = *sequences_;
-    if (still && frame <= frames_.scored())
-        still->add(v, mask, receivers_(gradedBy(frames_.scene(), judgement_)), record.values);
+    if (still && frame <= frames_.scored()) still->add(v, mask, receivers_(gradedBy(frames_.scene(), rule_)), record.values);
     if (frame < frames_.scored()) return;
     if (frame == frames_.scored()) {
         if (still) still->finish(mask, record.values);
-        scoreStillFrame(frames_, judgement_, receivers_, v, record);
+        scoreStillFrame(frames_, rule_, receivers_, v, record);
     }
     movingAreas.add(frames_, receivers_, v);
     moving.add(frames_, receivers_, v);

@@ -14,7 +14,7 @@
 namespace shadowbench {
 
 /// By what images are scored (docs/metrics.md, "Which truth a cell is scored against").
-struct Judgement {
+struct ScoringRule {
     Truth truth = Truth::Hard; // what the images claim to show, frame after frame; never PixelArea
     bool graded = false;       // hard shadows with smoothed edges, or with a history: also as graded visibility
     bool pixelAreas = false;   // and against the mean over each pixel's square
@@ -37,7 +37,7 @@ using Receivers = std::function<const metrics::Mask&(Truth)>;
 class ImageScores {
 public:
     /// `frames` must outlive the object. `variant` is for messages.
-    ImageScores(SceneFrames& frames, const Judgement& judgement, Receivers receivers, std::string variant);
+    ImageScores(SceneFrames& frames, const ScoringRule& rule, Receivers receivers, std::string variant);
     ~ImageScores();
     ImageScores(const ImageScores&) = delete;
     ImageScores& operator=(const ImageScores&) = delete;
@@ -56,7 +56,7 @@ private:
     struct Sequences;
 
     SceneFrames& frames_;
-    Judgement judgement_;
+    ScoringRule rule_;
     Receivers receivers_;
     std::string variant_;
     Hasher128 shown_;

@@ -88,7 +88,7 @@ public:
             requireReceivers(mask, files);
             if (!scores)
                 scores.emplace(
-                    frames_, judgement(v, mask), [this](Truth t) -> const metrics::Mask& { return receivers_.scored(t); },
+                    frames_, rule(v, mask), [this](Truth t) -> const metrics::Mask& { return receivers_.scored(t); },
                     record.variant);
             judge(files, v, mask);
             scores->add(files.frame, v, record);
@@ -119,7 +119,7 @@ private:
                 fmt::format("image {}: no pixel of frame {} is left to score", files.image.string(), files.frame));
     }
 
-    [[nodiscard]] Judgement judgement(const Image<float>& v, const metrics::Mask& mask) const {
+    [[nodiscard]] ScoringRule rule(const Image<float>& v, const metrics::Mask& mask) const {
         return {.truth = truth_,
                 .graded = isGraded(v, mask) || row_.remembers,
                 .pixelAreas = usesPixelAreas(frames_.scene(), row_),

@@ -240,7 +240,8 @@ private:
     /// The cell's record of an unfinished run, if the same rasteriser drew it.
     const Record* finishedAlready(const Record& cell) const {
         const auto found = std::find_if(finished_.begin(), finished_.end(), [&](const Record& r) {
-            return r.cell == cell.cell && !gate::difference(r.environment, cell.environment, gate::Surroundings::OfScores);
+            return r.cell == cell.cell &&
+                   (isExternal(r) || !gate::difference(r.environment, cell.environment, gate::Surroundings::OfScores));
         });
         return found == finished_.end() ? nullptr : &*found;
     }
