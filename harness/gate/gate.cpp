@@ -177,6 +177,7 @@ private:
 
     /// The drift since each anchor, in units of what one commit may change.
     void judgeAgainstAnchors(const std::vector<Record>& now) {
+        if (std::ranges::all_of(now, isExternal)) return; // of which an anchor knows nothing
         for (const Anchor& anchor : cells_.watchlist.anchors) {
             StageLine line("anchor", options_.quiet);
             const Baseline found =
