@@ -208,6 +208,20 @@ TEST(Lispsm, RowsOfTheMapLieAcrossTheViewAlsoWhereTheSceneIsOblong) {
     EXPECT_GT(std::abs(mapped(view, p + across).x - mapped(view, p).x), 0.01);
 }
 
+// Light and camera in one plane, which cuts scene and frustum in two like halves.
+TEST(Lispsm, OfASceneThatIsAlikeOnBothSidesIsAlikeOnBothSides) {
+    for (const double height : {3.0, 9.0, 27.0}) {
+        Snapshot scene = slabScene({LightKind::Point, {0, height, -30}, {0, -1, 0}, {}, {}});
+        scene.camera.target = {0, 0.5, -10};
+        const LightView view = fitLispsm(scene.light, scene, scene.camera, 1);
+        for (const glm::dvec3& p : {glm::dvec3(1.5, 0.05, 2), glm::dvec3(4, 0.05, -7)}) {
+            const glm::dvec3 right = mapped(view, p), left = mapped(view, p * glm::dvec3(-1, 1, 1));
+            EXPECT_NEAR(right.x, -left.x, 1e-6) << height;
+            EXPECT_NEAR(right.y, left.y, 1e-6) << height;
+        }
+    }
+}
+
 TEST(Jitter, CoversTheSamePointsAfterAnyTurnAndShift) {
     const Light light{LightKind::Point, {3, 25, 4}, {0, -1, 0}, {}, {}};
     const LightView view = fitToScene(light, slabScene(light));

@@ -27,13 +27,16 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& 
     std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, halfSpaces);
     if (body.size() < 3) return view; // nothing visible lies in front of the light
 
-    // The view axis in light space, seen from the nearest point of the body (post-perspective for a point light).
+    // The view axis in light space (post-perspective for a point light, where each parallel of the axis has a direction of its
+    // own), from where the body begins: a corner of the body beside the axis would turn the map of a symmetric scene.
     const glm::dvec3 forward = camera.basis().forward;
     const auto eyeDepth = [&](const glm::dvec3& p) { return glm::dot(p - camera.eye, forward); };
-    const glm::dvec3 nearest =
-        *std::min_element(body.begin(), body.end(), [&](const auto& a, const auto& b) { return eyeDepth(a) < eyeDepth(b); });
-    double deepest = 0;
-    for (const glm::dvec3& p : body) deepest = std::max(deepest, eyeDepth(p));
+    const auto byDepth = [&](const auto& a, const auto& b) { return eyeDepth(a) < eyeDepth(b); };
+    const auto [first, last] = std::minmax_element(body.begin(), body.end(), byDepth);
+    const double deepest = eyeDepth(*last);
+    const glm::dvec3 onAxis = camera.eye + eyeDepth(*first) * forward;
+    const bool lit = glm::dot(view.depthFromWorld, glm::dvec4(onAxis, 1)) > view.near;
+    const glm::dvec3 nearest = lit ? onAxis : *first;
     // Clip space with the map's own proportions, so that right angles are right angles.
     const glm::dmat4 light1 = glm::scale(glm::dmat4(1), glm::dvec3(0.5 * view.span, 1)) * view.clipFromWorld;
     const auto toLight = [&](const glm::dvec3& p) { return divided(light1 * glm::dvec4(p, 1)); };
