@@ -27,8 +27,8 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& 
     std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, halfSpaces);
     if (body.size() < 3) return view; // nothing visible lies in front of the light
 
-    // The view axis in light space (post-perspective for a point light, where each parallel of the axis has a direction of its
-    // own), from where the body begins: a corner of the body beside the axis would turn the map of a symmetric scene.
+    // The view axis in light space (post-perspective for a point light, where each parallel of the axis has a direction of
+    // its own), from where the body begins: a corner of the body beside the axis would turn the map of a symmetric scene.
     const glm::dvec3 forward = camera.basis().forward;
     const auto eyeDepth = [&](const glm::dvec3& p) { return glm::dot(p - camera.eye, forward); };
     const auto byDepth = [&](const auto& a, const auto& b) { return eyeDepth(a) < eyeDepth(b); };
