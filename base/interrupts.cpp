@@ -3,6 +3,7 @@
 #include <array>
 #include <csignal>
 #include <mutex>
+#include <utility>
 
 namespace shadowbench {
 namespace {
@@ -11,6 +12,8 @@ constexpr std::array interrupts{SIGINT, SIGTERM, SIGHUP};
 
 // A signal handler can reach nothing but statics.
 volatile std::sig_atomic_t noted = 0;
+
+bool holdsBackAll = false;
 
 struct Before {
     int holders = 0;
@@ -28,8 +31,8 @@ bool isIgnored(const struct sigaction& action) {
 void hold() {
     struct sigaction noting {};
     noting.sa_handler = note;
-    // So that the second one is not held back.
-    noting.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+    // Reset: so that the second one is not held back.
+    noting.sa_flags = static_cast<int>(holdsBackAll ? SA_RESTART : SA_RESTART | SA_RESETHAND);
     sigemptyset(&noting.sa_mask);
     for (std::size_t i = 0; i < interrupts.size(); ++i) {
         sigaction(interrupts[i], nullptr, &before.actions[i]);
@@ -53,9 +56,15 @@ DeferredInterrupts::DeferredInterrupts() {
 
 DeferredInterrupts::~DeferredInterrupts() {
     const std::scoped_lock lock(mutex);
-    if (--before.holders == 0) release();
+    if (before.holders > 0 && --before.holders == 0) release(); // none: a worker destroys what was held before it began
 }
 
 bool DeferredInterrupts::pending() { return noted != 0; }
+
+void DeferredInterrupts::startAsWorker() {
+    const std::scoped_lock lock(mutex);
+    holdsBackAll = true;
+    if (std::exchange(before.holders, 0) > 0) release(); // with what was noted before: then there is nothing to begin
+}
 
 } // namespace shadowbench

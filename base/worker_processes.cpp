@@ -2,6 +2,7 @@
 
 #include "base/descriptor.h"
 #include "base/error.h"
+#include "base/interrupts.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -77,6 +78,7 @@ Progress progressThrough(int socket) {
 
 /// The worker's half: receives the numbers of items and answers each.
 [[noreturn]] void answerItems(int socket, pid_t parent, const SharedWork& work) {
+    DeferredInterrupts::startAsWorker();
     prctl(PR_SET_PDEATHSIG, SIGTERM); // not SIGKILL: the tools that it runs have folders to remove
     if (getppid() != parent) _exit(1);
     std::size_t item = noMore;

@@ -1,10 +1,14 @@
 #include "base/worker_processes.h"
 
 #include "base/error.h"
+#include "base/interrupts.h"
+#include "base/temporary_folder.h"
 
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
@@ -49,6 +53,21 @@ TEST(WorkerProcesses, KeepWhatTheyMadeAndChangeNothingHere) {
     shareAmongProcesses(1, outcome.work(3, [&here](std::size_t, const Progress&) { return std::to_string(++here); }));
     EXPECT_EQ(outcome.answers, (std::map<std::size_t, std::string>{{0, "1"}, {1, "2"}, {2, "3"}}));
     EXPECT_EQ(here, 0);
+}
+
+// The parent's threads end one after the other, and a worker is told so by each that it is handed to.
+TEST(WorkerProcesses, ClearUpHoweverOftenTheyAreTold) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "cleared";
+    Outcome outcome;
+    shareAmongProcesses(1, outcome.work(1, [&](std::size_t, const Progress&) -> std::string {
+        const DeferredInterrupts held;
+        for (int i = 0; i < 3; ++i) std::raise(SIGTERM);
+        if (DeferredInterrupts::pending()) std::ofstream(file) << "all";
+        return "";
+    }));
+    EXPECT_TRUE(std::filesystem::exists(file));
+    EXPECT_EQ(outcome.lost, (std::map<std::size_t, std::string>{{0, "was killed by signal 15"}})) << "and then it ends";
 }
 
 TEST(WorkerProcesses, WorkAtTheSameTime) {
