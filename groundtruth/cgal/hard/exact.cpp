@@ -87,13 +87,13 @@ std::vector<PlanarReceiver> ExactScene::planarReceivers(const PrimaryHits& prima
 }
 
 void ExactScene::labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
-                                const Progress& progress) const {
+                                const Progress& progress, EdgeDistances distances) const {
     requireSize(primary, size);
     requireHardLight(data_->light);
     if (receiver.triangles.empty())
         throw InternalError("Polygon labels were asked for a planar receiver without triangles.");
     prepare(primary, out);
-    labelPlane(data_->occluders, data_->camera, size, primary, receiver, out, progress);
+    labelPlane(data_->occluders, data_->camera, size, primary, receiver, distances, out, progress);
 }
 
 void ExactScene::averageOverPixels(glm::ivec2 size, const PrimaryHits& primary, Reference& out,

@@ -27,6 +27,9 @@ struct PlanarReceiver {
     std::size_t pixels = 0;               // that see it
 };
 
+/// Whether exact labels come with distances to shadow edges: of a million triangles the distances take longer.
+enum class EdgeDistances { Wanted, NotWanted };
+
 /// A snapshot prepared for queries. What several images or receivers share (trees, edges of meshes, silhouettes that no
 /// receiver cuts) is made when first needed and kept; const use is thread-safe.
 class ExactScene {
@@ -57,10 +60,11 @@ public:
     /// The labels of `labelByRays` by another method, exact winding numbers of silhouette chains: no decision, tree or
     /// shadow ray is shared. With the distance to the nearest visible boundary of the union of the shadows on the receiver's
     /// plane: correct to 1e-6 px up to 8 px, infinity beyond. A boundary is visible where one of the four pixel centres
-    /// around it sees the receiver. Writes the pixels of `receiver` only; images of `out` that have no size yet are made.
-    /// InternalError if winding numbers found on different paths disagree.
+    /// around it sees the receiver. Where distances are not wanted they are infinity off the edges. Writes the pixels of
+    /// `receiver` only; images of `out` that have no size yet are made. InternalError if winding numbers found on different
+    /// paths disagree.
     void labelByPolygon(glm::ivec2 size, const PrimaryHits& primary, const PlanarReceiver& receiver, Reference& out,
-                        const Progress& progress = {}) const;
+                        const Progress& progress = {}, EdgeDistances distances = EdgeDistances::Wanted) const;
 
     /// Replaces the labels in `out` by the mean over the part of each pixel's square in which the surface of its centre is
     /// seen and faces the light: by polygons, with rays in pixels that see more triangles than are worth cutting. Sigma is 0

@@ -49,7 +49,7 @@ std::vector<PixelEdge> inPixels(const Occluders& occluders, const Casters& caste
 } // namespace
 
 void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 size, const PrimaryHits& primary,
-                const PlanarReceiver& receiver, Reference& out, const Progress& progress) {
+                const PlanarReceiver& receiver, EdgeDistances distances, Reference& out, const Progress& progress) {
     const Image<std::uint8_t> members = membersOf(receiver, primary);
     const SceneTriangles& scene = occluders.scene();
     const PlaneView view{camera, size, scene.triangle({scene.instanceOf(receiver.id), receiver.triangles.front()}), members};
@@ -68,7 +68,8 @@ void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 siz
             out.edgeDistance(x, y) = onEdge ? 0.0F : std::numeric_limits<float>::infinity();
         }
     });
-    lowerToEdgeDistance(edges, winding, members, occluders.threads(), out.edgeDistance);
+    if (distances == EdgeDistances::Wanted)
+        lowerToEdgeDistance(edges, winding, members, occluders.threads(), out.edgeDistance);
 }
 
 } // namespace shadowbench::groundtruth::hard

@@ -8,6 +8,6 @@ namespace shadowbench::groundtruth::hard {
 
 /// Fills visibility, surface and edgeDistance of the pixels that see `receiver`.
 void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 size, const PrimaryHits& primary,
-                const PlanarReceiver& receiver, Reference& out, const Progress& progress);
+                const PlanarReceiver& receiver, EdgeDistances distances, Reference& out, const Progress& progress);
 
 } // namespace shadowbench::groundtruth::hard

@@ -79,7 +79,7 @@ public:
     CasterRecommendation recommend() {
         CasterRecommendation result = blank();
         const bool area = scene_.light.isArea();
-        const ShadowOracle oracle = area ? areaOracle(receivers_) : polygonOracle(receivers_);
+        const ShadowOracle oracle = area ? areaOracle(receivers_) : rayOracle(receivers_);
         show(receiversUntil, "shadow of the finest levels");
         const WholeShadows whole(casters_, receivers_, oracle);
         result.oracle = oracle.name;
@@ -91,7 +91,7 @@ public:
             const HardChoices choices(casters_, receivers_, oracle, part(progress_, searchFrom, searchUntil));
             search([&](const Levels& levels) { return choices.of(levels); }, result);
         }
-        verify(area ? sampledOracle(receivers_, samples_) : rayOracle(receivers_), result);
+        verify(area ? sampledOracle(receivers_, samples_) : polygonOracle(receivers_), result);
         return result;
     }
 

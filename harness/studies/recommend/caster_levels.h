@@ -59,7 +59,7 @@ struct CasterRecommendation {
     bool verified = false;
 };
 
-/// Searches with one exact oracle and verifies with another: `polygon` and `rays` under a hard light, the exact visible
+/// Searches with one exact oracle and verifies with another: `rays` and `polygon` under a hard light, the exact visible
 /// fraction (`area`) and rays from points of the light under an area light. Throws BadInput for a scene without levels, a
 /// tolerance or receivers.
 CasterRecommendation recommendCasters(const Scene& scene, const CasterOptions& options, const Progress& progress = {});

@@ -13,6 +13,7 @@ namespace {
 
 using groundtruth::Reference;
 using groundtruth::Surface;
+using groundtruth::hard::EdgeDistances;
 using groundtruth::hard::ExactScene;
 using groundtruth::hard::PlanarReceiver;
 
@@ -36,7 +37,8 @@ Reference byPolygons(const Snapshot& casters, const Receivers& receivers) {
     for (const PlanarReceiver& plane : planes) planar += plane.pixels;
     Reference labels;
     if (planar < receivers.pixels) scene.labelByRays(receivers.size, receivers.primary, labels);
-    for (const PlanarReceiver& plane : planes) scene.labelByPolygon(receivers.size, receivers.primary, plane, labels);
+    for (const PlanarReceiver& plane : planes)
+        scene.labelByPolygon(receivers.size, receivers.primary, plane, labels, {}, EdgeDistances::NotWanted);
     return labels;
 }
 

@@ -21,9 +21,9 @@ struct ShadowOracle {
     std::function<Shadow(const Snapshot&)> shadow;
 };
 
-/// Hard lights: exact, `polygon` on planar receivers and `rays` on others. More than `mostTriangles` of casters, some 0.5
+/// Hard lights: exact, `polygon` on planar receivers and `rays` on others. More than `mostTriangles` of casters, some 0.25
 /// GiB of silhouettes, are labelled in parts: their shadow is the union of the parts'.
-ShadowOracle polygonOracle(const Receivers& receivers, std::size_t mostTriangles = 8'000'000);
+ShadowOracle polygonOracle(const Receivers& receivers, std::size_t mostTriangles = 4'000'000);
 
 /// Hard lights: exact, `rays` on all receivers.
 ShadowOracle rayOracle(const Receivers& receivers);
