@@ -1,5 +1,5 @@
-// How much other people's files may ask for: numbers that stop a damaged or hostile file before it takes the machine's memory
-// or time. Each has a variable of the environment that changes it (docs/limits.md).
+// How much other people's files may ask for: numbers that stop a damaged or hostile file before it takes the machine's
+// memory or time. Each has a variable of the environment that changes it (docs/limits.md).
 #pragma once
 
 #include <cstdint>

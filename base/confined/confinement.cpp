@@ -101,9 +101,7 @@ private:
 
 bool filterSystemCalls(int socket) {
     Filter filter;
-    const auto same = [](unsigned argument, std::uint64_t value) {
-        return scmp_arg_cmp{argument, SCMP_CMP_EQ, value, 0};
-    };
+    const auto same = [](unsigned argument, std::uint64_t value) { return scmp_arg_cmp{argument, SCMP_CMP_EQ, value, 0}; };
     const scmp_arg_cmp notExecutable{2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0};
     filter.allow({SCMP_SYS(read), SCMP_SYS(pread64), SCMP_SYS(recvfrom), SCMP_SYS(lseek), SCMP_SYS(close)});
     filter.allow(SCMP_SYS(sendto), same(0, static_cast<std::uint64_t>(socket)));

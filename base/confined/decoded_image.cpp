@@ -68,7 +68,8 @@ DecodedImage::DecodedImage(std::string bytes) : bytes_(std::move(bytes)), memory
 
 Image<float> DecodedImage::channel(int index) {
     const auto count = static_cast<int>(header_.channels.size());
-    if (index < 0 || index >= count) throw BadInput(fmt::format("it has {} channels, counted from 0, and no {}", count, index));
+    if (index < 0 || index >= count)
+        throw BadInput(fmt::format("it has {} channels, counted from 0, and no {}", count, index));
     const auto pixels = static_cast<std::uint64_t>(header_.width) * static_cast<std::uint64_t>(header_.height);
     if (header_.width < 1 || header_.height < 1 || pixels > limitOf(Limit::Pixels))
         throw BadInput(fmt::format("it has {} × {} pixels, {}", header_.width, header_.height, beyond(Limit::Pixels)));

@@ -16,11 +16,13 @@ constexpr std::uint64_t mostChannels = 4096;
 constexpr std::size_t longestName = 1024; // of a format or a channel, bytes
 constexpr std::uint64_t longestSide = 1 << 30, mostBits = 64;
 
-// ---- in the child ---------------------------------------------------------------------------------------------------------------
+// ---- in the child
+// ---------------------------------------------------------------------------------------------------------------
 
 void put(Wire& wire, const ImageHeader& header) {
     wire.put(header.format);
-    for (const int number : {header.width, header.height, header.alpha + 1, header.bits, int{header.floats}, int{header.whole}})
+    for (const int number :
+         {header.width, header.height, header.alpha + 1, header.bits, int{header.floats}, int{header.whole}})
         wire.put(static_cast<std::uint64_t>(std::max(0, number)));
     wire.put(std::uint64_t{header.channels.size()});
     for (const std::string& channel : header.channels) wire.put(std::string_view(channel).substr(0, longestName));
@@ -37,7 +39,8 @@ void decode(ForeignWork& work) {
 
 const ForeignReader decoder("image", decode);
 
-// ---- in the parent --------------------------------------------------------------------------------------------------------------
+// ---- in the parent
+// --------------------------------------------------------------------------------------------------------------
 
 ImageHeader receivedHeader(ReaderChild& child) {
     child.awaitAnswer();

@@ -19,8 +19,8 @@ public:
 
     [[nodiscard]] const ImageHeader& header() const { return header_; }
 
-    /// Linear values, integers divided by their maximum, no gamma applied; finite or not. Throws BadInput for one that is not
-    /// there, too.
+    /// Linear values, integers divided by their maximum, no gamma applied; finite or not. Throws BadInput for one that is
+    /// not there, too.
     Image<float> channel(int index);
     Image<float> channel(const std::string& name);
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/limits.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -37,7 +38,9 @@ OpenedFile checked(Descriptor descriptor, const fs::path& shown, std::string nam
 
 /// The names between the slashes, without "."; throws where one leads out.
 std::vector<std::string> stepsOf(const fs::path& folder, const std::string& name) {
-    if (name.empty() || name.front() == '/' || name.find('\0') != std::string::npos)
+    const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+    if (std::ranges::any_of(name, isControl)) fail(folder / "", "a file in it is named with control characters");
+    if (name.empty() || name.front() == '/')
         fail(folder / "", fmt::format("\"{}\" is no relative path of a file below it", name));
     std::vector<std::string> steps;
     for (const fs::path& step : fs::path(name)) {
@@ -79,7 +82,8 @@ std::string contentOf(const OpenedFile& file) {
     std::string bytes(file.size, '\0');
     std::uint64_t done = 0;
     while (done < file.size) {
-        const ssize_t count = ::pread(file.descriptor.get(), bytes.data() + done, file.size - done, static_cast<off_t>(done));
+        const ssize_t count =
+            ::pread(file.descriptor.get(), bytes.data() + done, file.size - done, static_cast<off_t>(done));
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) fail(file.name, errno);
         if (count == 0) fail(file.name, "it became shorter while it was read");

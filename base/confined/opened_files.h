@@ -16,8 +16,8 @@ struct OpenedFile {
     Descriptor descriptor;
 };
 
-/// Opens `file`, whose name for the reader is that without its folder. Throws BadInput naming it: not there, a folder, a pipe
-/// or device, or larger than Limit::FileMib.
+/// Opens `file`, whose name for the reader is that without its folder. Throws BadInput naming it: not there, a folder, a
+/// pipe or device, or larger than Limit::FileMib.
 OpenedFile openRegular(const std::filesystem::path& file);
 
 /// Opens the file that another one in `folder` names, a relative path with '/'. Throws BadInput as above, and where the path

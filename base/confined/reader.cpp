@@ -25,12 +25,11 @@ void takeLimits(Wire& wire) {
     }
 }
 
-/// Whether all went well.
-bool reads(ForeignReader::Read read, ForeignWork& work, Wire& wire) {
+/// What the reader throws becomes a refusal, in place of the answer that it has not begun.
+void readAndAnswer(ForeignReader::Read read, ForeignWork& work, Wire& wire) {
     std::string why;
     try {
-        read(work);
-        return true;
+        return read(work);
     } catch (const std::bad_alloc&) {
         why = fmt::format("reading it takes more memory than the {} MiB of {}, which can be raised",
                           limitOf(Limit::ReaderMib), variableOf(Limit::ReaderMib));
@@ -39,7 +38,6 @@ bool reads(ForeignReader::Read read, ForeignWork& work, Wire& wire) {
     }
     handshake::begin(wire, handshake::Status::Refused);
     wire.put(std::string_view(why).substr(0, handshake::longestRefusal));
-    return false;
 }
 
 [[noreturn]] void serve(ForeignReader::Read read) {
@@ -51,7 +49,7 @@ bool reads(ForeignReader::Read read, ForeignWork& work, Wire& wire) {
         std::string request = wire.text(longestRequest);
         ForeignWork work(std::move(request), wire.takeHanded(), wire);
         handshake::announce(wire, confineThisProcess(theSocket, seconds));
-        reads(read, work, wire);
+        readAndAnswer(read, work, wire);
     } catch (const WireError&) {
         _exit(1); // the parent has gone
     }

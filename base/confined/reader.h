@@ -1,6 +1,7 @@
-// Files of other people are read in a child that has no more than it needs (docs/threat-model.md). The child is this program,
-// started anew, so that it has nothing of what the parent has in memory or open; it is given open files and a socket, gives up
-// everything else (base/confined/confinement.h), reads, and answers in numbers, texts and arrays that are checked one by one.
+// Files of other people are read in a child that has no more than it needs (docs/threat-model.md). The child is this
+// program, started anew, so that it has nothing of what the parent has in memory or open; it is given open files and a
+// socket, gives up everything else (base/confined/confinement.h), reads, and answers in numbers, texts and arrays that are
+// checked one by one.
 //
 // A kind of reader is an object with static storage in the file that asks it:
 //
@@ -36,8 +37,8 @@ public:
     [[nodiscard]] const std::string& request() const { return request_; }
     [[nodiscard]] const std::vector<OpenedFile>& files() const { return files_; }
 
-    /// Begins an answer, once all that can fail is done: what follows is sent as it is put. Until then a reader throws BadInput
-    /// with a sentence about the file, without its name.
+    /// Begins an answer, once all that can fail is done: what follows is sent as it is put. Until then a reader throws
+    /// BadInput with a sentence about the file, without its name.
     Wire& answer();
     /// Waits for a number that the parent puts, less than `end`; none when it asks no more.
     std::optional<std::uint64_t> question(std::uint64_t end);
@@ -62,12 +63,13 @@ private:
     const char* name_;
 };
 
-/// A child that reads one file, and is killed when the object goes. Every function throws BadInput, one line that begins with
-/// `doing` ("cannot import mesh x.ply"), when the file is refused, when the child dies, hangs or takes more than it may, and
-/// when its answer is none; Inconclusive when it cannot be started or the user interrupts.
+/// A child that reads one file, and is killed when the object goes. Every function throws BadInput, one line that begins
+/// with `doing` ("cannot import mesh x.ply"), when the file is refused, when the child dies, hangs or takes more than it
+/// may, and when its answer is none; Inconclusive when it cannot be started or the user interrupts.
 class ReaderChild {
 public:
-    ReaderChild(const ForeignReader& reader, std::string doing, std::vector<OpenedFile> files, const std::string& request = "");
+    ReaderChild(const ForeignReader& reader, std::string doing, std::vector<OpenedFile> files,
+                const std::string& request = "");
     ~ReaderChild();
     ReaderChild(const ReaderChild&) = delete;
     ReaderChild& operator=(const ReaderChild&) = delete;

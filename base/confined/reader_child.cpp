@@ -50,7 +50,7 @@ Command commandOf(const ForeignReader& reader, std::chrono::seconds seconds) {
     command.fileLimit = 0;
     command.memoryLimit = limitOf(Limit::ReaderMib) << 20U;
     if (reservesAddresses()) command.memoryLimit.reset();
-    command.environment = {fmt::format("{}={}", handshake::variable, reader.name()), "LC_ALL=C"};
+    command.environment = std::vector<std::string>{fmt::format("{}={}", handshake::variable, reader.name()), "LC_ALL=C"};
     return command;
 }
 
@@ -68,8 +68,9 @@ std::string inWords(const Finished& end, std::chrono::seconds seconds) {
     switch (end.signal) {
     case SIGXCPU:
     case SIGKILL:
-        return fmt::format("reading it takes more than {} s, or more memory than there is: write the file again, or raise {}",
-                           seconds.count(), variableOf(Limit::ReaderSeconds));
+        return fmt::format(
+            "reading it takes more than {} s, or more memory than there is: write the file again, or raise {}",
+            seconds.count(), variableOf(Limit::ReaderSeconds));
     case SIGSYS:
         return "its reader was stopped at a system call that reading a file does not need: the file is damaged, or made to "
                "attack";
@@ -85,7 +86,8 @@ std::string inWords(const Finished& end, std::chrono::seconds seconds) {
 void warnOnce(const Protections& protections) {
     static std::atomic_flag warned;
     if (protections.systemCalls || reservesAddresses() || warned.test_and_set()) return;
-    fmt::print(stderr, "shadowbench: warning: this system filters no system calls (seccomp); foreign files are read with {}\n",
+    fmt::print(stderr,
+               "shadowbench: warning: this system filters no system calls (seccomp); foreign files are read with {}\n",
                protections.inWords());
 }
 

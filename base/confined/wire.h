@@ -1,6 +1,6 @@
-// What a process and the child that reads a file for it say to each other: whole numbers, texts and arrays over a socket, each
-// checked against a bound before anything is allocated for it. Both are the same program on one machine, so numbers lie as
-// they lie in memory.
+// What a process and the child that reads a file for it say to each other: whole numbers, texts and arrays over a socket,
+// each checked against a bound before anything is allocated for it. Both are the same program on one machine, so numbers lie
+// as they lie in memory.
 #pragma once
 
 #include "base/confined/opened_files.h"

@@ -71,11 +71,12 @@ void addList(CLI::App& app, Action& action) {
     const auto options = std::make_shared<ListOptions>();
     CLI::App* verb = app.add_subcommand(
         "list", "Lists techniques with their parameters, scenes, metrics or limits, or prints the JSON Schema of records");
-    verb->footer("Examples:\n  shadowbench list techniques --format md\n"
-                 "  shadowbench list techniques --table                    what each is good at, where it fails, which test "
-                 "says so\n"
-                 "  shadowbench list techniques --table --format latex --records results/published/results.jsonl\n"
-                 "  shadowbench list limits                                how much files may ask for, and what protects from them");
+    verb->footer(
+        "Examples:\n  shadowbench list techniques --format md\n"
+        "  shadowbench list techniques --table                    what each is good at, where it fails, which test "
+        "says so\n"
+        "  shadowbench list techniques --table --format latex --records results/published/results.jsonl\n"
+        "  shadowbench list limits                                how much files may ask for, and what protects from them");
     verb->add_option("what", options->what, "techniques, scenes, metrics, limits or schema")
         ->check(CLI::IsMember({"techniques", "scenes", "metrics", "limits", "schema"}));
     verb->add_option("--format", options->format, "text, md or json; ids: one a line; latex: of --table")

@@ -110,12 +110,12 @@ Json limitsAsJson() {
                        {"default", entry.usual},
                        {"most", entry.most},
                        {"meaning", entry.bounds}});
-    all.push_back({{"id", "reader"},
-                   {"limit", ""},
-                   {"default", ""},
-                   {"most", ""},
-                   {"meaning", "foreign meshes and images are read on this system in a child with " +
-                                   protectionsHere().inWords()}});
+    all.push_back(
+        {{"id", "reader"},
+         {"limit", ""},
+         {"default", ""},
+         {"most", ""},
+         {"meaning", "foreign meshes and images are read on this system in a child with " + protectionsHere().inWords()}});
     return all;
 }
 

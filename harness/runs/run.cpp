@@ -167,8 +167,9 @@ private:
         if (options_.quiet) return;
         std::uint64_t most = 0;
         for (const Scene& scene : scenes_) most = std::max(most, leastMemory(scene));
-        fmt::print(stderr, "run: {} cells; {} truths are not in the cache and come first; each of up to {} processes takes {} of "
-                           "memory or more, of {}\n",
+        fmt::print(stderr,
+                   "run: {} cells; {} truths are not in the cache and come first; each of up to {} processes takes {} of "
+                   "memory or more, of {}\n",
                    cellCount(), truths, workers(), inBytes(most), inBytes(memoryThere()));
     }
 

@@ -9,8 +9,9 @@ namespace shadowbench {
 
 std::uint64_t bytesOf(const Mesh& mesh);
 
-/// Bytes that any work on the scene takes at least: its meshes in memory and on the graphics device, its instances' triangles
-/// in the world at their coarsest levels, as every truth holds them, and its image with what is drawn and scored at a pixel.
+/// Bytes that any work on the scene takes at least: its meshes in memory and on the graphics device, its instances'
+/// triangles in the world at their coarsest levels, as every truth holds them, and its image with what is drawn and scored
+/// at a pixel.
 std::uint64_t leastMemory(const Scene& scene);
 
 } // namespace shadowbench

@@ -37,7 +37,7 @@ private:
 
     std::filesystem::path folder_; // that mesh files are relative to
     std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
-    std::uint64_t bytes_ = 0; // of meshes_
+    std::uint64_t bytes_ = 0;                                            // of meshes_
     std::map<std::filesystem::path, std::map<std::string, Mesh>> parts_; // of glTF files, by name
 };
 

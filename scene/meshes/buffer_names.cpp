@@ -1,4 +1,5 @@
-// The one look that the parent takes into a .gltf: which files it names. The parser calls us value by value and keeps nothing.
+// The one look that the parent takes into a .gltf: which files it names. The parser calls us value by value and keeps
+// nothing.
 #include "base/confined/wire.h"
 #include "base/error.h"
 #include "base/limits.h"

@@ -1,5 +1,5 @@
-// What the child does that reads a mesh (scene/meshes/import.h): other people's bytes become meshes. Nothing here protects the
-// process that calls it.
+// What the child does that reads a mesh (scene/meshes/import.h): other people's bytes become meshes. Nothing here protects
+// the process that calls it.
 #pragma once
 
 #include "scene/mesh.h"
@@ -17,6 +17,9 @@ struct ForeignMeshFile {
     std::string bytes;
     std::map<std::string, std::string> buffers; // of a .gltf, by the name that it gives them
 };
+
+/// Throws BadInput, without a file's name, unless it is one of the four.
+void requireMeshExtension(const std::string& extension);
 
 /// All triangle meshes of the file in one, through assimp, welded. Throws BadInput with the reason, without a file's name.
 Mesh readMeshHere(const ForeignMeshFile& file);

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t longestName = 4096; // of a mesh in a .gltf, bytes
 constexpr std::uint64_t mostParts = 1'000'000;
 
-// ---- in the child ---------------------------------------------------------------------------------------------------------------
+// ---- in the child
+// ---------------------------------------------------------------------------------------------------------------
 
 ForeignMeshFile contentsOf(const ForeignWork& work) {
     ForeignMeshFile file{work.request(), contentOf(work.files().front()), {}};
@@ -53,11 +54,12 @@ void answerWithParts(ForeignWork& work) {
 const ForeignReader meshReader("mesh", answerWithMesh);
 const ForeignReader partsReader("parts", answerWithParts);
 
-// ---- in the parent --------------------------------------------------------------------------------------------------------------
+// ---- in the parent
+// --------------------------------------------------------------------------------------------------------------
 
 std::string extensionOf(const fs::path& file) {
     std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return extension;
 }
 
@@ -65,10 +67,10 @@ std::string extensionOf(const fs::path& file) {
 std::vector<OpenedFile> filesOf(const fs::path& file, const std::string& doing) {
     std::vector<OpenedFile> files;
     files.push_back(openRegular(file));
-    if (extensionOf(file) != ".gltf") return files;
     std::vector<std::string> names;
     try {
-        names = bufferNamesOf(contentOf(files.front()));
+        requireMeshExtension(extensionOf(file));
+        if (extensionOf(file) == ".gltf") names = bufferNamesOf(contentOf(files.front()));
     } catch (const BadInput& error) {
         throw BadInput(fmt::format("{}: {}", doing, error.what()));
     }
@@ -93,7 +95,8 @@ void requireSound(const Mesh& mesh, const ReaderChild& child) {
 
 Mesh received(ReaderChild& child, Room& room) {
     Mesh mesh;
-    const std::uint64_t vertices = child.number(room.vertices, "vertices"), triangles = child.number(room.triangles, "triangles");
+    const std::uint64_t vertices = child.number(room.vertices, "vertices"),
+                        triangles = child.number(room.triangles, "triangles");
     room.vertices -= vertices;
     room.triangles -= triangles;
     mesh.positions.resize(vertices);

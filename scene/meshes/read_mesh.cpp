@@ -107,6 +107,8 @@ void addTriangles(Mesh& mesh, const aiMesh& part) {
 
 } // namespace
 
+void requireMeshExtension(const std::string& extension) { importerFor(extension); }
+
 Mesh compacted(const Mesh& mesh) {
     constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> place(mesh.positions.size(), kUnused);

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
@@ -20,8 +21,8 @@ namespace shadowbench {
 namespace {
 
 void spin() {
-    for (volatile int i = 0;; i = i + 1) {
-    }
+    volatile int turns = 0;
+    for (;;) turns = turns + 1;
 }
 
 /// Memory that is used, and not only asked for.
@@ -104,9 +105,10 @@ TEST_F(Reader, ThatHangsIsEndedByItsTime) {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_F(Reader, ThatEatsMemoryIsRefusedMore) {
-    const Set memory(Limit::ReaderMib, "1500");
-    EXPECT_EQ(refusal("eat"), "cannot add up file: reading it takes more memory than the 1500 MiB of SHADOWBENCH_MAX_READER_MIB, "
-                              "which can be raised");
+    const Set memory(Limit::ReaderMib, "700");
+    EXPECT_EQ(refusal("eat"),
+              "cannot add up file: reading it takes more memory than the 700 MiB of SHADOWBENCH_MAX_READER_MIB, "
+              "which can be raised");
 }
 #endif
 
@@ -136,6 +138,14 @@ TEST(Limits, AreWholeNumbersThatTheirVariablesSet) {
     for (const LimitEntry& entry : limits()) {
         EXPECT_EQ(entry.variable, variableOf(entry.limit));
         EXPECT_LE(entry.usual, entry.most);
+    }
+}
+
+TEST(Limits, AreThoseOfThePage) {
+    const std::string page = readFile(std::string(SOURCE_FOLDER) + "/docs/limits.md");
+    for (const LimitEntry& entry : limits()) {
+        const std::string row = fmt::format("| `{}` | {} | {} |", entry.variable, entry.usual, entry.bounds);
+        EXPECT_NE(page.find(row), std::string::npos) << row;
     }
 }
 

@@ -32,9 +32,10 @@ std::string objOf(const Mesh& mesh) {
 }
 
 std::string plyOf(const Mesh& mesh) {
-    std::string bytes = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
-                                    "property float z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
-                                    mesh.positions.size(), mesh.triangles.size());
+    std::string bytes =
+        fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+                    "property float z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+                    mesh.positions.size(), mesh.triangles.size());
     for (const glm::vec3& p : mesh.positions) addBytes(bytes, p);
     for (const glm::uvec3& t : mesh.triangles) {
         bytes += '\3';
@@ -173,7 +174,9 @@ TEST_P(ChangedFiles, AreReadOrNamed) {
     ::setenv("SHADOWBENCH_MAX_READER_SECONDS", "2", 1);
     write("ball.bin", binOf(ball_));
     const std::string extension = GetParam();
-    const std::string sound = extension == ".obj" ? objOf(ball_) : extension == ".ply" ? plyOf(ball_) : gltfOf(ball_, "ball.bin");
+    const std::string sound = extension == ".obj"   ? objOf(ball_)
+                              : extension == ".ply" ? plyOf(ball_)
+                                                    : gltfOf(ball_, "ball.bin");
     constexpr int files = 12;
     Random random(20);
     for (int i = 0; i < files; ++i) {
@@ -189,7 +192,7 @@ TEST_P(ChangedFiles, AreReadOrNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, ChangedFiles, testing::Values(".obj", ".ply", ".gltf"),
-                         [](const testing::TestParamInfo<const char*>& info) { return std::string(info.param + 1); });
+                         [](const testing::TestParamInfo<const char*>& format) { return std::string(format.param + 1); });
 
 } // namespace
 } // namespace shadowbench
