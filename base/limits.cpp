@@ -24,7 +24,7 @@ constexpr std::array<LimitEntry, 10> all{{
     {Limit::MemoryMib, "SHADOWBENCH_MAX_MEMORY_MIB", mostMib, mostMib,
      "MiB of memory that a scene may need; what the machine has where that is less"},
     {Limit::ReaderMib, "SHADOWBENCH_MAX_READER_MIB", 4096, mostMib, "MiB of memory to read one file in"},
-    {Limit::ReaderSeconds, "SHADOWBENCH_MAX_READER_SECONDS", 10, 86'400,
+    {Limit::ReaderSeconds, "SHADOWBENCH_MAX_READER_SECONDS", 4, 86'400,
      "seconds of processor time to read one file in, and one more for each of its MiB"},
 }};
 

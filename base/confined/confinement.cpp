@@ -20,21 +20,13 @@ void limit(__rlimit_resource resource, rlim_t most) {
     setrlimit(resource, &both);
 }
 
-/// A build with AddressSanitizer or ThreadSanitizer reserves terabytes, and works with threads and files of its own.
-constexpr bool hasSanitizer() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return true;
-#else
-    return false;
-#endif
-}
-
-void setLimits(std::uint64_t seconds) {
+void setLimits(std::uint64_t memory, std::uint64_t seconds) {
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_NPROC, 0);
     limit(RLIMIT_NOFILE, 0); // those that are open stay so
     limit(RLIMIT_MEMLOCK, 0);
+    if (!hasSanitizer()) limit(RLIMIT_AS, memory);
     const rlimit time{seconds, seconds + 1}; // first a signal of its own, by which the reason is known
     setrlimit(RLIMIT_CPU, &time);
 }
@@ -131,12 +123,12 @@ std::string Protections::inWords() const {
     return words;
 }
 
-Protections confineThisProcess(int socket, std::uint64_t seconds) {
+Protections confineThisProcess(int socket, std::uint64_t memory, std::uint64_t seconds) {
     Protections protections;
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0); // which both filters ask for
     prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
     protections.landlock = denyFiles();
-    setLimits(seconds);
+    setLimits(memory, seconds);
     if (!hasSanitizer()) protections.systemCalls = filterSystemCalls(socket);
     return protections;
 }

@@ -7,6 +7,15 @@
 
 namespace shadowbench {
 
+/// A build with AddressSanitizer or ThreadSanitizer reserves terabytes, and works with threads and files of its own.
+constexpr bool hasSanitizer() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return true;
+#else
+    return false;
+#endif
+}
+
 /// What held a reader. Limits hold everywhere: no new descriptor, no byte into a file, no core dump, bounded memory and
 /// time.
 struct Protections {
@@ -24,7 +33,7 @@ struct Protections {
 };
 
 /// Confines the calling process, for good; `socket` is the one descriptor that it may send to. Whatever the system has of
-/// the protections is used, and what it lacks is left out. `seconds` of processor time.
-Protections confineThisProcess(int socket, std::uint64_t seconds);
+/// the protections is used, and what it lacks is left out. `memory`: bytes of address space; `seconds` of processor time.
+Protections confineThisProcess(int socket, std::uint64_t memory, std::uint64_t seconds);
 
 } // namespace shadowbench

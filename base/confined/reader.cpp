@@ -2,6 +2,7 @@
 #include "base/confined/reader.h"
 
 #include "base/confined/handshake.h"
+#include "base/confined/reader_server.h"
 #include "base/error.h"
 #include "base/limits.h"
 
@@ -40,7 +41,7 @@ void readAndAnswer(ForeignReader::Read read, ForeignWork& work, Wire& wire) {
     wire.put(std::string_view(why).substr(0, handshake::longestRefusal));
 }
 
-[[noreturn]] void serve(ForeignReader::Read read) {
+void serve(ForeignReader::Read read) {
     ::close_range(theSocket + 3, ~0U, 0);
     Wire wire{Descriptor(theSocket)};
     try {
@@ -48,7 +49,7 @@ void readAndAnswer(ForeignReader::Read read, ForeignWork& work, Wire& wire) {
         takeLimits(wire);
         std::string request = wire.text(longestRequest);
         ForeignWork work(std::move(request), wire.takeHanded(), wire);
-        handshake::announce(wire, confineThisProcess(theSocket, seconds));
+        handshake::announce(wire, confineThisProcess(theSocket, limitOf(Limit::ReaderMib) << 20U, seconds));
         readAndAnswer(read, work, wire);
     } catch (const WireError&) {
         _exit(1); // the parent has gone
@@ -78,7 +79,7 @@ std::optional<std::uint64_t> ForeignWork::question(std::uint64_t end) {
 
 ForeignReader::ForeignReader(const char* name, Read read) noexcept : name_(name) {
     const char* wanted = std::getenv(handshake::variable);
-    if (wanted != nullptr && std::strcmp(wanted, name) == 0) serve(read);
+    if (wanted != nullptr && std::strcmp(wanted, name) == 0) serveFiles([read] { serve(read); });
 }
 
 } // namespace shadowbench

@@ -1,6 +1,8 @@
 // The parent's half: starts the child, and turns whatever becomes of it into one line.
 #include "base/confined/handshake.h"
+#include "base/confined/passed_descriptors.h"
 #include "base/confined/reader.h"
+#include "base/confined/reader_server.h"
 #include "base/error.h"
 #include "base/launch.h"
 #include "base/limits.h"
@@ -9,11 +11,10 @@
 #include <atomic>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
 #include <functional>
-#include <thread>
-#include <valgrind/valgrind.h>
+#include <poll.h>
+#include <sys/socket.h>
 
 namespace shadowbench {
 namespace {
@@ -22,36 +23,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int waits = 6; // for an answer, times the processor time: on a busy machine a process gets a share of a core
 
-/// This program's own file. Under Valgrind /proc/self/exe is Valgrind; the link that it shows us is the program.
-std::filesystem::path thisProgram() {
-    const std::filesystem::path link("/proc/self/exe");
-    return RUNNING_ON_VALGRIND != 0 ? std::filesystem::read_symlink(link) : link;
-}
-
-constexpr bool reservesAddresses() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return true; // sanitizers: terabytes, so that a limit on them would end the program as it starts
-#else
-    return false;
-#endif
-}
-
 /// Of processor time.
 std::chrono::seconds secondsFor(const std::vector<OpenedFile>& files) {
     std::uint64_t bytes = 0;
     for (const OpenedFile& file : files) bytes += file.size;
     const std::uint64_t seconds = limitOf(Limit::ReaderSeconds) + (bytes >> 20U);
     return std::chrono::seconds(std::min(seconds, handshake::mostSeconds - 1));
-}
-
-Command commandOf(const ForeignReader& reader, std::chrono::seconds seconds) {
-    Command command{.program = thisProgram(), .arguments = {}, .folder = "/"};
-    command.cpuLimit = seconds + std::chrono::seconds(2); // the child sets a closer one, which says why it was ended
-    command.fileLimit = 0;
-    command.memoryLimit = limitOf(Limit::ReaderMib) << 20U;
-    if (reservesAddresses()) command.memoryLimit.reset();
-    command.environment = std::vector<std::string>{fmt::format("{}={}", handshake::variable, reader.name()), "LC_ALL=C"};
-    return command;
 }
 
 /// The child's text as one line that does nothing to a terminal.
@@ -85,7 +62,7 @@ std::string inWords(const Finished& end, std::chrono::seconds seconds) {
 
 void warnOnce(const Protections& protections) {
     static std::atomic_flag warned;
-    if (protections.systemCalls || reservesAddresses() || warned.test_and_set()) return;
+    if (protections.systemCalls || hasSanitizer() || warned.test_and_set()) return;
     fmt::print(stderr,
                "shadowbench: warning: this system filters no system calls (seccomp); foreign files are read with {}\n",
                protections.inWords());
@@ -94,40 +71,33 @@ void warnOnce(const Protections& protections) {
 } // namespace
 
 struct ReaderChild::Running {
-    Child process;
     Wire wire;
+    Descriptor report;
     std::chrono::seconds seconds;
     Protections protections;
 
-    /// `reader` on the other end of a new socket.
-    static std::unique_ptr<Running> started(const ForeignReader& reader, std::chrono::seconds seconds) {
-        const Command command = commandOf(reader, seconds);
-        const Launch launch(command);
-        auto [ours, childs] = makeSockets();
-        const Descriptor nothing = openNothing();
-        const pid_t pid = start(launch, childs.get(), nothing.get(), nothing.get());
-        return std::unique_ptr<Running>(new Running{Child(pid), Wire(std::move(ours)), seconds, {}});
-    }
+    Running(ReaderProcess process, std::chrono::seconds time)
+        : wire(std::move(process.conversation)), report(std::move(process.report)), seconds(time) {}
 
     [[nodiscard]] Clock::time_point deadline() const { return Clock::now() + waits * seconds; }
 
-    /// Its status, once its end of the socket is closed.
-    Finished end() {
-        using std::chrono::milliseconds;
-        for (int i = 0; i < 1000; ++i) { // it closes before it has ended
-            if (const std::optional<int> status = process.poll()) return decoded(*status);
-            std::this_thread::sleep_for(milliseconds(2));
-        }
-        return decoded(process.kill());
+    /// How it ended, once its end of the conversation is closed.
+    [[nodiscard]] Finished end() const {
+        constexpr int patience = 5000; // ms: it closes before it has ended
+        int status = 0;
+        pollfd watched{report.get(), POLLIN, 0};
+        const bool reported =
+            ::poll(&watched, 1, patience) > 0 && ::recv(report.get(), &status, sizeof status, MSG_WAITALL) == sizeof status;
+        return reported ? decoded(status) : Finished{.signal = SIGKILL}; // its server has gone, with all readers
     }
 };
 
 ReaderChild::ReaderChild(const ForeignReader& reader, std::string doing, std::vector<OpenedFile> files,
                          const std::string& request)
     : doing_(std::move(doing)) {
-    if (files.size() > kMostHandedFiles)
-        refuse(fmt::format("it names {} files, and at most {} are read", files.size(), kMostHandedFiles));
-    running_ = Running::started(reader, secondsFor(files));
+    if (files.size() > kMostPassed)
+        refuse(fmt::format("it names {} files, and at most {} are read", files.size(), kMostPassed));
+    running_ = std::make_unique<Running>(startReader(reader.name()), secondsFor(files));
     Wire& wire = running_->wire;
     wire.put(static_cast<std::uint64_t>(running_->seconds.count()));
     for (const LimitEntry& limit : limits()) wire.put(limitOf(limit.limit));

@@ -1,25 +1,18 @@
 #include "base/confined/wire.h"
 
+#include "base/confined/passed_descriptors.h"
 #include "base/interrupts.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstring>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/uio.h>
 
 namespace shadowbench {
 namespace {
 
 constexpr std::size_t longestName = 4096;
-
-/// Room for the control message that carries `files` descriptors, aligned as the kernel wants it.
-struct ControlRoom {
-    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int) * kMostHandedFiles)> bytes{};
-};
 
 [[noreturn]] void ended() { throw WireError(WireError::Kind::Ended, "the other end has closed"); }
 
@@ -86,60 +79,24 @@ std::string Wire::text(std::size_t longest) {
 }
 
 void Wire::hand(std::span<const OpenedFile> files) {
-    std::array<int, kMostHandedFiles> numbers{};
-    const std::size_t count = std::min(files.size(), kMostHandedFiles);
-    for (std::size_t i = 0; i < count; ++i) numbers[i] = files[i].descriptor.get();
-
-    std::uint64_t announced = count;
-    iovec data{&announced, sizeof announced};
-    ControlRoom room;
-    msghdr message{};
-    message.msg_iov = &data;
-    message.msg_iovlen = 1;
-    if (count > 0) {
-        message.msg_control = room.bytes.data();
-        message.msg_controllen = CMSG_SPACE(sizeof(int) * count);
-        cmsghdr* header = CMSG_FIRSTHDR(&message);
-        header->cmsg_level = SOL_SOCKET;
-        header->cmsg_type = SCM_RIGHTS;
-        header->cmsg_len = CMSG_LEN(sizeof(int) * count);
-        std::memcpy(CMSG_DATA(header), numbers.data(), sizeof(int) * count);
-    }
-    while (::sendmsg(socket_.get(), &message, MSG_NOSIGNAL) < 0 && errno == EINTR) {
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        put(files[i].name);
-        put(files[i].size);
+    std::vector<int> descriptors;
+    for (const OpenedFile& file : files) descriptors.push_back(file.descriptor.get());
+    passDescriptors(socket_.get(), files.size(), descriptors);
+    for (const OpenedFile& file : files) {
+        put(file.name);
+        put(file.size);
     }
 }
 
 std::vector<OpenedFile> Wire::takeHanded() {
-    std::uint64_t announced = 0;
-    iovec data{&announced, sizeof announced};
-    ControlRoom room;
-    msghdr message{};
-    message.msg_iov = &data;
-    message.msg_iovlen = 1;
-    message.msg_control = room.bytes.data();
-    message.msg_controllen = room.bytes.size();
-    ssize_t received = 0;
-    do {
-        received = ::recvmsg(socket_.get(), &message, MSG_CMSG_CLOEXEC | MSG_WAITALL);
-    } while (received < 0 && errno == EINTR);
-    if (received != sizeof announced) ended();
-
+    auto handed = takeDescriptors(socket_.get());
+    if (!handed) ended();
+    auto& [announced, descriptors] = *handed;
+    if (descriptors.size() != announced) malformed("other files were handed over than were announced");
     std::vector<OpenedFile> files;
-    const cmsghdr* header = CMSG_FIRSTHDR(&message);
-    const std::size_t come = header == nullptr ? 0 : (header->cmsg_len - CMSG_LEN(0)) / sizeof(int);
-    for (std::size_t i = 0; i < come; ++i) {
-        int descriptor = -1;
-        std::memcpy(&descriptor, CMSG_DATA(header) + i * sizeof(int), sizeof descriptor);
-        files.push_back({"", 0, Descriptor(descriptor)});
-    }
-    if (files.size() != announced) malformed("other files were handed over than were announced");
-    for (OpenedFile& file : files) {
-        file.name = text(longestName);
-        file.size = number(~std::uint64_t{0}, "bytes of a file");
+    for (Descriptor& descriptor : descriptors) {
+        std::string name = text(longestName);
+        files.push_back({std::move(name), number(~std::uint64_t{0}, "bytes of a file"), std::move(descriptor)});
     }
     return files;
 }

@@ -47,7 +47,7 @@ public:
         sendAll(array.data(), array.size_bytes());
     }
 
-    /// Gives the other end copies of these descriptors, with their names and sizes.
+    /// Gives the other end copies of at most kMostPassed descriptors, with their names and sizes.
     void hand(std::span<const OpenedFile> files);
 
     // All throw WireError.
@@ -69,8 +69,5 @@ private:
     Descriptor socket_;
     std::optional<Deadline> deadline_;
 };
-
-/// Of files handed over at once: the kernel's own bound is 253.
-constexpr std::size_t kMostHandedFiles = 64;
 
 } // namespace shadowbench

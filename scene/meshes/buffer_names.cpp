@@ -1,6 +1,6 @@
 // The one look that the parent takes into a .gltf: which files it names. The parser calls us value by value and keeps
 // nothing.
-#include "base/confined/wire.h"
+#include "base/confined/passed_descriptors.h"
 #include "base/error.h"
 #include "base/limits.h"
 #include "scene/meshes/foreign_mesh.h"
@@ -40,8 +40,8 @@ public:
     bool string(string_t& text) override {
         if (!inBuffers_ || depth_ != 3 || !isUri_ || text.empty() || text.starts_with("data:")) return true;
         if (std::ranges::find(names, text) != names.end()) return true;
-        if (names.size() + 1 == kMostHandedFiles) // with the .gltf itself
-            throw BadInput(fmt::format("it names more than {} buffers", kMostHandedFiles - 1));
+        if (names.size() + 1 == kMostPassed) // with the .gltf itself
+            throw BadInput(fmt::format("it names more than {} buffers", kMostPassed - 1));
         names.push_back(text);
         return true;
     }

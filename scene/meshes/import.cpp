@@ -20,11 +20,14 @@ namespace fs = std::filesystem;
 constexpr std::size_t longestName = 4096; // of a mesh in a .gltf, bytes
 constexpr std::uint64_t mostParts = 1'000'000;
 
+/// What is asked of the child: the extension of the file, whose meshes are wanted as one; or this.
+constexpr const char* partsOf = "parts";
+
 // ---- in the child
 // ---------------------------------------------------------------------------------------------------------------
 
 ForeignMeshFile contentsOf(const ForeignWork& work) {
-    ForeignMeshFile file{work.request(), contentOf(work.files().front()), {}};
+    ForeignMeshFile file{work.request() == partsOf ? ".gltf" : work.request(), contentOf(work.files().front()), {}};
     for (const OpenedFile& buffer : std::span(work.files()).subspan(1)) file.buffers.emplace(buffer.name, contentOf(buffer));
     return file;
 }
@@ -51,8 +54,9 @@ void answerWithParts(ForeignWork& work) {
     }
 }
 
-const ForeignReader meshReader("mesh", answerWithMesh);
-const ForeignReader partsReader("parts", answerWithParts);
+void answer(ForeignWork& work) { work.request() == partsOf ? answerWithParts(work) : answerWithMesh(work); }
+
+const ForeignReader meshReader("mesh", answer);
 
 // ---- in the parent
 // --------------------------------------------------------------------------------------------------------------
@@ -119,7 +123,7 @@ Mesh importMesh(const fs::path& file) {
 
 std::map<std::string, Mesh> importParts(const fs::path& file) {
     const std::string doing = fmt::format("cannot read {}", file.string());
-    ReaderChild child(partsReader, doing, filesOf(file, doing), extensionOf(file));
+    ReaderChild child(meshReader, doing, filesOf(file, doing), partsOf);
     child.awaitAnswer();
     Room room;
     std::map<std::string, Mesh> parts;

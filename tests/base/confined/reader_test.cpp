@@ -1,4 +1,5 @@
 // Whatever becomes of the child that reads a file, its parent says one line and goes on.
+#include "base/confined/passed_descriptors.h"
 #include "base/confined/reader.h"
 #include "base/error.h"
 #include "base/files.h"
@@ -123,7 +124,7 @@ TEST_F(Reader, SaysNothingThatATerminalActsOn) { EXPECT_EQ(refusal("refuse"), "c
 TEST_F(Reader, TakesNoMoreFilesThanItCanBeHanded) {
     writeFile(folder_.path() / "file", "12345");
     std::vector<OpenedFile> files;
-    for (std::size_t i = 0; i <= kMostHandedFiles; ++i) files.push_back(openRegular(folder_.path() / "file"));
+    for (std::size_t i = 0; i <= kMostPassed; ++i) files.push_back(openRegular(folder_.path() / "file"));
     EXPECT_THROW(ReaderChild(misbehaving, "cannot add up file", std::move(files), "add"), BadInput);
 }
 
