@@ -45,19 +45,13 @@ OIIO::cspan<unsigned char> spanOf(const std::string& bytes) {
     return {reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<std::ptrdiff_t>(bytes.size())};
 }
 
-/// All in the one thread that there is.
-void setUp() {
-    OIIO::attribute("threads", 1);
-    OIIO::attribute("exr_threads", -1);
-}
-
 } // namespace
 
 DecodedImage::DecodedImage(std::string bytes) : bytes_(std::move(bytes)), memory_(spanOf(bytes_)) {
     const Beginning& beginning = beginningOf(bytes_);
     header_.format = beginning.format;
     if (!beginning.isRead) return;
-    setUp();
+    OIIO::attribute("exr_threads", -1); // all in the one thread that there is
     input_ = OIIO::ImageInput::create(std::string(beginning.format));
     if (!input_ || !input_->set_ioproxy(&memory_)) throw BadInput("OpenImageIO cannot read its format from memory");
     OIIO::ImageSpec found;

@@ -60,14 +60,15 @@ ImageHeader receivedHeader(ReaderChild& child) {
 
 std::vector<OpenedFile> only(const std::filesystem::path& file) {
     std::vector<OpenedFile> files;
-    files.push_back(openRegular(file));
+    files.push_back(openRegular(file, "cannot read image"));
     return files;
 }
 
 } // namespace
 
 ImageReader::ImageReader(const std::filesystem::path& file)
-    : child_(decoder, fmt::format("cannot read image {}", file.string()), only(file)), header_(receivedHeader(child_)) {}
+    : file_(file), child_(decoder, fmt::format("cannot read image {}", file.string()), only(file)),
+      header_(receivedHeader(child_)) {}
 
 Image<float> ImageReader::channel(int index) {
     const std::uint64_t most = limitOf(Limit::Pixels);
@@ -86,7 +87,8 @@ Image<float> ImageReader::channel(int index) {
 Image<float> ImageReader::channel(const std::string& name) {
     const auto found = std::ranges::find(header_.channels, name);
     if (found == header_.channels.end())
-        child_.refuse(fmt::format("it has no channel \"{}\": it has {}", name, fmt::join(header_.channels, ", ")));
+        throw BadInput(fmt::format("cannot read channel \"{}\" of image {}: it has {}", name, file_.string(),
+                                   fmt::join(header_.channels, ", ")));
     return channel(static_cast<int>(found - header_.channels.begin()));
 }
 

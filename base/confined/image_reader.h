@@ -25,6 +25,7 @@ public:
     Image<float> channel(const std::string& name);
 
 private:
+    std::filesystem::path file_;
     ReaderChild child_;
     ImageHeader header_;
 };

@@ -17,16 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& file, const std::string& why) {
-    throw BadInput(fmt::format("cannot read {}: {}", file.string(), why));
+[[noreturn]] void fail(const fs::path& file, const std::string& why, const std::string& doing = "cannot read") {
+    throw BadInput(fmt::format("{} {}: {}", doing, file.string(), why));
 }
-
-[[noreturn]] void fail(const fs::path& file, int errorNumber) { fail(file, std::strerror(errorNumber)); }
 
 /// `shown`: the path for messages.
 OpenedFile checked(Descriptor descriptor, const fs::path& shown, std::string name) {
     struct stat status {};
-    if (::fstat(descriptor.get(), &status) != 0) fail(shown, errno);
+    if (::fstat(descriptor.get(), &status) != 0) fail(shown, std::strerror(errno));
     if (S_ISDIR(status.st_mode)) fail(shown, "it is a folder; name a file");
     if (!S_ISREG(status.st_mode)) fail(shown, "it is a pipe or a device; name a regular file");
     const auto size = static_cast<std::uint64_t>(status.st_size);
@@ -52,10 +50,10 @@ std::vector<std::string> stepsOf(const fs::path& folder, const std::string& name
 
 } // namespace
 
-OpenedFile openRegular(const fs::path& file) {
+OpenedFile openRegular(const fs::path& file, const std::string& doing) {
     // Without waiting for whoever would write into a pipe of that name.
     Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-    if (descriptor.get() < 0) fail(file, errno);
+    if (descriptor.get() < 0) fail(file, std::strerror(errno), doing);
     return checked(std::move(descriptor), file, file.filename().string());
 }
 
@@ -63,7 +61,7 @@ OpenedFile openBelow(const fs::path& folder, const std::string& name) {
     std::vector<std::string> steps = stepsOf(folder, name);
     const fs::path shown = folder / name;
     Descriptor at(::open(folder.empty() ? "." : folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-    if (at.get() < 0) fail(folder, errno);
+    if (at.get() < 0) fail(folder, std::strerror(errno));
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const int kind = i + 1 < steps.size() ? O_PATH | O_DIRECTORY : O_RDONLY | O_NONBLOCK | O_NOCTTY;
         Descriptor next(::openat(at.get(), steps[i].c_str(), kind | O_NOFOLLOW | O_CLOEXEC));
@@ -72,7 +70,7 @@ OpenedFile openBelow(const fs::path& folder, const std::string& name) {
         const bool isLink = next.get() < 0 && ::fstatat(at.get(), steps[i].c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
                             S_ISLNK(status.st_mode);
         if (isLink) fail(shown, "it is reached through a symbolic link, which a foreign file may not name");
-        if (next.get() < 0) fail(shown, why);
+        if (next.get() < 0) fail(shown, std::strerror(why));
         std::swap(at, next);
     }
     return checked(std::move(at), shown, name);
@@ -85,7 +83,7 @@ std::string contentOf(const OpenedFile& file) {
         const ssize_t count =
             ::pread(file.descriptor.get(), bytes.data() + done, file.size - done, static_cast<off_t>(done));
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail(file.name, errno);
+        if (count < 0) fail(file.name, std::strerror(errno));
         if (count == 0) fail(file.name, "it became shorter while it was read");
         done += static_cast<std::uint64_t>(count);
     }

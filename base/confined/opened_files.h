@@ -16,9 +16,9 @@ struct OpenedFile {
     Descriptor descriptor;
 };
 
-/// Opens `file`, whose name for the reader is that without its folder. Throws BadInput naming it: not there, a folder, a
-/// pipe or device, or larger than Limit::FileMib.
-OpenedFile openRegular(const std::filesystem::path& file);
+/// Opens `file`, whose name for the reader is that without its folder. Throws BadInput naming it after `doing`: not there, a
+/// folder, a pipe or device, or larger than Limit::FileMib.
+OpenedFile openRegular(const std::filesystem::path& file, const std::string& doing = "cannot read");
 
 /// Opens the file that another one in `folder` names, a relative path with '/'. Throws BadInput as above, and where the path
 /// is absolute, has a `..`, or leads through a symbolic link: what a foreign file names stays below its folder.

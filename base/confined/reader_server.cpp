@@ -49,7 +49,8 @@ Descriptor startServer(const char* name) {
     command.memoryLimit.reset();
     command.fileLimit = 0;
     command.openFiles = 2 * kMostPassed;
-    command.environment = std::vector<std::string>{fmt::format("{}={}", handshake::variable, name), "LC_ALL=C"};
+    command.environment = std::vector<std::string>{fmt::format("{}={}", handshake::variable, name), "LC_ALL=C",
+                                                   "OPENIMAGEIO_THREADS=1"}; // none can be made where it reads
     const Launch launch(command);
     auto [ours, servers] = makeRequestSockets();
     const Descriptor nothing = openNothing();
@@ -86,40 +87,64 @@ void dieWith(pid_t parent) {
     if (::getppid() != parent) _exit(1); // it died before the line above took effect
 }
 
-/// Reports how `reader` ends; ends it when nobody wants to know any more.
-void watchOver(pid_t reader, const Descriptor& report) {
-    constexpr int tick = 5; // ms
-    for (int status = 0;;) {
-        if (::waitpid(reader, &status, WNOHANG) == reader) {
-            ::send(report.get(), &status, sizeof status, MSG_NOSIGNAL);
-            return;
-        }
-        pollfd watched{report.get(), POLLIN, 0};
-        if (::poll(&watched, 1, tick) <= 0) continue;
-        ::kill(reader, SIGKILL);
-        ::waitpid(reader, &status, 0);
-        return;
-    }
-}
+/// A process that reads a file, and whom its end is reported to.
+struct Watched {
+    pid_t reader;
+    Descriptor report;
 
-/// The process of one file, and the one that watches over it.
-[[noreturn]] void forkReader(pid_t server, Descriptor conversation, const Descriptor& report,
-                             const std::function<void()>& serve) {
-    dieWith(server);
-    std::signal(SIGCHLD, SIG_DFL);
-    const pid_t watcher = ::getpid();
-    const pid_t process = ::fork();
-    if (process == 0) {
-        dieWith(watcher);
-        ::dup2(conversation.get(), theSocket);
-        serve();
-        _exit(0);
+    /// Whether it has ended, which is then reported; it is ended when nobody wants to know any more.
+    [[nodiscard]] bool hasEnded(bool abandoned) const {
+        if (abandoned) ::kill(reader, SIGKILL);
+        int status = 0;
+        if (::waitpid(reader, &status, abandoned ? 0 : WNOHANG) != reader) return false;
+        ::send(report.get(), &status, sizeof status, MSG_NOSIGNAL);
+        return true;
     }
-    conversation.close();
-    ::close(theSocket);
-    if (process > 0) watchOver(process, report);
+};
+
+/// Forks the process of one file.
+pid_t forkReader(pid_t server, const Descriptor& conversation, const std::function<void()>& serve) {
+    const pid_t process = ::fork();
+    if (process != 0) return process;
+    dieWith(server);
+    ::dup2(conversation.get(), theSocket);
+    serve();
     _exit(0);
 }
+
+class Server {
+public:
+    explicit Server(const std::function<void()>& serve) : serve_(serve), self_(::getpid()) {}
+
+    /// Until nobody can ask any more.
+    void work() {
+        for (;;) {
+            constexpr int tick = 5; // ms between two looks for readers that have ended
+            std::vector<pollfd> polled{{theSocket, POLLIN, 0}};
+            for (const Watched& watched : watched_) polled.push_back({watched.report.get(), POLLIN, 0});
+            if (::poll(polled.data(), polled.size(), watched_.empty() ? -1 : tick) < 0) continue;
+            for (std::size_t i = watched_.size(); i-- > 0;)
+                if (watched_[i].hasEnded(polled[i + 1].revents != 0))
+                    watched_.erase(watched_.begin() + static_cast<std::ptrdiff_t>(i));
+            if (polled.front().revents != 0 && !takeRequest()) return;
+        }
+    }
+
+private:
+    bool takeRequest() {
+        auto handed = takeDescriptors(theSocket);
+        if (!handed) return false;
+        std::vector<Descriptor>& ends = handed->second;
+        if (ends.size() != 2) return true;
+        const pid_t reader = forkReader(self_, ends[0], serve_);
+        if (reader > 0) watched_.push_back({reader, std::move(ends[1])}); // else the parent sees both closed
+        return true;
+    }
+
+    const std::function<void()>& serve_;
+    const pid_t self_;
+    std::vector<Watched> watched_;
+};
 
 } // namespace
 
@@ -133,15 +158,9 @@ ReaderProcess startReader(const char* name) {
 
 void serveFiles(const std::function<void()>& serve) {
     ::close_range(3, ~0U, 0);
-    ::prctl(PR_SET_PDEATHSIG, 0);  // the thread that started us may end before its process
-    std::signal(SIGCHLD, SIG_IGN); // no watcher is waited for
-    const pid_t server = ::getpid();
-    for (;;) {
-        auto handed = takeDescriptors(theSocket);
-        if (!handed) _exit(0); // nobody will ask any more
-        std::vector<Descriptor>& ends = handed->second;
-        if (ends.size() == 2 && ::fork() == 0) forkReader(server, std::move(ends[0]), ends[1], serve);
-    }
+    ::prctl(PR_SET_PDEATHSIG, 0); // the thread that started us may end before its process
+    Server(serve).work();
+    _exit(0);
 }
 
 } // namespace shadowbench
