@@ -14,8 +14,8 @@ protected:
     Outcome run(const std::string& file, const std::string& before = "") const {
         folder_.write("own.toml", tinyScene("{ kind = \"point\", centre = [1.7, 6.1, -2.3] }",
                                             "[[object]]\nmesh = { file = \"" + file + "\" }\n"));
-        return shell(before + "shadowbench run --quiet --cost none --technique none --scene " + folder_ / "own.toml" + " --out " +
-                     folder_ / "out" + " --cache " + folder_ / "cache");
+        return shell(before + "shadowbench run --quiet --cost none --technique none --scene " + folder_ / "own.toml" +
+                     " --out " + folder_ / "out" + " --cache " + folder_ / "cache");
     }
     void expectRefused(const Outcome& outcome, const std::string& why) const {
         EXPECT_EQ(outcome.code, 2) << outcome.output;
@@ -36,7 +36,8 @@ TEST_F(ForeignFiles, ThatAreDamagedAreNamed) {
 
 TEST_F(ForeignFiles, ALimitThatIsNoNumberIsNamed) {
     folder_.write("bad.ply", "");
-    expectRefused(run("bad.ply", "SHADOWBENCH_MAX_FILE_MIB=1e3 "), "SHADOWBENCH_MAX_FILE_MIB=\"1e3\": expected a whole number");
+    expectRefused(run("bad.ply", "SHADOWBENCH_MAX_FILE_MIB=1e3 "),
+                  "SHADOWBENCH_MAX_FILE_MIB=\"1e3\": expected a whole number");
 }
 
 TEST_F(ForeignFiles, WhatIsHeldAgainstThemIsListed) {

@@ -27,7 +27,8 @@ Scene sceneWith(const std::string& object, const std::string& size = "16") {
                       "x.toml", Profile::Gate);
 }
 
-const std::string manyBalls = "mesh = { sphere = { radius = 0.01, triangles = 20000 } }\nscatter = { count = 5000, half = 10 }\n";
+const std::string manyBalls =
+    "mesh = { sphere = { radius = 0.01, triangles = 20000 } }\nscatter = { count = 5000, half = 10 }\n";
 
 std::string refusal(const std::string& object, const std::string& size = "16") {
     try {
@@ -51,15 +52,17 @@ TEST(MemoryNeed, BeyondWhatThereIsIsRefusedWithBoth) {
     EXPECT_EQ(refusal(manyBalls), "") << "3.4 GiB";
     const Memory little("1024");
     const std::string said = refusal(manyBalls);
-    EXPECT_NE(said.find("x.toml:5: object: the scene needs 3.4 GiB of memory at least, and there is 1.0 GiB"), std::string::npos)
+    EXPECT_NE(said.find("x.toml:5: object: the scene needs 3.4 GiB of memory at least, and there is 1.0 GiB"),
+              std::string::npos)
         << said;
     EXPECT_NE(refusal("mesh = { plane = { half = 1 } }\n", "[8192, 8192]").find("needs 4.8 GiB"), std::string::npos);
 }
 
 TEST(MemoryNeed, OfMeshesAloneIsRefusedAtTheOneTooMany) {
     const Memory little("1");
-    EXPECT_NE(refusal("mesh = { sphere = { radius = 1, triangles = 100000 } }\n").find("take 2 MiB of memory, and there is 1 MiB"),
-              std::string::npos)
+    EXPECT_NE(
+        refusal("mesh = { sphere = { radius = 1, triangles = 100000 } }\n").find("take 2 MiB of memory, and there is 1 MiB"),
+        std::string::npos)
         << refusal("mesh = { sphere = { radius = 1, triangles = 100000 } }\n");
 }
 
