@@ -1,15 +1,16 @@
 #include "base/files.h"
 
 #include "base/error.h"
+#include "base/limits.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
-#include <sstream>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -115,11 +116,18 @@ std::string readFile(const fs::path& file) {
         throw BadInput(fmt::format("cannot read {}: it is a folder; name a file", file.string()));
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-    if (!stream.is_open() || stream.bad() || text.bad())
+    const std::uint64_t most = limitOf(Limit::TextMib) << 20U; // of a device there is no end
+    std::string text;
+    for (std::array<char, 1 << 16> block{}; stream.good();) {
+        stream.read(block.data(), block.size());
+        text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > most)
+            throw BadInput(fmt::format("cannot read {}: it has {} bytes and more, {}", file.string(), text.size(),
+                                       beyond(Limit::TextMib)));
+    }
+    if (!stream.is_open() || stream.bad())
         throw BadInput(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno != 0 ? errno : EIO)));
-    return std::move(text).str();
+    return text;
 }
 
 std::string didYouMean(std::string_view word, const std::vector<std::string>& known) {

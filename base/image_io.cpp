@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/image_input.h"
 
-#include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -33,26 +33,23 @@ std::uint8_t byte(float value) {
     return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(std::isnan(value) ? 0.0F : value, 0.0F, 1.0F)));
 }
 
-/// What OpenImageIO says went wrong, in one line.
-[[noreturn]] void failToRead(const fs::path& file, std::string reason) {
-    std::replace(reason.begin(), reason.end(), '\n', ' ');
-    while (reason.ends_with(' ')) reason.pop_back();
-    throw BadInput(fmt::format("cannot read image {}: {}", file.string(), reason.empty() ? "it is damaged" : reason));
+[[noreturn]] void failToRead(const fs::path& file, const std::string& reason) {
+    throw BadInput(fmt::format("cannot read image {}: {}", file.string(), reason));
 }
 
 std::unique_ptr<OIIO::ImageInput> openImage(const fs::path& file) {
-    OIIO::ImageSpec wanted;
-    wanted.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not multiplied by alpha
+    const OIIO::ImageSpec wanted = asStored();
     auto input = OIIO::ImageInput::open(file.string(), &wanted);
-    if (!input) failToRead(file, OIIO::geterror());
+    if (!input) failToRead(file, inOneLine(OIIO::geterror()));
     return input;
 }
 
 Image<float> read(OIIO::ImageInput& input, const fs::path& file, int channel) {
-    Image<float> image(input.spec().width, input.spec().height);
-    if (!input.read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, image.data()))
-        failToRead(file, input.geterror());
-    return image;
+    try {
+        return pixelsOf(input, channel);
+    } catch (const BadInput& error) {
+        failToRead(file, error.what());
+    }
 }
 
 } // namespace
@@ -87,23 +84,6 @@ void writePng(const fs::path& file, const Image<glm::vec3>& colour) {
     for (const glm::vec3& c : colour) bytes.insert(bytes.end(), {byte(c.x), byte(c.y), byte(c.z)});
     write(file, OIIO::ImageSpec(colour.width(), colour.height(), 3, OIIO::TypeDesc::UINT8), bytes.data());
 }
-
-ImageHeader imageHeader(const fs::path& file) {
-    const auto input = openImage(file);
-    const OIIO::ImageSpec& spec = input->spec();
-    const bool window =
-        spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width || spec.height != spec.full_height;
-    return {.format = input->format_name(),
-            .width = spec.width,
-            .height = spec.height,
-            .channels = spec.channelnames,
-            .alpha = spec.alpha_channel,
-            .bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size())),
-            .floats = spec.format.is_floating_point(),
-            .whole = !window && !spec.deep && spec.depth <= 1};
-}
-
-std::vector<std::string> channelNames(const fs::path& file) { return openImage(file)->spec().channelnames; }
 
 Image<float> readChannel(const fs::path& file, int channel) {
     const auto input = openImage(file);

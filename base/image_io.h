@@ -1,4 +1,5 @@
-// Image files, all through OpenImageIO, whose types stay in image_io.cpp. Every write is whole or not at all.
+// Our own image files, all through OpenImageIO. Every write is whole or not at all. Those of other people are decoded in a
+// child: base/confined/image_reader.h.
 #pragma once
 
 #include "base/image.h"
@@ -34,12 +35,6 @@ struct ImageHeader {
     bool floats = false;               // else integers
     bool whole = true;                 // one flat picture from (0, 0) on; no window of a larger one, no depth samples
 };
-
-/// Reads the header alone. Throws BadInput for a missing or unreadable file.
-ImageHeader imageHeader(const std::filesystem::path& file);
-
-/// Names of the channels of an EXR or PNG. Throws BadInput for a missing or unreadable file.
-std::vector<std::string> channelNames(const std::filesystem::path& file);
 
 /// Reads one channel (by index) of an EXR, PNG or PFM as linear values; integers are divided by their maximum, no gamma
 /// applied. Throws BadInput for a missing or unreadable file and for a channel that is not there.

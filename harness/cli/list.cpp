@@ -1,3 +1,4 @@
+#include "base/limits.h"
 #include "harness/cli/command.h"
 #include "harness/records/comparability.h"
 #include "harness/report/listing.h"
@@ -34,6 +35,8 @@ std::string idsOf(const std::string& what, bool standard) {
     if (what == "scenes") all = standard ? standardScenes() : builtinScenes();
     if (what == "metrics")
         for (const auto& metric : nlohmann::json::parse(catalogue(what, "json"))) all.push_back(metric.at("name"));
+    if (what == "limits")
+        for (const LimitEntry& limit : limits()) all.emplace_back(limit.variable);
     return fmt::format("{}\n", fmt::join(all, "\n"));
 }
 
@@ -67,13 +70,15 @@ std::string listing(const ListOptions& options) {
 void addList(CLI::App& app, Action& action) {
     const auto options = std::make_shared<ListOptions>();
     CLI::App* verb = app.add_subcommand(
-        "list", "Lists techniques with their parameters, scenes or metrics, or prints the JSON Schema of records");
-    verb->footer("Examples:\n  shadowbench list techniques --format md\n"
-                 "  shadowbench list techniques --table                    what each is good at, where it fails, which test "
-                 "says so\n"
-                 "  shadowbench list techniques --table --format latex --records results/published/results.jsonl");
-    verb->add_option("what", options->what, "techniques, scenes, metrics or schema")
-        ->check(CLI::IsMember({"techniques", "scenes", "metrics", "schema"}));
+        "list", "Lists techniques with their parameters, scenes, metrics or limits, or prints the JSON Schema of records");
+    verb->footer(
+        "Examples:\n  shadowbench list techniques --format md\n"
+        "  shadowbench list techniques --table                    what each is good at, where it fails, which test "
+        "says so\n"
+        "  shadowbench list techniques --table --format latex --records results/published/results.jsonl\n"
+        "  shadowbench list limits                                how much files may ask for, and what protects from them");
+    verb->add_option("what", options->what, "techniques, scenes, metrics, limits or schema")
+        ->check(CLI::IsMember({"techniques", "scenes", "metrics", "limits", "schema"}));
     verb->add_option("--format", options->format, "text, md or json; ids: one a line; latex: of --table")
         ->check(CLI::IsMember({"text", "md", "json", "ids", "latex"}))
         ->capture_default_str();

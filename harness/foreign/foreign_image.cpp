@@ -1,7 +1,7 @@
 #include "harness/foreign/foreign_image.h"
 
+#include "base/confined/image_reader.h"
 #include "base/error.h"
-#include "base/image_io.h"
 
 #include <algorithm>
 #include <array>
@@ -38,11 +38,15 @@ void requireWholePng(const fs::path& file) {
     if (!read || std::string_view(chunk.data(), chunk.size()) != last) refuse(file, "is cut off: write it again, whole");
 }
 
-ImageHeader headerOf(const fs::path& file, glm::ivec2 size) {
+/// Opens `file`, once it is there.
+ImageReader opened(const fs::path& file) {
     const fs::file_status status = fs::status(file);
     if (!fs::exists(status)) refuse(file, "is not there; check its name, and that the renderer has written it");
     if (fs::is_directory(status)) refuse(file, "is a folder: name the files in it");
-    const ImageHeader header = imageHeader(file);
+    return ImageReader(file);
+}
+
+void requireFitting(const ImageHeader& header, const fs::path& file, glm::ivec2 size) {
     if (header.format != "openexr" && header.format != "png" && header.format != "pnm")
         refuse(file, fmt::format("is of the format {}: give EXR, PNG or PFM, which keep what was rendered", header.format));
     if (header.format == "png") requireWholePng(file);
@@ -54,7 +58,6 @@ ImageHeader headerOf(const fs::path& file, glm::ivec2 size) {
                                  given.x, given.y, words.empty() ? "" : ", " + words, size.x, size.y));
     }
     if (!header.whole) refuse(file, "is a window of a larger picture, or holds depth samples: write it whole and flat");
-    return header;
 }
 
 /// Whether a channel is called `name`, alone or in a layer: "R", "ViewLayer.Combined.R".
@@ -124,7 +127,9 @@ std::string sizeInWords(glm::ivec2 given, glm::ivec2 wanted) {
 }
 
 ForeignImage readForeign(const fs::path& file, const Reading& reading, std::vector<std::string>& warnings) {
-    const ImageHeader header = headerOf(file, reading.size);
+    ImageReader image = opened(file);
+    const ImageHeader& header = image.header();
+    requireFitting(header, file, reading.size);
     const std::vector<int> chosen = chosenChannels(header, reading.channel, file);
     const bool srgb = isSrgb(header, reading.encoding, file);
     if (hasPalette(header, file))
@@ -132,20 +137,22 @@ ForeignImage readForeign(const fs::path& file, const Reading& reading, std::vect
     ForeignImage result{.file = file, .channels = {}, .alpha = {}};
     if (!header.floats) result.step = 1 / (std::ldexp(1.0F, header.bits) - 1);
     for (const int i : chosen) {
-        Image<float>& channel = result.channels.emplace_back(readChannel(file, i));
+        Image<float>& channel = result.channels.emplace_back(image.channel(i));
         requireFinite(channel, file);
         if (srgb) std::ranges::transform(channel, channel.begin(), linearFromSrgb);
     }
-    if (reading.channel.empty() && header.alpha >= 0) result.alpha = readChannel(file, header.alpha);
+    if (reading.channel.empty() && header.alpha >= 0) result.alpha = image.channel(header.alpha);
     return result;
 }
 
 Image<float> readNumbers(const fs::path& file, glm::ivec2 size) {
-    const ImageHeader header = headerOf(file, size);
+    ImageReader image = opened(file);
+    const ImageHeader& header = image.header();
+    requireFitting(header, file, size);
     const auto isDepth = [](const std::string& channel) { return isCalled(channel, "Z"); };
     const auto depth = std::ranges::find_if(header.channels, isDepth);
-    if (std::ranges::count_if(header.channels, isDepth) == 1) return readChannel(file, *depth);
-    return readChannel(file, chosenChannels(header, "", file).front());
+    if (std::ranges::count_if(header.channels, isDepth) == 1) return image.channel(*depth);
+    return image.channel(chosenChannels(header, "", file).front());
 }
 
 } // namespace shadowbench::foreign

@@ -1,5 +1,7 @@
 #include "harness/report/listing.h"
 
+#include "base/confined/reader.h"
+#include "base/limits.h"
 #include "harness/metrics/table.h"
 #include "harness/records/record.h"
 #include "scene/load/load.h"
@@ -99,6 +101,24 @@ Json metricsAsJson() {
     return all;
 }
 
+/// The limits that hold now, and, last, what holds the child that reads files.
+Json limitsAsJson() {
+    Json all = Json::array();
+    for (const LimitEntry& entry : limits())
+        all.push_back({{"id", entry.variable},
+                       {"limit", limitOf(entry.limit)},
+                       {"default", entry.usual},
+                       {"most", entry.most},
+                       {"meaning", entry.bounds}});
+    all.push_back(
+        {{"id", "reader"},
+         {"limit", ""},
+         {"default", ""},
+         {"most", ""},
+         {"meaning", "foreign meshes and images are read on this system in a child with " + protectionsHere().inWords()}});
+    return all;
+}
+
 /// A cell of a table: text as it is, parameters with their defaults, figures by name.
 std::string asCell(const std::string& key, const Json& value) {
     if (value.is_string()) return value.get<std::string>();
@@ -149,7 +169,10 @@ std::string asMarkdown(const Json& all) {
 
 std::string catalogue(const std::string& what, const std::string& format) {
     if (what == "schema") return recordSchema();
-    const Json all = what == "scenes" ? scenesAsJson() : what == "metrics" ? metricsAsJson() : techniquesAsJson();
+    const Json all = what == "scenes"    ? scenesAsJson()
+                     : what == "metrics" ? metricsAsJson()
+                     : what == "limits"  ? limitsAsJson()
+                                         : techniquesAsJson();
     if (format == "json") return all.dump(2) + "\n";
     if (format == "md") return asMarkdown(all);
     std::string text;

@@ -5,8 +5,8 @@
 
 namespace shadowbench {
 
-/// `what` is "techniques", "scenes" or "metrics"; `format` "text", "md" or "json". "schema" is the JSON Schema of a record,
-/// whatever the format.
+/// `what` is "techniques", "scenes", "metrics" or "limits"; `format` "text", "md" or "json". "schema" is the JSON Schema of
+/// a record, whatever the format.
 std::string catalogue(const std::string& what, const std::string& format);
 
 } // namespace shadowbench

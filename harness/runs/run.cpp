@@ -1,5 +1,6 @@
 #include "harness/runs/run.h"
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress_line.h"
 #include "base/worker_processes.h"
@@ -11,6 +12,7 @@
 #include "harness/records/comparability.h"
 #include "harness/render/shared_shaders.h"
 #include "harness/runs/cell_file.h"
+#include "scene/load/memory_need.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
@@ -140,6 +142,7 @@ private:
         }
         shared_.reset();
         if (asked.empty()) return;
+        sayNeed(asked.size());
         ProgressLine line("truths", static_cast<int>(asked.size()), options_.quiet);
         int done = 0;
         SharedWork work;
@@ -157,6 +160,17 @@ private:
         work.finished = [&](std::size_t, const std::string&) { ++done; };
         work.lost = [&](std::size_t, const std::string&) { ++done; };
         shareAmongProcesses(workers(), work);
+    }
+
+    /// What a person should know before a long wait.
+    void sayNeed(std::size_t truths) const {
+        if (options_.quiet) return;
+        std::uint64_t most = 0;
+        for (const Scene& scene : scenes_) most = std::max(most, leastMemory(scene));
+        fmt::print(stderr,
+                   "run: {} cells; {} truths are not in the cache and come first; each of up to {} processes takes {} of "
+                   "memory or more, of {}\n",
+                   cellCount(), truths, workers(), inBytes(most), inBytes(memoryThere()));
     }
 
     [[nodiscard]] std::set<std::pair<Truth, int>> missingTruths(const SceneCells& cells,

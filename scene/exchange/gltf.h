@@ -1,10 +1,8 @@
-// glTF 2.0: writing a scene's scored frame, and reading the meshes back bit for bit.
+// glTF 2.0 of a scene's scored frame.
 #pragma once
 
 #include "scene/exchange/parts.h"
 
-#include <filesystem>
-#include <map>
 #include <string>
 
 namespace shadowbench::exchange {
@@ -16,11 +14,5 @@ struct GltfFiles {
 
 /// The scene at `frame`: a mesh for each part, a node for each instance, the camera and the light.
 GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts);
-
-/// The meshes of a .gltf by name, each in its own space, with the vertices and triangles of the file in their order; not
-/// said to be closed. Read is what any exporter may write of one triangle list a mesh: positions of 32-bit floats, indices
-/// of 8, 16 or 32 bits, buffers in files beside it. A mesh that is something else is left out. Throws BadInput naming the
-/// file and what is wrong with it.
-std::map<std::string, Mesh> readGltfMeshes(const std::filesystem::path& file);
 
 } // namespace shadowbench::exchange

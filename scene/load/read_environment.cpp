@@ -1,6 +1,6 @@
 // Skies and suns of scene files.
+#include "base/confined/image_reader.h"
 #include "base/error.h"
-#include "base/image_io.h"
 #include "scene/load/scene_file.h"
 #include "scene/sky.h"
 #include "scene/spherical_harmonics.h"
@@ -66,13 +66,14 @@ HarmonicSky readHarmonics(const TomlValue& value, double scale) {
 
 /// The luminance (Rec. 709) of an image with R, G and B; else its channel Y.
 Image<float> luminanceOf(const std::filesystem::path& file) {
-    const std::vector<std::string> channels = channelNames(file);
+    ImageReader image(file);
+    const std::vector<std::string>& channels = image.header().channels;
     const auto has = [&](const char* channel) {
         return std::find(channels.begin(), channels.end(), channel) != channels.end();
     };
-    if (!has("R") || !has("G") || !has("B")) return readChannel(file, "Y");
-    Image<float> luminance = readChannel(file, "R");
-    const Image<float> green = readChannel(file, "G"), blue = readChannel(file, "B");
+    if (!has("R") || !has("G") || !has("B")) return image.channel("Y");
+    Image<float> luminance = image.channel("R");
+    const Image<float> green = image.channel("G"), blue = image.channel("B");
     for (std::size_t i = 0; i < luminance.size(); ++i)
         luminance[i] = 0.2126F * luminance[i] + 0.7152F * green[i] + 0.0722F * blue[i];
     return luminance;

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/files.h"
-#include "scene/exchange/gltf.h"
+#include "base/memory.h"
+#include "scene/load/memory_need.h"
 #include "scene/load/scene_file.h"
 #include "scene/meshes/import.h"
 #include "scene/meshes/primitives.h"
@@ -119,15 +120,23 @@ std::shared_ptr<const Mesh> MeshStore::generated(const TomlValue& generator, int
     if (mesh == nullptr) {
         mesh = std::make_shared<const Mesh>(wanted.make());
         requireWellFormed(*mesh, generator.where());
+        requireRoom(*mesh, generator);
     }
     return mesh;
+}
+
+void MeshStore::requireRoom(const Mesh& another, const TomlValue& key) {
+    bytes_ += bytesOf(another);
+    if (const std::uint64_t there = memoryThere(); bytes_ > there)
+        key.fail(fmt::format("with it the scene's meshes take {} of memory, and there is {}: take fewer or coarser ones",
+                             inBytes(bytes_), inBytes(there)));
 }
 
 /// A file is read once, however many of its meshes a scene takes.
 const Mesh& MeshStore::partOf(const std::filesystem::path& file, const TomlValue& part) {
     if (file.extension() != ".gltf") throw BadInput("a part is a mesh of a .gltf file, by name");
     const auto [known, isNew] = parts_.try_emplace(file);
-    if (isNew) known->second = exchange::readGltfMeshes(file);
+    if (isNew) known->second = importParts(file);
     const std::string wanted = part.text();
     if (const auto found = known->second.find(wanted); found != known->second.end()) return found->second;
     std::vector<std::string> names;
@@ -157,6 +166,7 @@ std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, int tria
     requireWellFormed(made, name.where());
     if (wanted > 0) made = simplified(made, wanted);
     requireWellFormed(made, name.where());
+    requireRoom(made, name);
     mesh = std::make_shared<const Mesh>(std::move(made));
     return mesh;
 }

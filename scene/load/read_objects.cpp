@@ -1,3 +1,4 @@
+#include "base/limits.h"
 #include "base/random.h"
 #include "scene/load/scene_file.h"
 #include "scene/meshes/scatter.h"
@@ -13,8 +14,10 @@
 namespace shadowbench {
 namespace {
 
-constexpr int kMostInstances = 100'000; // of one object; more is taken for a typing error
 constexpr double kFullTurn = 360;
+
+/// Of one object; more is taken for a typing error.
+int mostInstances() { return static_cast<int>(limitOf(Limit::Instances)); }
 
 /// `until` distances must grow: a level that ends before the previous one is never drawn.
 void requireGrowing(const std::vector<Level>& levels, const TomlValue& value) {
@@ -118,7 +121,7 @@ glm::dvec2 readHalf(const TomlValue& value) {
 Scatter readScatter(const TomlValue& value, const glm::dvec3& eye) {
     value.only({"count", "half", "spacing", "centre", "jitter", "turn", "scale", "clear", "seed"});
     Scatter scatter;
-    scatter.count = value.get("count").integer(1, kMostInstances);
+    scatter.count = value.get("count").integer(1, mostInstances());
     const auto half = value.find("half"), spacing = value.find("spacing");
     if (half.has_value() == spacing.has_value())
         value.fail("give either half (sides of the field) or spacing (between instances)");
@@ -145,8 +148,11 @@ std::vector<glm::dmat4> readPlaces(const TomlValue& value, const glm::dvec3& eye
         return places;
     }
     if (!place) return {glm::dmat4(1)};
+    const std::vector<TomlValue> entries = place->list();
+    if (entries.size() > limitOf(Limit::Instances))
+        place->fail(fmt::format("has {} instances, {}", entries.size(), beyond(Limit::Instances)));
     std::vector<glm::dmat4> places;
-    for (const TomlValue& entry : place->list()) places.push_back(readPlace(entry));
+    for (const TomlValue& entry : entries) places.push_back(readPlace(entry));
     if (places.empty()) place->fail("expected at least one place");
     return places;
 }

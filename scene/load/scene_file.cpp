@@ -4,7 +4,9 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/memory.h"
 #include "scene/load/load.h"
+#include "scene/load/memory_need.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -103,6 +105,15 @@ void readObjects(const TomlValue& root, Scene& scene, const fs::path& file) {
     if (scene.objects.empty()) objects->fail(fmt::format("no object belongs to profile {}", name(scene.profile)));
 }
 
+/// Before any other work: what the system would end later, it would end without a word.
+void requireMemory(const TomlValue& root, const Scene& scene) {
+    const std::uint64_t need = leastMemory(scene), there = memoryThere();
+    if (need > there)
+        root.get("object").fail(fmt::format("the scene needs {} of memory at least, and there is {}: take fewer instances, "
+                                            "coarser meshes or a smaller image",
+                                            inBytes(need), inBytes(there)));
+}
+
 /// Two transitions of one object must not overlap: an instance is between two levels at most.
 void requireSeparateTransitions(const Scene& scene, const TomlValue& band) {
     for (const Object& object : scene.objects)
@@ -197,6 +208,7 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile, c
         scene.lod = readLodWalk(*lod, scene.camera);
         requireSeparateTransitions(scene, lod->get("band"));
     }
+    requireMemory(root, scene);
     requireNoProblem(root, scene);
     return scene;
 }

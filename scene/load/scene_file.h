@@ -32,9 +32,12 @@ private:
     std::shared_ptr<const Mesh> generated(const TomlValue& generator, int triangles);
     std::shared_ptr<const Mesh> imported(const TomlValue& value, int triangles);
     const Mesh& partOf(const std::filesystem::path& file, const TomlValue& part);
+    /// Throws at the key once the meshes so far cannot be in memory.
+    void requireRoom(const Mesh& another, const TomlValue& key);
 
     std::filesystem::path folder_; // that mesh files are relative to
     std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
+    std::uint64_t bytes_ = 0;                                            // of meshes_
     std::map<std::filesystem::path, std::map<std::string, Mesh>> parts_; // of glTF files, by name
 };
 

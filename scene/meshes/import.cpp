@@ -1,74 +1,137 @@
+// Meshes from other people's files: the child reads them, here they are received and checked.
 #include "scene/meshes/import.h"
 
+#include "base/confined/reader.h"
 #include "base/error.h"
-#include "base/files.h"
+#include "base/limits.h"
+#include "scene/meshes/foreign_mesh.h"
 
-#include <assimp/Importer.hpp>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <limits>
-#include <meshoptimizer.h>
+#include <span>
 
 namespace shadowbench {
 namespace {
 
-void addTriangles(Mesh& mesh, const aiMesh& part) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (unsigned i = 0; i < part.mNumVertices; ++i)
-        mesh.positions.emplace_back(part.mVertices[i].x, part.mVertices[i].y, part.mVertices[i].z);
-    for (unsigned i = 0; i < part.mNumFaces; ++i) {
-        const aiFace& face = part.mFaces[i];
-        if (face.mNumIndices == 3) // points and lines cast no shadow
-            mesh.triangles.emplace_back(first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]);
+namespace fs = std::filesystem;
+
+constexpr std::size_t longestName = 4096; // of a mesh in a .gltf, bytes
+constexpr std::uint64_t mostParts = 1'000'000;
+
+/// What is asked of the child: the extension of the file, whose meshes are wanted as one; or this.
+constexpr const char* partsOf = "parts";
+
+// ---- in the child
+// ---------------------------------------------------------------------------------------------------------------
+
+ForeignMeshFile contentsOf(const ForeignWork& work) {
+    ForeignMeshFile file{work.request() == partsOf ? ".gltf" : work.request(), contentOf(work.files().front()), {}};
+    for (const OpenedFile& buffer : std::span(work.files()).subspan(1)) file.buffers.emplace(buffer.name, contentOf(buffer));
+    return file;
+}
+
+void put(Wire& wire, const Mesh& mesh) {
+    wire.put(std::uint64_t{mesh.positions.size()});
+    wire.put(std::uint64_t{mesh.triangles.size()});
+    wire.put(std::span(mesh.positions));
+    wire.put(std::span(mesh.triangles));
+}
+
+void answerWithMesh(ForeignWork& work) {
+    const Mesh mesh = readMeshHere(contentsOf(work));
+    put(work.answer(), mesh);
+}
+
+void answerWithParts(ForeignWork& work) {
+    const std::map<std::string, Mesh> parts = readPartsHere(contentsOf(work));
+    Wire& wire = work.answer();
+    wire.put(std::uint64_t{parts.size()});
+    for (const auto& [name, mesh] : parts) {
+        wire.put(std::string_view(name).substr(0, longestName));
+        put(wire, mesh);
     }
 }
 
-/// Drops the positions that no triangle uses.
-Mesh compacted(const Mesh& mesh) {
-    constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> place(mesh.positions.size(), kUnused);
-    Mesh result{{}, {}, mesh.closed};
-    for (const glm::uvec3& t : mesh.triangles) {
-        glm::uvec3 moved(0);
-        for (int corner = 0; corner < 3; ++corner) {
-            std::uint32_t& index = place[t[corner]];
-            if (index == kUnused) {
-                index = static_cast<std::uint32_t>(result.positions.size());
-                result.positions.push_back(mesh.positions[t[corner]]);
-            }
-            moved[corner] = index;
-        }
-        result.triangles.push_back(moved);
+void answer(ForeignWork& work) { work.request() == partsOf ? answerWithParts(work) : answerWithMesh(work); }
+
+const ForeignReader meshReader("mesh", answer);
+
+// ---- in the parent
+// --------------------------------------------------------------------------------------------------------------
+
+std::string extensionOf(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+/// The file, and the buffers that a .gltf names.
+std::vector<OpenedFile> filesOf(const fs::path& file, const std::string& doing) {
+    std::vector<OpenedFile> files;
+    files.push_back(openRegular(file));
+    std::vector<std::string> names;
+    try {
+        requireMeshExtension(extensionOf(file));
+        if (extensionOf(file) == ".gltf") names = bufferNamesOf(contentOf(files.front()));
+    } catch (const BadInput& error) {
+        throw BadInput(fmt::format("{}: {}", doing, error.what()));
     }
-    return result;
+    for (const std::string& name : names) files.push_back(openBelow(file.parent_path(), name));
+    return files;
+}
+
+/// What the child may still send of one file.
+struct Room {
+    std::uint64_t vertices = limitOf(Limit::Vertices), triangles = limitOf(Limit::Triangles);
+};
+
+void requireSound(const Mesh& mesh, const ReaderChild& child) {
+    const auto finite = [](const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
+    const auto wrong = std::ranges::find_if_not(mesh.positions, finite);
+    if (wrong != mesh.positions.end())
+        child.refuse(fmt::format("position {} is not finite", wrong - mesh.positions.begin()));
+    for (const glm::uvec3& t : mesh.triangles)
+        if (const std::uint32_t last = std::max({t.x, t.y, t.z}); last >= mesh.positions.size())
+            child.refuse(fmt::format("a triangle uses position {} of {}", last, mesh.positions.size()));
+}
+
+Mesh received(ReaderChild& child, Room& room) {
+    Mesh mesh;
+    const std::uint64_t vertices = child.number(room.vertices, "vertices"),
+                        triangles = child.number(room.triangles, "triangles");
+    room.vertices -= vertices;
+    room.triangles -= triangles;
+    mesh.positions.resize(vertices);
+    mesh.triangles.resize(triangles);
+    child.fill(std::span(mesh.positions));
+    child.fill(std::span(mesh.triangles));
+    requireSound(mesh, child);
+    return mesh;
 }
 
 } // namespace
 
-Mesh importMesh(const std::filesystem::path& file) {
-    readFile(file); // assimp's own message for a missing file does not name the reason
-    Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
-    if (scene == nullptr) throw BadInput(fmt::format("cannot import mesh {}: {}", file.string(), importer.GetErrorString()));
-    Mesh mesh;
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i) addTriangles(mesh, *scene->mMeshes[i]);
-    if (mesh.triangles.empty()) throw BadInput(fmt::format("cannot import mesh {}: it holds no triangle", file.string()));
-    return compacted(weld(mesh));
+Mesh importMesh(const fs::path& file) {
+    const std::string doing = fmt::format("cannot import mesh {}", file.string());
+    ReaderChild child(meshReader, doing, filesOf(file, doing), extensionOf(file));
+    child.awaitAnswer();
+    Room room;
+    return received(child, room);
 }
 
-Mesh simplified(const Mesh& mesh, int triangles) {
-    if (mesh.triangles.size() <= static_cast<std::size_t>(triangles)) return mesh;
-    std::vector<unsigned> indices;
-    for (const glm::uvec3& t : mesh.triangles) indices.insert(indices.end(), {t.x, t.y, t.z});
-    std::vector<unsigned> kept(indices.size());
-    constexpr float kAnyError = std::numeric_limits<float>::max(); // the count decides, not the error
-    kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), &mesh.positions[0].x, mesh.positions.size(),
-                                 sizeof(glm::vec3), 3 * static_cast<std::size_t>(triangles), kAnyError, 0, nullptr));
-    Mesh result{mesh.positions, {}, mesh.closed};
-    for (std::size_t i = 0; i + 2 < kept.size(); i += 3) result.triangles.emplace_back(kept[i], kept[i + 1], kept[i + 2]);
-    return compacted(result);
+std::map<std::string, Mesh> importParts(const fs::path& file) {
+    const std::string doing = fmt::format("cannot read {}", file.string());
+    ReaderChild child(meshReader, doing, filesOf(file, doing), partsOf);
+    child.awaitAnswer();
+    Room room;
+    std::map<std::string, Mesh> parts;
+    for (std::uint64_t left = child.number(mostParts, "meshes"); left > 0; --left) {
+        std::string name = child.text(longestName);
+        parts.insert_or_assign(std::move(name), received(child, room));
+    }
+    return parts;
 }
 
 } // namespace shadowbench

@@ -31,7 +31,7 @@ struct Include {
 };
 
 /// Whose a header is by how its path begins. `<thread>` needs no line: every module reaches base, which links threads.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 14> packageOfHeader{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 15> packageOfHeader{
     {{"CGAL/", "cgal"},
      {"CLI/", "cli11"},
      {"EGL/", "gl"},
@@ -43,12 +43,13 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 14> p
      {"meshoptimizer.h", "meshoptimizer"},
      {"mustache.hpp", "mustache"},
      {"nlohmann/", "json"},
+     {"seccomp.h", "seccomp"},
      {"toml++/", "toml"},
      {"xxhash.h", "xxhash"},
      {"zlib.h", "zlib"}}};
 
 /// Libraries that every module links, the operating system's headers, and Valgrind's, which are macros only.
-inline constexpr std::array<std::string_view, 4> headersOfAll{"fmt/", "glm/", "sys/", "valgrind/"};
+inline constexpr std::array<std::string_view, 5> headersOfAll{"fmt/", "glm/", "linux/", "sys/", "valgrind/"};
 
 inline constexpr std::array<std::string_view, 5> rootFolders{"base", "scene", "techniques", "groundtruth", "harness"};
 

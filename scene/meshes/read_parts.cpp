@@ -1,17 +1,16 @@
-// The reader of meshes. assimp's rounds matrices and may reorder vertices; here each mesh is as it lies in the file.
+// The reader of meshes by name. assimp's rounds matrices and may reorder vertices; here each mesh is as it lies in the file.
 #include "base/error.h"
-#include "base/files.h"
-#include "scene/exchange/gltf.h"
+#include "base/limits.h"
+#include "scene/meshes/foreign_mesh.h"
 
 #include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-namespace shadowbench::exchange {
+namespace shadowbench {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr int kTriangles = 4;
@@ -28,9 +27,9 @@ struct Elements {
 
 class Reader {
 public:
-    explicit Reader(const fs::path& file) : file_(file), gltf_(parse(readFile(file))) {}
+    explicit Reader(const ForeignMeshFile& file) : file_(file), gltf_(parse(file.bytes)) {}
 
-    std::map<std::string, Mesh> meshes() {
+    [[nodiscard]] std::map<std::string, Mesh> meshes() const {
         if (gltf_.value(Json::json_pointer("/asset/version"), std::string()) != "2.0") fail("it is no glTF 2.0");
         std::map<std::string, Mesh> result;
         for (const Json& mesh : list("meshes")) {
@@ -41,12 +40,10 @@ public:
         return result;
     }
 
-    [[noreturn]] void fail(const std::string& sentence) const {
-        throw BadInput(fmt::format("cannot read {}: {}", file_.string(), sentence));
-    }
+    [[noreturn]] static void fail(const std::string& sentence) { throw BadInput(sentence); }
 
 private:
-    [[nodiscard]] Json parse(const std::string& text) const {
+    [[nodiscard]] static Json parse(const std::string& text) {
         try {
             return Json::parse(text);
         } catch (const Json::exception& error) {
@@ -54,7 +51,11 @@ private:
         }
     }
 
-    [[nodiscard]] Json list(const char* name) const { return gltf_.value(name, Json::array()); }
+    [[nodiscard]] const Json& list(const char* name) const {
+        static const Json none = Json::array();
+        const auto found = gltf_.find(name);
+        return found == gltf_.end() ? none : *found;
+    }
 
     [[nodiscard]] const Json& entry(const char* listName, std::size_t index) const {
         const auto entries = gltf_.find(listName);
@@ -62,16 +63,16 @@ private:
         return (*entries)[index];
     }
 
-    const std::string& bytesOf(std::size_t buffer) {
-        const auto [known, isNew] = buffers_.try_emplace(buffer);
-        if (!isNew) return known->second;
+    [[nodiscard]] const std::string& bytesOf(std::size_t buffer) const {
         const auto uri = entry("buffers", buffer).value("uri", std::string());
         if (uri.empty() || uri.starts_with("data:"))
             fail("a buffer is inside of the file; export it with its buffers beside");
-        return known->second = readFile(file_.parent_path() / uri);
+        const auto bytes = file_.buffers.find(uri);
+        if (bytes == file_.buffers.end()) fail(fmt::format("the buffer \"{}\" is not there", uri));
+        return bytes->second;
     }
 
-    Elements elementsOf(std::size_t accessor, std::size_t components) {
+    [[nodiscard]] Elements elementsOf(std::size_t accessor, std::size_t components) const {
         const Json& a = entry("accessors", accessor);
         if (!a.contains("bufferView") || a.contains("sparse")) fail(fmt::format("accessors[{}] is sparse", accessor));
         const Json& view = entry("bufferViews", a.at("bufferView"));
@@ -87,7 +88,7 @@ private:
     }
 
     /// Nothing for strips, points, lines, several primitives and compressed ones.
-    std::optional<Mesh> triangleList(const Json& mesh) {
+    [[nodiscard]] std::optional<Mesh> triangleList(const Json& mesh) const {
         const Json& primitives = mesh.at("primitives");
         if (primitives.size() != 1) return std::nullopt;
         const Json& primitive = primitives[0];
@@ -98,14 +99,14 @@ private:
         return result;
     }
 
-    void readPositions(const Elements& elements, Mesh& mesh) const {
+    static void readPositions(const Elements& elements, Mesh& mesh) {
         if (elements.component != kFloat) fail("positions are no 32-bit floats");
         mesh.positions.resize(elements.count);
         for (std::size_t i = 0; i < elements.count; ++i)
             std::memcpy(&mesh.positions[i], elements.first + i * elements.stride, sizeof(glm::vec3));
     }
 
-    void readIndices(const Elements& elements, Mesh& mesh) const {
+    static void readIndices(const Elements& elements, Mesh& mesh) {
         if (elements.component == kFloat || elements.count % 3 != 0) fail("indices are no list of triangles");
         mesh.triangles.resize(elements.count / 3);
         for (std::size_t i = 0; i < elements.count; ++i) {
@@ -115,20 +116,18 @@ private:
         }
     }
 
-    fs::path file_;
+    const ForeignMeshFile& file_;
     Json gltf_;
-    std::map<std::size_t, std::string> buffers_;
 };
 
 } // namespace
 
-std::map<std::string, Mesh> readGltfMeshes(const fs::path& file) {
-    Reader reader(file);
+std::map<std::string, Mesh> readPartsHere(const ForeignMeshFile& file) {
     try {
-        return reader.meshes();
-    } catch (const Json::exception& error) {
-        reader.fail(fmt::format("a value is missing or of another kind than glTF asks for ({})", error.what()));
+        return Reader(file).meshes();
+    } catch (const nlohmann::json::exception& error) {
+        throw BadInput(fmt::format("a value is missing or of another kind than glTF asks for ({})", error.what()));
     }
 }
 
-} // namespace shadowbench::exchange
+} // namespace shadowbench
