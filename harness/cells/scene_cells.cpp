@@ -8,6 +8,7 @@
 #include "harness/metrics/values.h"
 #include "techniques/catalog.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace shadowbench {
@@ -116,9 +117,16 @@ void SceneCells::keepImages(const techniques::Variant& variant, const CellImages
     for (const auto& [truth, frame] : truthsOf(variant))
         if (frame == scene_.timeline.still - 1 && keptTruths_.insert(truth).second)
             keepTruth(truthFile(options_.images, scene_.id, name(truth)), truths_.at(truth, frame));
-    const Truth moving = sequenceTruth(scene_, variant);
+    const Truth moving = movingTruth(variant);
     if (images.frames.size() > 1 && keptSequences_.insert(moving).second)
         keepSequence(truthSequenceFile(options_.images, scene_.id, name(moving)), truthSequence(moving));
+}
+
+Truth SceneCells::movingTruth(const techniques::Variant& variant) const {
+    if (!isExternal(variant)) return sequenceTruth(scene_, variant);
+    const std::vector<std::pair<Truth, int>> truths = truthsOf(variant); // its own first
+    const bool areas = std::ranges::find(truths, Truth::PixelArea, &std::pair<Truth, int>::first) != truths.end();
+    return areas ? Truth::PixelArea : truths.front().first;
 }
 
 std::vector<Image<float>> SceneCells::truthSequence(Truth truth) {

@@ -65,6 +65,9 @@ private:
     SceneFrames& frames();
     void keepImages(const techniques::Variant& variant, const CellImages& images);
     std::vector<Image<float>> truthSequence(Truth truth);
+
+    /// What the changes of a variant's images from frame to frame are compared with.
+    [[nodiscard]] Truth movingTruth(const techniques::Variant& variant) const;
     [[nodiscard]] std::filesystem::path imageFolder(const techniques::Variant& variant) const;
 
     const Scene& scene_;

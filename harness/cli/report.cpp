@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <memory>
+#include <string>
 
 namespace shadowbench {
 namespace {
@@ -16,6 +17,7 @@ struct ReportOptions {
     std::filesystem::path out;    // empty: the folder of the first records
     std::filesystem::path images; // empty: images/ beside the first records
     std::filesystem::path base, history, singleFile;
+    std::string sequences = "fronts";
 };
 
 /// All records of the files, in order; a folder stands for its results.jsonl.
@@ -25,12 +27,18 @@ std::vector<Record> recordsOf(std::vector<std::filesystem::path> files) {
     return gate::readOfOneDevice(files);
 }
 
+std::filesystem::path folderOf(const std::filesystem::path& records) {
+    return std::filesystem::is_directory(records) ? records : records.parent_path();
+}
+
 site::Sources sourcesOf(const ReportOptions& options, const std::filesystem::path& folder) {
     site::Sources sources{.records = recordsOf(options.records),
-                          .images = options.images.empty() ? folder / "images" : options.images};
+                          .images = options.images.empty() ? folder / "images" : options.images,
+                          .sequences = options.sequences == "all" ? site::Sequences::All : site::Sequences::Fronts};
     if (!options.base.empty()) {
         sources.base = recordsOf({options.base});
         sources.baseName = options.base.string();
+        sources.baseImages = folderOf(options.base) / "images";
     }
     if (!options.history.empty()) sources.findings = history::findingsOf(options.history, {});
     return sources;
@@ -38,7 +46,7 @@ site::Sources sourcesOf(const ReportOptions& options, const std::filesystem::pat
 
 ExitCode makeReport(const ReportOptions& options) {
     const std::filesystem::path& first = options.records.front();
-    const std::filesystem::path folder = std::filesystem::is_directory(first) ? first : first.parent_path();
+    const std::filesystem::path folder = folderOf(first);
     const site::Sources sources = sourcesOf(options, folder);
     if (!options.singleFile.empty()) {
         const TemporaryFolder parts;
@@ -64,7 +72,8 @@ void addReport(CLI::App& app, Action& action) {
         "Examples:\n  shadowbench report results/latest/results.jsonl\n"
         "  shadowbench report results/published/results.jsonl results/sweeps/*/sweep.jsonl --history results/history "
         "--out public\n"
-        "  shadowbench report results/latest/results.jsonl --base before.jsonl --single-file run.html");
+        "  shadowbench report results/latest/results.jsonl --base before.jsonl --single-file run.html\n"
+        "  shadowbench report results/latest/results.jsonl --sequences all --out /tmp/site");
     verb->add_option("records", options->records,
                      "Record files of run and sweep; a folder of a run stands for its results.jsonl")
         ->capture_default_str();
@@ -73,6 +82,10 @@ void addReport(CLI::App& app, Action& action) {
                      "Folder of pictures by `run --images` (default: images beside the first records)");
     verb->add_option("--base", options->base, "Older records: a page says what is worse than there");
     verb->add_option("--history", options->history, "Folder of a history: a page shows figures over commits");
+    verb->add_option("--sequences", options->sequences,
+                     "Whose moving frames are shown: fronts (the rows of each scene's Pareto front) or all")
+        ->check(CLI::IsMember({"fronts", "all"}))
+        ->capture_default_str();
     verb->add_option("--single-file", options->singleFile, "Write everything into this one file instead")->excludes(out);
     verb->callback([&action, options] { action = [options] { return makeReport(*options); }; });
 }

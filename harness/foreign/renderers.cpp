@@ -154,8 +154,7 @@ private:
     /// Keeps of the blank record what says which run it is of.
     static void scoreRow(SceneFrames& frames, const ForeignRow& row, Record& record, CellImages& images) {
         std::vector<std::string> warnings;
-        Record scored = scoreImages(frames, row, warnings, &images.frames);
-        images.reference = &frames.truths().at(foreign::truthsOf(frames.scene(), row).front().first, frames.scored());
+        Record scored = scoreImages(frames, row, warnings, &images);
         scored.cell = record.cell;
         scored.seed = record.seed;
         record = std::move(scored);

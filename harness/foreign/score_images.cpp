@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "harness/cells/cell.h"
 #include "harness/cells/environment.h"
 #include "harness/cells/image_scores.h"
 #include "harness/foreign/receivers.h"
@@ -79,7 +78,7 @@ public:
         : frames_(frames), row_(row), warnings_(warnings), truth_(truthOf(frames.scene(), row.means)),
           receivers_(frames, row) {}
 
-    Record record(std::map<int, Image<float>>* shown) {
+    Record record(CellImages* shown) {
         Record record = blankRecord(frames_.truths(), frames_.scene(), row_);
         std::optional<ImageScores> scores;
         for (const FrameFiles& files : row_.frames) {
@@ -93,9 +92,11 @@ public:
             judge(files, v, mask);
             scores->add(files.frame, v, record);
             if (files.frame == frames_.scored()) scoreApart(files, v, mask, record);
-            if (shown != nullptr) shown->emplace(files.frame, v);
+            if (shown != nullptr) shown->frames.emplace(files.frame, v);
         }
         scores->finish(record);
+        if (shown != nullptr) shown->reference = &frames_.truths().at(truth_, frames_.scored());
+        if (shown != nullptr && shown->wantsFlicker) shown->flicker = scores->flickerMaps();
         record.reason = fmt::format("{}", fmt::join(marks_, "; "));
         return record;
     }
@@ -227,8 +228,7 @@ Record blankRecord(const Truths& truths, const Scene& scene, const ForeignRow& r
     return record;
 }
 
-Record scoreImages(SceneFrames& frames, const ForeignRow& row, std::vector<std::string>& warnings,
-                   std::map<int, Image<float>>* shown) {
+Record scoreImages(SceneFrames& frames, const ForeignRow& row, std::vector<std::string>& warnings, CellImages* shown) {
     requireScorable(frames.scene(), row);
     return RowScores(frames, row, warnings).record(shown);
 }

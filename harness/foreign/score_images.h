@@ -1,11 +1,11 @@
 // Another renderer's images, scored as this program's techniques are.
 #pragma once
 
+#include "harness/cells/cell.h"
 #include "harness/cells/scene_frames.h"
 #include "harness/foreign/foreign_row.h"
 #include "harness/records/record.h"
 
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,8 +30,8 @@ Record blankRecord(const Truths& truths, const Scene& scene, const ForeignRow& r
 /// the file's name, for images that cannot be read, have another size, or hold no visibility (not finite, outside [0, 1],
 /// unequal channels, transparent), and for those that look black, inverted, flipped, shifted, of another frame or wrongly
 /// encoded; what throws for want of a truth, throws. Needs a GL context: the scene's own hits say which pixels are scored.
-/// `shown`, if any, gets visibility by frame, for pictures.
+/// `shown`, if any, gets visibility by frame, the scored frame's truth and, where wanted, flicker, for pictures.
 Record scoreImages(SceneFrames& frames, const ForeignRow& row, std::vector<std::string>& warnings,
-                   std::map<int, Image<float>>* shown = nullptr);
+                   CellImages* shown = nullptr);
 
 } // namespace shadowbench::foreign

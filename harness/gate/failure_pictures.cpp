@@ -27,8 +27,10 @@ Failing failingCells(const std::vector<Change>& changes, const JudgedCells& judg
     return cells;
 }
 
-void draw(const MeasuredProgram& program, const Failing& cells, const JudgedCells& judged, const fs::path& out,
-          const Progress& progress) {
+/// Returns the records of what was drawn.
+std::vector<Record> draw(const MeasuredProgram& program, const Failing& cells, const JudgedCells& judged,
+                         const fs::path& out, const Progress& progress) {
+    std::vector<Record> records;
     for (const JudgedScene& scene : judged.scenes) {
         Step step{"pictures of " + scene.id,
                   {"run", "--scene", scene.argument, "--profile", std::string(name(judged.profile)), "--seed",
@@ -37,8 +39,17 @@ void draw(const MeasuredProgram& program, const Failing& cells, const JudgedCell
                   "results.jsonl"};
         for (const auto& [id, variant] : cells)
             if (id == scene.id && program.knowsVariant(variant)) step.techniques.push_back(variant);
-        if (!step.techniques.empty()) program.run(step, out, progress);
+        if (step.techniques.empty()) continue;
+        program.run(step, out, progress);
+        for (Record& record : readRecords(out / step.records)) records.push_back(std::move(record));
     }
+    return records;
+}
+
+std::optional<Record> recordOf(const std::vector<Record>& records, const std::string& scene, const std::string& variant) {
+    const auto found = std::ranges::find_if(
+        records, [&](const Record& record) { return record.scene == scene && record.variant == variant; });
+    return found == records.end() ? std::nullopt : std::optional(*found);
 }
 
 fs::path folderOf(const fs::path& out, const std::string& scene, const std::string& variant) {
@@ -54,11 +65,13 @@ std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, co
     for (const char* side : {"head", "base"}) fs::remove_all(out / side);
     const Failing cells = failingCells(changes, judged);
     if (cells.empty()) return {};
-    draw(head, cells, judged, out / "head", progress);
-    if (base != nullptr) draw(*base, cells, judged, out / "base", progress);
+    const std::vector<Record> heads = draw(head, cells, judged, out / "head", progress);
+    const std::vector<Record> bases =
+        base == nullptr ? std::vector<Record>() : draw(*base, cells, judged, out / "base", progress);
     std::vector<FailurePictures> pictures;
     for (const auto& [scene, variant] : cells)
-        pictures.push_back({scene, variant, folderOf(out / "head", scene, variant), folderOf(out / "base", scene, variant)});
+        pictures.push_back({scene, variant, folderOf(out / "head", scene, variant), folderOf(out / "base", scene, variant),
+                            recordOf(heads, scene, variant), recordOf(bases, scene, variant)});
     return pictures;
 }
 

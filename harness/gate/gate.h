@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,11 @@ struct GateOptions {
     bool quiet = false;
 };
 
-/// A picture folder of one failing cell: visibility, reference and error.
+/// One failing cell as it was drawn for the report.
 struct FailurePictures {
     std::string scene, variant;
-    std::filesystem::path head, base; // `base` is empty when that is a file of records
+    std::filesystem::path head, base;             // folders of pictures; `base` is empty when that is a file of records
+    std::optional<Record> headRecord, baseRecord; // of the drawing
 };
 
 struct GateResult {

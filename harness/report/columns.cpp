@@ -2,6 +2,7 @@
 
 #include "harness/report/summary.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace shadowbench::report {
@@ -49,6 +50,14 @@ std::span<const Column> columns() {
         {"cost", false, "cost.time.ratio", decimals<2>},
     };
     return all;
+}
+
+std::vector<const Column*> columnsOf(const std::vector<Record>& records, const std::vector<std::size_t>& indices) {
+    std::vector<const Column*> applying;
+    for (const Column& column : columns())
+        if (std::ranges::any_of(indices, [&](std::size_t i) { return records[i].values[column.metric].has_value(); }))
+            applying.push_back(&column);
+    return applying;
 }
 
 } // namespace shadowbench::report

@@ -1,10 +1,11 @@
 // The columns of a scene's tables beside technique, error and front.
 #pragma once
 
-#include "harness/metrics/values.h"
+#include "harness/records/record.h"
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace shadowbench::report {
 
@@ -15,5 +16,8 @@ struct Column {
     std::string (*format)(double);
 };
 std::span<const Column> columns();
+
+/// Those that apply to one of the records at `indices` at least, in their order.
+std::vector<const Column*> columnsOf(const std::vector<Record>& records, const std::vector<std::size_t>& indices);
 
 } // namespace shadowbench::report

@@ -44,6 +44,12 @@ std::vector<std::size_t> ofScene(const std::vector<Record>& records, const std::
     return indices;
 }
 
+std::vector<std::size_t> scoredOf(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::size_t> scored = ofScene(records, scene);
+    std::erase_if(scored, [&](std::size_t i) { return !headline(records[i]); });
+    return scored;
+}
+
 std::optional<Place> place(const Record& record) {
     const std::optional<Headline> error = headline(record);
     const std::optional<double>& cost = record.values["cost.time.ratio"];

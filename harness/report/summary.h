@@ -15,6 +15,9 @@ std::vector<std::string> scenes(const std::vector<Record>& records);
 /// Indices of the records of `scene`, in order.
 std::vector<std::size_t> ofScene(const std::vector<Record>& records, const std::string& scene);
 
+/// Those of them that were scored by the scene's headline metric.
+std::vector<std::size_t> scoredOf(const std::vector<Record>& records, const std::string& scene);
+
 /// A record's place on the accuracy–cost plane; nothing unless it was scored and timed, and for other renderers, whose costs
 /// are not measured here.
 struct Place {

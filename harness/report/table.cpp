@@ -32,19 +32,15 @@ std::string rowName(const Record& record) {
 
 /// Scored records of `scene`, with the columns that apply to at least one of them.
 TextTable table(const std::vector<Record>& records, const std::string& scene, bool page) {
-    std::vector<std::size_t> scored;
-    for (const std::size_t i : ofScene(records, scene))
-        if (headline(records[i])) scored.push_back(i);
-
+    const std::vector<std::size_t> scored = scoredOf(records, scene);
     TextTable result{{"technique"}, {}};
     if (!scored.empty()) result.titles.emplace_back("error");
     for (const std::size_t i : scored) result.rows.push_back({rowName(records[i]), error(records[i])});
-    for (const Column& column : columns()) {
-        const auto applies = [&](std::size_t i) { return cell(column, records[i]).has_value(); };
-        if ((column.pageOnly && !page) || std::none_of(scored.begin(), scored.end(), applies)) continue;
-        result.titles.emplace_back(column.title);
+    for (const Column* column : columnsOf(records, scored)) {
+        if (column->pageOnly && !page) continue;
+        result.titles.emplace_back(column->title);
         for (std::size_t row = 0; row < scored.size(); ++row)
-            result.rows[row].push_back(cell(column, records[scored[row]]).value_or("–"));
+            result.rows[row].push_back(cell(*column, records[scored[row]]).value_or("–"));
     }
     if (paretoFront(records, scene).empty()) return result;
     result.titles.emplace_back("front");

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <map>
 #include <poll.h>
 #include <stdexcept>
 #include <sys/prctl.h>
@@ -261,10 +262,16 @@ void Tab::waitFor(const std::string& expression) {
 }
 
 void Tab::press(const std::string& key) {
+    // What the browser itself does with a key, such as leading the focus on, goes by its code.
+    static const std::map<std::string, int> codes{{"Tab", 9}, {"Enter", 13}, {"Escape", 27}, {" ", 32}, {"ArrowRight", 39}};
     Json event{{"type", "keyDown"}, {"key", key}};
     if (key.size() == 1) event["text"] = key;
+    if (key == "Enter") event["text"] = "\r";
+    if (const auto code = codes.find(key); code != codes.end()) event["windowsVirtualKeyCode"] = code->second;
     call("Input.dispatchKeyEvent", event);
-    call("Input.dispatchKeyEvent", {{"type", "keyUp"}, {"key", key}});
+    event["type"] = "keyUp";
+    event.erase("text");
+    call("Input.dispatchKeyEvent", event);
 }
 
 void Tab::mouse(const std::string& type, double x, double y, int buttons) {

@@ -28,6 +28,94 @@ constexpr const char* files = R"js(
   [...document.querySelectorAll("a[href], img[src], script[src], link[href]")].map((e) => e.href || e.src)
     .filter((address) => address.startsWith("file:")).map((address) => decodeURIComponent(new URL(address).pathname)))js";
 
+// Boxes of all texts that are seen, cut at what scrolls: {text, node, box}.
+constexpr const char* textBoxes = R"js(
+  const boxes = [];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  const cut = (box, by) => ({ left: Math.max(box.left, by.left), right: Math.min(box.right, by.right),
+    top: Math.max(box.top, by.top), bottom: Math.min(box.bottom, by.bottom) });
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const parent = node.parentElement;
+    if (!node.data.trim() || !parent.checkVisibility() || parent.closest(".heard, .skip, .hint, option, legend, script, noscript")) continue;
+    const range = document.createRange();
+    range.selectNodeContents(node);
+    for (let box of range.getClientRects()) {
+      for (let e = parent; e; e = e.parentElement)
+        if (getComputedStyle(e).overflow !== "visible") box = cut(box, e.getBoundingClientRect());
+      if (box.right > box.left && box.bottom > box.top) boxes.push({ text: node.data.trim().slice(0, 40), node, parent, box });
+    }
+  })js";
+
+// A third of a line's height is what lines that are set close have in common.
+constexpr const char* overlapping = R"js(
+  boxes.sort((a, b) => a.box.top - b.box.top);
+  const found = new Set();
+  boxes.forEach((a, i) => {
+    for (let k = i + 1; k < boxes.length && boxes[k].box.top < a.box.bottom; ++k) {
+      const b = boxes[k];
+      if (a.node === b.node) continue;
+      const both = cut(a.box, b.box);
+      const least = Math.min(a.box.bottom - a.box.top, b.box.bottom - b.box.top) / 3;
+      if (both.right - both.left > 2 && both.bottom - both.top > least) found.add(`"${a.text}" lies over "${b.text}"`);
+    }
+  });
+  return [...found].slice(0, 10);)js";
+
+// Colours as numbers, one over the other; what is drawn with an opacity of its own lets through what is behind it.
+constexpr const char* faint = R"js(
+  const numbers = (colour) => {
+    const parts = colour.match(/[\d.]+(e-?\d+)?/g).map(Number);
+    const scale = colour.startsWith("color(") ? 255 : 1;
+    return [parts[0] * scale, parts[1] * scale, parts[2] * scale, parts.length > 3 ? parts[3] : 1];
+  };
+  const over = (front, back) => front.slice(0, 3).map((c, i) => c * front[3] + back[i] * (1 - front[3]));
+  const behind = (e) => {
+    if (!e) return [255, 255, 255];
+    const style = getComputedStyle(e);
+    const own = numbers(style.backgroundColor);
+    return own[3] === 1 ? own.slice(0, 3) : over(own, behind(e.parentElement));
+  };
+  const light = ([r, g, b]) => {
+    const [x, y, z] = [r, g, b].map((c) => c / 255).map((c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * x + 0.7152 * y + 0.0722 * z;
+  };
+  const found = new Set();
+  for (const { text, parent } of boxes) {
+    if (parent.closest(":disabled, label:has(:disabled)")) continue;
+    const style = getComputedStyle(parent);
+    const back = behind(parent);
+    const ink = numbers(parent instanceof SVGElement ? style.fill : style.color);
+    for (let e = parent; e; e = e.parentElement) ink[3] *= Number(getComputedStyle(e).opacity);
+    const [a, b] = [light(over(ink, back)), light(back)].sort((x, y) => y - x);
+    const size = Number.parseFloat(style.fontSize);
+    const large = size >= 24 || (size >= 18.66 && Number(style.fontWeight) >= 700);
+    const contrast = (a + 0.05) / (b + 0.05);
+    if (contrast < (large ? 3 : 4.5)) found.add(`"${text}" has a contrast of ${contrast.toFixed(2)}`);
+  }
+  return [...found].slice(0, 10);)js";
+
+// What has the focus now, once; "end" when the tab key has led around.
+constexpr const char* focused = R"js((() => {
+  const e = document.activeElement;
+  const seen = (window.seenByTab = window.seenByTab || new Set());
+  if (!e || e === document.body || seen.has(e)) return "end";
+  seen.add(e);
+  const isMarked = (x) => x && getComputedStyle(x).outlineStyle !== "none" && Number.parseFloat(getComputedStyle(x).outlineWidth) >= 2;
+  return isMarked(e) || isMarked(e.nextElementSibling) ? "" : "no visible focus: " + e.outerHTML.slice(0, 120);
+})())js";
+
+constexpr const char* unreached = R"js((() => {
+  const seen = [...window.seenByTab];
+  const isOfGroup = (e) => e.type === "radio" && seen.some((s) => s.type === "radio" && s.name === e.name);
+  return [...document.querySelectorAll("a[href], button, select, input, textarea, summary, [tabindex]")]
+    .filter((e) => e.tabIndex >= 0 && !e.disabled && e.checkVisibility() && !seen.includes(e) && !isOfGroup(e))
+    .map((e) => "the tab key does not lead to " + e.outerHTML.slice(0, 120)).slice(0, 10);
+})())js";
+
+std::string ofTexts(const char* check) { return fmt::format("(() => {{ scrollTo(0, 0); {} {} }})()", textBoxes, check); }
+
+void settle(Tab& tab) { tab.value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"); }
+
 } // namespace
 
 std::vector<fs::path> pagesOf(const fs::path& site) {
@@ -49,7 +137,7 @@ Sentences faultsOf(Tab& tab, const fs::path& page) {
 
 Sentences overflow(Tab& tab, int width, int height) {
     tab.resize(width, height);
-    tab.value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))");
+    settle(tab);
     const auto widest = tab.value(R"js((() => {
       const page = document.documentElement;
       if (page.scrollWidth <= page.clientWidth) return null;
@@ -67,6 +155,36 @@ Sentences missingContent(Tab& tab) {
       [...document.images].filter((e) => !e.complete || e.naturalWidth === 0).map((e) => "a picture is missing: " + e.src).concat(
       [...document.querySelectorAll("table")].filter((e) => e.rows.length === 0).map((e) => "an empty table")))js"));
     return missing;
+}
+
+Sentences overlaps(Tab& tab, int width, int height) {
+    tab.resize(width, height);
+    settle(tab);
+    Sentences found;
+    append(found, tab.value(ofTexts(overlapping)));
+    return found;
+}
+
+Sentences lowContrast(Tab& tab) {
+    Sentences found;
+    append(found, tab.value(ofTexts(faint)));
+    return found;
+}
+
+Sentences keyboardFaults(Tab& tab) {
+    Sentences faults;
+    for (std::string said; said != "end";) {
+        tab.press("Tab");
+        said = tab.value(focused);
+        if (!said.empty() && said != "end") faults.push_back(said);
+    }
+    append(faults, tab.value(unreached));
+    return faults;
+}
+
+Browser& chromium() {
+    static Browser browser;
+    return browser;
 }
 
 } // namespace shadowbench::browser

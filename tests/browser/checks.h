@@ -24,4 +24,16 @@ Sentences overflow(Tab& tab, int width, int height);
 /// Pictures that are not shown, and tables without a row.
 Sentences missingContent(Tab& tab);
 
+/// Texts of the page that is open, in a window of that size, that lie over each other.
+Sentences overlaps(Tab& tab, int width, int height);
+
+/// Texts whose contrast with what is behind them is below 4.5 : 1, or 3 : 1 where letters are large (WCAG 2.1, 1.4.3).
+Sentences lowContrast(Tab& tab);
+
+/// Controls that the tab key does not lead to, and those that do not show that they have the focus.
+Sentences keyboardFaults(Tab& tab);
+
+/// The browser of all tests of a program.
+Browser& chromium();
+
 } // namespace shadowbench::browser

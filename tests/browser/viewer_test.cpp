@@ -20,11 +20,6 @@ namespace fs = std::filesystem;
 constexpr int side = 48;
 const std::string pcf = "pcf_map=64", uniform = "sm-uniform_map=64"; // slugs
 
-Browser& chromium() {
-    static Browser browser;
-    return browser;
-}
-
 /// A site of nothing but cells.
 class Cells : public testing::Test {
 protected:
@@ -204,6 +199,21 @@ TEST_F(Cells, ShowTheFramesOfTheSequenceAndWhatFlickers) {
     EXPECT_NE(
         tab->value("document.querySelector('.viewer figcaption').textContent").get<std::string>().find("moving frame 1"),
         std::string::npos);
+}
+
+TEST_F(Cells, HoldTheFramesOfTheFrontOrOfAll) {
+    std::vector<Record> records = tinyRun().records();
+    for (Record& record : records) record.values["cost.time.ratio"] = record.variant == "volume-zfail" ? 1 : 2;
+    for (const auto& [sequences, count] :
+         {std::pair(site::Sequences::Fronts, std::size_t{1}), std::pair(site::Sequences::All, records.size())}) {
+        const TemporaryFolder folder;
+        site::SiteWriter writer(folder.path(), {});
+        site::writeCells(records, tinyRun().images(), writer, sequences);
+        std::size_t found = 0;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder.path() / "cells/tiny"))
+            if (entry.path().stem().string().ends_with("-sequence")) ++found;
+        EXPECT_EQ(found, count);
+    }
 }
 
 TEST_F(Cells, FitPhonesAndWideScreensLightAndDark) {

@@ -130,6 +130,9 @@ TEST_F(GateVerb, AWorseHeadFailsWithPicturesAndACommandThatShowsItAgain) {
     EXPECT_NE(outcome.output.find("::error title=leak is worse"), std::string::npos) << outcome.output;
     for (const char* picture : {"visibility.png", "reference.png", "error.png"})
         EXPECT_TRUE(fs::exists(folder_ / "out/head/images/tiny/sm-uniform_map=64" / fs::path(picture))) << picture;
+    const std::string page = readFile(folder_ / "out/gate.html");
+    EXPECT_NE(page.find("href=\"cells/tiny.html#head_sm-uniform_map=64\""), std::string::npos) << page;
+    EXPECT_TRUE(fs::exists(folder_ / "out/cells/tiny/head_sm-uniform_map=64.js"));
     for (const char* file : {"junit.xml", "summary.md"})
         EXPECT_NE(readFile(folder_ / file).find("accuracy.leak"), std::string::npos) << file;
 }

@@ -1,9 +1,7 @@
 #include "harness/report/site/gate_page.h"
 
-#include "base/files.h"
 #include "harness/gate/verdict.h"
 #include "harness/report/site/gate_site.h"
-#include "harness/report/site/made_file.h"
 #include "harness/report/site/names.h"
 #include "harness/report/site/technique_facts.h"
 #include "harness/report/summary.h"
@@ -11,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
+#include <map>
 
 namespace shadowbench::site {
 namespace {
@@ -109,37 +109,67 @@ Table changeTable(const std::vector<Change>& changes, const gate::GateOptions& o
     return table;
 }
 
-std::string copied(const std::filesystem::path& source, const std::string& to, const SiteWriter& site) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(source, ignored)) return "";
-    writeMade(site.folder() / to, readFile(source));
-    return to;
+Data pictureData(const std::string& source, const std::string& caption, const std::string& cell) {
+    Data data;
+    data.set("source", source);
+    data.set("caption", caption);
+    data.set("text", fmt::format("{}: {}", cell, caption));
+    return data;
 }
 
-/// Head, base and truth of each failing cell.
-Data pictures(const gate::GateResult& result, const SiteWriter& site) {
-    Data cells{Data::type::list};
-    for (const gate::FailurePictures& cell : result.pictures) {
-        Data list{Data::type::list};
-        for (const auto& [who, folder, name] :
-             {std::tuple("head", &cell.head, "error"), std::tuple("base", &cell.base, "error"),
-              std::tuple("head", &cell.head, "visibility"), std::tuple("base", &cell.base, "visibility"),
-              std::tuple("truth", &cell.head, "reference")}) {
-            if (folder->empty()) continue;
-            const std::string to =
-                fmt::format("pictures/gate-{}-{}-{}-{}.png", slug(cell.scene), slug(cell.variant), who, name);
-            if (copied(*folder / (std::string(name) + ".png"), to, site).empty()) continue;
-            Data entry;
-            entry.set("source", to);
-            entry.set("caption", fmt::format("{}: {}", who, name));
-            list << entry;
-        }
+/// What head and base show of a cell, the truth, and where each is wrong; nothing where that cannot be shown.
+std::optional<Data> pictures(const ComparedCell& cell, const std::string& title, const SiteWriter& site) {
+    const auto head = cellPictures(cell.head, cell.head.images, site);
+    const auto base = cell.base ? cellPictures(*cell.base, cell.head.images, site) : std::nullopt;
+    if (!head) return std::nullopt;
+    Data list{Data::type::list};
+    list << pictureData(head->difference, "head: orange too dark, blue too bright", title);
+    if (base) list << pictureData(base->difference, "base: the same", title);
+    list << pictureData(head->technique, "head", title);
+    if (base) list << pictureData(base->technique, "base", title);
+    list << pictureData(head->truth, "truth", title);
+    return list;
+}
+
+Data cellsOf(const std::vector<ComparedCell>& cells, const SiteWriter& site) {
+    Data list{Data::type::list};
+    for (const ComparedCell& cell : cells) {
+        const std::string title = fmt::format("{} on {}", shown(cell.head.record.variant), shown(cell.head.record.scene));
+        const std::optional<Data> shownPictures = pictures(cell, title, site);
+        if (!shownPictures) continue;
         Data data;
-        data.set("cell", fmt::format("{} on {}", shown(cell.variant), shown(cell.scene)));
-        data.set("pictures", list);
-        cells << data;
+        data.set("cell", title);
+        data.set("to", cellAddress(cell.head, cell.base ? &*cell.base : nullptr));
+        data.set("pictures", *shownPictures);
+        list << data;
+    }
+    return list;
+}
+
+/// The cells that a gate has drawn again.
+std::vector<ComparedCell> drawnCells(const gate::GateResult& result) {
+    const auto imagesOf = [](const std::filesystem::path& cell) { return cell.parent_path().parent_path(); };
+    std::vector<ComparedCell> cells;
+    for (const gate::FailurePictures& drawn : result.pictures) {
+        if (!drawn.headRecord) continue;
+        ComparedCell& cell = cells.emplace_back(
+            ComparedCell{{"head:" + drawn.variant, *drawn.headRecord, imagesOf(drawn.head), true}, std::nullopt});
+        if (drawn.baseRecord) cell.base = RunCell{"base:" + drawn.variant, *drawn.baseRecord, imagesOf(drawn.base), true};
     }
     return cells;
+}
+
+/// A page for each scene, with the cells of both sides.
+void writeCellPages(const std::vector<ComparedCell>& cells, SiteWriter& site) {
+    std::map<std::string, std::vector<RunCell>> ofScenes;
+    for (const ComparedCell& cell : cells) {
+        std::vector<RunCell>& ofScene = ofScenes[cell.head.record.scene];
+        ofScene.push_back(cell.head);
+        if (cell.base) ofScene.push_back(*cell.base);
+    }
+    bool any = false;
+    for (const auto& [scene, ofScene] : ofScenes) any = writeCellPage(ofScene, {"What is worse", address}, site) || any;
+    if (any) writeViewer(site);
 }
 
 Data sentences(const std::vector<std::string>& lines) {
@@ -154,7 +184,8 @@ Data sentences(const std::vector<std::string>& lines) {
 
 } // namespace
 
-void addGatePage(const gate::GateResult& result, const gate::GateOptions& options, SiteWriter& site) {
+void addGatePage(const gate::GateResult& result, const gate::GateOptions& options, const std::vector<ComparedCell>& cells,
+                 SiteWriter& site) {
     const auto count = [&](Direction direction) {
         return std::ranges::count(result.changes, direction, &Change::direction);
     };
@@ -169,7 +200,7 @@ void addGatePage(const gate::GateResult& result, const gate::GateOptions& option
                                    count(Direction::Worse), count(Direction::Unjudged), count(Direction::Unclear),
                                    count(Direction::Better), count(Direction::Same)));
     data.set("table", site.table(address, changeTable(result.changes, options)));
-    data.set("cells", pictures(result, site));
+    data.set("cells", cellsOf(cells, site));
     data.set("unjudged", sentences(result.unjudged));
     data.set("notes", sentences(result.notes));
     site.add({address, verdictText(result.code()), render("gate.html", data)});
@@ -187,9 +218,33 @@ gate::GateResult comparedWith(const std::vector<Record>& base, const std::vector
     return result;
 }
 
+std::vector<ComparedCell> worseCells(const std::vector<Change>& changes, const RunImages& base, const RunImages& head) {
+    constexpr std::size_t most = 12;
+    const auto find = [](const RunImages& run, const Change& change) {
+        return std::ranges::find_if(run.records, [&](const Record& record) {
+            return record.scene == change.scene && record.variant == change.variant && !record.sweep;
+        });
+    };
+    std::vector<ComparedCell> cells;
+    for (const Change& change : shownChanges(changes)) {
+        const auto now = find(head, change), before = find(base, change);
+        const bool known = std::ranges::any_of(cells, [&](const ComparedCell& cell) {
+            return cell.head.record.scene == change.scene && cell.head.record.variant == change.variant;
+        });
+        if (change.direction != Direction::Worse || known || cells.size() == most) continue;
+        if (now == head.records.end() || !hasCell(*now, head.images)) continue;
+        ComparedCell& cell = cells.emplace_back(ComparedCell{{now->variant, *now, head.images}, std::nullopt});
+        if (before != base.records.end() && hasCell(*before, base.images))
+            cell.base = RunCell{"base:" + before->variant, *before, base.images};
+    }
+    return cells;
+}
+
 std::filesystem::path writeGateSite(const gate::GateResult& result, const gate::GateOptions& options) {
     SiteWriter site(options.out, {{"Gate", address}});
-    addGatePage(result, options, site);
+    const std::vector<ComparedCell> cells = drawnCells(result);
+    writeCellPages(cells, site);
+    addGatePage(result, options, cells, site);
     site.writeAssets();
     return options.out / address;
 }

@@ -3,16 +3,35 @@
 
 #include "harness/gate/gate.h"
 #include "harness/report/site/site_writer.h"
+#include "harness/report/site/viewer/cells.h"
 
+#include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace shadowbench::site {
 
+/// A cell that is worse, as both sides draw it.
+struct ComparedCell {
+    RunCell head;
+    std::optional<RunCell> base; // nothing where that has no images
+};
+
 /// gate.html: what is worse first, then what could not be judged or told, then what is better, with the command that shows
-/// each again and the pictures of failing cells beside those of the base.
-void addGatePage(const gate::GateResult& result, const gate::GateOptions& options, SiteWriter& site);
+/// each again, and pictures of `cells`, whose pages have been written.
+void addGatePage(const gate::GateResult& result, const gate::GateOptions& options, const std::vector<ComparedCell>& cells,
+                 SiteWriter& site);
 
 /// The comparison of records with older ones, as a gate's result.
 gate::GateResult comparedWith(const std::vector<Record>& base, const std::vector<Record>& head);
+
+/// A run's records and the folder of its images, which may be missing.
+struct RunImages {
+    const std::vector<Record>& records;
+    std::filesystem::path images;
+};
+
+/// The cells of the changes for the worse, a dozen at most: more show the same fault again.
+std::vector<ComparedCell> worseCells(const std::vector<gate::Change>& changes, const RunImages& base, const RunImages& head);
 
 } // namespace shadowbench::site

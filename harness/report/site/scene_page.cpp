@@ -52,10 +52,11 @@ Data pictureData(const std::string& address, const std::string& caption, const s
 /// Truth, what the chosen technique shows, and where that is wrong.
 Data pictures(const Record& record, const std::filesystem::path& images, const SiteWriter& site) {
     Data list{Data::type::list};
-    for (const auto& [name, caption] : {std::pair("reference", "truth"), std::pair("visibility", "what it shows"),
-                                        std::pair("error", "error: red too dark, blue too bright")})
-        if (const std::string address = picture(images, record, name, site); !address.empty())
-            list << pictureData(address, caption, hasCell(record, images) ? cellAddress(record) : "");
+    const std::optional<CellPictures> cell = cellPictures({record.variant, record, images}, images, site);
+    if (!cell) return list;
+    list << pictureData(cell->truth, "truth", cellAddress(record));
+    list << pictureData(cell->technique, "what it shows", cellAddress(record));
+    list << pictureData(cell->difference, "error: orange too dark, blue too bright", cellAddress(record));
     return list;
 }
 

@@ -17,12 +17,6 @@ namespace {
 
 using report::Tolerance;
 
-std::vector<std::size_t> scoredOf(const std::vector<Record>& records, const std::string& scene) {
-    std::vector<std::size_t> scored = report::ofScene(records, scene);
-    std::erase_if(scored, [&](std::size_t i) { return !headline(records[i]); });
-    return scored;
-}
-
 Column columnOf(const report::Column& column) {
     const metrics::Metric& line = metrics::table[column.metric.index()];
     return {.title = column.title,
@@ -81,7 +75,7 @@ std::vector<std::pair<std::string, std::string>> marksOf(const std::vector<Recor
 }
 
 Table errorTable(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images) {
-    const std::vector<std::size_t> scored = scoredOf(records, scene);
+    const std::vector<std::size_t> scored = report::scoredOf(records, scene);
     const std::vector<Tolerance> limits = report::tolerances(records, scene);
     const std::string metric = report::headlineMetric(records, scene);
     const bool timed = !report::paretoFront(records, scene).empty();
@@ -96,10 +90,7 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
             {.title = "× tolerance",
              .hint = "The error that comes nearest to its tolerance, or exceeds it most, as a multiple of it",
              .key = "tolerance"});
-    std::vector<const report::Column*> chosen;
-    for (const report::Column& column : report::columns())
-        if (std::ranges::any_of(scored, [&](std::size_t i) { return records[i].values[column.metric].has_value(); }))
-            chosen.push_back(&column);
+    const std::vector<const report::Column*> chosen = report::columnsOf(records, scored);
     for (const report::Column* column : chosen) table.columns.push_back(columnOf(*column));
     if (timed)
         table.columns.push_back(

@@ -45,6 +45,27 @@ std::vector<Record> apart(std::vector<Record> records) {
     return records;
 }
 
+/// The records against older ones.
+struct Comparison {
+    gate::GateResult result;
+    std::vector<ComparedCell> worse;
+
+    [[nodiscard]] std::vector<RunCell> before() const {
+        std::vector<RunCell> cells;
+        for (const ComparedCell& cell : worse)
+            if (cell.base) cells.push_back(*cell.base);
+        return cells;
+    }
+};
+
+Comparison comparisonOf(const Sources& sources) {
+    if (!sources.base) return {};
+    gate::GateResult result = comparedWith(*sources.base, sources.records);
+    std::vector<ComparedCell> worse =
+        worseCells(result.changes, {*sources.base, sources.baseImages}, {sources.records, sources.images});
+    return {std::move(result), std::move(worse)};
+}
+
 } // namespace
 
 std::filesystem::path writeSite(const Sources& sources, const std::filesystem::path& folder) {
@@ -55,6 +76,8 @@ std::filesystem::path writeSite(const Sources& sources, const std::filesystem::p
     const std::vector<Sweep> sweeps = sweepsOf(sources.records);
     SiteWriter site(folder, navigationOf(sources, measured, sweeps));
 
+    const Comparison compared = comparisonOf(sources);
+    writeCells(measured, sources.images, site, sources.sequences, compared.before()); // whose pictures other pages show, too
     const report::Written report = report::writeReport(measured, folder);
     writeFile(folder / "results.csv", report::csv(sources.records));
     addIndexPage(measured, command, sources.images, site);
@@ -67,10 +90,9 @@ std::filesystem::path writeSite(const Sources& sources, const std::filesystem::p
     if (sources.base) {
         gate::GateOptions options;
         options.base = sources.baseName;
-        addGatePage(comparedWith(*sources.base, sources.records), options, site);
+        addGatePage(compared.result, options, compared.worse, site);
     }
     if (sources.findings) addHistoryPage(*sources.findings, site);
-    writeCells(measured, sources.images, site);
     site.writeAssets();
     return folder / "index.html";
 }

@@ -3,6 +3,7 @@
 
 #include "harness/history/history_report.h"
 #include "harness/records/record.h"
+#include "harness/report/site/viewer/sequences.h"
 
 #include <filesystem>
 #include <optional>
@@ -17,7 +18,9 @@ struct Sources {
     std::filesystem::path images = {};              // as `run --images` leaves them; missing: no cells are shown
     std::optional<std::vector<Record>> base = {};   // older records, for gate.html
     std::string baseName = {};                      // how the user names them
+    std::filesystem::path baseImages = {};          // as `images`
     std::optional<history::Findings> findings = {}; // for history.html
+    Sequences sequences = Sequences::Fronts;        // whose moving frames the pages of cells hold
 };
 
 /// Writes the report (writeReport in harness/report/run_report.h), index.html, all other pages and what they need; returns

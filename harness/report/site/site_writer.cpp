@@ -85,7 +85,9 @@ std::string SiteWriter::chart(const std::string& address, const Chart& chart) co
 }
 
 void SiteWriter::writeAssets() const {
-    for (const char* file : {"assets/style.css", "assets/site.js"}) writeMade(folder_ / file, embeddedFile(file));
+    writeMade(folder_ / "assets/style.css", embeddedFile("assets/style.css"));
+    std::string script(embeddedFile("assets/tables.js"));
+    writeMade(folder_ / "assets/site.js", script.append(embeddedFile("assets/charts.js")));
     writeMade(folder_ / "assets/d3.js", embedded::d3().front().text);
 }
 

@@ -9,7 +9,7 @@ namespace shadowbench::site {
 
 using Data = kainjow::mustache::data;
 
-/// Text of an embedded file: "templates/scene.html", "assets/site.js". Throws InternalError when there is none of that name.
+/// Text of an embedded file: "templates/scene.html", "viewer/pane.js". Throws InternalError when there is none of that name.
 std::string_view embeddedFile(std::string_view path);
 
 /// The template `name` of templates/ ("scene.html") with `data`: {{key}} escapes for HTML, {{{key}}} is HTML already.

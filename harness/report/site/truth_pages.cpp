@@ -1,6 +1,7 @@
 // What the truths are made by, and how sure they are: as the records say it, with the truths' pictures where there are any.
 #include "harness/report/site/names.h"
 #include "harness/report/site/pages.h"
+#include "harness/report/site/viewer/cells.h"
 #include "harness/report/summary.h"
 
 #include <algorithm>
@@ -94,17 +95,11 @@ void addTruthPage(const std::vector<Record>& records, const std::string& scene, 
         table.rows.push_back(std::move(row));
     }
     Data data, list{Data::type::list};
-    std::vector<std::string> shownKeys; // hard and soft techniques of one scene have different truths
-    for (const std::size_t i : report::ofScene(records, scene)) {
-        const std::optional<ReferenceInfo>& info =
-            records[i].softReference ? records[i].softReference : records[i].reference;
-        if (!info || std::ranges::find(shownKeys, info->key) != shownKeys.end()) continue;
-        const std::string source = picture(images, records[i], "reference", site);
-        if (source.empty()) continue;
-        shownKeys.push_back(info->key);
+    for (const Link& picture : truthPictures(scene, images, site)) {
         Data entry;
-        entry.set("source", "../" + source);
-        entry.set("caption", report::truth(*info));
+        entry.set("source", "../" + picture.address);
+        entry.set("caption", picture.title);
+        entry.set("text", fmt::format("True visibility on {}: {}", shown(scene), picture.title));
         list << entry;
     }
     data.set("scene", shown(scene));

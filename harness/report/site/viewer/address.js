@@ -36,12 +36,15 @@
     return view;
   };
 
+  // Only what an address must not hold as it is becomes a %.
+  const encoded = (text) => encodeURIComponent(text).replace(/%(2C|2B|3A|3D)/g, decodeURIComponent);
+
   shadowbench.addressOf = function (view) {
-    let text = "#" + encodeURIComponent(view.cell);
+    let text = "#" + encoded(view.cell);
     for (const name of Object.keys(fields)) {
       const value = view[name];
       if (value === null || value === fields[name].first) continue;
-      text += "&" + name + "=" + encodeURIComponent(fields[name].write(value)).replaceAll("%2C", ",");
+      text += "&" + name + "=" + encoded(fields[name].write(value));
     }
     return text;
   };

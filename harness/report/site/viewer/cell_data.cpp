@@ -55,6 +55,13 @@ glm::vec3 surfaceColour(float surface) {
     return glm::vec3(150, 60, 170) / 255.0F;
 }
 
+/// What it answers: of other renderers' images, the truth of what they mean.
+std::string ownTruth(const Record& record) {
+    const std::string oracle = record.reference ? record.reference->oracle : "";
+    if (oracle == "irradiance" || oracle == "solid-angle") return oracle;
+    return oracle == "povray" ? "soft" : "hard";
+}
+
 template <class Colour>
 Image<glm::vec3> picture(const KeptTruth& truth, const Colour& colour) {
     Image<glm::vec3> result(truth.surface.width(), truth.surface.height());
@@ -66,18 +73,19 @@ Image<glm::vec3> picture(const KeptTruth& truth, const Colour& colour) {
 } // namespace
 
 std::string truthOf(const Record& record, const std::vector<std::string>& truths) {
-    const auto has = [&](const char* name) { return std::ranges::find(truths, name) != truths.end(); };
-    const bool soft = record.softReference || (record.reference && record.reference->oracle == "povray");
-    for (const char* name : {soft ? "soft" : "hard", "hard", "soft"})
-        if (has(name)) return name;
+    for (const std::string& name :
+         {record.softReference ? "soft" : ownTruth(record), std::string("hard"), std::string("soft")})
+        if (std::ranges::find(truths, name) != truths.end()) return name;
     return truths.front();
 }
 
+std::string movingTruthOf(const Record& record) { return record.pixelReference ? "pixel-area" : ownTruth(record); }
+
 std::string truthLabel(const std::string& name) {
-    static const std::map<std::string, std::string> labels{{"hard", "exact, of the light's centre"},
-                                                           {"soft", "of the whole light"},
-                                                           {"pixel-area", "exact, over each pixel's area"},
-                                                           {"area", "exact, of the whole light"}};
+    static const std::map<std::string, std::string> labels{
+        {"hard", "exact, of the light's centre"},         {"soft", "of the whole light"},
+        {"pixel-area", "exact, over each pixel's area"},  {"area", "exact, of the whole light"},
+        {"irradiance", "exact, share of the irradiance"}, {"solid-angle", "exact, share of the light's solid angle"}};
     const auto found = labels.find(name);
     return found != labels.end() ? found->second : name;
 }
@@ -93,11 +101,13 @@ std::string catalogueScript(const ShownScene& scene) {
     return fmt::format("shadowbench.cells({});\n", inScript(json));
 }
 
-std::string cellsPage(const ShownScene& scene) {
+std::string cellsPage(const ShownScene& scene, const Link& back) {
     Data data, rows{Data::type::list};
     for (const ShownCell& cell : scene.cells) rows << pictureRow(cell, scene);
     data.set("slug", scene.slug);
     data.set("scene", scene.title);
+    data.set("back", "../" + back.address);
+    data.set("where", back.title);
     data.set("rows", rows);
     return render("cells.html", data);
 }

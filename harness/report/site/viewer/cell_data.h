@@ -3,6 +3,7 @@
 
 #include "harness/cells/kept_images.h"
 #include "harness/records/record.h"
+#include "harness/report/site/site_writer.h"
 
 #include <filesystem>
 #include <optional>
@@ -39,14 +40,17 @@ struct ShownScene {
 /// The truth that a record's headline error is about, of those that there are.
 std::string truthOf(const Record& record, const std::vector<std::string>& truths);
 
+/// The name of the truth that its moving frames are compared with.
+std::string movingTruthOf(const Record& record);
+
 /// "exact, of the light's centre" …
 std::string truthLabel(const std::string& name);
 
 /// A script that tells the viewer of the scene.
 std::string catalogueScript(const ShownScene& scene);
 
-/// HTML of the page's main part.
-std::string cellsPage(const ShownScene& scene);
+/// HTML of the page's main part; `back`: the page that it belongs to.
+std::string cellsPage(const ShownScene& scene, const Link& back);
 
 /// Technique less truth, in the colours of the viewer: orange false shadow, blue leak, full colour at ±1.
 Image<glm::vec3> differencePicture(const Image<float>& v, const KeptTruth& truth);

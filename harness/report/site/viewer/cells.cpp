@@ -5,6 +5,7 @@
 #include "harness/cells/cell_images.h"
 #include "harness/cells/kept_images.h"
 #include "harness/report/run_report.h"
+#include "harness/report/site/made_file.h"
 #include "harness/report/site/names.h"
 #include "harness/report/site/template.h"
 #include "harness/report/site/viewer/cell_data.h"
@@ -24,6 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Names of pictures in a scene's folder, without their endings.
+std::string truthPicture(const std::string& name) { return "truth/" + name; }
+std::string differenceOf(const std::string& cell) { return cell + "-difference"; }
+
 constexpr std::size_t leastErrors = 10; // rows with a sequence where no time makes a front
 constexpr std::array<std::string_view, 11> scripts{"pixels.js", "colours.js",  "worst.js",   "address.js",
                                                    "pane.js",   "controls.js", "readout.js", "pointer.js",
@@ -32,29 +37,31 @@ constexpr std::array<std::string_view, 11> scripts{"pixels.js", "colours.js",  "
 /// The files of one scene's cells.
 class ScenePage {
 public:
-    ScenePage(fs::path images, std::string scene, const fs::path& site)
-        : images_(std::move(images)), scene_(std::move(scene)), site_(site), names_(keptTruths(images_, scene_)) {
-        shown_.slug = slug(scene_);
-        shown_.title = shown(scene_);
-        for (const std::string& name : names_) addTruth(name);
+    /// `images`: the run whose truths are shown.
+    ScenePage(const fs::path& images, const std::string& scene, fs::path site)
+        : site_(std::move(site)), names_(keptTruths(images, scene)) {
+        shown_.slug = slug(scene);
+        shown_.title = shown(scene);
+        for (const std::string& name : names_) addTruth(name, truthFile(images, scene, name));
     }
 
-    void add(const Record& record, bool withSequence) {
-        const fs::path folder = cellFolder(images_, scene_, record.variant);
+    void add(const RunCell& from) {
+        const fs::path folder = cellFolder(from.images, from.record.scene, from.record.variant);
         const Image<float> v = readChannel(folder / "visibility.exr", "V");
         ShownCell cell{
-            slug(record.variant), shown(record.variant), errorOf(record), truthOf(record, names_), {}, {}, {}, {}};
+            slug(from.name), shown(from.name), errorOf(from.record), truthOf(from.record, names_), {}, {}, {}, {}};
         const KeptTruth& truth = truths_.at(cell.truth);
         if (!v.sameSize(truth.visibility) || !seen_.insert(cell.slug).second) return;
         shown_.width = v.width();
         shown_.height = v.height();
         cell.data = writeScript(cell.slug, {{"V", valuesOf(v)}});
         cell.picture = writePicture(cell.slug, visibilityPicture(v, truth));
-        cell.difference = writePicture(cell.slug + "-difference", differencePicture(v, truth));
-        if (withSequence) cell.sequence = sequenceOf(record, folder, cell.slug);
+        cell.difference = writePicture(differenceOf(cell.slug), differencePicture(v, truth));
+        if (from.sequence) cell.sequence = sequenceOf(from, folder, cell.slug);
         shown_.cells.push_back(std::move(cell));
     }
 
+    [[nodiscard]] bool hasTruth() const { return !names_.empty(); }
     [[nodiscard]] const ShownScene& shownScene() const { return shown_; }
 
 private:
@@ -64,7 +71,7 @@ private:
 
     std::string writeScript(const std::string& name,
                             const std::vector<std::pair<std::string, std::vector<float>>>& channels) const {
-        writeFile(file(address(name) + ".js"), pixelScript(address(name), channels));
+        writeMade(file(address(name) + ".js"), pixelScript(address(name), channels));
         return address(name);
     }
 
@@ -74,38 +81,34 @@ private:
     }
 
     std::string copyPicture(const std::string& name, const fs::path& from) const {
-        writeFile(file(address(name) + ".png"), readFile(from));
+        writeMade(file(address(name) + ".png"), readFile(from));
         return address(name) + ".png";
     }
 
-    void addTruth(const std::string& name) {
-        const KeptTruth& truth = truths_[name] = readTruth(truthFile(images_, scene_, name));
+    void addTruth(const std::string& name, const fs::path& from) {
+        const KeptTruth& truth = truths_[name] = readTruth(from);
         ShownTruth shown{name, truthLabel(name), {}, {}, hasExactEdges(truth)};
-        shown.data = writeScript("truth/" + name, {{"V", valuesOf(truth.visibility)},
-                                                   {"sigma", valuesOf(truth.sigma)},
-                                                   {"surface", valuesOf(truth.surface)},
-                                                   {"edge", valuesOf(truth.edgeDistance)},
-                                                   {"edges", shadowEdges(truth)}});
-        shown.picture = writePicture("truth/" + name, visibilityPicture(truth.visibility, truth));
+        shown.data = writeScript(truthPicture(name), {{"V", valuesOf(truth.visibility)},
+                                                      {"sigma", valuesOf(truth.sigma)},
+                                                      {"surface", valuesOf(truth.surface)},
+                                                      {"edge", valuesOf(truth.edgeDistance)},
+                                                      {"edges", shadowEdges(truth)}});
+        shown.picture = writePicture(truthPicture(name), visibilityPicture(truth.visibility, truth));
         shown_.truths.push_back(std::move(shown));
     }
 
-    [[nodiscard]] std::optional<ShownSequence> sequenceOf(const Record& record, const fs::path& folder,
+    [[nodiscard]] std::optional<ShownSequence> sequenceOf(const RunCell& cell, const fs::path& folder,
                                                           const std::string& name) const {
-        const std::string truth = record.pixelReference ? "pixel-area" : ownTruth(record);
-        const fs::path exact = truthSequenceFile(images_, scene_, truth);
+        const std::string truth = movingTruthOf(cell.record);
+        const fs::path exact = truthSequenceFile(cell.images, cell.record.scene, truth);
         if (!fs::exists(folder / "sequence.png") || !fs::exists(folder / "flicker.png") || !fs::exists(exact)) return {};
         ShownSequence sequence;
-        sequence.count = readChannel(folder / "sequence.png", 0).height() / record.height;
+        sequence.count = readChannel(folder / "sequence.png", 0).height() / cell.record.height;
         sequence.moving = truth;
         sequence.picture = copyPicture(name + "-sequence", folder / "sequence.png");
         sequence.flicker = copyPicture(name + "-flicker", folder / "flicker.png");
-        sequence.truth = copyPicture("truth/" + truth + "-sequence", exact);
+        sequence.truth = copyPicture(truthPicture(truth) + "-sequence", exact);
         return sequence;
-    }
-
-    static std::string ownTruth(const Record& record) {
-        return record.reference && record.reference->oracle == "povray" ? "soft" : "hard";
     }
 
     static std::string errorOf(const Record& record) {
@@ -113,8 +116,6 @@ private:
         return error ? fmt::format("{} {}", error->metric, report::formatValue(error->metric, error->value)) : "";
     }
 
-    fs::path images_;
-    std::string scene_;
     fs::path site_;
     std::vector<std::string> names_;
     std::map<std::string, KeptTruth> truths_;
@@ -122,59 +123,91 @@ private:
     ShownScene shown_;
 };
 
+bool hasImage(const Record& record, const fs::path& images) {
+    if (images.empty() || !wasScored(record.status) || isLevelOfDetail(record)) return false;
+    if (!isFolderName(record.scene) || !isFolderName(fileName(record.variant))) return false;
+    return fs::exists(cellFolder(images, record.scene, record.variant) / "visibility.exr");
+}
+
 /// Indices of the records of `scene` whose sequences are shown.
 std::set<std::size_t> withSequence(const std::vector<Record>& records, const std::string& scene, Sequences sequences) {
-    std::vector<std::size_t> rows = report::ofScene(records, scene);
+    std::vector<std::size_t> rows = report::scoredOf(records, scene);
     if (sequences == Sequences::All) return {rows.begin(), rows.end()};
     const std::vector<std::size_t> front = report::paretoFront(records, scene);
     if (!front.empty()) return {front.begin(), front.end()};
-    std::erase_if(rows, [&](std::size_t i) { return !headline(records[i]); });
     std::ranges::stable_sort(rows, {}, [&](std::size_t i) { return headline(records[i])->value; });
     return {rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), leastErrors))};
-}
-
-void writeScene(const std::vector<Record>& records, const std::vector<std::size_t>& cells, const fs::path& images,
-                SiteWriter& site, Sequences sequences) {
-    const std::string& scene = records[cells.front()].scene;
-    const std::set<std::size_t> moving = withSequence(records, scene, sequences);
-    ScenePage page(images, scene, site.folder());
-    for (const std::size_t i : cells) page.add(records[i], moving.contains(i));
-    const ShownScene& shownScene = page.shownScene();
-    if (shownScene.cells.empty()) return;
-    const std::string catalogue = fmt::format("cells/{}/cells.js", shownScene.slug);
-    writeFile(site.folder() / catalogue, catalogueScript(shownScene));
-    site.add({fmt::format("cells/{}.html", shownScene.slug),
-              shownScene.title + ", pixel by pixel",
-              cellsPage(shownScene),
-              {"assets/viewer.js", catalogue}});
-}
-
-void writeAssets(const fs::path& site) {
-    std::string script;
-    for (const std::string_view file : scripts) script += embeddedFile(fmt::format("viewer/{}", file));
-    writeFile(site / "assets/viewer.js", script);
-    writeFile(site / "assets/viewer.css", embeddedFile("viewer/viewer.css"));
 }
 
 } // namespace
 
 bool hasCell(const Record& record, const fs::path& images) {
-    if (images.empty() || !wasScored(record.status) || isLevelOfDetail(record)) return false;
-    if (!isFolderName(record.scene) || !isFolderName(fileName(record.variant))) return false;
-    return fs::exists(cellFolder(images, record.scene, record.variant) / "visibility.exr") &&
-           !keptTruths(images, record.scene).empty();
+    return hasImage(record, images) && !keptTruths(images, record.scene).empty();
 }
 
-void writeCells(const std::vector<Record>& records, const fs::path& images, SiteWriter& site, Sequences sequences) {
+bool writeCellPage(const std::vector<RunCell>& cells, const Link& back, SiteWriter& site) {
+    ScenePage page(cells.front().images, cells.front().record.scene, site.folder());
+    for (const RunCell& cell : cells)
+        if (page.hasTruth() && hasImage(cell.record, cell.images)) page.add(cell);
+    const ShownScene& scene = page.shownScene();
+    if (scene.cells.empty()) return false;
+    const std::string catalogue = fmt::format("cells/{}/cells.js", scene.slug);
+    writeMade(site.folder() / catalogue, catalogueScript(scene));
+    site.add({fmt::format("cells/{}.html", scene.slug),
+              scene.title + ", pixel by pixel",
+              cellsPage(scene, back),
+              {"assets/viewer.js", catalogue},
+              {"assets/style.css", "assets/viewer.css"}});
+    return true;
+}
+
+void writeCells(const std::vector<Record>& records, const fs::path& images, SiteWriter& site, Sequences sequences,
+                const std::vector<RunCell>& others) {
     bool any = false;
     for (const std::string& scene : report::scenes(records)) {
-        std::vector<std::size_t> cells = report::ofScene(records, scene);
-        std::erase_if(cells, [&](std::size_t i) { return !hasCell(records[i], images); });
-        if (cells.empty()) continue;
-        writeScene(records, cells, images, site, sequences);
-        any = true;
+        const std::set<std::size_t> moving = withSequence(records, scene, sequences);
+        std::vector<RunCell> cells;
+        for (const std::size_t i : report::ofScene(records, scene))
+            if (hasCell(records[i], images)) cells.push_back({records[i].variant, records[i], images, moving.contains(i)});
+        for (const RunCell& other : others)
+            if (!cells.empty() && other.record.scene == scene) cells.push_back(other);
+        if (!cells.empty() && writeCellPage(cells, {"Table and charts of " + shown(scene), sceneAddress(scene)}, site))
+            any = true;
     }
-    if (any) writeAssets(site.folder());
+    if (any) writeViewer(site);
+}
+
+void writeViewer(const SiteWriter& site) {
+    std::string script;
+    for (const std::string_view file : scripts) script += embeddedFile(fmt::format("viewer/{}", file));
+    writeMade(site.folder() / "assets/viewer.js", script);
+    writeMade(site.folder() / "assets/viewer.css", embeddedFile("viewer/viewer.css"));
+}
+
+std::string cellAddress(const RunCell& cell, const RunCell* against) {
+    const std::string address = fmt::format("cells/{}.html#{}", slug(cell.record.scene), slug(cell.name));
+    return against == nullptr ? address : fmt::format("{}&against=cell:{}", address, slug(against->name));
+}
+
+std::optional<CellPictures> cellPictures(const RunCell& cell, const fs::path& truths, const SiteWriter& site) {
+    if (!hasImage(cell.record, cell.images)) return std::nullopt;
+    const std::vector<std::string> names = keptTruths(truths, cell.record.scene);
+    if (names.empty()) return std::nullopt;
+    const std::string folder = fmt::format("cells/{}/", slug(cell.record.scene)), own = slug(cell.name);
+    const CellPictures pictures{folder + own + ".png", folder + truthPicture(truthOf(cell.record, names)) + ".png",
+                                folder + differenceOf(own) + ".png"};
+    const bool written = fs::exists(site.folder() / pictures.technique) && fs::exists(site.folder() / pictures.truth);
+    return written ? std::optional(pictures) : std::nullopt;
+}
+
+std::vector<Link> truthPictures(const std::string& scene, const fs::path& images, const SiteWriter& site) {
+    std::vector<Link> pictures;
+    if (images.empty() || !isFolderName(scene)) return pictures;
+    for (const std::string& name : keptTruths(images, scene)) {
+        const std::string address = fmt::format("cells/{}/{}.png", slug(scene), truthPicture(name));
+        if (fs::exists(site.folder() / address)) pictures.push_back({truthLabel(name), address});
+    }
+    return pictures;
 }
 
 } // namespace shadowbench::site

@@ -1,5 +1,6 @@
 #include "harness/report/site/viewer/pixel_script.h"
 
+#include "base/base64.h"
 #include "base/error.h"
 
 #include <bit>
@@ -30,20 +31,6 @@ std::string deflated(const std::string& bytes) {
         throw InternalError("making pages: compressing pixel values failed");
     result.resize(size);
     return result;
-}
-
-std::string base64(const std::string& bytes) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < count; ++k)
-            bits |= static_cast<std::uint32_t>(static_cast<std::uint8_t>(bytes[i + k])) << (16 - 8 * k);
-        for (std::size_t k = 0; k < 4; ++k) text += k <= count ? letters[bits >> (18 - 6 * k) & 0x3FU] : '=';
-    }
-    return text;
 }
 
 } // namespace

@@ -18,11 +18,29 @@
     return image.decode().then(() => image);
   }
 
+  // In a site of one file, where every page is a part of it, addresses begin with the page's id: its pages are shown by CSS
+  // where an address is an id as it stands, and by `choosePage` where a view follows.
+  const pageOf = (root) => root.closest(".page");
+  const prefixOf = (root) => (pageOf(root) ? pageOf(root).id + "-cell-" : "");
+
+  // The part of the address that is a viewer's; null where it is about another page.
+  function ownAddress(root) {
+    const address = location.hash.slice(1);
+    const prefix = prefixOf(root);
+    if (prefix && address === pageOf(root).id) return "";
+    return address.startsWith(prefix) ? "#" + address.slice(prefix.length) : null;
+  }
+
+  function choosePage() {
+    for (const root of document.querySelectorAll(".page .viewer"))
+      pageOf(root).classList.toggle("chosen", ownAddress(root) !== null);
+  }
+
   class Viewer {
     constructor(root, catalogue) {
       this.root = root;
       this.catalogue = catalogue;
-      this.view = this.known(shadowbench.viewAt(location.hash));
+      this.view = this.known(shadowbench.viewAt(ownAddress(root) || ""));
       this.hovered = null;
       this.flipped = false;
       this.timer = 0;
@@ -88,7 +106,9 @@
     }
 
     follow() {
-      const view = this.known(shadowbench.viewAt(location.hash));
+      const address = ownAddress(this.root);
+      if (address === null) return;
+      const view = this.known(shadowbench.viewAt(address));
       if (shadowbench.addressOf(view) === shadowbench.addressOf(this.view)) return;
       this.change(view);
       this.root.scrollIntoView({ block: "nearest" });
@@ -259,16 +279,28 @@
       clearTimeout(this.remembering);
       if (!this.isSeen()) return;
       this.remembering = setTimeout(() => {
-        const address = shadowbench.addressOf(this.view);
+        const address = "#" + prefixOf(this.root) + shadowbench.addressOf(this.view).slice(1);
         if (address !== location.hash) history.replaceState(null, "", address);
+        choosePage();
       }, 120);
     }
   }
 
-  document.addEventListener("DOMContentLoaded", () => {
+  // Makes the viewers of pages that are seen, each once.
+  function start() {
+    choosePage();
     for (const root of document.querySelectorAll(".viewer")) {
       const catalogue = catalogues.get(root.dataset.scene);
-      if (catalogue && catalogue.cells.length > 0) root.viewer = new Viewer(root, catalogue);
+      if (root.viewer || !catalogue || catalogue.cells.length === 0) continue;
+      if (pageOf(root) && getComputedStyle(pageOf(root)).display === "none") continue;
+      root.viewer = new Viewer(root, catalogue);
+      if (pageOf(root) && location.hash) root.scrollIntoView({ block: "nearest" }); // not the pictures of that id
     }
+  }
+  document.addEventListener("DOMContentLoaded", start);
+  window.addEventListener("hashchange", start);
+  window.addEventListener("load", () => {
+    for (const root of document.querySelectorAll(".page .viewer"))
+      if (location.hash && root.viewer) root.scrollIntoView({ block: "nearest" });
   });
 })();

@@ -1,114 +1,7 @@
-// Sorts and filters tables and draws charts from what they show. Tables and gnuplot's charts are there without it.
+// Draws charts from what tables show, in the place of gnuplot's, which are there without it.
 "use strict";
 (function () {
-  const valueOf = (cell) => (cell && cell.hasAttribute("data-v") ? Number.parseFloat(cell.dataset.v) : NaN);
-  const tables = new Map(); // id → {table, body, rows, heads, listeners}
-  const make = (name, attributes, text) => {
-    const element = document.createElement(name);
-    for (const key in attributes || {}) element.setAttribute(key, attributes[key]);
-    if (text !== undefined) element.textContent = text;
-    return element;
-  };
-
-  // ---- tables ----
-  function changed(entry) {
-    for (const listener of entry.listeners) listener();
-  }
-
-  // Columns keep their widths: a table of thousands of cells then sorts without being measured anew, and does not jump.
-  function freeze(entry) {
-    if (entry.frozen || entry.rows.length < 30) return;
-    entry.frozen = true;
-    const widths = entry.heads.map((head) => head.getBoundingClientRect().width);
-    entry.heads.forEach((head, i) => { head.style.width = widths[i] + "px"; });
-    entry.table.style.width = widths.reduce((sum, width) => sum + width, 0) + "px";
-    entry.table.style.tableLayout = "fixed";
-  }
-  function thaw(entry) {
-    if (!entry.frozen) return;
-    entry.frozen = false;
-    for (const head of entry.heads) head.style.width = "";
-    entry.table.style.width = entry.table.style.tableLayout = "";
-  }
-
-  function sortBy(entry, column) {
-    freeze(entry);
-    const head = entry.heads[column];
-    const down = head.getAttribute("aria-sort") === "ascending";
-    for (const other of entry.heads) other.removeAttribute("aria-sort");
-    head.setAttribute("aria-sort", down ? "descending" : "ascending");
-    const keys = entry.rows.map((row, place) => {
-      const cell = row.cells[column];
-      return { row, place, number: valueOf(cell), text: cell.textContent };
-    });
-    const sign = down ? -1 : 1;
-    keys.sort((a, b) => {
-      const noneA = Number.isNaN(a.number), noneB = Number.isNaN(b.number);
-      if (!noneA && !noneB) return sign * (a.number - b.number) || a.place - b.place;
-      if (noneA !== noneB) return noneA ? 1 : -1; // what has no number stays at the end
-      return sign * a.text.localeCompare(b.text, "en", { numeric: true }) || a.place - b.place;
-    });
-    entry.rows = keys.map((key) => key.row);
-    entry.body.append(...entry.rows);
-  }
-
-  function filter(entry, wanted) {
-    freeze(entry);
-    let count = 0;
-    const words = wanted.text.toLowerCase().split(/\s+/).filter(Boolean);
-    for (const row of entry.rows) {
-      const name = row.cells[0].textContent.toLowerCase();
-      const seen = words.every((word) => name.includes(word)) && (!wanted.family || row.dataset.family === wanted.family) &&
-        (!wanted.answer || row.dataset.answer === wanted.answer) && (!wanted.within || row.dataset.within === "yes");
-      row.hidden = !seen;
-      if (seen) ++count;
-    }
-    changed(entry);
-    return count;
-  }
-
-  function addFilters(form, entry) {
-    const values = (key) => [...new Set(entry.rows.map((row) => row.dataset[key]).filter(Boolean))].sort();
-    const text = make("input", { type: "search", placeholder: "part of a name", "aria-label": "Technique" });
-    const choose = (label, options) => {
-      const select = make("select");
-      select.append(make("option", { value: "" }, "all"));
-      for (const option of options) select.append(make("option", { value: option }, option));
-      const around = make("label", {}, label);
-      around.append(select);
-      return [around, select];
-    };
-    const [familyLabel, family] = choose("family", values("family"));
-    const [answerLabel, answer] = choose("answer", values("answer"));
-    const within = make("input", { type: "checkbox" });
-    const withinLabel = make("label");
-    withinLabel.append(within, "within tolerance only");
-    const said = make("output", { "aria-live": "polite" });
-    form.append(text, familyLabel, answerLabel, withinLabel, said);
-    const apply = () => {
-      const count = filter(entry, { text: text.value, family: family.value, answer: answer.value, within: within.checked });
-      said.textContent = count + " of " + entry.rows.length;
-    };
-    form.addEventListener("submit", (event) => event.preventDefault());
-    form.addEventListener("input", apply);
-    form.hidden = false;
-    apply();
-  }
-
-  for (const table of document.querySelectorAll("table[data-table]")) {
-    const body = table.tBodies[0];
-    const entry = { table, body, rows: [...body.rows], heads: [...table.tHead.rows[0].cells], listeners: [] };
-    tables.set(table.dataset.table, entry);
-    addEventListener("resize", () => thaw(entry));
-    entry.heads.forEach((head, column) => {
-      const button = make("button", { type: "button" }, head.textContent);
-      head.replaceChildren(button);
-      button.addEventListener("click", () => sortBy(entry, column));
-    });
-  }
-  for (const form of document.querySelectorAll("form[data-filters]")) {
-    if (tables.has(form.dataset.filters)) addFilters(form, tables.get(form.dataset.filters));
-  }
+  const { tables, valueOf, make } = shadowbenchTables;
 
   // ---- what charts share ----
   if (typeof d3 === "undefined") return;
@@ -198,13 +91,69 @@
     figure.hidden = false;
     if (image) image.hidden = true;
     const width = Math.max(340, Math.min(1100, figure.clientWidth || 900));
-    const svg = d3.create("svg").attr("class", "plot").attr("viewBox", [0, 0, width, height]).attr("role", "img").attr("aria-label", image ? image.alt : "");
+    const svg = d3.create("svg").attr("class", "plot").attr("viewBox", [0, 0, width, height]).attr("role", "group")
+      .attr("aria-label", image ? image.alt : figure.querySelector("figcaption").textContent);
     figure.insertBefore(svg.node(), figure.querySelector("figcaption"));
     return { svg, width, height, left: 66, right: 18, top: 16, bottom: 46 };
   }
   function labels(area, x, y) {
     area.svg.append("text").attr("x", (area.left + area.width - area.right) / 2).attr("y", area.height - 8).attr("text-anchor", "middle").text(x);
     area.svg.append("text").attr("transform", "rotate(-90)").attr("x", -(area.top + area.height - area.bottom) / 2).attr("y", 15).attr("text-anchor", "middle").text(y);
+  }
+
+  // Calls `draw` once the figure comes near the window, and says how to have it drawn anew: a page of many charts opens at
+  // once, and one that was hidden is drawn as wide as it has become.
+  function whenSeen(figure, entry, draw) {
+    let seen = false;
+    const again = () => { if (seen) draw(); };
+    const first = () => {
+      if (seen) return;
+      seen = true;
+      draw();
+    };
+    figure.hidden = false;
+    new IntersectionObserver((places, observer) => {
+      if (!places.some((place) => place.isIntersecting)) return;
+      observer.disconnect();
+      first();
+    }, { rootMargin: "300px" }).observe(figure);
+    addEventListener("beforeprint", first);
+    addEventListener("resize", again);
+    entry.listeners.push(again);
+    return again;
+  }
+
+  // One stop of the tab key for all marks of a chart: arrows lead from mark to mark, Enter does what a click does, and the
+  // mark that has the focus is described and lit as one under the pointer. `marks`: {node, text, act, light(on or off)}, in
+  // their order; `light` may be missing.
+  function reachable(marks) {
+    const focus = (i) => {
+      const next = marks[Math.max(0, Math.min(marks.length - 1, i))];
+      for (const mark of marks) mark.node.setAttribute("tabindex", mark === next ? "0" : "-1");
+      next.node.focus();
+    };
+    const steps = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1, Home: -Infinity, End: Infinity };
+    marks.forEach((mark, i) => {
+      mark.node.setAttribute("tabindex", i === 0 ? "0" : "-1");
+      mark.node.setAttribute("role", "link");
+      mark.node.setAttribute("aria-label", mark.text.replaceAll("\n", ", "));
+      mark.node.addEventListener("focus", () => {
+        const box = mark.node.getBoundingClientRect();
+        say(mark.text, { clientX: box.right, clientY: box.bottom });
+        if (mark.light) mark.light(true);
+      });
+      mark.node.addEventListener("blur", () => {
+        hush();
+        if (mark.light) mark.light(false);
+      });
+      mark.node.addEventListener("keydown", (event) => {
+        if (event.key in steps) focus(i + steps[event.key]);
+        else if (event.key === "Enter") mark.act();
+        else if (event.key === "Escape") hush();
+        else return;
+        event.preventDefault();
+      });
+    });
   }
 
   // ---- accuracy against cost, or any two columns ----
@@ -255,19 +204,17 @@
         area.svg.append("text").attr("class", "name").attr("x", at.x).attr("y", at.y).text(nameOf(p.row).slice(0, 48));
       }
       const symbol = (p) => d3.symbol().size(75).type(p.row.dataset.baseline === "yes" ? d3.symbolSquare : d3.symbolCircle)();
-      area.svg.append("g").selectAll("a").data(points).join("path").attr("class", "dot").attr("d", symbol)
+      const described = (p) => `${nameOf(p.row)}\n${p.row.cells[0].title}\n${x.title} ${written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`;
+      const dots = area.svg.append("g").selectAll("a").data(points).join("path").attr("class", "dot").attr("d", symbol)
         .attr("transform", (p) => `translate(${sx.at(p.x)},${sy.at(p.y)})`).attr("stroke", (p) => colour(p.row))
         .attr("fill", (p) => (p.row.dataset.within === "yes" && p.row.dataset.baseline !== "yes" ? colour(p.row) : "transparent"))
-        .attr("tabindex", 0).attr("role", "link").attr("aria-label", (p) => `${nameOf(p.row)}, ${x.title} ${written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`)
-        .on("click", (p) => go(p.row)).on("keydown", (p) => { if (d3.event.key === "Enter") go(p.row); })
-        .on("mousemove", (p) => say(`${nameOf(p.row)}\n${p.row.cells[0].title}\n${x.title} ${written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`, d3.event))
-        .on("mouseout", hush);
+        .on("click", (p) => go(p.row)).on("mousemove", (p) => say(described(p), d3.event)).on("mouseout", hush);
+      reachable(dots.nodes().map((node, i) => ({ node, at: points[i].x, text: described(points[i]), act: () => go(points[i].row) }))
+        .sort((a, b) => a.at - b.at));
     }
-    across.addEventListener("input", draw);
-    up.addEventListener("input", draw);
-    entry.listeners.push(draw);
-    addEventListener("resize", draw);
-    draw();
+    const again = whenSeen(figure, entry, draw);
+    across.addEventListener("input", again);
+    up.addEventListener("input", again);
   }
 
   // ---- a curve a row over the columns that stand for numbers ----
@@ -297,7 +244,11 @@
       if (!Number.isNaN(limit)) area.svg.append("line").attr("class", "limit").attr("x1", area.left).attr("x2", area.width - area.right).attr("y1", sy.at(limit)).attr("y2", sy.at(limit));
       const line = d3.line().x((p) => sx.at(p.x)).y((p) => sy.at(p.y));
       const groups = area.svg.append("g").selectAll("g").data(curves).join("g");
-      groups.append("path").attr("class", "curve").attr("stroke", (c) => colour(c.row)).attr("d", (c) => line(c.points));
+      const drawn = groups.append("path").attr("class", "curve").attr("stroke", (c) => colour(c.row)).attr("d", (c) => line(c.points));
+      const described = (c) => nameOf(c.row) + "\n" + [c.points[0], c.points[c.points.length - 1]].map((p) => `${p.title}: ${written(p.y, unit)}`).join(" … ") +
+        (Number.isNaN(c.breaks) ? "" : `\nbreaks at ${c.breaks}`);
+      reachable(drawn.nodes().map((node, i) => ({ node, text: described(curves[i]), act: () => go(curves[i].row),
+        light: (on) => heat(on ? curves[i] : null) })));
       groups.filter((c) => !Number.isNaN(c.breaks)).append("path").attr("d", d3.symbol().type(d3.symbolCross).size(70))
         .attr("transform", (c) => { const p = c.points.find((q) => q.x === c.breaks) || c.points[0]; return `translate(${sx.at(p.x)},${sy.at(p.y)}) rotate(45)`; })
         .attr("fill", (c) => colour(c.row));
@@ -316,9 +267,7 @@
       groups.append("path").attr("d", (c) => line(c.points)).attr("fill", "none").attr("stroke", "transparent").attr("stroke-width", 9)
         .on("mousemove", (c) => { heat(c); say(nameOf(c.row), d3.event); }).on("mouseout", () => { heat(null); hush(); }).on("click", (c) => go(c.row)).lower();
     }
-    entry.listeners.push(draw);
-    addEventListener("resize", draw);
-    draw();
+    whenSeen(figure, entry, draw);
   }
 
   // ---- a bar a row, stacked by column ----
@@ -336,11 +285,13 @@
       const sx = d3.scaleLinear().domain([0, longest]).range([area.left, area.width - 64]);
       drawAxis(area.svg.append("g").attr("transform", `translate(0,${area.height - 40})`), { axis: sx }, "x", "1", area.height - 60);
       area.svg.append("text").attr("x", (area.left + area.width) / 2).attr("y", area.height - 6).attr("text-anchor", "middle").text((figure.dataset.unit || "") + " a frame");
+      const marks = [];
       rows.forEach(({ row, total }, i) => {
         const y = 24 + 17 * i;
         let from = 0;
         const text = area.svg.append("text").attr("x", area.left - 6).attr("y", y + 10).attr("text-anchor", "end").attr("font-size", 11).text(nameOf(row).slice(0, 34));
-        text.style("cursor", "pointer").on("click", () => point(row));
+        text.attr("class", "reach").on("click", () => point(row));
+        marks.push({ node: text.node(), text: `${nameOf(row)}\n${written(total)} ms`, act: () => point(row) });
         for (const c of columns) {
           const value = valueOf(row.cells[c.column]);
           if (!(value > 0)) continue;
@@ -351,6 +302,7 @@
         }
         area.svg.append("text").attr("x", sx(Math.min(total, longest)) + 5).attr("y", y + 10).attr("font-size", 11).text((total > longest ? "› " : "") + written(total));
       });
+      reachable(marks);
       let x = 8;
       for (const title of [...named, "other passes"]) {
         area.svg.append("rect").attr("x", x).attr("y", 4).attr("width", 11).attr("height", 11).attr("fill", colour(title));
@@ -358,9 +310,7 @@
         x += 30 + title.length * 6;
       }
     }
-    entry.listeners.push(draw);
-    addEventListener("resize", draw);
-    draw();
+    whenSeen(figure, entry, draw);
   }
 
   const kinds = { scatter, lines, bars };
