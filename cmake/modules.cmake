@@ -32,8 +32,20 @@ function(shadowbench_library target pch sources)
   endif()
   add_library(${target} STATIC ${plain})
   target_link_libraries(${target} PUBLIC shadowbench_options)
-  if(SHADOWBENCH_PRECOMPILE)
+  shadowbench_counted(${target} ${target} counted)
+  if(SHADOWBENCH_PRECOMPILE AND NOT counted)
     target_precompile_headers(${target} REUSE_FROM pch_${pch})
+  endif()
+endfunction()
+
+# Has `target` count what runs of its lines and branches where SHADOWBENCH_COVERAGE names `module`, a library; sets `counted`
+# to whether it does. Unoptimised, so that each branch of the source is one of the program.
+function(shadowbench_counted target module counted)
+  set(${counted} OFF PARENT_SCOPE)
+  if(module IN_LIST SHADOWBENCH_COVERAGE)
+    target_compile_options(${target} PRIVATE -O0 --coverage -fprofile-update=atomic)
+    target_link_options(${target} PUBLIC --coverage)
+    set(${counted} ON PARENT_SCOPE)
   endif()
 endfunction()
 

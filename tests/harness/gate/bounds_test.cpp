@@ -44,6 +44,15 @@ TEST(Bounds, AMissingMetricBreaksThem) {
     EXPECT_EQ(changes[0].changeClass, Class::Penumbra);
 }
 
+TEST(Bounds, ConcernNeitherSweepsNorWhatWasNotScored) {
+    const Bound leak = bound("sm-uniform", "leak", 0.01, true);
+    Record swept = scoredRecord(), failed = scoredRecord();
+    swept.sweep = SweepStep{"near-plane", "m", "sm-uniform", 1, {}};
+    failed.status = Status::Error;
+    EXPECT_TRUE(judgeBounds({swept, failed}, {leak}).empty());
+    EXPECT_EQ(judgeBounds({swept, failed, scoredRecord()}, {leak}).size(), 1U);
+}
+
 TEST(Bounds, ConcernTheirCellsOnly) {
     Record elsewhere = scoredRecord();
     elsewhere.scene = "trees";
@@ -95,6 +104,58 @@ TEST_F(WatchlistFile, NamesWhatIsWrongWithIt) {
     EXPECT_NE(complaint(good + "below = 1\n").find("reason"), std::string::npos);
     EXPECT_NE(complaint(good + "below = 1\nabove = 1\nreason = \"r\"\n").find("either"), std::string::npos);
     EXPECT_EQ(complaint(good + "below = 1\nreason = \"r\"\n"), "none");
+}
+
+TEST_F(WatchlistFile, NamesWhatNoListMayHold) {
+    const std::string watch = "scene = \"trees\"\ntechniques = [\"pcf\"]\nreason = \"r\"\n";
+    const std::vector<std::pair<std::string, std::string>> faults{
+        {"[[bounds]]\n" + watch, "bounds: unknown key (did you mean \"bound\"?)"},
+        {"[[scene]]\nscene = \"trees\"\ntechniques = []\nreason = \"r\"\n", "names no technique"},
+        {"[[scene]]\nscene = \"trees\"\ntechniques = [\"pcf\"]\nreason = \"\"\n", "is empty; say it in a few words"},
+        {"[[time]]\n" + watch + "except = [\"no-such\"]\n", "no-such"},
+        {"[[count]]\n" + watch + "limit = 2\n", "limit: unknown key"},
+        {"[[sweep]]\n" + watch, "axis"},
+        {"[[sweep]]\n" + watch + "axis = \"near-plan\"\n", "near-plane"},
+        {"[[sweep]]\n" + watch + "axis = \"near-plane\"\nvalues = [\"a\"]\n", "values"},
+        {"[[bound]]\n" + watch + "metric = \"leek\"\nbelow = 1\n", "leak"},
+        {"[[bound]]\n" + watch + "metric = \"leak\"\nbelow = -1\n", "below"},
+        {"[[anchor]]\ncommit = \"v1\"\nreason = \"r\"\n", "limit"},
+        {"[[anchor]]\ncommit = \"v1\"\nlimit = 0\nreason = \"r\"\n", "limit"},
+        {"[[time]\n", "bounds.toml"}};
+    for (const auto& [text, part] : faults) {
+        EXPECT_NE(complaint(text).find(part), std::string::npos) << text << complaint(text);
+        EXPECT_NE(complaint(text).find("bounds.toml:"), std::string::npos) << complaint(text);
+    }
+}
+
+TEST_F(WatchlistFile, KnowsTheScenesThatNobodyHas) {
+    const auto entry = [](const std::string& kind, const std::string& scene, const std::string& more = "") {
+        return "[[" + kind + "]]\nscene = \"" + scene + "\"\ntechniques = [\"pcf\"]\nreason = \"r\"\n" + more;
+    };
+    const Watchlist list =
+        read(entry("scene", "a") + entry("bound", "b", "metric = \"leak\"\nbelow = 1\n") +
+             entry("sweep", "c", "axis = \"near-plane\"\n") + entry("count", "d") + entry("time", "e") + entry("time", "a") +
+             entry("time", "trees") + entry("seeds", "seeds are measured where scenes are chosen"));
+    EXPECT_EQ(list.unknownScenes({"d"}), (std::vector<std::string>{"a", "b", "c", "e"}));
+    EXPECT_TRUE(list.unknownScenes({"a", "b", "c", "d", "e"}).empty());
+}
+
+TEST_F(WatchlistFile, SaysWhereChancePlaysAPart) {
+    const Watchlist list = read("[[seeds]]\nscene = \"trees\"\ntechniques = [\"sm-history\", \"vsm\"]\n"
+                                "except = [\"vsm\"]\nreason = \"r\"\n");
+    EXPECT_TRUE(list.isByChance("trees", "sm-history"));
+    EXPECT_FALSE(list.isByChance("trees", "sm-history:m=15")) << "a name stands for one variant";
+    EXPECT_FALSE(list.isByChance("trees", "vsm"));
+    EXPECT_FALSE(list.isByChance("simple", "sm-history"));
+}
+
+TEST(Watch, OfATechniqueStillToComeCoversNothing) {
+    const Watch watch{"trees", {"still-to-come", "sm-*", "pcf:kernel=7"}, {"sm-psm"}, "r"};
+    EXPECT_FALSE(watch.covers("still-to-come"));
+    EXPECT_EQ(watch.named(), std::vector<std::string>{"pcf:kernel=7"}) << "neither a glob nor what this build lacks";
+    EXPECT_TRUE(watch.covers("sm-uniform:map=512"));
+    EXPECT_TRUE(watch.excludes("sm-psm"));
+    EXPECT_FALSE(watch.covers("sm-psm"));
 }
 
 TEST_F(WatchlistFile, TheCommittedOneIsSound) {

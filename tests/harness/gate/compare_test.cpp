@@ -186,6 +186,59 @@ TEST(Compare, ABreakPointThatComesEarlierAlongItsAxisIsWorse) {
     EXPECT_EQ(verdict(0.1, {}), ExitCode::Pass);
 }
 
+TEST(Compare, SaysWhereACurveBreaksAndLeavesOutWhatIsNewOrHasOtherValues) {
+    const auto sentences = [](const std::vector<Record>& base, const std::vector<Record>& head) {
+        std::vector<std::string> said;
+        for (const Change& change : compare(base, head))
+            if (change.changeClass == Class::BreakPoint) said.push_back(change.sentence);
+        return said;
+    };
+    EXPECT_EQ(
+        sentences(sweepThatBreaksAt({}), sweepThatBreaksAt(0.1)),
+        std::vector<std::string>{"sm-psm on dueling-frusta along near-plane: it breaks at 0.1 m, before it does not break"});
+    EXPECT_TRUE(sentences({}, sweepThatBreaksAt(0.1)).empty()) << "new";
+    EXPECT_TRUE(sentences(sweepThatBreaksAt(0.1), {}).empty()) << "gone: its cells are";
+    std::vector<Record> fewer = sweepThatBreaksAt(0.1);
+    fewer.pop_back();
+    EXPECT_TRUE(sentences(fewer, sweepThatBreaksAt(0.1)).empty()) << "another range";
+    std::vector<Record> without = sweepThatBreaksAt(0.1);
+    for (Record& record : without) record.tolerances.clear();
+    ASSERT_EQ(sentences(without, sweepThatBreaksAt(0.1)).size(), 1U);
+    EXPECT_NE(sentences(without, sweepThatBreaksAt(0.1))[0].find("tolerance is mismatch ≤ 0.005 and was none"),
+              std::string::npos);
+}
+
+TEST(Compare, ANumberThatWas0ChangesByNoPercentage) {
+    Record base = hardRecord(), head = hardRecord();
+    base.values["accuracy.leak"] = 0;
+    const std::vector<Change> changes = worse(base, head);
+    ASSERT_EQ(changes.size(), 1U);
+    EXPECT_EQ(changes[0].sentence, "sm-history:base=lispsm on dueling-frusta: accuracy.leak 0 → 0.0004");
+}
+
+TEST(Compare, AStatusThatBecomesBetterOrWorseSaysWhy) {
+    const auto sentence = [](const Record& base, const Record& head) { return compare({base}, {head}).at(0).sentence; };
+    const Record failed = test::unscored(Status::Error, "the shader fails");
+    EXPECT_TRUE(sentence(hardRecord(), failed).ends_with("was scored and is error: the shader fails"));
+    EXPECT_TRUE(sentence(failed, hardRecord()).ends_with("was error and is scored"));
+    EXPECT_TRUE(compare({failed}, {failed}).empty()) << "nothing was scored";
+    EXPECT_EQ(compare({hardRecord()}, {test::expectedFailure()}).at(0).direction, Direction::Same) << "scored, too";
+}
+
+TEST(Compare, MeaninglessIsDecidedByProgramsAndByWhatIsInBoth) {
+    Record external = hardRecord(), unknown = hardRecord(), other = hardRecord();
+    external.technique = external.variant = "external:engine";
+    EXPECT_FALSE(whyMeaningless({external}, {external}, false)) << "its next version may be what is compared";
+    unknown.dirty = true;
+    unknown.program = "";
+    EXPECT_FALSE(whyMeaningless({unknown}, {unknown}, false)) << "two trees with changes";
+    other.commit = "decaf";
+    EXPECT_FALSE(whyMeaningless({hardRecord(), other}, {hardRecord(), other}, false)) << "joined from several";
+    EXPECT_TRUE(whyMeaningless({}, {hardRecord()}, false));
+    EXPECT_FALSE(sameProgram({unknown}, {unknown})) << "nobody knows";
+    EXPECT_FALSE(sameProgram({}, {}));
+}
+
 TEST(Verdict, JUnitNamesTheFailureAndEscapesWhatXmlWouldMistake) {
     Record base = hardRecord();
     base.variant = "sm<&\">";

@@ -42,6 +42,53 @@ TEST(GatePolicy, ALooserBoundIsListedAndAStricterOneIsNot) {
     EXPECT_EQ(sentencesOf(loosened(base, policyWith(except))).size(), 1U);
 }
 
+TEST(GatePolicy, ASweepOrAnAnchorThatAsksForLessIsListed) {
+    const Watch watch{"trees", {"pcf"}, {}, "a test"};
+    Policy base, head;
+    base.watchlist.sweeps = {{watch, "map", {512, 256}}};
+    base.watchlist.anchors = {{"v1", 2, "a test"}};
+    const auto listed = [&] { return sentencesOf(loosened(base, head)); };
+    head.watchlist = base.watchlist;
+    EXPECT_TRUE(listed().empty());
+    head.watchlist.anchors[0].limit = 1.5;
+    EXPECT_TRUE(listed().empty()) << "a stricter one";
+    head.watchlist.anchors[0].limit = 3;
+    EXPECT_EQ(listed(), std::vector<std::string>{"the base's [anchor] v1 is gone or looser here"});
+    head.watchlist.anchors = {{"v2", 1, "a test"}};
+    EXPECT_EQ(listed().size(), 1U) << "another commit";
+    head.watchlist = base.watchlist;
+    head.watchlist.sweeps[0].values = {512};
+    EXPECT_EQ(listed(), std::vector<std::string>{"the base's [sweep] pcf on trees over map is gone or looser here"});
+    head.watchlist.sweeps[0] = {watch, "near-plane", {512, 256}};
+    EXPECT_EQ(listed().size(), 1U);
+    head.watchlist.sweeps[0] = {{"simple", {"pcf"}, {}, "a test"}, "map", {512, 256}};
+    EXPECT_EQ(listed().size(), 1U) << "another scene";
+}
+
+TEST(GatePolicy, ABoundOnAnotherMetricOrSideKeepsNothing) {
+    const Policy base = policyWith(leakBelow(0.1));
+    Bound other = leakBelow(0.05);
+    other.metric = "mismatch";
+    EXPECT_EQ(sentencesOf(loosened(base, policyWith(other))).size(), 1U);
+    other = leakBelow(0.05);
+    other.below = false;
+    EXPECT_EQ(sentencesOf(loosened(base, policyWith(other))).size(), 1U);
+}
+
+TEST(GatePolicy, OfAnotherProfileLeavesOutWhatScenesExpectOfTheGates) {
+    const std::filesystem::path file = std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml";
+    EXPECT_LT(readPolicy(file, Profile::Standard).watchlist.bounds.size(),
+              readPolicy(file, Profile::Gate).watchlist.bounds.size());
+}
+
+TEST(GatePolicy, OfAProgramThatIsOlderThanAKindOfEntryHasNone) {
+    std::string json = toJson(Identity{"c0ffee", false, "9a55", policyWith(leakBelow(0.1))});
+    json.replace(json.find("\"anchor\""), 8, "\"a kind to come\"");
+    EXPECT_TRUE(identityFrom(json).policy.watchlist.anchors.empty());
+    EXPECT_EQ(identityFrom(json).policy.watchlist.bounds.size(), 1U);
+    EXPECT_THROW(identityFrom("no JSON"), BadInput);
+}
+
 TEST(GatePolicy, EveryKindOfEntryThatIsGoneIsListedAndJudgesOn) {
     Policy base = policyWith(leakBelow(0.1));
     const Watch watch{"trees", {"*"}, {}, "a test"};
@@ -127,6 +174,15 @@ TEST(GateAnchor, SmallChangesThatAddUpAreARegression) {
     EXPECT_GT(judged.compared, 10U);
 }
 
+TEST(GateAnchor, NeitherFiguresNorWhatIsNewOrGoneDrift) {
+    Record before = counted(1e6), now = counted(1e6), isNew = counted(1e6);
+    before.figures["tiles"] = 6;
+    now.figures["tiles"] = 60; // a figure has no better direction
+    now.values["accuracy.rmse"].reset();
+    isNew.variant = "pcf";
+    EXPECT_TRUE(judgeDrift({"v1", 4, ""}, {before}, {now, isNew}).changes.empty());
+}
+
 TEST(GateAnchor, WhatCannotBeComparedIsNotedOnce) {
     Record other = counted(1e6), another = counted(1e6);
     other.reference->key = another.reference->key = "other";
@@ -163,6 +219,30 @@ TEST(GateChoices, WhatCannotBeMadeTakesNoOtherPairWithIt) {
             for (std::size_t b = a + 1; b < row.size(); ++b) pairs.insert({a, row[a], b, row[b]});
     }
     EXPECT_EQ(pairs.size(), 3U * 2 - 1 + 3 * 3 + 2 * 3) << "all but the one that cannot be made";
+}
+
+TEST(GateChoices, OfARangeAreItsLeastAndItsDefault) {
+    const auto choices = [](const techniques::Domain& domain, const std::string& usual) {
+        techniques::Parameter parameter;
+        parameter.domain = domain;
+        parameter.defaultValue = usual;
+        return choicesOf(parameter);
+    };
+    using Words = std::vector<std::string>;
+    EXPECT_EQ(choices(techniques::OneOf{{"a", "b"}}, "b"), (Words{"a", "b"}));
+    EXPECT_EQ(choices(techniques::IntegerRange{1, 9}, "3"), (Words{"3", "1"}));
+    EXPECT_EQ(choices(techniques::IntegerRange{1, 9}, "1"), Words{"1"});
+    EXPECT_EQ(choices(techniques::RealRange{0.5, 9}, "3"), (Words{"3", "0.5"}));
+}
+
+TEST(GateChoices, OfATechniqueWithoutParametersIsItself) {
+    const techniques::Entry& none = *techniques::parseVariant("none").entry;
+    EXPECT_EQ(pairwiseVariants(none), std::vector<std::string>{"none"});
+}
+
+TEST(GateChoices, OfOneColumnThatGoTogetherWithNothingAreNone) {
+    EXPECT_TRUE(pairwiseRows({3}, [](const auto&) { return false; }).empty());
+    EXPECT_TRUE(pairwiseRows({2, 2}, [](const auto&) { return false; }).empty());
 }
 
 /// A technique that gets slower is seen only where its instructions are counted.

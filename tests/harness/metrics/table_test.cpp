@@ -57,6 +57,15 @@ TEST(Allowance, IsDescribedInWords) {
     EXPECT_EQ(describe(*metricAt("stability.convergence")->allowance), "1 + 5 %");
     EXPECT_EQ(describe(*metricAt("cost.work.draws")->allowance), "none");
     EXPECT_EQ(describe(*metricAt("accuracy.leak")->allowance), "2 shadowed pixels");
+    EXPECT_EQ(describe({.truth = TruthError::Rms, .pixels = 1}), "1 pixel or the truth's own error");
+}
+
+TEST(MetricsTable, EveryClassHasANameOfItsOwn) {
+    std::set<std::string_view> names;
+    for (int c = 0; c <= static_cast<int>(Class::Status); ++c) names.insert(name(static_cast<Class>(c)));
+    EXPECT_EQ(names.size(), static_cast<std::size_t>(Class::Status) + 1);
+    EXPECT_FALSE(names.contains(""));
+    EXPECT_EQ(name(Class::FalseShadow), "false shadow");
 }
 
 TEST(MetricsTable, EveryNumberIsJudgedOrSaysWhyNot) {

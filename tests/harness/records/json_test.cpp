@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -227,6 +228,76 @@ TEST(RecordJson, NamesTheKeyOfWhatIsWrong) {
     EXPECT_THROW(parseRecord("{"), BadInput);
     EXPECT_THROW(parseRecord("[]"), BadInput);
     EXPECT_THROW(parseRecord(""), BadInput);
+}
+
+TEST(RecordJson, RefusesAMemberOfAnotherTypeWhateverItHolds) {
+    const std::vector<std::pair<std::function<void(Json&)>, std::string>> changes{
+        {[](Json& j) { j["scene"] = 3; }, "\"scene\" is not text"},
+        {[](Json& j) { j["reason"] = true; }, "\"reason\" is not text"},
+        {[](Json& j) { j["dirty"] = "no"; }, "\"dirty\" is neither true nor false"},
+        {[](Json& j) { j["status"] = 1; }, "\"status\" is not"},
+        {[](Json& j) { j["width"] = 1; }, "\"width\" is unknown"},
+        {[](Json& j) { j.erase("size"); }, "\"size\" is missing"},
+        {[](Json& j) { j["size"] = 256; }, "\"size\" is not [width, height]"},
+        {[](Json& j) {
+             j["size"] = {256, "256"};
+         },
+         "\"size\" is not a whole number"},
+        {[](Json& j) {
+             j["size"] = {256, 3e9};
+         },
+         "\"size\" is not a whole number"},
+        {[](Json& j) {
+             j["size"] = {256, 3'000'000'000};
+         },
+         "\"size\" is not within"},
+        {[](Json& j) { j["frames"] = -3'000'000'000; }, "\"frames\" is not within"},
+        {[](Json& j) { j.erase("parameters"); }, "\"parameters\" is missing"},
+        {[](Json& j) { j["parameters"] = Json::array(); }, "\"parameters\" is not an object"},
+        {[](Json& j) { j["reference"] = "feed"; }, "\"reference\" is not an object"},
+        {[](Json& j) { j["reference"]["tools"] = "CGAL"; }, "\"reference.tools\" is not an object"},
+        {[](Json& j) { j["reference"]["tools"]["CGAL"] = 5.5; }, "\"reference.tools\" is not text"},
+        {[](Json& j) { j["stability"]["by_frame"]["mismatch"] = 0.1; }, "by_frame.mismatch\" is not a list"},
+        {[](Json& j) { j["stability"]["by_frame"]["mismatch"][1] = "0.1"; }, "by_frame.mismatch\" is not a number"},
+        {[](Json& j) { j["accuracy"] = 3; }, "\"accuracy\" is not an object"},
+        {[](Json& j) { j["cost"]["other_screen"]["by_pass"][0]["name"] = 3; }, "by_pass.name\" is not text"},
+        {[](Json& j) { j["environment"]["valgrind"] = 3.19; }, "\"environment.valgrind\" is not text"},
+        {[](Json& j) {
+             j["lod"] = {{"pop", "x"}};
+         },
+         "\"lod.pop\" is not a number"}};
+    for (const auto& [change, sentence] : changes)
+        EXPECT_TRUE(contains(complaint(change), sentence)) << sentence << " != " << complaint(change);
+}
+
+TEST(RecordJson, RefusesALevelOfDetailRecordThatWasNotScored) {
+    Json json = Json::parse(toJson(lodRecord()));
+    json["status"] = "error";
+    json["reason"] = "x";
+    EXPECT_THROW(parseRecord(json.dump()), BadInput);
+}
+
+TEST(RecordJson, NamesTheCellWhoseTextIsNotUtf8) {
+    Record record = hardRecord();
+    record.reason = "\xff";
+    try {
+        toJson(record);
+        FAIL() << "written";
+    } catch (const InternalError& error) {
+        EXPECT_TRUE(contains(error.what(), "sm-history:base=lispsm on dueling-frusta: a text is not UTF-8")) << error.what();
+    }
+}
+
+TEST(RecordJson, KeepsWhatAnotherRendererSaysOfItself) {
+    Record record = hardRecord();
+    record.technique = record.variant = "external:engine";
+    record.external = ExternalInfo{"Engine", "its page", ReportedCost{2.5, "a GPU"}};
+    const Record read = parseRecord(toJson(record));
+    EXPECT_TRUE(isExternal(read));
+    EXPECT_FALSE(isExternal(hardRecord()));
+    EXPECT_EQ(read.external->title, "Engine");
+    EXPECT_EQ(read.external->reported->milliseconds, 2.5);
+    EXPECT_EQ(toJson(read), toJson(record));
 }
 
 TEST_F(RecordsFile, ReadsBackWhatWasWritten) {
