@@ -1,10 +1,11 @@
-// glTF 2.0: writing a scene's scored frame, and reading the meshes back bit for bit.
+// glTF 2.0: writing a scene's scored frame, reading the meshes back bit for bit, and reading a scene.
 #pragma once
 
 #include "scene/exchange/parts.h"
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace shadowbench::exchange {
@@ -22,5 +23,18 @@ GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts);
 /// of 8, 16 or 32 bits, buffers in files beside it. A mesh that is something else is left out. Throws BadInput naming the
 /// file and what is wrong with it.
 std::map<std::string, Mesh> readGltfMeshes(const std::filesystem::path& file);
+
+/// What a .gltf says of a scene.
+struct SceneOfGltf {
+    std::string id; // that it was exported under, else the file's name
+    /// The scene file that the export has written beside it, if it is there: it holds what moves, too.
+    std::optional<std::filesystem::path> beside;
+    /// Else a scene file's text: the meshes where the nodes put them, the one camera and the one light, at rest. Of our own
+    /// exports camera and light are those of the extras, to the last digit; others have a point or directional light.
+    std::string toml;
+};
+
+/// Throws BadInput naming the file and what is wrong with it.
+SceneOfGltf sceneOfGltf(const std::filesystem::path& file);
 
 } // namespace shadowbench::exchange
