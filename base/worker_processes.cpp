@@ -205,4 +205,27 @@ private:
 
 void shareAmongProcesses(int workers, const SharedWork& work) { Sharing(work).all(workers); }
 
+void checkInOwnProcess(const std::function<void()>& check) {
+    std::optional<Error> failure;
+    SharedWork work;
+    work.items = 1;
+    work.work = [&check](std::size_t, const Progress&) -> std::string { // a letter for the code, and the sentence
+        const auto letter = [](ExitCode code) { return std::string(1, static_cast<char>(code)); };
+        try {
+            check();
+            return "";
+        } catch (const Error& error) {
+            return letter(error.code()) + error.what();
+        } catch (const std::exception& error) {
+            return letter(ExitCode::Internal) + error.what();
+        }
+    };
+    work.finished = [&failure](std::size_t, const std::string& answer) {
+        if (!answer.empty()) failure.emplace(static_cast<ExitCode>(answer.front()), answer.substr(1));
+    };
+    work.lost = [](std::size_t, const std::string& how) { throw InternalError("the process of a check " + how); };
+    shareAmongProcesses(1, work);
+    if (failure) throw Error(*failure);
+}
+
 } // namespace shadowbench

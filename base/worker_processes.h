@@ -33,4 +33,8 @@ struct SharedWork {
 /// started, and what `finished` and `lost` throw.
 void shareAmongProcesses(int workers, const SharedWork& work);
 
+/// Calls `check` in such a process and throws here what it throws, as an Error of the same code and sentence: for questions
+/// that take what this process must not have made before it forks. Throws InternalError when the process is lost.
+void checkInOwnProcess(const std::function<void()>& check);
+
 } // namespace shadowbench

@@ -91,22 +91,14 @@ private:
     /// its own, since drivers of graphics processors do not outlive a fork.
     void requireContext() const {
         if (gl::drawsWithOsMesa()) return;
-        std::string failure;
-        SharedWork work;
-        work.items = 1;
-        work.work = [this](std::size_t, const Progress&) {
-            try {
+        try {
+            checkInOwnProcess([this] {
                 const auto context = gl::Context::create();
                 if (options_.instructions) timing::requireCountable(context->info());
-                return std::string();
-            } catch (const Error& error) {
-                return std::string(error.what());
-            }
-        };
-        work.finished = [&](std::size_t, const std::string& answer) { failure = answer; };
-        work.lost = [&](std::size_t, const std::string& how) { failure = "the process that was to draw " + how; };
-        shareAmongProcesses(1, work);
-        if (!failure.empty()) throw Inconclusive(failure);
+            });
+        } catch (const Error& error) {
+            throw Inconclusive(error.what());
+        }
     }
 
     [[nodiscard]] std::size_t cellCount() const { return scenes_.size() * variants_.size(); }

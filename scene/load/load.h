@@ -10,9 +10,9 @@
 
 namespace shadowbench {
 
-/// Loads a built-in scene by id, a file by path, or an exported scene by its folder. `metrics` are the names that
-/// `[tolerance]` and `[expect]` may put bounds on; empty: any, for callers that do not read bounds. Errors (BadInput) name
-/// file, line and key, and near matches for an unknown id, key or metric.
+/// Loads a built-in scene by id, a file by path (TOML, or glTF 2.0), or an exported scene by its folder. `metrics` are the
+/// names that `[tolerance]` and `[expect]` may put bounds on; empty: any, for callers that do not read bounds. Errors
+/// (BadInput) name file, line and key, and near matches for an unknown id, key or metric.
 Scene loadScene(const std::string& idOrFile, Profile profile, const std::vector<std::string>& metrics = {});
 
 /// Parses TOML text; `file` is used for the id, for error messages and to resolve mesh files.

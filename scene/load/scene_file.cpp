@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/memory.h"
+#include "scene/exchange/gltf.h"
 #include "scene/load/load.h"
 #include "scene/load/memory_need.h"
 #include "scene/scene.h"
@@ -161,10 +162,10 @@ void requireNoProblem(const TomlValue& root, const Scene& scene) {
 /// An exported scene is named by its folder (docs/exchange.md); other names stay as they are.
 fs::path sceneFileOf(const fs::path& given) {
     std::error_code failed;
-    for (const char* other : {".gltf", ".glb", ".obj", ".ply", ".json"})
+    for (const char* other : {".glb", ".obj", ".ply", ".json"})
         if (given.extension() == other)
-            throw BadInput(fmt::format("cannot load {} as a scene; name a .toml file, whose meshes may come from it, or the "
-                                       "folder of an exported scene",
+            throw BadInput(fmt::format("cannot load {} as a scene; name a .toml file, whose meshes may come from it, a .gltf "
+                                       "file, or the folder of an exported scene",
                                        given.string()));
     if (!fs::is_directory(given, failed)) return given;
     if (!fs::exists(given / "scene.json", failed))
@@ -176,6 +177,15 @@ fs::path sceneFileOf(const fs::path& given) {
     if (files.size() == 1) return files.front();
     throw BadInput(fmt::format("{} has {} .toml files, where an exported scene has one; name a file", given.string(),
                                files.empty() ? "no" : "several"));
+}
+
+/// A .gltf, by the scene file that was exported with it or by itself.
+Scene sceneFromGltf(const fs::path& file, Profile profile, const std::vector<std::string>& metrics) {
+    const exchange::SceneOfGltf found = exchange::sceneOfGltf(file);
+    if (found.beside) return parseScene(readFile(*found.beside), *found.beside, profile, metrics);
+    Scene scene = parseScene(found.toml, file, profile, metrics);
+    scene.id = found.id;
+    return scene;
 }
 
 } // namespace
@@ -219,6 +229,7 @@ Scene loadScene(const std::string& idOrFile, Profile profile, const std::vector<
         return parseScene(builtinSceneText(idOrFile), "scene/library/" + idOrFile + ".toml", profile, metrics);
     const fs::path file = sceneFileOf(idOrFile);
     std::error_code ignored;
+    if (file.extension() == ".gltf") return sceneFromGltf(file, profile, metrics);
     if (file.extension() == ".toml" || file.has_parent_path() || fs::exists(file, ignored))
         return parseScene(readFile(file), file, profile, metrics);
     throw BadInput(fmt::format("unknown scene \"{}\"{}; known are {}, or the path of a .toml file", idOrFile,

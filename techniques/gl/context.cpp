@@ -2,11 +2,13 @@
 
 #include "base/error.h"
 #include "techniques/gl/api.h"
+#include "techniques/gl/contexts_made.h"
 #include "techniques/gl/functions.h"
 #include "techniques/gl/make_context.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <string_view>
 
@@ -22,6 +24,8 @@ struct Living {
     Platform platform = Platform::Auto;
 };
 thread_local Living living;
+
+std::atomic<int> made = 0;
 
 } // namespace
 
@@ -94,8 +98,11 @@ Context::Context(Platform platform, const ContextOptions& options)
         throw InternalError("a context of " + std::string(name(platform)) + " was asked for beside one of " +
                             std::string(name(living.platform)));
     ++living.contexts;
+    ++made;
     living.platform = platform;
 }
+
+int contextsMade() { return made; }
 
 Context::~Context() { --living.contexts; }
 

@@ -135,5 +135,20 @@ TEST(WorkerProcesses, LeaveAfterTheirLastItem) {
     EXPECT_TRUE(outcome.lost.empty());
 }
 
+TEST(CheckInOwnProcess, ThrowsHereWhatItThrewThere) {
+    int here = 0;
+    checkInOwnProcess([&here] { here = 1; });
+    EXPECT_EQ(here, 0);
+    try {
+        checkInOwnProcess([] { throw Inconclusive("nothing draws"); });
+        FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::Inconclusive);
+        EXPECT_STREQ(error.what(), "nothing draws");
+    }
+    EXPECT_THROW(checkInOwnProcess([] { throw std::runtime_error("no memory"); }), Error);
+    EXPECT_THROW(checkInOwnProcess([] { raise(SIGKILL); }), InternalError);
+}
+
 } // namespace
 } // namespace shadowbench

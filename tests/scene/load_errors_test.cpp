@@ -267,7 +267,8 @@ TEST(LoaderErrors, AnUnknownIdNamesTheNearestSceneAndAll) {
 
 TEST(LoaderErrors, AMissingFileAndAFolderAreNamed) {
     for (const auto& [file, reason] : {std::pair{"/nowhere/x.toml", "No such file"}, std::pair{"/tmp", "it is a folder"},
-                                       std::pair{"exported/scene.gltf", "folder of an exported scene"}}) {
+                                       std::pair{"/nowhere/scene.gltf", "No such file"},
+                                       std::pair{"exported/scene.glb", "folder of an exported scene"}}) {
         try {
             loadScene(file, Profile::Gate);
             ADD_FAILURE() << file << " loaded";

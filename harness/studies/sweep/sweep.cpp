@@ -54,12 +54,14 @@ public:
           values_(options.values.empty() ? axis_.valuesFor(scene_) : options.values),
           cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache),
           curves_(variants_.size(), std::vector<Record>(values_.size())) {
-        const auto context = gl::Context::create(); // until what follows is known: workers make their own
-        for (const double value : values_) {
+        for (const double value : values_)
             if (axis_.whole && value != std::floor(value))
                 throw BadInput(fmt::format("axis {} takes whole numbers; {:g} is none", axis_.id, value));
-            requireTakenBySome(value);
-        }
+        // Not in this process, which forks: drivers of graphics processors do not outlive that.
+        checkInOwnProcess([this] {
+            const auto context = contextOfRun(cache_.folder(), false);
+            for (const double value : values_) requireTakenBySome(value);
+        });
     }
 
     SweepResult all() {
