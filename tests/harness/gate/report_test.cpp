@@ -59,7 +59,7 @@ TEST(GateReport, NamesEachCommandOnceHoweverMuchOfItsCellIsWorse) {
 
 TEST(GateReport, ShowsThePicturesThatThereAre) {
     GateResult result = resultOf({worse("trees", "pcf")});
-    result.pictures = {{"trees", "pcf", "out/head", ""}, {"trees", "vsm", "out/head", "out/base"}};
+    result.pictures = {{"trees", "pcf", "out/head", "", {}, {}}, {"trees", "vsm", "out/head", "out/base", {}, {}}};
     const std::string text = gateReport(result, optionsOf(), "text"), page = gateReport(result, optionsOf(), "md");
     EXPECT_TRUE(contains(text, "  pcf on trees: out/head/{visibility,reference,error}.png\n")) << text;
     EXPECT_TRUE(contains(text, "error}.png out/base/{visibility"));
