@@ -1,6 +1,7 @@
 #include "harness/foreign/recognition.h"
 
 #include "harness/foreign/foreign_image.h"
+#include "harness/foreign/shadow_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,14 +94,14 @@ Image<std::uint8_t> inner(const Image<std::uint8_t>& scored) {
     return result;
 }
 
-Losses lossesWith(const Compared& compared, const Image<std::uint8_t>& pixels, int dx, int dy) {
+Losses lossesWith(const Compared& compared, const Image<std::uint8_t>& pixels, glm::ivec2 by) {
     Losses losses(squares * squares);
     const int width = compared.v.width(), height = compared.v.height();
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             if (pixels(x, y) == 0) continue;
             const auto square = static_cast<std::size_t>(y * squares / height * squares + x * squares / width);
-            losses[square] += loss(compared.v(x + dx, y + dy), compared.truth(x, y), compared.labels);
+            losses[square] += loss(compared.v(x + by.x, y + by.y), compared.truth(x, y), compared.labels);
         }
     return losses;
 }
@@ -124,6 +125,35 @@ Votes votes(const Losses& before, const Losses& after, bool labels) {
         if (after[i] > before[i]) ++result.worse;
     }
     return result;
+}
+
+/// An image moved back.
+struct Moved {
+    glm::ivec2 by{0, 0};
+    Losses losses;
+};
+
+/// By as many whole pixels as leave the least; by none where none is better.
+Moved bestMoved(const Compared& compared, const Image<std::uint8_t>& pixels, const Losses& before) {
+    Moved best{{0, 0}, before};
+    for (int y = -farthest; y <= farthest; ++y)
+        for (int x = -farthest; x <= farthest; ++x) {
+            Losses losses = lossesWith(compared, pixels, {x, y});
+            if (sumOf(losses) < sumOf(best.losses)) best = {{x, y}, std::move(losses)};
+        }
+    return best;
+}
+
+Finding shiftFinding(const Compared& compared, const Image<std::uint8_t>& pixels, const Losses& before, const Moved& moved,
+                     bool certain) {
+    const auto count = static_cast<double>(std::ranges::count(pixels, std::uint8_t{1}));
+    const double was = asError(sumOf(before) / count, compared.labels);
+    const double is = asError(sumOf(moved.losses) / count, compared.labels);
+    const Votes found = votes(before, moved.losses, compared.labels);
+    return {fmt::format("looks shifted by ({}, {}) pixels: {} when moved back, in {} of {} parts of the image with shadow "
+                        "edges",
+                        moved.by.x, moved.by.y, fall(was, is, compared.labels), found.better, found.better + found.worse),
+            certain};
 }
 
 /// The grey scored pixels: how bright they are on average, and should be.
@@ -155,7 +185,9 @@ std::optional<Finding> misencodedLabels(const Compared& compared, float (*undo)(
     const double was = before.v - before.truth, is = after.v - after.truth;
     const double chance = 0.29 / std::sqrt(static_cast<double>(before.count)); // of ramps whose centres are lit or not
     const double notable = std::max(least, 3 * chance);
-    if (before.count < enough || std::abs(was) < notable || std::abs(is) > std::abs(was) / 3) return {};
+    const bool seems = compared.frame != nullptr ? isSure(encodingEvidence(*compared.frame, undo))
+                                                 : std::abs(was) >= notable && std::abs(is) <= std::abs(was) / 3;
+    if (before.count < enough || !seems) return {};
     return Finding{fmt::format("looks {}: its grey pixels are {:.2g} too {} on average, and {:.2g} when that is undone; {}",
                                looks, std::abs(was), was > 0 ? "bright" : "dark", std::abs(is), remedy),
                    false};
@@ -214,27 +246,20 @@ std::optional<Finding> turned(const Compared& compared) {
 
 std::optional<Finding> shifted(const Compared& compared) {
     const Image<std::uint8_t> pixels = inner(compared.scored);
-    const auto count = static_cast<double>(std::ranges::count(pixels, std::uint8_t{1}));
-    const Losses before = lossesWith(compared, pixels, 0, 0);
-    Losses best = before;
-    std::pair<int, int> by{0, 0};
-    for (int dy = -farthest; dy <= farthest; ++dy)
-        for (int dx = -farthest; dx <= farthest; ++dx) {
-            Losses losses = lossesWith(compared, pixels, dx, dy);
-            if (sumOf(losses) >= sumOf(best)) continue;
-            best = std::move(losses);
-            by = {dx, dy};
-        }
-    if (by == std::pair(0, 0)) return {};
-    const Votes found = votes(before, best, compared.labels);
-    const double share = sumOf(best) / sumOf(before);
+    const Losses before = lossesWith(compared, pixels, {0, 0});
+    ShiftEvidence evidence;
+    if (compared.frame != nullptr) {
+        evidence = shiftEvidence(*compared.frame, compared.labels);
+        const Moved moved{evidence.by, lossesWith(compared, pixels, evidence.by)};
+        if (isSure(evidence) && sumOf(moved.losses) < sumOf(before))
+            return shiftFinding(compared, pixels, before, moved, true);
+    }
+    const Moved best = bestMoved(compared, pixels, before);
+    const Votes found = votes(before, best.losses, compared.labels);
+    const double share = sumOf(best.losses) / sumOf(before);
     if (found.better < enoughAre || found.worse > found.better / 2 || share > 0.85) return {};
-    const double was = asError(sumOf(before) / count, compared.labels), is = asError(sumOf(best) / count, compared.labels);
-    return Finding{fmt::format("looks shifted by ({}, {}) pixels: {} when moved back, in {} of {} parts of the image with "
-                               "shadow edges",
-                               by.first, by.second, fall(was, is, compared.labels), found.better,
-                               found.better + found.worse),
-                   found.worse <= found.better / 5 && share <= 0.65};
+    const bool agree = compared.frame == nullptr || evidence.by == best.by;
+    return shiftFinding(compared, pixels, before, best, agree && found.worse <= found.better / 5 && share <= 0.65);
 }
 
 std::optional<Finding> misencoded(const Compared& compared, Encoding encoding) {

@@ -3,6 +3,7 @@
 
 #include "base/image.h"
 #include "harness/foreign/foreign_row.h"
+#include "harness/metrics/frames.h"
 
 #include <cstdint>
 #include <optional>
@@ -17,6 +18,7 @@ struct Compared {
     const Image<float>& truth;
     const Image<std::uint8_t>& scored; // 1 at receivers
     bool labels = false;               // the truth is 0 or 1: errors are shares of wrong labels, else root mean squares
+    const metrics::ScoredFrame* frame = nullptr; // with surfaces and, of labels, distances from edges; null: unknown
 };
 
 /// Share of the scored pixels with the wrong label (lit: ≥ ½), or the root mean square of V − V*. 0 without such pixels.
@@ -34,13 +36,16 @@ std::optional<Finding> uniform(const Compared& compared);
 /// Flipped about either axis or both, rows and columns swapped, or 1 − V. Certain where undoing it halves the error.
 std::optional<Finding> turned(const Compared& compared);
 
-/// Shifted by up to two whole pixels each way. Judged in squares of the image apart: a shift makes all of them better when
-/// it is undone, a shadow map's errors some better and some worse.
+/// Shifted by up to two whole pixels each way. Certain where the whole frame is known and leaves no doubt
+/// (harness/foreign/shadow_edges.h), and where undoing it takes a third of the error, of nearly all squares of the image,
+/// and the frame does not say otherwise: a shift makes all squares better when it is undone, a shadow map's errors some
+/// better and some worse.
 std::optional<Finding> shifted(const Compared& compared);
 
 /// sRGB-encoded though taken for linear, or linear though decoded. Certain for graded truths where undoing it halves the
-/// error. Where the truth has labels the grey pixels must be too bright (too dark) on average and come right by it:
-/// suspected.
+/// error. Where the truth has labels it is suspected: where edges become straight or their grey pixels right everywhere
+/// (harness/foreign/shadow_edges.h), or, without the whole frame, where the grey pixels are too bright (too dark) on average
+/// and come right by it.
 std::optional<Finding> misencoded(const Compared& compared, Encoding encoding);
 
 /// Brightest receivers well below 1 though much is fully lit: a shaded picture. Suspected.

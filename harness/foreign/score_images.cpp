@@ -134,8 +134,10 @@ private:
         for (const FrameFiles& other : row_.frames)
             if (other.frame != files.frame)
                 others.push_back({other.frame, frames_.truths().at(truth_, other.frame).visibility});
-        for (const Finding& finding :
-             oddities({v, frames_.truth(truth_).visibility, mask.scored, labels}, row_.encoding, others)) {
+        const groundtruth::Reference& truth = frames_.truth(truth_);
+        const metrics::ScoredFrame frame{v, truth, mask};
+        const Compared compared{v, truth.visibility, mask.scored, labels, &frame};
+        for (const Finding& finding : oddities(compared, row_.encoding, others)) {
             const std::string sentence =
                 fmt::format("image {} (frame {}) {}", files.image.string(), files.frame, finding.sentence);
             if (finding.certain && !row_.asItIs)

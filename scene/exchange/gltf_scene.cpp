@@ -87,7 +87,8 @@ glm::dmat4 localOf(const Json& node) {
         return matrix;
     }
     const Json& turn = listIn(node, "rotation"); // x, y, z, w
-    const glm::dquat rotation = turn.empty() ? glm::dquat(1, 0, 0, 0) : glm::dquat(turn.at(3), turn.at(0), turn.at(1), turn.at(2));
+    const glm::dquat rotation =
+        turn.empty() ? glm::dquat(1, 0, 0, 0) : glm::dquat(turn.at(3), turn.at(0), turn.at(1), turn.at(2));
     const glm::dvec3 scale = vectorOr(node, "scale", glm::dvec3(1));
     matrix = glm::mat4_cast(rotation);
     for (int axis = 0; axis < 3; ++axis) matrix[axis] *= scale[axis];
@@ -185,8 +186,7 @@ private:
             primitive.contains("material") ? entry(listIn(gltf_, "materials"), "materials", primitive["material"]) : none;
         // Only our exporter promises that what is seen from outside alone is closed.
         const bool closed = !ours(gltf_["asset"]).empty() && !material.value("doubleSided", false);
-        const glm::dvec3 colour =
-            vectorOr(member(material, "pbrMetallicRoughness"), "baseColorFactor", glm::dvec3(0.8));
+        const glm::dvec3 colour = vectorOr(member(material, "pbrMetallicRoughness"), "baseColorFactor", glm::dvec3(0.8));
         return toml::table{{"name", name},
                            {"colour", listOf(colour)},
                            {"mesh", toml::table{{"file", file_.filename().string()}, {"part", name}, {"closed", closed}}},

@@ -164,9 +164,10 @@ fs::path sceneFileOf(const fs::path& given) {
     std::error_code failed;
     for (const char* other : {".glb", ".obj", ".ply", ".json"})
         if (given.extension() == other)
-            throw BadInput(fmt::format("cannot load {} as a scene; name a .toml file, whose meshes may come from it, a .gltf "
-                                       "file, or the folder of an exported scene",
-                                       given.string()));
+            throw BadInput(
+                fmt::format("cannot load {} as a scene; name a .toml file, whose meshes may come from it, a .gltf "
+                            "file, or the folder of an exported scene",
+                            given.string()));
     if (!fs::is_directory(given, failed)) return given;
     if (!fs::exists(given / "scene.json", failed))
         throw BadInput(

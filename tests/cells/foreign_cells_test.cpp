@@ -116,6 +116,20 @@ TEST(ForeignCells, SoftImagesAndHardOnesUnderAnAreaLightScoreAsTheCellsDid) {
     expectSameBothWays(underArea(), "sm-uniform", Means::Hard);
 }
 
+TEST(ForeignCells, EachMeaningIsScoredAgainstItsOwnTruth) {
+    BothWays& scene = underArea();
+    scene.own("sm-uniform");
+    const std::pair<Means, Truth> pairs[] = {{Means::Irradiance, Truth::Irradiance}, {Means::SolidAngle, Truth::SolidAngle}};
+    for (const auto& [shown, truth] : pairs) {
+        scene.images().begin()->second = scene.cells().truths().at(truth, 2).visibility;
+        for (const auto& [means, other] : pairs) {
+            const Record record = scene.scored(scene.row(means, false));
+            EXPECT_EQ(record.reference->oracle, name(other));
+            EXPECT_EQ(*record.values["accuracy.rmse"] == 0, means == shown) << name(means) << " of " << name(shown);
+        }
+    }
+}
+
 TEST(ForeignCells, OneFrameIsEnoughForAccuracy) {
     const Record own = underPoint().own("pcf");
     const Record foreign = underPoint().scored(underPoint().row(Means::Hard, false));

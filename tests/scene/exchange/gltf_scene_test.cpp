@@ -31,7 +31,8 @@ TEST_P(GltfOfAScene, AloneHasTheScoredFramesTruth) {
     const Scene alone = loadScene((folder.path() / "scene.gltf").string(), Profile::Gate);
     EXPECT_EQ(alone.id, scene.id);
     EXPECT_EQ(alone.size, scene.size);
-    const Snapshot before = snapshot(scene, scoredFrames(scene).front()), after = snapshot(alone, scoredFrames(alone).front());
+    const Snapshot before = snapshot(scene, scoredFrames(scene).front()),
+                   after = snapshot(alone, scoredFrames(alone).front());
     EXPECT_EQ(after.camera, before.camera);
     EXPECT_EQ(after.light.kind, before.light.kind);
     EXPECT_EQ(after.light.centre, before.light.centre);
@@ -132,12 +133,24 @@ TEST_F(ForeignGltf, WhatIsNoSceneIsNamed) {
     const Json whole = gltf;
     const std::pair<std::function<void(Json&)>, std::string> faults[] = {
         {[](Json& g) { g["asset"]["version"] = "1.0"; }, "no glTF 2.0"},
-        {[](Json& g) { g["scenes"][0]["nodes"] = {0, 3}; }, "hold 0 of kind camera"},
-        {[](Json& g) { g["scenes"][0]["nodes"] = {0, 1}; }, "hold 0 of kind light"},
-        {[](Json& g) { g["scenes"][0]["nodes"] = {1, 3}; }, "no node of it shows a mesh"},
+        {[](Json& g) {
+             g["scenes"][0]["nodes"] = {0, 3};
+         },
+         "hold 0 of kind camera"},
+        {[](Json& g) {
+             g["scenes"][0]["nodes"] = {0, 1};
+         },
+         "hold 0 of kind light"},
+        {[](Json& g) {
+             g["scenes"][0]["nodes"] = {1, 3};
+         },
+         "no node of it shows a mesh"},
         {[](Json& g) { g["nodes"][2]["children"] = {1}; }, "are no tree"},
         {[](Json& g) { g["nodes"][0]["mesh"] = 7; }, "no meshes[7]"},
-        {[](Json& g) { g["nodes"][0]["scale"] = {1, 2, 1}; }, "stretches or shears"},
+        {[](Json& g) {
+             g["nodes"][0]["scale"] = {1, 2, 1};
+         },
+         "stretches or shears"},
         {[](Json& g) { g["meshes"][0].erase("name"); }, "meshes[0] has no name"},
         {[](Json& g) { g["cameras"][0]["perspective"].erase("zfar"); }, "has no zfar"},
         {[](Json& g) { g["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = "spot"; }, "of type spot"},
