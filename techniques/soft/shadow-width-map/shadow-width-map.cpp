@@ -18,6 +18,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <string>
 #include <utility>
 
 namespace shadowbench::techniques {
@@ -80,6 +82,11 @@ public:
     }
 
 private:
+    static gl::Program growing(int x, int y) {
+        return gl::Program::screen("soft/shadow-width-map/grow.frag",
+                                   {{"STEP_X", std::to_string(x)}, {"STEP_Y", std::to_string(y)}});
+    }
+
     /// The width of an occluder's texel that lies at its outline: half a texel.
     void drawOccluders(const Frame& frame) {
         const auto pass = frame.pass("occluder map");
@@ -95,10 +102,11 @@ private:
         const auto pass = frame.pass("shadow width map");
         int done = 0;
         for (const glm::ivec2& step : passes_.steps) {
-            grow_.set("widths", widths_[0]).set("stepX", step.x).set("stepY", step.y).set("done", done++);
+            gl::Program& grow = grow_.at(static_cast<std::size_t>(step.x + 2 * step.y - 1)); // a step goes somewhere
+            grow.set("widths", widths_[0]).set("done", done++);
             const gl::RenderTarget target({&widths_[1]});
             target.bind();
-            grow_.drawScreen();
+            grow.drawScreen();
             std::swap(widths_[0], widths_[1]);
         }
     }
@@ -108,7 +116,7 @@ private:
     WidthPasses passes_;
     std::array<gl::Texture, 2> widths_;
     gl::Program occluders_{"shared/maps/depth_map.vert", "soft/shadow-width-map/occluder.frag"};
-    gl::Program grow_ = gl::Program::screen("soft/shadow-width-map/grow.frag");
+    std::array<gl::Program, 3> grow_{growing(1, 0), growing(0, 1), growing(1, 1)}; // by texels along x and y
     gl::Program resolve_ = gl::Program::screen("soft/shadow-width-map/shadow-width-map.frag");
 };
 
