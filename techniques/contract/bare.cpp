@@ -1,5 +1,8 @@
 #include "techniques/contract/bare.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace shadowbench::techniques {
 
 std::uint64_t BarePass::tapsRead() const {
@@ -23,6 +26,22 @@ BarePass bareLookup(std::string_view pass, std::string source, glm::ivec2 imageS
             .size = imageSize,
             .targets = {gl::Format::R32F},
             .taps = std::move(taps)};
+}
+
+std::vector<BarePass> bareLookup(std::string_view pass, const std::string& source, glm::ivec2 imageSize,
+                                 std::vector<Taps> taps, const Branch& branch) {
+    constexpr std::uint64_t block = 4; // rasterisers shade blocks of pixels: none lies on both sides
+    const int rows = static_cast<int>(branch.pixels / (block * static_cast<std::uint64_t>(imageSize.x)) * block);
+    std::vector<BarePass> parts(2, bareLookup(pass, source, imageSize, std::move(taps)));
+    parts[0].size.y = rows;
+    parts[0].taps.insert(parts[0].taps.end(), branch.taps.begin(), branch.taps.end());
+    parts[1].size.y -= rows;
+    std::erase_if(parts, [](const BarePass& part) { return part.size.y == 0; });
+    return parts;
+}
+
+void append(std::vector<BarePass>& passes, std::vector<BarePass> more) {
+    std::ranges::move(more, std::back_inserter(passes));
 }
 
 } // namespace shadowbench::techniques

@@ -48,7 +48,7 @@ struct BarePass {
     std::string_view pass;           // the technique's of which it is the least, or part of the least
     std::string source;              // what asks for it: section, equation
     glm::ivec2 size;                 // of the target
-    std::vector<gl::Format> targets; // one or two; depth comes last
+    std::vector<gl::Format> targets; // up to eight of colour, and one of depth at their end
     std::vector<Casters> casters = {};
     std::vector<Taps> taps = {};
     /// Draws geometry that is the technique's own, in place of all of the above: what the source asks for is the geometry,
@@ -64,5 +64,19 @@ BarePass bareDepthMap(std::string source, int side, const glm::dmat4& clipFromWo
 
 /// A pass over the image whose pixels read their G-buffer position and `taps`, and write visibility.
 BarePass bareLookup(std::string_view pass, std::string source, glm::ivec2 imageSize, std::vector<Taps> taps);
+
+/// A step of a lookup that only some pixels take.
+struct Branch {
+    std::uint64_t pixels; // depends on the scene: counted as the source decides
+    std::vector<Taps> taps;
+};
+
+/// The same of which some pixels read the branch's taps, too: a pass over as many, rounded down to four rows of the image,
+/// and one over the others.
+std::vector<BarePass> bareLookup(std::string_view pass, const std::string& source, glm::ivec2 imageSize,
+                                 std::vector<Taps> taps, const Branch& branch);
+
+/// Appends `more` to `passes`.
+void append(std::vector<BarePass>& passes, std::vector<BarePass> more);
 
 } // namespace shadowbench::techniques

@@ -37,6 +37,13 @@ struct Frame {
     [[nodiscard]] double aspect() const { return static_cast<double>(size.x) / size.y; }
     [[nodiscard]] bool cameraMoved() const { return clipFromWorld != previousClipFromWorld; }
 
+    /// The same frame, of whose passes nobody learns: for what draws a part of it again (BarePass::own).
+    [[nodiscard]] Frame withoutListener() const {
+        Frame frame = *this;
+        frame.passes = nullptr;
+        return frame;
+    }
+
     /// Begins a pass, which ends with what is returned: `const auto pass = frame.pass("blur");`.
     [[nodiscard]] Pass pass(std::string_view name) const { return {name, passes}; }
 };

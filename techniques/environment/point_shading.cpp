@@ -3,6 +3,7 @@
 #include "techniques/gl/api.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/vec3.hpp>
 
 namespace shadowbench::techniques {
@@ -61,6 +62,19 @@ void PointShading::setDotProducts(const gl::Buffer& transfer, std::size_t vector
         .set("coefficients", static_cast<int>(coefficients))
         .set("first", static_cast<int>(first));
     dotProducts_.dispatch(vectors);
+}
+
+std::vector<BarePass> PointShading::bare(const Frame& frame, std::size_t terms) const {
+    constexpr int width = 256; // any will do
+    const int rows = std::max(1, static_cast<int>(vectors()) / width), side = static_cast<int>(std::sqrt(terms));
+    const Taps transfer{gl::Format::R32F, glm::ivec2(side), Read::Nearest, static_cast<int>(terms / vectors())};
+    return {{.pass = "dot products",
+             .source = "course, Precomputed Radiance Transfer: light and transfer vectors",
+             .size = {width, rows},
+             .targets = {gl::Format::R32F},
+             .taps = {transfer}},
+            bareLookup("lookup", "interpolated between three points", frame.size,
+                       {{gl::Format::R32F, {width, rows}, Read::Nearest, 3}})};
 }
 
 void PointShading::lookUp(const Frame& frame, const gl::Texture& visibility) {

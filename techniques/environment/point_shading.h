@@ -33,6 +33,9 @@ public:
     /// Where the numbers are, as a storage block of 32-bit floats, for other programs that set them.
     [[nodiscard]] const gl::Buffer& irradiance() const { return irradiance_; }
 
+    /// The least of a frame: as the pass "dot products" all numbers, from `terms` terms in all, and the pass "lookup".
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame, std::size_t terms) const;
+
     /// Writes E / E₀, clamped to [0, 1], at every pixel of the G-buffer, as the pass "lookup".
     void lookUp(const Frame& frame, const gl::Texture& visibility);
 

@@ -99,17 +99,10 @@ std::vector<gl::Texture> rowTextures(const Basis& basis, glm::ivec2 size) {
     return rows;
 }
 
-gl::RenderTarget targetOf(const std::vector<gl::Texture>& t) {
-    switch (t.size()) {
-    case 8:
-        return gl::RenderTarget{t.data(), &t[1], &t[2], &t[3], &t[4], &t[5], &t[6], &t[7]};
-    case 4:
-        return gl::RenderTarget{t.data(), &t[1], &t[2], &t[3]};
-    case 2:
-        return gl::RenderTarget{t.data(), &t[1]};
-    default:
-        return gl::RenderTarget{t.data()};
-    }
+gl::RenderTarget targetOf(const std::vector<gl::Texture>& textures) {
+    std::vector<const gl::Texture*> attachments;
+    for (const gl::Texture& texture : textures) attachments.push_back(&texture);
+    return gl::RenderTarget(attachments);
 }
 
 /// From clip space to pixels.
@@ -180,6 +173,39 @@ void PrefilteredMap::blurColumns(const gl::Texture& rows, int layer) {
     glBindImageTexture(0, filtered_.id(), 0, GL_FALSE, layer, GL_WRITE_ONLY, imageFormat(format_).internal);
     const std::size_t runs = (static_cast<std::size_t>(rows.size().y) + run - 1) / run;
     means_.dispatch(static_cast<std::size_t>(rows.size().x) * runs);
+}
+
+std::vector<BarePass> PrefilteredMap::bare(const Frame& frame, const std::string& stored, int read) const {
+    const gl::Texture& rows = rows_.front();
+    const std::vector<gl::Format> ofRows(rows_.size(), rows.format()), ofMeans(rows_.size(), format_);
+    const int depths = 4 / numbersOf(format_) * (1 << (2 * box_.level)); // that a texel of the rows is made of
+    const Taps everyDepth{gl::Format::Depth32F, glm::ivec2(depth_.side()), Read::Nearest, depths};
+    const std::vector<Taps> everyRow(rows_.size(), {rows.format(), rows.size(), Read::Pixel});
+    const std::vector<Taps> finerLevel(rows_.size(), {format_, filtered_.size(), Read::Linear});
+    const glm::ivec2 third = glm::max(filtered_.size() * glm::ivec2(3, 4) / 6, 1); // ¼ + 1/16 + … of the texels
+
+    std::vector<BarePass> passes{bareDepthMap("course, Shadow Mapping", depth_.side(), light_.clipFromWorld)};
+    for (int first = 0; first < filtered_.layers(); first += static_cast<int>(rows_.size())) {
+        passes.push_back({.pass = "blur",
+                          .source = stored + "; a separable box, along rows: each depth once",
+                          .size = rows.size(),
+                          .targets = ofRows,
+                          .taps = {everyDepth}});
+        passes.push_back({.pass = "blur",
+                          .source = "along columns: each mean once",
+                          .size = rows.size(),
+                          .targets = ofRows,
+                          .taps = everyRow});
+        passes.push_back({.pass = "blur",
+                          .source = "mip mapping: each texel from one bilinear read",
+                          .size = third,
+                          .targets = ofMeans,
+                          .taps = finerLevel});
+    }
+    passes.push_back(
+        bareLookup("resolve", "dissertation 2.2.1: prefiltered, read once a pixel", frame.size,
+                   std::vector<Taps>(static_cast<std::size_t>(read), {format_, filtered_.size(), Read::Linear})));
+    return passes;
 }
 
 void PrefilteredMap::bindTo(gl::Program& resolve, const Frame& frame) const {

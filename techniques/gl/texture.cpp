@@ -70,7 +70,7 @@ void requireComplete() {
         throw InternalError("a framebuffer is incomplete (status " + std::to_string(status) + ")");
 }
 
-GLuint makeFramebuffer(std::initializer_list<const Texture*> attachments) {
+GLuint makeFramebuffer(std::span<const Texture* const> attachments) {
     GLuint id = 0;
     glGenFramebuffers(1, &id);
     glBindFramebuffer(GL_FRAMEBUFFER, id);
@@ -189,7 +189,10 @@ void TextureArray::makeMipmaps() {
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 
-RenderTarget::RenderTarget(std::initializer_list<const Texture*> attachments) {
+RenderTarget::RenderTarget(std::initializer_list<const Texture*> attachments)
+    : RenderTarget(std::span<const Texture* const>(attachments.begin(), attachments.size())) {}
+
+RenderTarget::RenderTarget(std::span<const Texture* const> attachments) {
     Attachments names;
     std::size_t count = 0;
     for (const Texture* texture : attachments) {

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <initializer_list>
+#include <span>
 
 namespace shadowbench::gl {
 
@@ -73,6 +74,7 @@ private:
 class RenderTarget {
 public:
     explicit RenderTarget(std::initializer_list<const Texture*> attachments);
+    explicit RenderTarget(std::span<const Texture* const> attachments);
 
     /// Draws into the largest level of one layer.
     RenderTarget(const TextureArray& array, int layer);

@@ -105,6 +105,22 @@ void ShadowBuffer::update(const Frame& frame, gl::Program& program, const gl::Te
     resolve(frame, {&visibility}, copy_, "crop");
 }
 
+/// The overscan's part of the G-buffer is not among it: drawn with the rest it needs no vertices of its own.
+std::vector<BarePass> ShadowBuffer::bare(int side, Read read, const std::string& source) const {
+    const glm::ivec2 wide = images_->overscan.size();
+    BarePass update = bareLookup("temporal resolve", source, wide,
+                                 {{gl::Format::RGBA32F, wide, Read::Pixel},
+                                  {gl::Format::Depth32F, glm::ivec2(side), read},
+                                  {gl::Format::RGBA16F, wide, Read::Linear}});
+    update.targets.push_back(gl::Format::RGBA16F);
+    return {std::move(update),
+            {.pass = "crop",
+             .source = "dissertation 4.2, pass 3",
+             .size = images_->inner,
+             .targets = {gl::Format::R32F},
+             .taps = {{gl::Format::R32F, images_->inner, Read::Pixel}}}};
+}
+
 std::map<std::string, double> ShadowBuffer::figures(int firstSamples) const {
     const Image<glm::vec4> buffer = gl::RenderTarget({&images_->read}).readVec4(0);
     const auto counts = [&](float least) {

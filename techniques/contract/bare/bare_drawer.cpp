@@ -17,15 +17,33 @@ bool compares(Read read) { return read == Read::Compare || read == Read::Compare
 
 std::string samplerOf(std::size_t index) { return fmt::format("source{}", index); }
 
+/// The numbers of a texel added up, so that all that it holds is read.
+std::string summed(gl::Format format, const std::string& texel) {
+    switch (format) {
+    case gl::Format::RG16F:
+    case gl::Format::RG32F:
+        return fmt::format("dot({}.rg, vec2(1.0))", texel);
+    case gl::Format::RGBA8:
+    case gl::Format::RGBA16F:
+    case gl::Format::RGBA32F:
+        return fmt::format("dot({}, vec4(1.0))", texel);
+    default:
+        return texel + ".r";
+    }
+}
+
 /// The reads of one texture, in a loop of constant length over a square of texels.
 std::string readsOf(const Taps& taps, std::size_t index) {
     const std::string sampler = samplerOf(index);
-    if (taps.read == Read::Pixel) return fmt::format("    sum += texelFetch({}, ivec2(gl_FragCoord.xy), 0).r;\n", sampler);
+    if (taps.read == Read::Pixel) {
+        const std::string texel = fmt::format("texelFetch({}, ivec2(gl_FragCoord.xy), 0)", sampler);
+        return fmt::format("    sum += {};\n", summed(taps.format, texel));
+    }
     int across = 1;
     while (across * across < taps.count) ++across;
     const std::string place = fmt::format("place + vec2(i % {0}, i / {0}) * texel{1}", across, index);
     const std::string value = compares(taps.read) ? fmt::format("texture({}, vec3({}, 0.5))", sampler, place)
-                                                  : fmt::format("texture({}, {}).r", sampler, place);
+                                                  : summed(taps.format, fmt::format("texture({}, {})", sampler, place));
     return fmt::format("    vec2 texel{0} = 1.0 / vec2(textureSize({1}, 0));\n"
                        "    for (int i = 0; i < {2}; ++i) sum += {3};\n",
                        index, sampler, taps.count, value);
@@ -70,7 +88,7 @@ gl::RenderTarget BareDrawer::target(const BarePass& pass) {
     std::vector<const gl::Texture*> attachments;
     for (std::size_t i = 0; i < pass.targets.size(); ++i)
         attachments.push_back(&texture(pass.targets[i], pass.size, Read::Pixel, asTarget + i));
-    return attachments.size() == 1 ? gl::RenderTarget{attachments[0]} : gl::RenderTarget{attachments[0], attachments[1]};
+    return gl::RenderTarget(attachments);
 }
 
 gl::Program& BareDrawer::casterProgram(bool colour, bool plane) {
@@ -114,7 +132,8 @@ void BareDrawer::drawScreen(const BarePass& pass) {
     gl::Program& program = known->second;
     if (program.uses("inverseSize")) program.set("inverseSize", 1.0F / glm::vec2(pass.size));
     for (std::size_t i = 0; i < pass.taps.size(); ++i)
-        program.set(samplerOf(i), texture(pass.taps[i].format, pass.taps[i].size, pass.taps[i].read, i));
+        if (pass.taps[i].count > 0)
+            program.set(samplerOf(i), texture(pass.taps[i].format, pass.taps[i].size, pass.taps[i].read, i));
     program.drawScreen();
 }
 

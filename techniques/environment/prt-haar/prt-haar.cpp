@@ -35,6 +35,10 @@ public:
                 {"rays", static_cast<double>(shading_.points().points.size() * directions_.size())}};
     }
 
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        return shading_.bare(frame, shading_.vectors() * used_);
+    }
+
 private:
     void precompute(const Frame& frame) {
         const auto pass = frame.pass("precomputation");

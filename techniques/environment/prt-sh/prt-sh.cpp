@@ -48,6 +48,13 @@ public:
                 {"rays", static_cast<double>(shading_.points().points.size() * directions_.size())}};
     }
 
+    /// Of a compressed vector its cluster and its weights: the clusters' own dot products are the processor's.
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        const std::size_t points = shading_.points().points.size(), patches = shading_.points().patches.size();
+        const std::size_t terms = compressed_ ? 1 + compressed_->components : coefficients_; // of a point
+        return shading_.bare(frame, points * terms + patches * coefficients_);
+    }
+
 private:
     void precompute(const Frame& frame) {
         const auto pass = frame.pass("precomputation");

@@ -9,10 +9,12 @@
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/filtered/pcf/pcf.h"
+#include "techniques/gl/counters.h"
 #include "techniques/shared/filters/jitter_table.h"
 #include "techniques/shared/maps/normal_offset.h"
 #include "techniques/shared/maps/single_map.h"
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -39,16 +41,19 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         light_ = uniformView(frame);
         map_->draw(light_, frame);
-        resolve_.set("positions", frame.gbuffer.position())
-            .set("normals", frame.gbuffer.normal())
-            .set("mapFromWorld", mapFromWorld(light_))
-            .set("depthMap", map_->texture())
-            .set("followPlane", followPlane_ ? 1.0F : 0.0F)
-            .set("jitter", table_.texture())
-            .set("jitterOrigin", JitterTable::origin(frame.seed))
-            .set("radius", radius_);
-        setNormalOffset(resolve_, frame, bias_, map_->texture().size());
+        bindTo(resolve_, frame);
         resolve(frame, {&visibility}, resolve_);
+    }
+
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        const auto taps = [&](int count) {
+            return std::vector<Taps>{{gl::Format::Depth32F, map_->texture().size(), Read::Compare, count},
+                                     {gl::Format::RGBA32F, table_.texture().size(), Read::Nearest, count / 2}};
+        };
+        std::vector<BarePass> passes = map_->bare(light_);
+        append(passes, bareLookup("resolve", "Zápotocký 3.4: the cheap tests, and the others where these disagree",
+                                  frame.size, taps(sectors), {undecided(frame), taps(grid_.taps() - sectors)}));
+        return passes;
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
@@ -56,6 +61,30 @@ public:
     }
 
 private:
+    void bindTo(gl::Program& program, const Frame& frame) const {
+        program.set("positions", frame.gbuffer.position())
+            .set("normals", frame.gbuffer.normal())
+            .set("mapFromWorld", mapFromWorld(light_))
+            .set("depthMap", map_->texture())
+            .set("followPlane", followPlane_ ? 1.0F : 0.0F)
+            .set("jitter", table_.texture())
+            .set("jitterOrigin", JitterTable::origin(frame.seed))
+            .set("radius", radius_);
+        setNormalOffset(program, frame, bias_, map_->texture().size());
+    }
+
+    /// Pixels of the frame rendered last that take all taps.
+    [[nodiscard]] std::uint64_t undecided(const Frame& frame) const {
+        const gl::Texture image(gl::Format::R8, frame.size);
+        gl::Defines defines = definesFor(grid_, bias_);
+        defines.emplace_back("UNDECIDED", "1");
+        gl::Program counted = gl::Program::screen("filtered/pcf-jitter/pcf-jitter.frag", defines);
+        bindTo(counted, frame);
+        gl::FragmentMeter meter;
+        resolve(frame, {&image}, counted);
+        return meter.finish();
+    }
+
     JitterGrid grid_;
     float radius_;
     bool followPlane_;

@@ -1,3 +1,4 @@
+// With UNDECIDED defined only the pixels are drawn whose first taps disagree, to be counted.
 #include "shared/filters/jitter_table.glsl"
 #include "shared/maps/tested_point.glsl"
 
@@ -21,6 +22,10 @@ float jitteredVisibility(MapPoint point, vec2 slope) {
         passed += testAt(point, slope, offsets.xy) + testAt(point, slope, offsets.zw);
     }
     bool decided = passed == 0.0 || passed == float(FIRST_TAPS);
+#ifdef UNDECIDED
+    if (decided) discard;
+    return passed;
+#endif
     int last = decided ? pair : TAPS / 2;
     for (; pair < last; ++pair) {
         vec4 offsets = jitteredPair(jitter, pair) * reach.xyxy;
@@ -33,6 +38,10 @@ void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
     MapPoint point = testedPoint(receiver);
     visibility = 1.0;
+#ifdef UNDECIDED
+    if (!receiver.seen || point.behind) discard;
+#else
     if (!receiver.seen || point.behind) return;
+#endif
     visibility = jitteredVisibility(point, followPlane * receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at));
 }

@@ -14,6 +14,7 @@
 #include "techniques/shared/maps/normal_offset.h"
 #include "techniques/shared/maps/single_map.h"
 
+#include <cstdint>
 #include <glm/matrix.hpp>
 #include <map>
 #include <memory>
@@ -67,6 +68,21 @@ public:
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(light_, world, glm::dvec2(map_.side()));
+    }
+
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        std::vector<BarePass> passes = map_.bare(light_);
+        passes.push_back({.pass = "silhouette map",
+                          .source = "course, Create Silhouette Map: an edge's quad",
+                          .size = points_.size(),
+                          .targets = {},
+                          .own = [this] { drawOutlines(edge_); }});
+        const Branch points{static_cast<std::uint64_t>(pixels(frame, {{"BRANCH", "1"}})),
+                            {{gl::Format::RG16F, points_.size(), Read::Nearest, 5}}};
+        append(passes,
+               bareLookup("resolve", "course, Shadow Silhouette Maps: four depth tests, five points where they differ",
+                          frame.size, {{gl::Format::Depth32F, glm::ivec2(map_.side()), Read::Compare, 4}}, points));
+        return passes;
     }
 
 private:
@@ -147,7 +163,8 @@ private:
     DepthMap map_;
     gl::Texture points_;
     gl::RenderTarget target_;
-    gl::Program edge_, resolve_;
+    mutable gl::Program edge_; // `bare` draws again
+    gl::Program resolve_;
     gl::Buffer buffer_;
     gl::VertexArray layout_;
     EdgeMeshes meshes_;

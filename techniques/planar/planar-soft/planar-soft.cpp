@@ -8,6 +8,7 @@
 #include "techniques/shared/sampling/light_points.h"
 
 #include <optional>
+#include <utility>
 
 namespace shadowbench::techniques {
 namespace {
@@ -31,6 +32,23 @@ public:
         }
         mean_.set("sum", *lit_).set("count", static_cast<float>(count_));
         resolve(frame, {&visibility}, mean_);
+    }
+
+    /// Each projection over those before it; what it covers needs no sum of its own where it takes its share of the light.
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        const auto receiver = planarReceiver(frame.snapshot);
+        if (!receiver) return {};
+        const glm::dvec4 above = receiver->plane - glm::dvec4(0, 0, 0, planeMargin(*receiver));
+        BarePass projections{.pass = "projected casters",
+                             .source = "Zápotocký 2.2, B.3: the casters from each light sample",
+                             .size = frame.size,
+                             .targets = {gl::Format::R32F}};
+        for (const glm::dvec3& light : lightPoints(frame.snapshot.light, "hammersley", count_, frame.seed))
+            projections.casters.push_back(
+                {.clipFromWorld = frame.clipFromWorld * projectionOnto(receiver->plane, glm::dvec4(light, 1)),
+                 .plane = above});
+        return {bareLookup("receiver stencil", "Zápotocký 2.2: the receiver's pixels", frame.size, {}),
+                std::move(projections)};
     }
 
 private:

@@ -71,6 +71,17 @@ public:
         return texelAt(map_.view(), world, glm::dvec2(map_.side()));
     }
 
+    /// As long as nothing has moved, a lookup alone. A receiver's list has a layer at least; how many more is not counted.
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        std::vector<BarePass> passes;
+        if (rebuilt_) passes = map_.bare(frame, lightPoints(frame.snapshot.light, pattern_, count_, frame.seed));
+        const glm::ivec2 size(map_.side());
+        passes.push_back(bareLookup("resolve", "dissertation 2.3.5: the attenuation of the layer at its depth", frame.size,
+                                    {{gl::Format::R32F, size, Read::Nearest},     // the list
+                                     {gl::Format::RG32F, size, Read::Nearest}})); // depth and attenuation of a layer
+        return passes;
+    }
+
 private:
     int count_;
     std::string pattern_;

@@ -35,20 +35,20 @@ public:
           resolve_(gl::Program::screen("soft/convolution/convolution.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const LightView view = fitToScene(frame.snapshot.light, frame.snapshot);
+        view_ = fitToScene(frame.snapshot.light, frame.snapshot);
         const std::vector<bool> shown = blockers(frame.snapshot);
-        cluster(frame.snapshot, view, shown);
-        layers_.draw(view, frame, shown, "blocker images");
+        cluster(frame.snapshot, view_, shown);
+        layers_.draw(view_, frame, shown, "blocker images");
         layers_.sum(frame, std::max<int>(1, static_cast<int>(clusters_.ranges.size())));
 
         std::vector<glm::vec4> inverseDepths;
         for (const BlockerDepths& range : clusters_.ranges) inverseDepths.emplace_back(1 / range.middle(), 0, 0, 0);
         inverseDepths.resize(mostLayers);
-        layers_.bindTo(resolve_, frame.snapshot.light, view);
+        layers_.bindTo(resolve_, frame.snapshot.light, view_);
         layerOf_.bindStorage(layersBinding);
         resolve_.set("positions", frame.gbuffer.position())
-            .set("mapFromWorld", mapFromWorld(view))
-            .set("depthFromWorld", glm::vec4(view.depthFromWorld))
+            .set("mapFromWorld", mapFromWorld(view_))
+            .set("depthFromWorld", glm::vec4(view_.depthFromWorld))
             .set("ids", frame.gbuffer.id())
             .set("layers", static_cast<int>(clusters_.ranges.size()))
             .set("inverseDepths", inverseDepths);
@@ -59,7 +59,25 @@ public:
         return {{"clusters", static_cast<double>(clusters_.ranges.size())}};
     }
 
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        std::vector<BarePass> passes =
+            layers_.bare(view_, blockers(frame.snapshot), "blocker images", "dissertation 2.3.3: an image of each cluster",
+                         static_cast<int>(clusters_.ranges.size()));
+        const int reads = meanReads(frame, view_, [this](double depth, unsigned id) { return clustersBefore(depth, id); });
+        passes.push_back(bareLookup("convolution", "an image convolved with the light for each cluster before a pixel",
+                                    frame.size, {{gl::Format::R32F, layers_.bits().size(), Read::Linear, reads}}));
+        return passes;
+    }
+
 private:
+    /// Those that may hide light from a surface at this depth: not its own.
+    [[nodiscard]] int clustersBefore(double depth, unsigned id) const {
+        int before = 0;
+        for (std::size_t layer = 0; layer < clusters_.ranges.size(); ++layer)
+            before += layer != layerOfId_.at(id) && clusters_.ranges[layer].middle() < depth ? 1 : 0;
+        return before;
+    }
+
     /// Puts the blockers into clusters and uploads the layer of each surface id.
     void cluster(const Snapshot& snapshot, const LightView& view, const std::vector<bool>& shown) {
         std::vector<BlockerDepths> ranges;
@@ -68,14 +86,14 @@ private:
             if (shown[i]) ranges.push_back(depthsOf(corners, 8 * i, view));
         clusters_ = clustered(ranges, tolerance_ * (1 / view.near - 1 / view.far), most_);
 
-        std::vector<std::uint32_t> layerOf;
+        layerOfId_.clear();
         std::size_t placement = 0, blocker = 0;
         for (const Batch& batch : snapshot.batches)
             for (const Placement& placed : batch.placements) {
-                if (placed.id >= layerOf.size()) layerOf.resize(placed.id + std::size_t{1}, noLayer);
-                if (shown[placement++]) layerOf[placed.id] = static_cast<std::uint32_t>(clusters_.of[blocker++]);
+                if (placed.id >= layerOfId_.size()) layerOfId_.resize(placed.id + std::size_t{1}, noLayer);
+                if (shown[placement++]) layerOfId_[placed.id] = static_cast<std::uint32_t>(clusters_.of[blocker++]);
             }
-        layerOf_.upload(layerOf.data(), layerOf.size() * sizeof(std::uint32_t));
+        layerOf_.upload(layerOfId_.data(), layerOfId_.size() * sizeof(std::uint32_t));
         layerOf_.bindStorage(layersBinding);
     }
 
@@ -92,7 +110,9 @@ private:
 
     int most_;
     double tolerance_;
+    LightView view_; // of the frame rendered last, as are the next two
     Clusters clusters_;
+    std::vector<std::uint32_t> layerOfId_;
     OccluderLayers layers_;
     gl::Buffer layerOf_;
     gl::Program resolve_;

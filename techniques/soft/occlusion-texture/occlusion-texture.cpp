@@ -14,6 +14,8 @@
 #include "techniques/shared/filters/occluder_layers.h"
 #include "techniques/shared/maps/depth_map.h"
 
+#include <algorithm>
+
 namespace shadowbench::techniques {
 namespace {
 
@@ -25,29 +27,46 @@ public:
           resolve_(gl::Program::screen("soft/occlusion-texture/occlusion-texture.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        const LightView view = fitToScene(frame.snapshot.light, frame.snapshot);
-        const double thickness = (1 / view.near - 1 / view.far) / slices_;
+        view_ = fitToScene(frame.snapshot.light, frame.snapshot);
         layers_.program()
-            .set("depthFromWorld", glm::vec4(view.depthFromWorld))
-            .set("inverseNear", static_cast<float>(1 / view.near))
-            .set("thickness", static_cast<float>(thickness))
+            .set("depthFromWorld", glm::vec4(view_.depthFromWorld))
+            .set("inverseNear", static_cast<float>(1 / view_.near))
+            .set("thickness", static_cast<float>(thickness()))
             .set("slices", slices_);
-        const std::vector<bool> all(boundingCorners(frame.snapshot).size() / 8, true);
-        layers_.draw(view, frame, all, "slices");
+        layers_.draw(view_, frame, allShown(frame.snapshot), "slices");
         layers_.sum(frame, slices_);
 
-        layers_.bindTo(resolve_, frame.snapshot.light, view);
+        layers_.bindTo(resolve_, frame.snapshot.light, view_);
         resolve_.set("positions", frame.gbuffer.position())
-            .set("mapFromWorld", mapFromWorld(view))
-            .set("depthFromWorld", glm::vec4(view.depthFromWorld))
-            .set("inverseNear", static_cast<float>(1 / view.near))
-            .set("thickness", static_cast<float>(thickness))
+            .set("mapFromWorld", mapFromWorld(view_))
+            .set("depthFromWorld", glm::vec4(view_.depthFromWorld))
+            .set("inverseNear", static_cast<float>(1 / view_.near))
+            .set("thickness", static_cast<float>(thickness()))
             .set("slices", slices_);
         resolve(frame, {&visibility}, resolve_);
     }
 
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        std::vector<BarePass> passes =
+            layers_.bare(view_, allShown(frame.snapshot), "slices", "dissertation 2.3.3: all slices in one pass", slices_);
+        const int reads = meanReads(frame, view_, [this](double depth, unsigned) {
+            return std::clamp(static_cast<int>((1 / view_.near - 1 / depth) / thickness()), 0, slices_);
+        });
+        passes.push_back(bareLookup("resolve", "the mean over the light in each slice before a pixel", frame.size,
+                                    {{gl::Format::R32F, layers_.bits().size(), Read::Linear, reads}}));
+        return passes;
+    }
+
 private:
+    static std::vector<bool> allShown(const Snapshot& snapshot) {
+        return std::vector<bool>(boundingCorners(snapshot).size() / 8, true);
+    }
+
+    /// Of a slice, in 1 / depth.
+    [[nodiscard]] double thickness() const { return (1 / view_.near - 1 / view_.far) / slices_; }
+
     int slices_;
+    LightView view_; // of the frame rendered last
     OccluderLayers layers_;
     gl::Program resolve_;
 };

@@ -18,6 +18,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <string>
 #include <utility>
 
 namespace shadowbench::techniques {
@@ -54,11 +56,37 @@ public:
                 {"occluders", static_cast<double>(std::ranges::count(shown, true))}};
     }
 
+    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
+        const glm::ivec2 size(map_.side());
+        const gl::Format format = widths_[0].format();
+        std::vector<BarePass> passes{
+            bareDepthMap("course, Shadow Mapping", map_.side(), view_.clipFromWorld),
+            {.pass = "occluder map",
+             .source = "dissertation 2.3.1: a binary occluder map",
+             .size = size,
+             .targets = {gl::Format::R8},
+             .casters = {{.clipFromWorld = view_.clipFromWorld, .shown = blockers(frame.snapshot)}}}};
+        for (const glm::ivec2& step : passes_.steps) // a texel and its neighbours along the axes that the pass goes
+            passes.push_back({.pass = "shadow width map",
+                              .source = "repeated smoothing of it",
+                              .size = size,
+                              .targets = {format},
+                              .taps = {{format, size, Read::Nearest, 1 + 2 * (step.x + step.y)}}});
+        passes.push_back(bareLookup("resolve", "a depth and the width", frame.size,
+                                    {{gl::Format::Depth32F, size, Read::Nearest}, {format, size, Read::Linear}}));
+        return passes;
+    }
+
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(view_, world, glm::dvec2(map_.side()));
     }
 
 private:
+    static gl::Program growing(int x, int y) {
+        return gl::Program::screen("soft/shadow-width-map/grow.frag",
+                                   {{"STEP_X", std::to_string(x)}, {"STEP_Y", std::to_string(y)}});
+    }
+
     /// The width of an occluder's texel that lies at its outline: half a texel.
     void drawOccluders(const Frame& frame) {
         const auto pass = frame.pass("occluder map");
@@ -74,10 +102,11 @@ private:
         const auto pass = frame.pass("shadow width map");
         int done = 0;
         for (const glm::ivec2& step : passes_.steps) {
-            grow_.set("widths", widths_[0]).set("stepX", step.x).set("stepY", step.y).set("done", done++);
+            gl::Program& grow = grow_.at(static_cast<std::size_t>(step.x + 2 * step.y - 1)); // a step goes somewhere
+            grow.set("widths", widths_[0]).set("done", done++);
             const gl::RenderTarget target({&widths_[1]});
             target.bind();
-            grow_.drawScreen();
+            grow.drawScreen();
             std::swap(widths_[0], widths_[1]);
         }
     }
@@ -87,7 +116,7 @@ private:
     WidthPasses passes_;
     std::array<gl::Texture, 2> widths_;
     gl::Program occluders_{"shared/maps/depth_map.vert", "soft/shadow-width-map/occluder.frag"};
-    gl::Program grow_ = gl::Program::screen("soft/shadow-width-map/grow.frag");
+    std::array<gl::Program, 3> grow_{growing(1, 0), growing(0, 1), growing(1, 1)}; // by texels along x and y
     gl::Program resolve_ = gl::Program::screen("soft/shadow-width-map/shadow-width-map.frag");
 };
 
