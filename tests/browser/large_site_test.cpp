@@ -7,6 +7,7 @@
 #include "tests/browser/checks.h"
 #include "tests/browser/large_run.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <gtest/gtest.h>
 
@@ -80,6 +81,19 @@ TEST(LargeSite, SortsAndFiltersWithinATenthOfASecond) {
         }
         EXPECT_EQ(tab->complaints(), Sentences());
     }
+}
+
+TEST(LargeSite, HasAllRowsInOrderOnceSorted) {
+    const auto tab = chromium().tab();
+    tab->open(largeSite() / "index.html");
+    const auto shown = tab->value(R"js((async () => {
+        const table = document.querySelector('table[data-table=all]');
+        table.tHead.rows[0].cells[2].querySelector('button').click();
+        await new Promise((done) => setTimeout(done, 50));
+        return [...table.tBodies[0].rows].map((row) => Number(row.cells[2].dataset.v));
+    })())js");
+    ASSERT_EQ(shown.size(), 100U);
+    EXPECT_TRUE(std::ranges::is_sorted(shown.get<std::vector<double>>()));
 }
 
 TEST(LargeSite, LeadsFromMarkToMarkByArrowsAndToTheRowByEnter) {

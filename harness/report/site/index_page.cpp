@@ -102,7 +102,12 @@ public:
         : records_(records), images_(images), scenes_(report::scenes(records)) {}
 
     [[nodiscard]] Table table() const {
-        Table table{.id = "all", .caption = "Every technique on every scene", .columns = {}, .rows = {}, .filtered = true};
+        Table table{.id = "all",
+                    .caption = "Every technique on every scene",
+                    .columns = {},
+                    .rows = {},
+                    .filtered = true,
+                    .headed = false};
         table.columns = {{.title = "technique", .number = false},
                          {.title = "within", .hint = "Number of scenes on which it is within tolerance", .key = "within"},
                          {.title = "cost",

@@ -79,7 +79,12 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
     const std::vector<Tolerance> limits = report::tolerances(records, scene);
     const std::string metric = report::headlineMetric(records, scene);
     const bool timed = !report::paretoFront(records, scene).empty();
-    Table table{.id = "errors", .caption = "Every technique on " + scene, .columns = {}, .rows = {}, .filtered = true};
+    Table table{.id = "errors",
+                .caption = "Every technique on " + scene,
+                .columns = {},
+                .rows = {},
+                .filtered = true,
+                .headed = false};
     table.columns = {{.title = "technique", .number = false},
                      {.title = "error",
                       .hint = report::meaning(metric),

@@ -28,8 +28,10 @@ std::vector<SceneTruth> truthsOf(const std::vector<Record>& records, const std::
     };
     for (const std::size_t i : report::ofScene(records, scene)) {
         const Record& record = records[i];
-        add(record.reference,
-            record.reference && record.reference->oracle == "povray" ? "visible fraction of the light" : "lit or shadowed");
+        const std::string oracle = record.reference ? record.reference->oracle : "";
+        add(record.reference, isLevelOfDetail(record) ? "colours at full detail"
+                              : oracle == "povray"    ? "visible fraction of the light"
+                                                      : "lit or shadowed");
         add(record.softReference, "visible fraction of the light");
         add(record.pixelReference, "mean over each pixel's square");
     }

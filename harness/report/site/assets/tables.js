@@ -2,6 +2,7 @@
 "use strict";
 var shadowbenchTables = (function () {
   const valueOf = (cell) => (cell && cell.hasAttribute("data-v") ? Number.parseFloat(cell.dataset.v) : NaN);
+  const atOnce = 40; // rows
   const tables = new Map(); // id → {table, body, rows, heads, listeners}
   const make = (name, attributes, text) => {
     const element = document.createElement(name);
@@ -49,7 +50,10 @@ var shadowbenchTables = (function () {
       return sign * a.text.localeCompare(b.text, "en", { numeric: true }) || a.place - b.place;
     });
     entry.rows = keys.map((key) => key.row);
-    entry.body.append(...entry.rows);
+    // Rows that are moved are laid out anew. What a window shows comes at once, the rest of a long table right after it.
+    entry.body.prepend(...entry.rows.slice(0, atOnce));
+    clearTimeout(entry.rest);
+    if (entry.rows.length > atOnce) entry.rest = setTimeout(() => entry.body.append(...entry.rows.slice(atOnce)));
   }
 
   function filter(entry, wanted) {

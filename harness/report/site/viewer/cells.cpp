@@ -169,6 +169,8 @@ void writeCells(const std::vector<Record>& records, const fs::path& images, Site
         std::vector<RunCell> cells;
         for (const std::size_t i : report::ofScene(records, scene))
             if (hasCell(records[i], images)) cells.push_back({records[i].variant, records[i], images, moving.contains(i)});
+        // What draws no shadow is not what one comes to see first.
+        std::ranges::stable_partition(cells, [](const RunCell& cell) { return !report::isBaseline(cell.record); });
         for (const RunCell& other : others)
             if (!cells.empty() && other.record.scene == scene) cells.push_back(other);
         if (!cells.empty() && writeCellPage(cells, {"Table and charts of " + shown(scene), sceneAddress(scene)}, site))
