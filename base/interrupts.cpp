@@ -1,6 +1,7 @@
 #include "base/interrupts.h"
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <mutex>
 #include <utility>
@@ -10,8 +11,9 @@ namespace {
 
 constexpr std::array interrupts{SIGINT, SIGTERM, SIGHUP};
 
-// A signal handler can reach nothing but statics.
-volatile std::sig_atomic_t noted = 0;
+// A signal handler can reach nothing but statics. It runs in whichever thread the signal comes to: not in the one that asks.
+std::atomic<int> noted = 0;
+static_assert(std::atomic<int>::is_always_lock_free); // as a handler needs
 
 bool holdsBackAll = false;
 
@@ -42,8 +44,7 @@ void hold() {
 
 void release() {
     for (std::size_t i = 0; i < interrupts.size(); ++i) sigaction(interrupts[i], &before.actions[i], nullptr);
-    const int signal = noted;
-    noted = 0;
+    const int signal = noted.exchange(0);
     if (signal != 0) std::raise(signal);
 }
 

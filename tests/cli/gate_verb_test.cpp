@@ -53,13 +53,14 @@ public:
 
     [[nodiscard]] std::string program() const {
         const std::string said = folder_.write("identity.json", identity.dump(1));
-        std::string file = folder_.write("base-program", "#!/bin/sh\nif [ \"$1\" = policy ]; then cat " + said +
-                                                             "; else exec " PROGRAM " \"$@\"; fi\n");
+        std::string file = folder_.write("base-program", "#!/bin/sh\ncase $1 in policy) cat " + said + " ;; " + answers +
+                                                             " *) exec " PROGRAM " \"$@\" ;; esac\n");
         fs::permissions(file, fs::perms::owner_exec, fs::perm_options::add);
         return file;
     }
 
     nlohmann::ordered_json identity;
+    std::string answers; // to other verbs, as branches of a shell's `case`
 
 private:
     const Folder& folder_;
@@ -97,6 +98,21 @@ TEST_F(GateVerb, TheBasesStricterPolicyJudgesAndEveryLooseningIsListed) {
     EXPECT_NE(outcome.output.find("must be below 0.5: test"), std::string::npos) << outcome.output;
     EXPECT_NE(outcome.output.find("none on tiny: leak below 0.5 is gone or looser here"), std::string::npos)
         << outcome.output;
+}
+
+TEST_F(GateVerb, AHeadThatTakesLongerThanItsBaseIsACostRegression) {
+    SaidOtherwise base(folder_);
+    base.identity["commit"] = "decafdecafdecaf";
+    base.identity["program"] = "another";
+    base.answers = "time-frames) while read count variant; do printf '0.%05d 1\\n' $count; done ;;"; // next to nothing
+    const Outcome outcome = gate(base.program(), "--technique none --cost time");
+    EXPECT_EQ(outcome.code, 3) << outcome.output;
+    EXPECT_NE(outcome.output.find("worse      time          none on tiny: a frame takes "), std::string::npos)
+        << outcome.output;
+    EXPECT_NE(outcome.output.find("--cost time --scene tiny --technique none"), std::string::npos) << outcome.output;
+    const Outcome untimed = gate(base.program(), "--technique lod-switch --cost time");
+    EXPECT_NE(untimed.output.find("time is not judged: none of the chosen cells is timed"), std::string::npos)
+        << untimed.output;
 }
 
 TEST_F(GateVerb, ASelectionThatAppliesNowhereIsInconclusive) {
@@ -172,9 +188,11 @@ TEST_F(GateVerb, WithoutABaseAToolOrATruthItIsInconclusive) {
 }
 
 TEST_F(GateVerb, RecordsWithoutTheCellsAreNoBase) {
-    const Outcome outcome = gate(recorded("--technique none"), "--technique sm-uniform --cost none");
+    const Outcome outcome = gate(recorded("--technique none"), "--technique sm-uniform --cost time,instructions");
     EXPECT_EQ(outcome.code, 5) << outcome.output;
-    EXPECT_NE(outcome.output.find("no cell is scored in both"), std::string::npos) << outcome.output;
+    for (const char* sentence : {"no cell is scored in both", "time is not judged: the base is a file of records",
+                                 "instructions are not judged: the base's records hold none"})
+        EXPECT_NE(outcome.output.find(sentence), std::string::npos) << outcome.output;
 }
 
 TEST_F(GateVerb, ARevisionIsBuiltOnceAndKept) {

@@ -234,7 +234,12 @@ TEST(Compare, MeaninglessIsDecidedByProgramsAndByWhatIsInBoth) {
     EXPECT_FALSE(whyMeaningless({unknown}, {unknown}, false)) << "two trees with changes";
     other.commit = "decaf";
     EXPECT_FALSE(whyMeaningless({hardRecord(), other}, {hardRecord(), other}, false)) << "joined from several";
+    unknown.program = "9a55";
+    EXPECT_TRUE(whyMeaningless({unknown}, {unknown}, false)) << "one tree with changes";
+    EXPECT_TRUE(whyMeaningless({test::unscored(Status::Error, "x")}, {hardRecord()}, true)) << "scored on one side";
     EXPECT_TRUE(whyMeaningless({}, {hardRecord()}, false));
+    EXPECT_TRUE(sameProgram({hardRecord()}, {other})) << "of two commits";
+    unknown.program = "";
     EXPECT_FALSE(sameProgram({unknown}, {unknown})) << "nobody knows";
     EXPECT_FALSE(sameProgram({}, {}));
 }
@@ -282,6 +287,31 @@ TEST(Compare, AnEdgeMovedByLessThanTwoPixelsInAThousandStays) {
     EXPECT_TRUE(worse(base, head).empty());
     head.values["accuracy.edge_error.signed"] = -0.0030;
     EXPECT_EQ(onlyWorseClass(base, head), Class::Edge);
+}
+
+TEST(Compare, ASignThatTurnsWithinTheAllowanceIsTheSame) {
+    Record base = hardRecord(), head = hardRecord();
+    base.values["accuracy.edge_error.signed"] = 0.001;
+    head.values["accuracy.edge_error.signed"] = -0.0015;
+    EXPECT_TRUE(worse(base, head).empty());
+    head.values["accuracy.edge_error.signed"] = -0.5;
+    EXPECT_EQ(onlyWorseClass(base, head), Class::Edge);
+}
+
+TEST(Compare, MetricsThatScoreOneImageAlikeAndAnotherUnlikeJudgeNothing) {
+    std::vector<Record> base, head;
+    for (const char* variant : {"alike", "unlike", "other images"}) {
+        base.push_back(hardRecord());
+        base.back().variant = variant;
+        head.push_back(base.back());
+        head.back().metricCode = "another";
+    }
+    head[1].values["accuracy.leak"] = 0.0005;
+    head[1].values["aliasing.median"].reset(); // is not compared
+    head[2].images = "2222";
+    for (const Change& change : compare(base, head))
+        EXPECT_EQ(change.direction == Direction::Unjudged, change.metric == "accuracy.leak" && change.variant != "alike")
+            << change.sentence;
 }
 
 TEST(Compare, AScoreThatTheBaseWasMadeWithoutIsNoChange) {
