@@ -5,9 +5,17 @@
 #include <array>
 #include <cerrno>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <system_error>
 
 namespace shadowbench {
+
+bool isStillNamed(int descriptor, const std::filesystem::path& path) {
+    struct stat byName {
+    }, byDescriptor{};
+    return stat(path.c_str(), &byName) == 0 && fstat(descriptor, &byDescriptor) == 0 &&
+           byName.st_ino == byDescriptor.st_ino && byName.st_dev == byDescriptor.st_dev;
+}
 
 std::pair<Descriptor, Descriptor> makeSockets() {
     std::array<int, 2> ends{};

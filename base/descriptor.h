@@ -1,6 +1,7 @@
 // File descriptors that close themselves.
 #pragma once
 
+#include <filesystem>
 #include <unistd.h>
 #include <utility>
 
@@ -14,7 +15,10 @@ public:
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
     Descriptor& operator=(Descriptor&& other) noexcept {
-        std::swap(fd_, other.fd_);
+        if (this != &other) {
+            close();
+            fd_ = std::exchange(other.fd_, -1);
+        }
         return *this;
     }
 
@@ -26,6 +30,9 @@ public:
 private:
     int fd_;
 };
+
+/// Whether `path` still names the file or folder that is open: another process may have removed or replaced it.
+bool isStillNamed(int descriptor, const std::filesystem::path& path);
 
 /// Two ends, joined both ways, that no program started later inherits. Throws Inconclusive when the system has no more.
 std::pair<Descriptor, Descriptor> makeSockets();

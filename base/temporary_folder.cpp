@@ -1,5 +1,6 @@
 #include "base/temporary_folder.h"
 
+#include "base/descriptor.h"
 #include "base/error.h"
 
 #include <cerrno>
@@ -40,14 +41,6 @@ bool isOurs(int descriptor) {
     return fstat(descriptor, &status) == 0 && status.st_uid == geteuid() && (status.st_mode & 0777U) == 0700;
 }
 
-/// Between making and locking a folder another process may have taken it for a dead one's.
-bool isStillThere(const fs::path& folder, int descriptor) {
-    struct stat byName {
-    }, byDescriptor{};
-    return stat(folder.c_str(), &byName) == 0 && fstat(descriptor, &byDescriptor) == 0 &&
-           byName.st_ino == byDescriptor.st_ino && byName.st_dev == byDescriptor.st_dev;
-}
-
 void removeIfAbandoned(const fs::path& folder) {
     const int descriptor = openFolder(folder);
     if (descriptor < 0) return;
@@ -78,7 +71,7 @@ TemporaryFolder::TemporaryFolder() {
         if (lock_ < 0 && errno != ENOENT) failToMake(parent);
         // Where the file system has no locks, nobody can take the folder for abandoned either.
         flock(lock_, LOCK_EX);
-    } while (!isStillThere(path_, lock_));
+    } while (!isStillNamed(lock_, path_)); // another process may have taken it for a dead one's
 }
 
 TemporaryFolder::~TemporaryFolder() {

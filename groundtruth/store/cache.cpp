@@ -2,15 +2,13 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/folder_lock.h"
 #include "groundtruth/contract/reference_files.h"
 #include "groundtruth/store/cache_limits.h"
 
-#include <cerrno>
 #include <cstdlib>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <pwd.h>
-#include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -30,11 +28,14 @@ std::filesystem::path home() {
     return user->pw_dir;
 }
 
-/// Nothing, after a warning, if the file cannot be read (it may be intact, so it stays).
+/// Nothing, after a warning, if the file cannot be read (it may be intact, so it stays). One that another process has just
+/// removed is no reason for a warning.
 std::optional<std::string> contents(const std::filesystem::path& file) {
     try {
         return readFile(file);
     } catch (const BadInput& error) {
+        std::error_code ignored;
+        if (!std::filesystem::exists(file, ignored)) return std::nullopt;
         fmt::print(stderr, "warning: a stored reference is not used: {}\n", error.what());
         return std::nullopt;
     }
@@ -46,30 +47,6 @@ void touch(const std::filesystem::path& file) {
     std::error_code ignored;
     std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored);
 }
-
-/// Held by the process that computes a reference, so that others wait for it instead of computing it, too: an advisory lock
-/// on the entry's folder, which needs no file of its own and ends with its holder. Keys that share a folder share the lock.
-/// Where there is none to be had (a cache that cannot be written), each computes for itself.
-class ComputingLock {
-public:
-    ComputingLock(const std::filesystem::path& folder, const Progress& progress) {
-        std::error_code ignored;
-        std::filesystem::create_directories(folder, ignored);
-        folder_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (folder_ < 0 || flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-        if (progress) progress(0, "waiting for another process to compute this or a neighbouring reference");
-        while (flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
-        }
-    }
-    ~ComputingLock() {
-        if (folder_ >= 0) close(folder_);
-    }
-    ComputingLock(const ComputingLock&) = delete;
-    ComputingLock& operator=(const ComputingLock&) = delete;
-
-private:
-    int folder_;
-};
 
 } // namespace
 
@@ -126,7 +103,11 @@ void Cache::store(const Reference& reference) const {
 
 Reference Cache::get(const std::string& key, const std::function<Reference()>& compute, const Progress& progress) const {
     if (std::optional<Reference> known = find(key)) return std::move(*known);
-    const ComputingLock lock(entry(key).parent_path(), progress);
+    // Keys that share a folder share the lock. Where there is none to be had (a cache that cannot be written), each process
+    // computes for itself.
+    const FolderLock lock(entry(key).parent_path(), [&] {
+        if (progress) progress(0, "waiting for another process to compute this or a neighbouring reference");
+    });
     if (std::optional<Reference> known = find(key)) return std::move(*known); // by whom the lock waited for
     Reference reference = compute();
     try {

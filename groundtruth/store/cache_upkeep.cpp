@@ -31,12 +31,9 @@ bool isEntry(const fs::path& file) {
     return file.extension() == extension && isKey(key) && file.parent_path().filename() == key.substr(0, 2);
 }
 
-/// ".<key>.XXXXXX.ref": the name that an entry is written under (base/files.h).
-bool isTemporary(const fs::path& file) {
-    const std::string name = file.filename().string();
-    constexpr std::size_t length = 1 + keyDigits + 7 + extension.size();
-    return name.size() == length && name.front() == '.' && name.ends_with(extension) && isKey(name.substr(1, keyDigits)) &&
-           name[1 + keyDigits] == '.';
+/// What an entry is written under.
+bool isUnfinishedEntry(const fs::path& file) {
+    return isTemporary(file) && file.extension() == extension && isKey(file.filename().string().substr(1, keyDigits));
 }
 
 std::optional<fs::file_time_type> modificationTime(const fs::path& file) {
@@ -52,7 +49,7 @@ void add(const fs::directory_entry& found, Listing& listing) {
     const auto time = modificationTime(found.path());
     if (gone || !time) return;
     if (isEntry(found.path())) listing.entries.push_back({found.path().stem().string(), found.path(), bytes, *time});
-    if (isTemporary(found.path()) && fs::file_time_type::clock::now() - *time >= leftoverAge)
+    if (isUnfinishedEntry(found.path()) && fs::file_time_type::clock::now() - *time >= leftoverAge)
         listing.leftovers.push_back(found.path());
 }
 

@@ -1,5 +1,6 @@
 #include "scene/exchange/export.h"
 
+#include "base/folder_lock.h"
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
 #include "harness/metrics/table.h"
@@ -24,6 +25,7 @@ struct ExportOptions {
 
 ExitCode exportAndPrint(const ExportOptions& options) {
     const Scene scene = loadScene(options.scene, profileNamed(options.profile), metrics::boundedMetrics());
+    const OutputLock alone(options.out);
     const exchange::Exported exported = exchange::exportScene(scene, options.out);
     if (options.json)
         fmt::print("{}\n", nlohmann::ordered_json{{"scene", scene.id},

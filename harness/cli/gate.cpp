@@ -1,6 +1,7 @@
 #include "harness/gate/gate.h"
 
 #include "base/files.h"
+#include "base/folder_lock.h"
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
 #include "harness/foreign/renderers.h"
@@ -23,6 +24,7 @@ struct GateFiles {
 };
 
 ExitCode gateAndPrint(const gate::GateOptions& options, const GateFiles& files) {
+    const OutputLock alone(options.out);
     const gate::GateResult result = gate::gate(options);
     const std::filesystem::path page = options.out / "gate.md";
     writeFile(page, gate::gateReport(result, options, "md"));

@@ -1,13 +1,18 @@
 // The command line: parses, calls the chosen verb, turns errors into one line and a documented exit code.
 #include "base/files.h"
+#include "base/last_words.h"
 #include "harness/cells/environment.h"
 #include "harness/cli/command.h"
 #include "harness/cli/documents.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <new>
 
 namespace shadowbench {
 namespace {
@@ -50,16 +55,33 @@ ExitCode dispatch(int argc, char** argv) {
     return action();
 }
 
+/// Before objects with static storage are made, which may lack memory, too.
+__attribute__((constructor(101))) void beforeStatics() { sayWhyAborted(); }
+
+/// What was printed is a result, too: where it could not be written, the program has not done what it was asked for.
+void flushOutput() {
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    const int failed = errno;
+    throw InternalError(fmt::format("cannot write to standard output: {}; free some space or choose another place",
+                                    std::strerror(failed != 0 ? failed : EIO)));
+}
+
 } // namespace
 } // namespace shadowbench
 
 int main(int argc, char** argv) {
     using shadowbench::ExitCode;
     try {
-        return static_cast<int>(shadowbench::dispatch(argc, argv));
+        const ExitCode code = shadowbench::dispatch(argc, argv);
+        shadowbench::flushOutput();
+        return static_cast<int>(code);
     } catch (const shadowbench::Error& error) {
         fmt::print(stderr, "shadowbench: {}\n", error.what());
         return static_cast<int>(error.code());
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "shadowbench: there is not enough memory; free some, or use --jobs 1 where there is one\n");
+        return static_cast<int>(ExitCode::Internal);
     } catch (const std::exception& error) {
         fmt::print(stderr, "shadowbench: internal error: {}\n", error.what());
         return static_cast<int>(ExitCode::Internal);

@@ -1,5 +1,6 @@
 #include "harness/runs/merge.h"
 
+#include "base/folder_lock.h"
 #include "harness/cli/command.h"
 #include "harness/cli/run_result.h"
 
@@ -29,6 +30,7 @@ ExitCode mergeAndReport(const MergeOptions& options) {
     if (!merged.missing.empty())
         throw Inconclusive(fmt::format(
             "{} of the manifest's cells are missing, so nothing is merged; run their shards again", merged.missing.size()));
+    const OutputLock alone(out);
     for (const std::filesystem::path& folder : options.folders) shards::copyImages(folder, out);
     writeRecords(out / "results.jsonl", merged.result.records);
     return reportResult(merged.result, out);

@@ -1,5 +1,6 @@
 #include "harness/cli/reference.h"
 
+#include "base/folder_lock.h"
 #include "base/progress_line.h"
 #include "groundtruth/cgal/hard/exact.h"
 #include "groundtruth/cgal/plan/polygon_files.h"
@@ -100,6 +101,7 @@ ExitCode computeReference(const ReferenceOptions& options) {
         groundtruth::compute(named.request, [&](double share, std::string_view what) { line.show(0, share, what); });
     line.show(1, 0, "");
     requireGolden(committedContents(), computed.provenance.key, contentOf(contentHashes(computed)));
+    const OutputLock alone(options.out);
     groundtruth::writeReference(computed, options.out);
     fmt::print("{} frame {} by {}: {}\n", named.scene, named.frame, computed.provenance.oracle,
                (options.out / "visibility.exr").string());

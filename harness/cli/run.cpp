@@ -1,5 +1,6 @@
 #include "harness/runs/run.h"
 
+#include "base/folder_lock.h"
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
 #include "harness/cli/run_result.h"
@@ -34,7 +35,10 @@ shards::CellRange rangeOf(const PartOptions& part, std::size_t cells) {
 ExitCode measureAndPrint(const RunOptions& options, const PartOptions& part) {
     const std::vector<shards::ManifestCell> manifest = shards::plannedCells(options);
     const shards::CellRange range = rangeOf(part, manifest.size());
-    shards::freezeManifest(options.out, manifest);
+    {
+        const OutputLock alone(options.out); // of parts that start at the same time one writes the manifest
+        shards::freezeManifest(options.out, manifest);
+    }
     fmt::print("manifest: {}, {} cells\n", shards::manifestFile(options.out).string(), manifest.size());
     if (part.manifest) return ExitCode::Pass;
 
@@ -59,7 +63,10 @@ ExitCode runPart(const RunOptions& options, const PartOptions& part) {
     }
 }
 
-ExitCode runAndPrint(const RunOptions& options) { return reportResult(run(options), options.out); }
+ExitCode runAndPrint(const RunOptions& options) {
+    const OutputLock alone(options.out); // the records of two runs at once would replace each other
+    return reportResult(run(options), options.out);
+}
 
 } // namespace
 

@@ -1,3 +1,4 @@
+#include "base/folder_lock.h"
 #include "base/progress_line.h"
 #include "harness/cells/cell_selection.h"
 #include "harness/cli/command.h"
@@ -123,6 +124,7 @@ ExitCode score(const ScoreWords& words) {
         record = foreign::scoreImages(frames, row, warnings);
     }
     for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+    const OutputLock alone(words.out); // from reading the other rows to writing all: none is lost
     const std::vector<Record> records = joined(words.out, record);
     writeRecords(words.out / "results.jsonl", records);
     return reportResult({records, ExitCode::Pass}, words.out);

@@ -1,6 +1,7 @@
 #include "harness/studies/sweep/sweep.h"
 
 #include "base/files.h"
+#include "base/folder_lock.h"
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
 #include "harness/report/charts.h"
@@ -21,6 +22,7 @@ namespace {
 /// The axis of level-of-detail techniques, whose records have costs and no errors.
 ExitCode viewportsAndPrint(const SweepOptions& options, const std::filesystem::path& out) {
     const SweepResult result = lod::viewportCurve(options);
+    const OutputLock alone(out); // the files of one sweep stand together
     const std::filesystem::path records = out / "sweep.jsonl", page = out / "sweep.md", chart = out / "sweep.svg";
     writeRecords(records, result.records);
     const std::string table = report::viewportTable(result.records);
@@ -34,6 +36,7 @@ ExitCode viewportsAndPrint(const SweepOptions& options, const std::filesystem::p
 ExitCode sweepAndPrint(const SweepOptions& options, const std::filesystem::path& out) {
     if (options.axis == lod::viewportAxis) return viewportsAndPrint(options, out);
     const SweepResult result = sweep(options);
+    const OutputLock alone(out);
     const std::filesystem::path records = out / "sweep.jsonl", page = out / "sweep.md", chart = out / "sweep.svg";
     writeRecords(records, result.records);
     const std::string table = report::sweepTable(result.records);

@@ -1,6 +1,8 @@
 #include "harness/gate/baseline.h"
 
 #include "base/error.h"
+#include "base/files.h"
+#include "base/folder_lock.h"
 #include "base/git.h"
 #include "base/hash.h"
 #include "base/process.h"
@@ -70,10 +72,9 @@ public:
                        "-DSHADOWBENCH_TESTS=OFF", "-DSHADOWBENCH_BENCHMARKS=OFF"});
         step("cmake", {"-E", "env", "CCACHE_DIR=" + compilerCache(), "CCACHE_NOHASHDIR=1", "CCACHE_SLOPPINESS=locale",
                        "CCACHE_BASEDIR=" + source.string(), "cmake", "--build", build.string(), "--target", "shadowbench"});
-        fs::create_directories(file.parent_path());
-        const fs::path partial = file.string() + fmt::format(".{}", getpid());
-        fs::copy_file(build / "shadowbench", partial, fs::copy_options::overwrite_existing);
-        fs::rename(partial, file);
+        writeFileWith(file, [&](const fs::path& path) { // with the permissions of what is copied
+            fs::copy_file(build / "shadowbench", path, fs::copy_options::overwrite_existing);
+        });
     }
 
 private:
@@ -115,7 +116,10 @@ Baseline findBaseline(const std::string& text, const fs::path& cache, const Prog
                         "them with --base",
                         text));
     const fs::path program = fs::absolute(cache) / "programs" / (commit + "-" + compilerHash()) / "shadowbench";
-    if (!isProgram(program)) Build(repository, commit, progress).into(program);
+    if (!isProgram(program)) {
+        const FolderLock alone(program.parent_path(), [&] { progress(0, "waiting for another gate that builds it"); });
+        if (!isProgram(program)) Build(repository, commit, progress).into(program);
+    }
     return {Baseline::Kind::Program, program, fmt::format("{} ({})", text, commit.substr(0, 12))};
 }
 

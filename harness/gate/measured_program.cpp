@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/folder_lock.h"
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/process.h"
@@ -165,6 +166,8 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
     std::vector<std::optional<StepTime>> times(steps.size());
     std::mutex mutex;
     std::size_t ended = 0;
+    // Another gate that measures the same program does so for both.
+    const FolderLock alone(records_, [&] { progress(0, "waiting for another gate that measures this program"); });
     inParallel(static_cast<int>(steps.size()), hardwareThreads(), [&](int index) {
         const auto i = static_cast<std::size_t>(index);
         Step step = steps[i];

@@ -11,6 +11,7 @@
 #include "scene/load/load.h"
 #include "techniques/gl/context.h"
 
+#include <exception>
 #include <fmt/format.h>
 #include <new>
 #include <optional>
@@ -65,6 +66,11 @@ private:
         ProgressLine line(loaded.id, static_cast<int>(open.size()), options_.quiet);
         int done = 0;
         for (const std::size_t i : open) {
+            if (isValid(options_.out, manifest_[i])) { // another part that overlaps this one has measured it meanwhile
+                ++result_.kept;
+                line.show(++done, 0, "");
+                continue;
+            }
             const techniques::Variant& variant = variants_[i % variants_.size()];
             line.show(done, 0, variant.name);
             keep(cells, manifest_[i], names_[scene], variant,
@@ -87,6 +93,9 @@ private:
             measured = {cell.id, cells.failed(variant, cells.id(variant), error), error.code()};
         } catch (const std::bad_alloc&) {
             return result_.transient.push_back(said("there was not enough memory"));
+        } catch (const std::exception& unforeseen) { // of a library
+            const InternalError error(unforeseen.what());
+            measured = {cell.id, cells.failed(variant, cells.id(variant), error), error.code()};
         }
         if (measured->code != ExitCode::Pass) result_.errors.push_back(said(measured->record.reason));
         writeCell(options_.out, *measured);

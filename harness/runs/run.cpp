@@ -16,6 +16,7 @@
 #include "techniques/gl/context.h"
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
@@ -59,6 +60,9 @@ MeasuredCell tried(const SceneCells& cells, const techniques::Variant& variant, 
         return {"", cells.failed(variant, record.cell, error), error.code()};
     } catch (const std::bad_alloc&) {
         const InternalError error("there was not enough memory; run fewer cells at once with --jobs");
+        return {"", cells.failed(variant, record.cell, error), error.code()};
+    } catch (const std::exception& unforeseen) { // of a library, such as of a thread that cannot be started
+        const InternalError error(unforeseen.what());
         return {"", cells.failed(variant, record.cell, error), error.code()};
     }
 }

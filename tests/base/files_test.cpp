@@ -2,10 +2,13 @@
 #include "base/files.h"
 
 #include <atomic>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <future>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -92,6 +95,84 @@ TEST_F(Files, ThatOthersWriteAndRemoveAtTheSameTimeAreWritten) {
     for (std::future<void>& writer : writers) EXPECT_NO_THROW(writer.get());
     done = true;
     remover.join();
+}
+
+TEST_F(Files, ThatOneCommandMakesAgainAreWholeUnderManyWritersToo) {
+    const fs::path file = folder_ / "page.html";
+    const auto writeOften = [&](char c) {
+        for (int i = 0; i < 100; ++i)
+            writeFileUnflushed(file, std::string(20'000 + 1000 * static_cast<std::size_t>(c - 'a'), c));
+    };
+    std::vector<std::future<void>> writers;
+    for (const char c : {'a', 'b', 'c', 'd'}) writers.push_back(std::async(std::launch::async, writeOften, c));
+    for (int i = 0; i < 200; ++i) {
+        if (!fs::exists(file)) continue;
+        const std::string text = readFile(file);
+        ASSERT_FALSE(text.empty());
+        EXPECT_EQ(text.find_first_not_of(text.front()), std::string::npos) << "torn";
+        EXPECT_EQ(text.size(), 20'000 + 1000 * static_cast<std::size_t>(text.front() - 'a'));
+    }
+    for (std::future<void>& writer : writers) EXPECT_NO_THROW(writer.get());
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(Files, OfAKilledWriterAreRemovedByTheNextProcessThatWritesThere) {
+    const fs::path fresh = folder_ / "fresh"; // a process looks once
+    const fs::path file = fresh / "results.jsonl";
+    const auto inAnotherProcess = [](const std::function<void()>& work) {
+        const pid_t process = fork();
+        if (process == 0) {
+            work();
+            _exit(0);
+        }
+        int status = 0;
+        waitpid(process, &status, 0);
+        return status;
+    };
+    const int killed = inAnotherProcess([&] {
+        writeFileWith(file, [](const fs::path& path) {
+            std::ofstream(path) << "half";
+            std::raise(SIGKILL);
+        });
+    });
+    EXPECT_TRUE(WIFSIGNALED(killed));
+    ASSERT_EQ(entries(), 2U) << "the folder, and what it was writing";
+    const fs::path left = fs::directory_iterator(fresh)->path();
+    EXPECT_TRUE(isTemporary(left)) << left;
+
+    writeFileWith(fresh / "a.txt", [&](const fs::path& path) {
+        EXPECT_FALSE(fs::exists(left));
+        inAnotherProcess([&] { writeFile(fresh / "." / "b.txt", "b"); }); // by another name: it looks, too
+        EXPECT_TRUE(fs::exists(path)) << "it is still being written";
+        std::ofstream(path) << "a";
+    });
+    EXPECT_EQ(readFile(fresh / "a.txt"), "a");
+    EXPECT_EQ(entries(), 3U);
+}
+
+TEST_F(Files, ThatAreInterruptedAreFinishedFirst) {
+    const pid_t process = fork();
+    if (process == 0) {
+        writeFileWith(folder_ / "a.txt", [](const fs::path& path) {
+            std::raise(SIGTERM);
+            std::ofstream(path) << "whole";
+        });
+        _exit(0);
+    }
+    int status = 0;
+    waitpid(process, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+    EXPECT_EQ(readFile(folder_ / "a.txt"), "whole");
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST(TemporaryFiles, AreKnownByTheirNames) {
+    EXPECT_TRUE(isTemporary("a/.results.shadowbench-aB3dE6.jsonl"));
+    EXPECT_TRUE(isTemporary(".results.shadowbench-aB3dE6"));
+    EXPECT_FALSE(isTemporary("a/results.shadowbench-aB3dE6.jsonl"));
+    EXPECT_FALSE(isTemporary("a/.results.aB3dE6.jsonl"));
+    EXPECT_FALSE(isTemporary("a/.shadowbench-aB3dE6"));
+    EXPECT_FALSE(isTemporary("a/.results.shadowbench-aB3dE6x.jsonl"));
 }
 
 TEST_F(Files, ThatCannotBeReadAreNamed) {

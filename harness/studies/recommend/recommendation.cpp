@@ -1,6 +1,7 @@
 #include "harness/studies/recommend/recommendation.h"
 
 #include "base/files.h"
+#include "base/folder_lock.h"
 #include "base/progress_line.h"
 #include "harness/metrics/table.h"
 #include "harness/records/comparability.h"
@@ -82,6 +83,7 @@ private:
         cells.measure.time = question == Question::Technique;
         cells.resume = true;
         cells.quiet = options_.quiet;
+        const OutputLock alone(cells.out);
         RunResult result = run(cells);
         if (code_ == ExitCode::Pass) code_ = result.code;
         return std::move(result.records);

@@ -112,8 +112,8 @@ TEST_F(CacheUpkeep, AStoreKeepsToTheSizeAndRemovesTheLeastRecentlyUsed) {
 TEST_F(CacheUpkeep, NeitherAnEntryBeingWrittenNorAnotherFileIsTouched) {
     fill(1);
     const fs::path group = cache_.entry(keyOf(1)).parent_path();
-    const fs::path young = group / fmt::format(".{}.aB3dE6.ref", keyOf(1)),
-                   old = group / fmt::format(".{}.XyZ123.ref", keyOf(2));
+    const fs::path young = group / fmt::format(".{}.shadowbench-aB3dE6.ref", keyOf(1)),
+                   old = group / fmt::format(".{}.shadowbench-XyZ123.ref", keyOf(2));
     const std::vector<fs::path> others{cache_.folder() / "notes.txt", group / "notes.ref",
                                        cache_.folder() / (keyOf(3) + ".ref")};
     for (const fs::path& file : others) {

@@ -1,0 +1,11 @@
+// What a process says when something ends it that no exception handler sees.
+#pragma once
+
+namespace shadowbench {
+
+/// From now on an abort of this process (a library's assertion, an exception that leaves a thread or a destructor) ends it
+/// with one line on standard error and ExitCode::Internal. Processes that are forked from it still end by the signal, which
+/// their parent reports.
+void sayWhyAborted();
+
+} // namespace shadowbench

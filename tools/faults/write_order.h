@@ -1,0 +1,16 @@
+// Whether what a verb writes outlives a power cut: flushed before it gets its name, and the folder after.
+#pragma once
+
+#include "tools/faults/sandbox.h"
+
+namespace shadowbench::faults {
+
+struct WriteOrder {
+    int renames = 0;                 // of files that must last
+    int madeAgain = 0;               // of those that the same command makes again: pages, tables and charts
+    std::vector<std::string> faults; // a sentence each
+};
+
+WriteOrder writeOrderOf(Sandbox& sandbox, const Verb& verb);
+
+} // namespace shadowbench::faults
