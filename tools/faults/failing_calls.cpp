@@ -90,7 +90,7 @@ Decision goOn(const Call& /*call*/, pid_t /*root*/) { return {}; }
 bool isOwn(const Call& call) {
     if (!call.byProgram) return false;
     if (call.kind == Kind::Write && call.descriptor == STDERR_FILENO) return false;
-    for (const std::string_view system : {"/usr/", "/lib", "/etc/", "/sys/", "/dev/dri", "/dev/shm", "/proc/"})
+    for (const std::string_view system : {"/usr/", "/lib", "/etc/", "/sys/", "/dev/dri", "/proc/"})
         if (call.path.starts_with(system)) return false;
     return call.path.find("/cache/shaders") == std::string::npos;
 }
