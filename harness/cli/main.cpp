@@ -1,6 +1,7 @@
 // The command line: parses, calls the chosen verb, turns errors into one line and a documented exit code.
 #include "base/files.h"
 #include "base/last_words.h"
+#include "base/one_line.h"
 #include "harness/cells/environment.h"
 #include "harness/cli/command.h"
 #include "harness/cli/documents.h"
@@ -77,7 +78,8 @@ int main(int argc, char** argv) {
         shadowbench::flushOutput();
         return static_cast<int>(code);
     } catch (const shadowbench::Error& error) {
-        fmt::print(stderr, "shadowbench: {}\n", error.what());
+        const bool isOurs = error.code() == ExitCode::Internal; // a shader's log has lines; words of an input may have any
+        fmt::print(stderr, "shadowbench: {}\n", isOurs ? error.what() : shadowbench::onOneLine(error.what()));
         return static_cast<int>(error.code());
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "shadowbench: there is not enough memory; free some, or use --jobs 1 where there is one\n");
