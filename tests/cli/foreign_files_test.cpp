@@ -28,7 +28,10 @@ protected:
 };
 
 TEST_F(ForeignFiles, ThatAreDamagedAreNamed) {
-    folder_.write("bad.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
+    folder_.write("bad.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                  "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                  "0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n"); // it has no vertex 9
     expectRefused(run("bad.ply"), "mesh.file: cannot import mesh " + folder_ / "bad.ply: ");
     expectRefused(run("/etc/passwd"), "it is no .obj, .ply, .gltf or .glb file");
     expectRefused(run("/dev/zero"), "it is a pipe or a device");

@@ -167,6 +167,14 @@ TEST_F(Import, NamesWhatIsNoMesh) {
     expectRefusal(folder_.path() / "none.ply", "No such file");
 }
 
+/// assimp 5.2.5 looks for the end of this header for ever.
+TEST_F(Import, NamesAFileThatTheLibraryHangsOn) {
+    ::setenv("SHADOWBENCH_MAX_READER_SECONDS", "1", 1);
+    expectRefusal(write("endless.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"),
+                  "or raise SHADOWBENCH_MAX_READER_SECONDS");
+    ::unsetenv("SHADOWBENCH_MAX_READER_SECONDS");
+}
+
 /// A file with a few bytes changed is read or named; the library's aborts, crashes and endless loops stay in its child.
 class ChangedFiles : public Import, public testing::WithParamInterface<const char*> {};
 
