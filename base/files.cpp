@@ -133,9 +133,12 @@ std::string readFile(const fs::path& file) {
 std::string didYouMean(std::string_view word, const std::vector<std::string>& known) {
     const std::size_t limit = std::max<std::size_t>(1, word.size() / 3);
     std::vector<std::pair<std::size_t, std::string>> near;
-    for (const std::string& candidate : known)
+    for (const std::string& candidate : known) {
+        // Of a word that is far too long the distance would take long, too.
+        if (std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size()) > limit) continue;
         if (const std::size_t distance = editDistance(word, candidate); distance <= limit)
             near.emplace_back(distance, candidate);
+    }
     if (near.empty()) return "";
     std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::string words = fmt::format("\"{}\"", near.front().second);

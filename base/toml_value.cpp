@@ -73,7 +73,9 @@ std::string TomlValue::oneOf(const std::vector<std::string>& words) const {
 
 double TomlValue::number() const {
     if (!node_->is_number()) fail(fmt::format("expected a number, got {}", got()));
-    const double value = *node_->value<double>();
+    // Not value<double>(), which is empty for whole numbers that a double rounds.
+    const auto* whole = node_->as_integer();
+    const double value = whole != nullptr ? static_cast<double>(whole->get()) : node_->as_floating_point()->get();
     if (!std::isfinite(value)) fail(fmt::format("expected a finite number, got {}", got()));
     if (std::abs(value) > source_->largest)
         fail(fmt::format("expected a number of at most {:g} in size, got {}", source_->largest, got()));

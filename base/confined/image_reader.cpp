@@ -42,6 +42,14 @@ const ForeignReader decoder("image", decode);
 // ---- in the parent
 // --------------------------------------------------------------------------------------------------------------
 
+std::vector<OpenedFile> only(const std::filesystem::path& file) {
+    std::vector<OpenedFile> files;
+    files.push_back(openRegular(file, "cannot read image"));
+    return files;
+}
+
+} // namespace
+
 ImageHeader receivedHeader(ReaderChild& child) {
     child.awaitAnswer();
     ImageHeader header;
@@ -57,14 +65,6 @@ ImageHeader receivedHeader(ReaderChild& child) {
     if (header.alpha >= static_cast<int>(header.channels.size())) child.refuse("its alpha channel is none of its channels");
     return header;
 }
-
-std::vector<OpenedFile> only(const std::filesystem::path& file) {
-    std::vector<OpenedFile> files;
-    files.push_back(openRegular(file, "cannot read image"));
-    return files;
-}
-
-} // namespace
 
 ImageReader::ImageReader(const std::filesystem::path& file)
     : file_(file), child_(decoder, fmt::format("cannot read image {}", file.string()), only(file)),

@@ -30,4 +30,7 @@ private:
     ImageHeader header_;
 };
 
+/// The header of a child's answer, each of its numbers checked. Throws BadInput.
+ImageHeader receivedHeader(ReaderChild& child);
+
 } // namespace shadowbench

@@ -70,6 +70,8 @@ class ReaderChild {
 public:
     ReaderChild(const ForeignReader& reader, std::string doing, std::vector<OpenedFile> files,
                 const std::string& request = "");
+    /// In place of a child, what one might have said: for those who test what becomes of a hostile answer.
+    ReaderChild(std::string doing, Descriptor answer);
     ~ReaderChild();
     ReaderChild(const ReaderChild&) = delete;
     ReaderChild& operator=(const ReaderChild&) = delete;

@@ -112,6 +112,10 @@ ReaderChild::ReaderChild(const ForeignReader& reader, std::string doing, std::ve
     warnOnce(running_->protections);
 }
 
+ReaderChild::ReaderChild(std::string doing, Descriptor answer)
+    : doing_(std::move(doing)),
+      running_(std::make_unique<Running>(ReaderProcess{std::move(answer), Descriptor(-1)}, std::chrono::seconds(1))) {}
+
 ReaderChild::~ReaderChild() = default;
 
 const Protections& ReaderChild::protections() const { return running_->protections; }
@@ -154,6 +158,7 @@ void ReaderChild::receive(const std::function<void(Wire&)>& part) {
         case WireError::Kind::Malformed:
             refuse(fmt::format("its reader's answer is malformed ({})", error.what()));
         case WireError::Kind::Ended:
+            if (running_->report.get() < 0) refuse("its answer ends too early"); // there is no process
             refuse(inWords(running_->end(), running_->seconds));
         }
     }

@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/image_io.h"
+#include "base/json_text.h"
 
 #include <bit>
 #include <cstring>
@@ -35,7 +36,7 @@ Provenance provenanceFrom(const Json& json) {
     Provenance p;
     json.at("oracle").get_to(p.oracle);
     json.at("key").get_to(p.key);
-    json.at("samples").get_to(p.samples);
+    p.samples = wholeNumber<int>(json.at("samples"));
     json.at("tools").get_to(p.tools);
     json.at("seconds").get_to(p.seconds);
     json.at("measured").get_to(p.measured);
@@ -63,15 +64,15 @@ std::size_t byteCount(const Image<T>& image) {
 EntryHeader takeHeader(std::string_view& bytes) {
     const std::size_t end = bytes.find('\n');
     if (end == bytes.npos) damaged("it has no header");
-    const Json json = Json::parse(bytes.substr(0, end), nullptr, false);
+    const Json json = Json::parse(boundedJson(bytes.substr(0, end), "a stored reference is damaged"), nullptr, false);
     bytes.remove_prefix(end + 1);
-    if (!json.is_object() || json.value("format", "") != formatName) damaged("its header is not ours");
-    if (json.value("version", 0) != formatVersion) damaged("it has another format version");
+    if (!json.is_object() || json.value("format", Json()) != formatName) damaged("its header is not ours");
+    if (json.value("version", Json()) != formatVersion) damaged("it has another format version");
     try {
         EntryHeader header;
         json.at("key").get_to(header.key);
-        json.at("width").get_to(header.width);
-        json.at("height").get_to(header.height);
+        header.width = wholeNumber<int>(json.at("width"));
+        header.height = wholeNumber<int>(json.at("height"));
         header.provenance = provenanceFrom(json.at("provenance"));
         return header;
     } catch (const Json::exception&) {
@@ -79,7 +80,7 @@ EntryHeader takeHeader(std::string_view& bytes) {
     }
 }
 
-bool inRange(int side) { return side >= 0 && side <= largestSide; }
+bool inRange(int side) { return side >= 1 && side <= largestSide; }
 
 void checkSurfaces(const Image<Surface>& surface) {
     for (const Surface s : surface)
@@ -113,7 +114,7 @@ Reference decode(std::string_view bytes, std::string_view key) {
     if (hash64(bytes) != stored) damaged("its checksum is wrong");
 
     const EntryHeader header = takeHeader(bytes);
-    if (header.key != key) damaged("it belongs to another key");
+    if (header.key != key || header.provenance.key != key) damaged("it belongs to another key");
     if (!inRange(header.width) || !inRange(header.height)) damaged("its size is out of range");
     Reference reference;
     reference.provenance = header.provenance;

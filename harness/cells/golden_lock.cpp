@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -40,11 +41,11 @@ GoldenEntry entryFrom(const Json& json) {
     GoldenEntry entry;
     json.at("scene").get_to(entry.name.scene);
     entry.name.truth = truthNamed(json.at("truth").get<std::string>());
-    json.at("frame").get_to(entry.name.frame);
-    entry.size = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
+    entry.name.frame = wholeNumber<int>(json.at("frame"));
+    entry.size = {wholeNumber<int>(json.at("size").at(0)), wholeNumber<int>(json.at("size").at(1))};
     json.at("key").get_to(entry.provenance.key);
     json.at("oracle").get_to(entry.provenance.oracle);
-    json.at("samples").get_to(entry.provenance.samples);
+    entry.provenance.samples = wholeNumber<int>(json.at("samples"));
     json.at("tools").get_to(entry.provenance.tools);
     json.at("measured").get_to(entry.provenance.measured);
     const Json& hashes = json.at("hashes");
@@ -54,7 +55,7 @@ GoldenEntry entryFrom(const Json& json) {
     hashes.at("id").get_to(entry.hashes.id);
     hashes.at("edge_distance").get_to(entry.hashes.edgeDistance);
     entry.file = json.value("file", "");
-    if (std::filesystem::path(entry.file).filename() != entry.file)
+    if (std::filesystem::path(entry.file).filename() != entry.file || entry.file == "." || entry.file == "..")
         throw BadInput(fmt::format("\"{}\" is not the name of a file beside the lock", entry.file));
     return entry;
 }
@@ -82,7 +83,7 @@ GoldenLock readLock(const std::filesystem::path& folder) { return parseLock(read
 
 GoldenLock parseLock(const std::string& text, const std::filesystem::path& file) {
     try {
-        return lockFrom(Json::parse(text));
+        return lockFrom(Json::parse(boundedJson(text, "its text")));
     } catch (const Json::exception& error) {
         throw BadInput(fmt::format("{} is no lock file of golden references: {}", file.string(), error.what()));
     } catch (const BadInput& error) {

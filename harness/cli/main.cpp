@@ -1,5 +1,6 @@
 // The command line: parses, calls the chosen verb, turns errors into one line and a documented exit code.
 #include "base/files.h"
+#include "base/one_line.h"
 #include "harness/cells/environment.h"
 #include "harness/cli/command.h"
 #include "harness/cli/documents.h"
@@ -58,7 +59,8 @@ int main(int argc, char** argv) {
     try {
         return static_cast<int>(shadowbench::dispatch(argc, argv));
     } catch (const shadowbench::Error& error) {
-        fmt::print(stderr, "shadowbench: {}\n", error.what());
+        const bool isOurs = error.code() == ExitCode::Internal; // a shader's log has lines; words of an input may have any
+        fmt::print(stderr, "shadowbench: {}\n", isOurs ? error.what() : shadowbench::onOneLine(error.what()));
         return static_cast<int>(error.code());
     } catch (const std::exception& error) {
         fmt::print(stderr, "shadowbench: internal error: {}\n", error.what());

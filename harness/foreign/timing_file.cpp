@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,7 @@ double medianOf(const Json& json) {
 
 std::optional<ReportedCost> reportedCost(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) return {};
-    const Json json = Json::parse(readFile(file), nullptr, false);
+    const Json json = Json::parse(boundedJson(readFile(file), file.string()), nullptr, false);
     if (!json.is_object()) refuse("is no JSON object");
     const std::vector<std::string> known{"milliseconds", "device"};
     for (const auto& [key, value] : json.items())

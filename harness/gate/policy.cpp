@@ -1,6 +1,7 @@
 #include "harness/gate/policy.h"
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "harness/cells/environment.h"
 #include "harness/gate/bounds.h"
 #include "harness/metrics/table.h"
@@ -149,7 +150,7 @@ std::string toJson(const Identity& identity) {
 
 Identity identityFrom(const std::string& text) {
     try {
-        const Json json = Json::parse(text);
+        const Json json = Json::parse(boundedJson(text, "a program's policy"));
         return {json.at("commit").get<std::string>(), json.at("dirty").get<bool>(), json.at("program").get<std::string>(),
                 policyFrom(json.at("policy"))};
     } catch (const Json::exception& error) {

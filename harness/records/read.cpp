@@ -1,6 +1,7 @@
 // Records from JSON lines; strict, so that a typo in a file is an error and not a missing metric.
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "harness/records/fields.h"
 
 #include <cstdint>
@@ -77,6 +78,7 @@ public:
         if (!json->is_array() || json->size() != 2) refuse(pathOf(key), "is not [width, height]");
         read(key, (*json)[0], width);
         read(key, (*json)[1], height);
+        if (width < 1 || height < 1) refuse(pathOf(key), "is not [width, height] of a pixel or more");
     }
 
     void parameters(const char* key, std::vector<std::pair<std::string, std::string>>& list) {
@@ -195,7 +197,7 @@ void renewTolerance(Json& object) {
 } // namespace
 
 Record parseRecord(const std::string& json) {
-    Json object = Json::parse(json, nullptr, false);
+    Json object = Json::parse(boundedJson(json, "reading a record"), nullptr, false);
     if (object.is_discarded() || !object.is_object()) refuse("record", "is not a JSON object");
     requireThisVersion(object);
     renewTolerance(object);

@@ -1,6 +1,7 @@
 #include "harness/runs/cell_file.h"
 
 #include "base/files.h"
+#include "base/json_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,11 +11,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+ExitCode exitCode(const Json& json) {
+    const int number = wholeNumber<int>(json);
+    for (const ExitCode code : {ExitCode::Pass, ExitCode::Internal, ExitCode::BadInput, ExitCode::CostRegression,
+                                ExitCode::AccuracyRegression, ExitCode::Inconclusive, ExitCode::Transient})
+        if (static_cast<int>(code) == number) return code;
+    throw BadInput(fmt::format("{} is no exit code", number));
+}
+
 MeasuredCell parse(const std::string& text) {
-    const Json json = Json::parse(text);
+    const Json json = Json::parse(boundedJson(text, "its text"));
     MeasuredCell cell;
     json.at("id").get_to(cell.id);
-    cell.code = static_cast<ExitCode>(json.at("exit_code").get<int>());
+    cell.code = exitCode(json.at("exit_code"));
     cell.record = parseRecord(json.at("record").dump());
     return cell;
 }

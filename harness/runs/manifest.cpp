@@ -2,12 +2,15 @@
 
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/json_text.h"
+#include "groundtruth/store/cache.h"
 #include "harness/cells/cell_selection.h"
 #include "harness/cells/environment.h"
 #include "harness/cells/scene_cells.h"
 
 #include <algorithm>
 #include <charconv>
+#include <concepts>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -40,8 +43,16 @@ Json toJson(const ManifestCell& cell) {
 
 ManifestCell parseCell(const std::string& line) {
     ManifestCell cell;
-    const Json json = Json::parse(line);
-    fields([&](const char* key, auto& member) { json.at(key).get_to(member); }, cell);
+    const Json json = Json::parse(boundedJson(line, "a line"));
+    fields(
+        [&](const char* key, auto& member) {
+            if constexpr (std::same_as<decltype(member), std::uint32_t&>)
+                member = wholeNumber<std::uint32_t>(json.at(key));
+            else
+                json.at(key).get_to(member);
+        },
+        cell);
+    if (!groundtruth::isKey(cell.id)) throw BadInput("its id is no hash");
     return cell;
 }
 
@@ -116,13 +127,17 @@ std::vector<ManifestCell> readManifest(const std::filesystem::path& folder) {
     const std::filesystem::path file = manifestFile(folder);
     std::istringstream lines(readFile(file));
     std::vector<ManifestCell> cells;
+    const auto refuse = [&] {
+        throw BadInput(fmt::format("{}:{} is no line of a manifest; choose another folder, or remove the file to begin anew",
+                                   file.string(), cells.size() + 1));
+    };
     for (std::string line; std::getline(lines, line);) {
         try {
             cells.push_back(parseCell(line));
         } catch (const Json::exception&) {
-            throw BadInput(fmt::format("{}:{} is no line of a manifest; choose another folder, or remove the file to begin "
-                                       "anew",
-                                       file.string(), cells.size() + 1));
+            refuse();
+        } catch (const BadInput&) {
+            refuse();
         }
     }
     return cells;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/json_text.h"
 #include "scene/exchange/gltf.h"
 #include "scene/exchange/texts.h"
 #include "scene/sky.h"
@@ -25,14 +26,7 @@ bool isThere(const fs::path& path) {
 
 /// The files of the export that `folder` holds, by the list in its scene.json; nothing if it holds none.
 std::vector<std::string> earlierExport(const fs::path& folder) {
-    if (!isThere(folder / kDescription)) return {};
-    const auto json = nlohmann::json::parse(readFile(folder / kDescription), nullptr, false);
-    std::vector<std::string> files;
-    if (!json.is_object() || json.value("format", nlohmann::json()) != "shadowbench-scene") return files;
-    for (const auto& file : json.value("files", nlohmann::json::array()))
-        if (file.is_string() && !fs::path(file.get<std::string>()).has_parent_path())
-            files.push_back(file.get<std::string>());
-    return files;
+    return isThere(folder / kDescription) ? exportedFiles(readFile(folder / kDescription)) : std::vector<std::string>();
 }
 
 /// Nothing of the user's is overwritten: the folder is new, empty, or an earlier export's, whose files are removed.
@@ -89,6 +83,18 @@ const Image<float>* skyImageOf(const Scene& scene) {
 }
 
 } // namespace
+
+std::vector<std::string> exportedFiles(std::string_view description) {
+    const auto json = nlohmann::json::parse(boundedJson(description, kDescription), nullptr, false);
+    std::vector<std::string> files;
+    if (!json.is_object() || json.value("format", nlohmann::json()) != "shadowbench-scene") return files;
+    for (const auto& file : json.value("files", nlohmann::json::array())) {
+        if (!file.is_string()) continue;
+        const auto name = file.get<std::string>();
+        if (!name.empty() && fs::path(name).filename() == name && name != "." && name != "..") files.push_back(name);
+    }
+    return files;
+}
 
 Exported exportScene(const Scene& scene, const fs::path& folder) {
     const Parts parts(scene);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shadowbench::exchange {
@@ -19,5 +20,9 @@ struct Exported {
 /// folder are replaced. Throws BadInput where the folder holds other files or is none, and InternalError where a file
 /// cannot be written.
 Exported exportScene(const Scene& scene, const std::filesystem::path& folder);
+
+/// The files that an export's `scene.json` names beside itself, by the text of that; none where it is no such text. Throws
+/// BadInput beyond the limits of base/json_text.h.
+std::vector<std::string> exportedFiles(std::string_view description);
 
 } // namespace shadowbench::exchange

@@ -11,6 +11,8 @@
 
 namespace shadowbench {
 
+class ReaderChild;
+
 /// A mesh file and the files that it names, as bytes.
 struct ForeignMeshFile {
     std::string extension; // ".obj", ".ply", ".gltf" or ".glb"; the importer is chosen by it alone
@@ -30,6 +32,11 @@ std::map<std::string, Mesh> readPartsHere(const ForeignMeshFile& file);
 /// The names of the files that hold a .gltf's buffers, each once. Nothing of the file is kept in memory. Throws BadInput for
 /// more than the child can be handed, and for JSON nested deeper than Limit::Nesting; of other errors the child speaks.
 std::vector<std::string> bufferNamesOf(std::string_view gltf);
+
+/// What a child has answered, checked: finite positions, indices in range, no more than Limit::Vertices and
+/// Limit::Triangles. Throws BadInput.
+Mesh receivedMesh(ReaderChild& child);
+std::map<std::string, Mesh> receivedParts(ReaderChild& child);
 
 /// `mesh` without the positions that no triangle uses.
 Mesh compacted(const Mesh& mesh);

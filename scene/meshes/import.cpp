@@ -113,17 +113,13 @@ Mesh received(ReaderChild& child, Room& room) {
 
 } // namespace
 
-Mesh importMesh(const fs::path& file) {
-    const std::string doing = fmt::format("cannot import mesh {}", file.string());
-    ReaderChild child(meshReader, doing, filesOf(file, doing), extensionOf(file));
+Mesh receivedMesh(ReaderChild& child) {
     child.awaitAnswer();
     Room room;
     return received(child, room);
 }
 
-std::map<std::string, Mesh> importParts(const fs::path& file) {
-    const std::string doing = fmt::format("cannot read {}", file.string());
-    ReaderChild child(meshReader, doing, filesOf(file, doing), partsOf);
+std::map<std::string, Mesh> receivedParts(ReaderChild& child) {
     child.awaitAnswer();
     Room room;
     std::map<std::string, Mesh> parts;
@@ -132,6 +128,18 @@ std::map<std::string, Mesh> importParts(const fs::path& file) {
         parts.insert_or_assign(std::move(name), received(child, room));
     }
     return parts;
+}
+
+Mesh importMesh(const fs::path& file) {
+    const std::string doing = fmt::format("cannot import mesh {}", file.string());
+    ReaderChild child(meshReader, doing, filesOf(file, doing), extensionOf(file));
+    return receivedMesh(child);
+}
+
+std::map<std::string, Mesh> importParts(const fs::path& file) {
+    const std::string doing = fmt::format("cannot read {}", file.string());
+    ReaderChild child(meshReader, doing, filesOf(file, doing), partsOf);
+    return receivedParts(child);
 }
 
 } // namespace shadowbench

@@ -104,6 +104,7 @@ TEST(DidYouMean, NamesTheNearestWordsFirst) {
     EXPECT_EQ(didYouMean("pcs", known), " (did you mean \"pcf\" or \"pcss\"?)");
     EXPECT_EQ(didYouMean("temporal-soft", known), "");
     EXPECT_EQ(didYouMean("windmil", {"trees", "windmills"}), " (did you mean \"windmills\"?)");
+    EXPECT_EQ(didYouMean(std::string(50'000'000, 'a'), known), ""); // at once
 }
 
 } // namespace

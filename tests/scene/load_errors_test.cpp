@@ -75,6 +75,8 @@ const std::vector<Mistake>& mistakes() {
          "scenes/x.toml:2: camera.eye: expected 3 numbers, got a list of 2"},
         {"NotAVector", withLight("kind = \"rectangle\", centre = [0, 5, 0], u = \"a\", v = [0, 0, 1]"),
          "scenes/x.toml:3: light.u: expected 3 numbers, got \"a\""},
+        {"WholeNumberThatADoubleRounds", withLight("kind = \"point\", centre = [0, 9007199254740993, 0]"),
+         "scenes/x.toml:3: light.centre[2]: expected a number of at most 1e+12 in size, got 9007199254740993"},
         {"NotANumberInAVector", withLight("kind = \"point\", centre = [0, nan, 0]"),
          "scenes/x.toml:3: light.centre[2]: expected a finite number, got nan"},
         {"Infinity", withCamera("eye = [0, 2, 6], target = [0, 0, 0], fovy = 40, near = 0.1, far = inf"),

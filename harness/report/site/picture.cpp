@@ -1,5 +1,6 @@
 #include "base/files.h"
 #include "harness/cells/cell_images.h"
+#include "harness/cells/kept_images.h"
 #include "harness/report/site/made_file.h"
 #include "harness/report/site/names.h"
 #include "harness/report/site/pages.h"
@@ -10,9 +11,8 @@ namespace shadowbench::site {
 
 std::string picture(const std::filesystem::path& images, const Record& record, const std::string& name,
                     const SiteWriter& site) {
-    if (images.empty()) return "";
-    const std::filesystem::path source = images / record.scene / fileName(record.variant) / (name + ".png");
-    if (record.variant.find("..") != std::string::npos || record.scene.find("..") != std::string::npos) return "";
+    if (images.empty() || !isFolderName(record.scene) || !isFolderName(fileName(record.variant))) return "";
+    const std::filesystem::path source = cellFolder(images, record.scene, record.variant) / (name + ".png");
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(source, ignored)) return "";
     const std::string address = fmt::format("pictures/{}-{}-{}.png", slug(record.scene), slug(record.variant), name);

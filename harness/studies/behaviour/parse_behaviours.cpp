@@ -2,6 +2,7 @@
 #include "harness/studies/behaviour/behaviour.h"
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "embedded_behaviour.h"
 #include "harness/studies/json_members.h"
 
@@ -32,7 +33,7 @@ const std::vector<Behaviour>& behaviours() {
 }
 
 std::vector<Behaviour> parseBehaviours(std::string_view json) {
-    const Json list = Json::parse(json, nullptr, false);
+    const Json list = Json::parse(boundedJson(json, "reading behaviours"), nullptr, false);
     if (!list.is_array()) throw BadInput("reading behaviours: not a JSON list");
     std::vector<Behaviour> result;
     for (const Json& behaviour : list) result.push_back(parseBehaviour(behaviour));

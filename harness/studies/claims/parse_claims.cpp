@@ -2,6 +2,7 @@
 #include "harness/studies/claims/claims.h"
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "embedded_claims.h"
 #include "harness/studies/json_members.h"
 
@@ -116,7 +117,7 @@ const std::vector<Claim>& claims() {
 }
 
 std::vector<Claim> parseClaims(std::string_view json) {
-    const Json list = Json::parse(json, nullptr, false);
+    const Json list = Json::parse(boundedJson(json, "reading claims"), nullptr, false);
     if (!list.is_array()) throw BadInput("reading claims: not a JSON list");
     std::vector<Claim> result;
     for (const Json& claim : list) result.push_back(parseClaim(claim));

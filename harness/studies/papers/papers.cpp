@@ -2,6 +2,7 @@
 #include "harness/studies/papers/papers.h"
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "embedded_papers.h"
 #include "harness/studies/json_members.h"
 
@@ -62,7 +63,7 @@ const std::vector<PaperPage>& paperPages() {
 }
 
 std::vector<PaperPage> parsePaperPages(std::string_view json) {
-    const Json list = Json::parse(json, nullptr, false);
+    const Json list = Json::parse(boundedJson(json, "reading pages"), nullptr, false);
     if (!list.is_array()) throw BadInput("reading papers: not a JSON list");
     std::vector<PaperPage> pages;
     for (const Json& page : list) pages.push_back(parsePage(page));

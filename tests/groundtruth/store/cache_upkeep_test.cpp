@@ -1,6 +1,7 @@
 // The cache's size, age and health.
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "base/temporary_folder.h"
 #include "groundtruth/contract/reference_files.h"
 #include "groundtruth/store/cache.h"
@@ -163,6 +164,29 @@ TEST_F(CacheUpkeep, AHeaderTellsTheProvenanceWithoutTheImages) {
     EXPECT_EQ(header.provenance.samples, 1024);
     EXPECT_THROW(decodeHeader("{}\n"), BadInput);
     EXPECT_THROW(decodeHeader(bytes.substr(0, 20)), BadInput);
+}
+
+/// An entry whose header has another value at `key`, and the checksum of that.
+std::string withHeader(const std::string& from, const std::string& to) {
+    std::string bytes = encode(sample(someKey));
+    bytes.resize(bytes.size() - sizeof(std::uint64_t));
+    bytes.replace(bytes.find(from), from.size(), to);
+    const std::uint64_t sum = hash64(bytes);
+    return bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+}
+
+TEST(CacheEntry, WithAHeaderOfAnotherKindIsDamaged) {
+    EXPECT_NO_THROW(decode(withHeader("\"version\":1", "\"version\":1"), someKey));
+    const std::vector<std::pair<std::string, std::string>> changes{
+        {"\"version\":1", "\"version\":\"1\""},      {"\"version\":1", "\"version\":[]"},
+        {"\"format\":", "\"format\":7,\"former\":"}, {"\"width\":5", "\"width\":1e300"},
+        {"\"height\":3", "\"height\":-3"},           {"\"height\":3", "\"height\":0"},
+        {"\"samples\":1024", "\"samples\":1e300"},   {"\"width\":5", "\"width\":" + std::string(1000, '[')}};
+    for (const auto& [from, to] : changes) EXPECT_THROW(decode(withHeader(from, to), someKey), BadInput) << to;
+}
+
+TEST(CacheEntry, WhoseProvenanceIsOfAnotherKeyIsDamaged) {
+    EXPECT_THROW(decode(withHeader("\"provenance\":{\"key\":\"0", "\"provenance\":{\"key\":\"f"), someKey), BadInput);
 }
 
 /// What one process does to the cache: stores, looks for and prunes entries in an order of its own.

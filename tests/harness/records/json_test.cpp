@@ -224,6 +224,8 @@ TEST(RecordJson, NamesTheKeyOfWhatIsWrong) {
     EXPECT_TRUE(contains(complaint([](Json& j) { j.erase("schema_version"); }), "\"schema_version\""));
     EXPECT_TRUE(contains(complaint([](Json& j) { j.erase("accuracy"); }), "\"accuracy\" belongs to scored records"));
     EXPECT_TRUE(contains(complaint([](Json& j) { j["status"] = "error"; }), "\"accuracy\" belongs to scored records"));
+    EXPECT_TRUE(contains(complaint([](Json& j) { j["figures"]["a\nb"] = "6"; }), "\"figures.a\nb\" is not a number"));
+    EXPECT_THROW(parseRecord(std::string(1'000'000, '[')), BadInput);
     EXPECT_THROW(parseRecord("{"), BadInput);
     EXPECT_THROW(parseRecord("[]"), BadInput);
     EXPECT_THROW(parseRecord(""), BadInput);

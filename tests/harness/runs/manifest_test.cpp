@@ -1,7 +1,9 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/temporary_folder.h"
+#include "harness/runs/cell_file.h"
 #include "harness/runs/manifest.h"
+#include "tests/support/records_examples.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -81,6 +83,43 @@ TEST(Manifest, ReadsBackEqualAndIsALineACell) {
     EXPECT_EQ(readManifest(folder.path()), cells);
     const std::string text = readFile(manifestFile(folder.path()));
     EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), cells.size());
+}
+
+TEST(Manifest, WithALineThatNamesAnotherFolderOrNoSeedIsRefusedAtThatLine) {
+    const TemporaryFolder folder;
+    writeManifest(folder.path(), plannedCells(fewCells()));
+    const std::string text = readFile(manifestFile(folder.path()));
+    const std::string id = readManifest(folder.path())[1].id;
+    const std::vector<std::pair<std::string, std::string>> changes{{id, "../" + id.substr(3)},
+                                                                   {id, ""},
+                                                                   {"\"seed\":1", "\"seed\":1e300"},
+                                                                   {"\"seed\":1", "\"seed\":-1"},
+                                                                   {"\"cost\":[", "\"cost\":" + std::string(1000, '[')}};
+    for (const auto& [from, to] : changes) {
+        std::string changed = text;
+        changed.replace(changed.find(from, changed.find('\n')), from.size(), to); // in the second line
+        writeFile(manifestFile(folder.path()), changed);
+        try {
+            readManifest(folder.path());
+            ADD_FAILURE() << to;
+        } catch (const BadInput& error) {
+            EXPECT_NE(std::string(error.what()).find("manifest.jsonl:2 is no line"), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(MeasuredCells, HaveAnExitCodeThatARunCanEndWith) {
+    const std::string line = text(MeasuredCell{"", test::hardRecord(), ExitCode::Transient});
+    EXPECT_EQ(measuredCell(line).code, ExitCode::Transient);
+    const std::string code = "\"exit_code\":75";
+    for (const char* other : {"74", "-1", "1e300", "true", "null", "\"0\""}) {
+        std::string changed = line;
+        EXPECT_THROW(measuredCell(changed.replace(changed.find(code), code.size(), "\"exit_code\":" + std::string(other))),
+                     BadInput)
+            << other;
+    }
+    EXPECT_THROW(measuredCell("[" + line + "]"), BadInput);
+    EXPECT_THROW(measuredCell(std::string(1000, '[')), BadInput);
 }
 
 TEST(Manifest, IsFrozen) {

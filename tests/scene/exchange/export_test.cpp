@@ -125,6 +125,16 @@ TEST(Export, ReplacesAnEarlierExportWholeAndLeavesOtherFilesAlone) {
     EXPECT_EQ(second.frames.front(), 59);
 }
 
+TEST(Export, TakesNoFileOfAnotherFolderForAnEarlierExports) {
+    EXPECT_EQ(exchange::exportedFiles(
+                  R"({"format": "shadowbench-scene", "files": ["a.toml", "../a", "/a", "b/", ".", "..", "", 1, ["c"]]})"),
+              std::vector<std::string>{"a.toml"});
+    for (const char* text : {"", "[]", "{", "{\"format\": 1}", R"({"format": "shadowbench-scene", "files": 1})",
+                             R"({"format": "shadowbench-scene", "files": {"a": {}}})", R"({"files": ["a"]})"})
+        EXPECT_EQ(exchange::exportedFiles(text), std::vector<std::string>()) << text;
+    EXPECT_THROW(exchange::exportedFiles(std::string(1000, '[')), BadInput);
+}
+
 TEST(Export, RefusesAFolderOfOtherFilesAndAFile) {
     const TemporaryFolder folder;
     const Scene scene = sceneOf(kHead + kPoint + kBox);
