@@ -1,0 +1,38 @@
+#include "harness/gate/policy.h"
+#include "harness/gate/watchlist.h"
+#include "harness/studies/behaviour/behaviour.h"
+#include "harness/studies/claims/claims.h"
+#include "harness/studies/papers/papers.h"
+#include "tests/fuzz/readers.h"
+#include "tests/fuzz/target.h"
+
+namespace shadowbench::fuzz {
+
+void readBounds(std::string_view input) {
+    const gate::Watchlist list = gate::parseWatchlist(std::string(input), "bounds.toml", Profile::Gate);
+    list.unknownScenes({});
+    list.isByChance("simple", "sm-uniform");
+    for (const gate::Bound& bound : list.bounds) bound.cells.named();
+}
+
+void readPolicyOfAProgram(std::string_view input) {
+    const gate::Identity identity = gate::identityFrom(std::string(input));
+    const std::string written = gate::toJson(identity);
+    require(gate::toJson(gate::identityFrom(written)) == written, "a policy is another one after it was written and read");
+    require(gate::sentencesOf(gate::loosened(identity.policy, identity.policy)).empty(), "a policy is looser than itself");
+}
+
+void readClaimList(std::string_view input) {
+    const std::vector<Claim> claims = parseClaims(input);
+    std::vector<Judgement> judgements;
+    for (const Claim& claim : claims) judgements.push_back(judge(claim, {}));
+    claimsReport(judgements, "json");
+}
+
+void readBehaviourList(std::string_view input) { behaviourTable(parseBehaviours(input), {}, Markup::Latex); }
+
+void readPaperPages(std::string_view input) {
+    for (const PaperPage& page : parsePaperPages(input)) paperPage(page, {}, std::vector<std::string>(page.charts.size()));
+}
+
+} // namespace shadowbench::fuzz
