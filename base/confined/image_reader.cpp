@@ -44,7 +44,7 @@ const ForeignReader decoder("image", decode);
 
 std::vector<OpenedFile> only(const std::filesystem::path& file) {
     std::vector<OpenedFile> files;
-    files.push_back(openRegular(file));
+    files.push_back(openRegular(file, "cannot read image"));
     return files;
 }
 
