@@ -256,9 +256,9 @@
       const ends = curves.map((c) => ({ c, y: sy.at(c.points[c.points.length - 1].y) })).sort((a, b) => b.y - a.y);
       if (area.width > 600) for (const { c, y } of ends) {
         const at = Math.min(y, low - 12); // above the one before, unless that is far from its curve
-        if (y - at > 48) continue;
+        if (y - at > 24 || at < area.top) continue;
         low = at;
-        area.svg.append("text").attr("class", "name").attr("x", area.width - area.right + 6).attr("y", at + 4).text(nameOf(c.row).slice(0, 30));
+        area.svg.append("text").attr("class", "name").attr("x", area.width - area.right + 6).attr("y", at + 4).text(nameOf(c.row).slice(0, 26));
       }
       const heat = (chosen) => groups.select(".curve").classed("dim", (c) => chosen && c !== chosen).classed("hot", (c) => c === chosen);
       groups.selectAll("circle").data((c) => c.points.map((p) => ({ c, p }))).join("circle").attr("r", 5).attr("fill", "transparent")
