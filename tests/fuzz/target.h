@@ -20,7 +20,7 @@ struct Target {
     std::string_view name; // of its folder below tests/fuzz/corpus
     Kind kind;
     std::size_t longest;         // input that is tried, in bytes
-    std::string_view dictionary; // tests/fuzz/<dictionary>.dict
+    std::string_view dictionary; // its name, of a .dict beside this file
     std::string_view seeds;      // what to begin with beside the corpus: a glob of the tree, or ""
     void (*read)(std::string_view input);
 };
