@@ -47,7 +47,7 @@ TEST(GoldenLock, OfAnotherKindIsRefusedByName) {
         {"256, 128", "256"},       {"256, 128", "1e300, 128"},
         {"1024", "\"1024\""},      {"simple-soft.exr", "../a.exr"},
         {"simple-soft.exr", ".."}, {"simple-soft.exr", "/etc/passwd"},
-        {"[\n", "[[\n"},           {"{\"povray\"", std::string(1000, '[') + "{\"povray\""}};
+        {"[\n", "[[\n"},           {"{\"povray\"", fmt::format("{:[<1000}{{\"povray\"", "")}};
     for (const auto& [from, to] : changes)
         EXPECT_TRUE(refusalOf(from, to).starts_with("a/lock.json is no lock file of golden references: ")) << to;
 }

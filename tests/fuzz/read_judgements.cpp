@@ -10,9 +10,9 @@ namespace shadowbench::fuzz {
 
 void readBounds(std::string_view input) {
     const gate::Watchlist list = gate::parseWatchlist(std::string(input), "bounds.toml", Profile::Gate);
-    list.unknownScenes({});
-    list.isByChance("simple", "sm-uniform");
-    for (const gate::Bound& bound : list.bounds) bound.cells.named();
+    (void)list.unknownScenes({});
+    (void)list.isByChance("simple", "sm-uniform");
+    for (const gate::Bound& bound : list.bounds) (void)bound.cells.named();
 }
 
 void readPolicyOfAProgram(std::string_view input) {

@@ -29,7 +29,7 @@ TEST_P(Replay, EveryKeptInputIsTakenOrRefusedInOneSentence) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, testing::ValuesIn(targets().begin(), targets().end()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST(Targets, HaveACorpusEachAndThereIsNoOther) {
     std::set<std::string> folders, names;
