@@ -25,8 +25,8 @@ TEST(CellRecord, HasTheFiguresAndTheTexelsOfItsTechnique) {
     EXPECT_GT(silhouette.figures.at("silhouette_branch"), 0);
 }
 
-// Light and camera look at each other there: light-space perspective maps then are uniform ones, as the papers say of dueling
-// frusta, and nothing beside the view direction may turn them.
+// Light and camera look at each other there: light-space perspective maps then are uniform ones, as the papers say of
+// dueling frusta, and nothing beside the view direction may turn them.
 TEST(CellRecord, WarpedMapsOfDuelingFrustaHaveTheTexelsOfUniformOnes) {
     CellScene& scene = stillScene("dueling-frusta");
     const double uniform = scene.scored("sm-uniform").values["aliasing.median"].value();
