@@ -76,8 +76,9 @@ Progress progressThrough(int socket) {
     };
 }
 
-/// The worker's half: receives the numbers of items and answers each.
-[[noreturn]] void answerItems(int socket, pid_t parent, const SharedWork& work) {
+/// The worker's half: receives the numbers of items and answers each. What is thrown here ends the worker: it would unwind
+/// into the parent's calls, whose copies would clear up what is the parent's.
+[[noreturn]] void answerItems(int socket, pid_t parent, const SharedWork& work) noexcept {
     DeferredInterrupts::startAsWorker();
     prctl(PR_SET_PDEATHSIG, SIGTERM); // not SIGKILL: the tools that it runs have folders to remove
     if (getppid() != parent) _exit(1);

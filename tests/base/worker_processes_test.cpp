@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <unistd.h>
@@ -68,6 +69,16 @@ TEST(WorkerProcesses, ClearUpHoweverOftenTheyAreTold) {
     }));
     EXPECT_TRUE(std::filesystem::exists(file));
     EXPECT_EQ(outcome.lost, (std::map<std::size_t, std::string>{{0, "was killed by signal 15"}})) << "and then it ends";
+}
+
+TEST(WorkerProcesses, ThatThrowClearUpNothingOfTheirParents) {
+    Outcome outcome;
+    const TemporaryFolder folder;
+    shareAmongProcesses(1, outcome.work(1, [](std::size_t, const Progress&) -> std::string {
+        throw std::runtime_error("which it must not");
+    }));
+    EXPECT_EQ(outcome.lost, (std::map<std::size_t, std::string>{{0, "was killed by signal 6"}}));
+    EXPECT_TRUE(std::filesystem::exists(folder.path())) << "removed by the worker";
 }
 
 TEST(WorkerProcesses, WorkAtTheSameTime) {

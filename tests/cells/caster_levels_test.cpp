@@ -191,7 +191,8 @@ class CasterLevelsOn : public testing::TestWithParam<Case> {};
 TEST_P(CasterLevelsOn, HardLightAreWithinToleranceAndNoCoarserOneIs) {
     const auto& [scene, r] = searched(GetParam());
     expectVerified(r);
-    EXPECT_EQ(r.verifier, "rays");
+    EXPECT_EQ(r.oracle, "rays");
+    EXPECT_EQ(r.verifier, "polygon");
     EXPECT_EQ(r.errors, r.verifiedErrors); // both oracles are exact
     EXPECT_EQ(r.triangles < r.finestTriangles, GetParam().saves);
 
