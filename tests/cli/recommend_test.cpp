@@ -35,7 +35,7 @@ TEST_F(Recommend, PrintsTheLevelOfEachBandAndTheTrianglesSaved) {
     const Outcome outcome = recommend("--scene " + scene_);
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("% saved"), std::string::npos) << outcome.output;
-    EXPECT_NE(outcome.output.find("verified by rays"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("verified by polygon"), std::string::npos) << outcome.output;
     EXPECT_NE(outcome.output.find("720 180 80 20 4 0"), std::string::npos) << outcome.output;
 }
 
