@@ -147,10 +147,10 @@ TEST(Export, RefusesAFolderOfOtherFilesAndAFile) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
-/// A file that cannot be written is the last but one: what was written before goes away again.
+/// The scene file, which is the last but one, cannot be written: what was written before goes away again.
 TEST(Export, WritesAllFilesOrNone) {
     const TemporaryFolder folder;
-    const Scene scene = sceneOf(kHead + kPoint + kBox, "a/" + std::string(250, 'n') + ".toml"); // longer than names may be
+    const Scene scene = sceneOf(kHead + kPoint + kBox, "a/" + std::string(251, 'n') + ".toml"); // longer than names may be
     const fs::path out = folder.path() / "out";
     EXPECT_NE(messageOf([&] { exportScene(scene, out); }).find("cannot write"), std::string::npos);
     EXPECT_FALSE(fs::exists(out));
