@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <mutex>
+#include <utility>
 
 namespace shadowbench::recommend {
 namespace {
@@ -31,7 +33,7 @@ Reference byRays(const Snapshot& casters, const Receivers& receivers) {
 }
 
 Reference byPolygons(const Snapshot& casters, const Receivers& receivers) {
-    const ExactScene scene(casters, hardwareThreads());
+    const ExactScene scene(casters, 1);
     const std::vector<PlanarReceiver> planes = scene.planarReceivers(receivers.primary);
     std::size_t planar = 0;
     for (const PlanarReceiver& plane : planes) planar += plane.pixels;
@@ -81,9 +83,13 @@ Shadow joined(const Shadow& a, const Shadow& b) {
 ShadowOracle polygonOracle(const Receivers& receivers, std::size_t mostTriangles) {
     return {"polygon", [&receivers, mostTriangles](const Snapshot& casters) {
                 const std::vector<Snapshot> all = parts(casters, receivers, mostTriangles);
-                Shadow shadow = shadowOf(byPolygons(all.front(), receivers));
-                for (std::size_t i = 1; i < all.size(); ++i)
-                    shadow = joined(shadow, shadowOf(byPolygons(all[i], receivers)));
+                Shadow shadow;
+                std::mutex one;
+                inParallel(static_cast<int>(all.size()), hardwareThreads(), [&](int i) {
+                    Shadow part = shadowOf(byPolygons(all[static_cast<std::size_t>(i)], receivers));
+                    const std::scoped_lock lock(one);
+                    shadow = shadow.labelled.empty() ? std::move(part) : joined(shadow, part);
+                });
                 return shadow;
             }};
 }

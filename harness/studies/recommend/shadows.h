@@ -21,9 +21,10 @@ struct ShadowOracle {
     std::function<Shadow(const Snapshot&)> shadow;
 };
 
-/// Hard lights: exact, `polygon` on planar receivers and `rays` on others. More than `mostTriangles` of casters, some 0.25
-/// GiB of silhouettes, are labelled in parts: their shadow is the union of the parts'.
-ShadowOracle polygonOracle(const Receivers& receivers, std::size_t mostTriangles = 4'000'000);
+/// Hard lights: exact, `polygon` on planar receivers and `rays` on others. Casters are labelled in parts of at most
+/// `mostTriangles`, as many at once as the machine runs threads: their shadow is the union of the parts', and silhouettes
+/// take memory.
+ShadowOracle polygonOracle(const Receivers& receivers, std::size_t mostTriangles = 2'000'000);
 
 /// Hard lights: exact, `rays` on all receivers.
 ShadowOracle rayOracle(const Receivers& receivers);
