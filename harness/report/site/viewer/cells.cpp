@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/parallel.h"
 #include "harness/cells/cell_images.h"
 #include "harness/cells/kept_images.h"
 #include "harness/report/run_report.h"
@@ -34,6 +35,12 @@ constexpr std::array<std::string_view, 11> scripts{"pixels.js", "colours.js",  "
                                                    "pane.js",   "controls.js", "readout.js", "pointer.js",
                                                    "keys.js",   "layers.js",   "viewer.js"};
 
+bool hasImage(const Record& record, const fs::path& images) {
+    if (images.empty() || !wasScored(record.status) || isLevelOfDetail(record)) return false;
+    if (!isFolderName(record.scene) || !isFolderName(fileName(record.variant))) return false;
+    return fs::exists(cellFolder(images, record.scene, record.variant) / "visibility.exr");
+}
+
 /// The files of one scene's cells.
 class ScenePage {
 public:
@@ -45,26 +52,39 @@ public:
         for (const std::string& name : names_) addTruth(name, truthFile(images, scene, name));
     }
 
-    void add(const RunCell& from) {
-        const fs::path folder = cellFolder(from.images, from.record.scene, from.record.variant);
-        const Image<float> v = readChannel(folder / "visibility.exr", "V");
-        ShownCell cell{
-            slug(from.name), shown(from.name), errorOf(from.record), truthOf(from.record, names_), {}, {}, {}, {}};
-        const KeptTruth& truth = truths_.at(cell.truth);
-        if (!v.sameSize(truth.visibility) || !seen_.insert(cell.slug).second) return;
-        shown_.width = v.width();
-        shown_.height = v.height();
-        cell.data = writeScript(cell.slug, {{"V", valuesOf(v)}});
-        cell.picture = writePicture(cell.slug, visibilityPicture(v, truth));
-        cell.difference = writePicture(differenceOf(cell.slug), differencePicture(v, truth));
-        if (from.sequence) cell.sequence = sequenceOf(from, folder, cell.slug);
-        shown_.cells.push_back(std::move(cell));
+    /// Writes the files of those that have an image, each once.
+    void add(const std::vector<RunCell>& cells) {
+        std::vector<const RunCell*> chosen;
+        for (const RunCell& cell : cells)
+            if (hasImage(cell.record, cell.images) && seen_.insert(slug(cell.name)).second) chosen.push_back(&cell);
+        std::vector<std::optional<ShownCell>> made(chosen.size());
+        inParallel(static_cast<int>(chosen.size()), hardwareThreads(), [&](int i) {
+            const auto index = static_cast<std::size_t>(i);
+            made[index] = write(*chosen[index]);
+        });
+        for (std::optional<ShownCell>& cell : made)
+            if (cell) shown_.cells.push_back(std::move(*cell));
     }
 
     [[nodiscard]] bool hasTruth() const { return !names_.empty(); }
     [[nodiscard]] const ShownScene& shownScene() const { return shown_; }
 
 private:
+    /// Nothing if it is not of the truth's size.
+    [[nodiscard]] std::optional<ShownCell> write(const RunCell& from) const {
+        const fs::path folder = cellFolder(from.images, from.record.scene, from.record.variant);
+        const Image<float> v = readChannel(folder / "visibility.exr", "V");
+        ShownCell cell{
+            slug(from.name), shown(from.name), errorOf(from.record), truthOf(from.record, names_), {}, {}, {}, {}};
+        const KeptTruth& truth = truths_.at(cell.truth);
+        if (!v.sameSize(truth.visibility)) return {};
+        cell.data = writeScript(cell.slug, {{"V", valuesOf(v)}});
+        cell.picture = writePicture(cell.slug, visibilityPicture(v, truth));
+        cell.difference = writePicture(differenceOf(cell.slug), differencePicture(v, truth));
+        if (from.sequence) cell.sequence = sequenceOf(from, folder, cell.slug);
+        return cell;
+    }
+
     /// Address of a file of this scene from cells/.
     [[nodiscard]] std::string address(const std::string& name) const { return shown_.slug + "/" + name; }
     [[nodiscard]] fs::path file(const std::string& address) const { return site_ / "cells" / address; }
@@ -94,6 +114,8 @@ private:
                                                       {"edge", valuesOf(truth.edgeDistance)},
                                                       {"edges", shadowEdges(truth)}});
         shown.picture = writePicture(truthPicture(name), visibilityPicture(truth.visibility, truth));
+        shown_.width = truth.visibility.width();
+        shown_.height = truth.visibility.height();
         shown_.truths.push_back(std::move(shown));
     }
 
@@ -123,12 +145,6 @@ private:
     ShownScene shown_;
 };
 
-bool hasImage(const Record& record, const fs::path& images) {
-    if (images.empty() || !wasScored(record.status) || isLevelOfDetail(record)) return false;
-    if (!isFolderName(record.scene) || !isFolderName(fileName(record.variant))) return false;
-    return fs::exists(cellFolder(images, record.scene, record.variant) / "visibility.exr");
-}
-
 /// Indices of the records of `scene` whose sequences are shown.
 std::set<std::size_t> withSequence(const std::vector<Record>& records, const std::string& scene, Sequences sequences) {
     std::vector<std::size_t> rows = report::scoredOf(records, scene);
@@ -147,8 +163,7 @@ bool hasCell(const Record& record, const fs::path& images) {
 
 bool writeCellPage(const std::vector<RunCell>& cells, const Link& back, SiteWriter& site) {
     ScenePage page(cells.front().images, cells.front().record.scene, site.folder());
-    for (const RunCell& cell : cells)
-        if (page.hasTruth() && hasImage(cell.record, cell.images)) page.add(cell);
+    if (page.hasTruth()) page.add(cells);
     const ShownScene& scene = page.shownScene();
     if (scene.cells.empty()) return false;
     const std::string catalogue = fmt::format("cells/{}/cells.js", scene.slug);
