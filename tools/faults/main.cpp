@@ -108,7 +108,10 @@ ExitCode checkOrder(const Options& options) {
 }
 
 ExitCode runTogether(const Options& options) {
-    const Together together = workTogether(options.program, options.processes);
+    const Together together = workTogether(options.program, options.processes, [](const std::string& sentence) {
+        fmt::print("{}\n", sentence);
+        std::fflush(stdout);
+    });
     return end(togetherReport(together, fmt::format("build/release/tools/faults/faults together {}", options.processes)),
                options.out, !together.faults.empty());
 }

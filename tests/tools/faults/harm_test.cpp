@@ -79,7 +79,7 @@ TEST_F(Faults, FilesAreFlushedBeforeTheyAreRenamedAndFoldersAfter) {
 
 TEST(FaultsAtOnce, OnOneCacheAndOneOutputNothingIsLostAndNothingDoneTwice) {
     if (!wanted()) GTEST_SKIP() << "set SHADOWBENCH_FAULTS=1: on a busy machine this takes minutes";
-    const Together together = workTogether(PROGRAM, 3);
+    const Together together = workTogether(PROGRAM, 3, [](const std::string&) {});
     EXPECT_TRUE(together.faults.empty()) << fmt::format("{}", fmt::join(together.faults, "\n"));
     EXPECT_FALSE(together.facts.empty());
 }
