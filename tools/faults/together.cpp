@@ -8,11 +8,11 @@
 #include "tools/faults/sandbox.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 
 namespace shadowbench::faults {
@@ -122,10 +122,9 @@ private:
 
     /// All at once; meanwhile what they write is read, and must be whole at any moment.
     void start(const Commands& commands) {
-        std::atomic<bool> done = false;
         std::size_t reads = 0;
-        std::jthread reader([&] {
-            while (!done) {
+        std::jthread reader([&](const std::stop_token& stop) { // which comes, too, when a command cannot be started
+            while (!stop.stop_requested()) {
                 for (const char* folder : {"shared", "pruned", "rows", "merged"}) reads += isReadable(folder) ? 1 : 0;
                 std::this_thread::sleep_for(std::chrono::milliseconds(5));
             }
@@ -136,7 +135,7 @@ private:
             const Ended ended = sandbox_.runPlain(words);
             if (ended.code != 0) fault(fmt::format("{} ended with {}: {}", fmt::join(words, " "), ended.code, ended.errors));
         });
-        done = true;
+        reader.request_stop();
         reader.join();
         if (count > 1) note(fmt::format("{} times their records were read meanwhile, and were whole", reads));
     }

@@ -32,7 +32,7 @@ protected:
 
     /// The middle one of the verb's calls of that kind.
     static Trial failed(const std::string& verbName, Kind kind) {
-        const std::uint64_t count = countCalls(*sandbox_, verb(verbName), kind);
+        const std::uint64_t count = countCalls(*sandbox_, verb(verbName))[kind];
         EXPECT_GT(count, 0U) << verbName << " " << name(kind);
         return failCall(*sandbox_, verb(verbName), kind, 1 + count / 2, count, false);
     }
