@@ -211,11 +211,16 @@ std::string askVersion(const std::filesystem::path& program) {
     const TemporaryFolder folder;
     std::string answer;
     const Command command{program, {"--version"}, folder.path()};
-    runProcess(command, [&answer](std::string_view line) {
+    const Finished finished = runProcess(command, [&answer](std::string_view line) {
         for (const std::string_view start : {"POV-Ray ", "Persistence of Vision(tm) Ray Tracer Version "})
             if (answer.empty() && line.starts_with(start))
                 answer = line.substr(start.size(), line.find(' ', start.size()) - start.size());
     });
+    if (answer.empty() && (finished.timedOut || finished.signal != 0))
+        throw Inconclusive(fmt::format("{} --version {}; run it again", program.string(),
+                                       finished.timedOut ? "did not answer within a minute: the machine is too busy"
+                                                         : fmt::format("was killed by signal {}", finished.signal)),
+                           Failure::Transient);
     if (answer.empty())
         throw Inconclusive(
             fmt::format("{} --version names no POV-Ray; install it with apt-get install povray", program.string()));

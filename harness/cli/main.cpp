@@ -13,7 +13,12 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <iterator>
 #include <new>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace shadowbench {
 namespace {
@@ -50,7 +55,9 @@ ExitCode dispatch(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw BadInput(error.what());
-        app.exit(error); // prints --help or --version
+        std::ostringstream asked; // --help or --version
+        app.exit(error, asked);
+        fmt::print("{}", asked.str());
         return ExitCode::Pass;
     }
     return action();
@@ -59,13 +66,34 @@ ExitCode dispatch(int argc, char** argv) {
 /// Before objects with static storage are made, which may lack memory, too.
 __attribute__((constructor(101))) void beforeStatics() { sayWhyAborted(); }
 
+[[noreturn]] void failToPrint(const char* stream, int error) {
+    throw InternalError(fmt::format("cannot write to {}: {}; free some space or choose another place", stream,
+                                    std::strerror(error != 0 ? error : EIO)));
+}
+
 /// What was printed is a result, too: where it could not be written, the program has not done what it was asked for.
 void flushOutput() {
     errno = 0;
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-    const int failed = errno;
-    throw InternalError(fmt::format("cannot write to standard output: {}; free some space or choose another place",
-                                    std::strerror(failed != 0 ? failed : EIO)));
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) failToPrint("standard output", errno);
+}
+
+ExitCode dispatchAndFlush(int argc, char** argv) {
+    try {
+        const ExitCode code = dispatch(argc, argv);
+        flushOutput();
+        return code;
+    } catch (const std::system_error& error) { // fmt's, which names no stream
+        for (const auto& [stream, name] : {std::pair(stdout, "standard output"), std::pair(stderr, "standard error")})
+            if (std::ferror(stream) != 0) failToPrint(name, error.code().value());
+        throw;
+    }
+}
+
+/// The last line, in one call and without memory for a short one. Where it cannot be written, the exit code has to do.
+void say(std::string_view words) {
+    fmt::memory_buffer line;
+    fmt::format_to(std::back_inserter(line), "shadowbench: {}\n", words);
+    std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 } // namespace
@@ -74,18 +102,16 @@ void flushOutput() {
 int main(int argc, char** argv) {
     using shadowbench::ExitCode;
     try {
-        const ExitCode code = shadowbench::dispatch(argc, argv);
-        shadowbench::flushOutput();
-        return static_cast<int>(code);
+        return static_cast<int>(shadowbench::dispatchAndFlush(argc, argv));
     } catch (const shadowbench::Error& error) {
         const bool isOurs = error.code() == ExitCode::Internal; // a shader's log has lines; words of an input may have any
-        fmt::print(stderr, "shadowbench: {}\n", isOurs ? error.what() : shadowbench::onOneLine(error.what()));
+        shadowbench::say(isOurs ? error.what() : shadowbench::onOneLine(error.what()));
         return static_cast<int>(error.code());
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "shadowbench: there is not enough memory; free some, or use --jobs 1 where there is one\n");
+        shadowbench::say("there is not enough memory; free some, or use --jobs 1 where there is one");
         return static_cast<int>(ExitCode::Internal);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "shadowbench: internal error: {}\n", error.what());
+        shadowbench::say(fmt::format("internal error: {}", error.what()));
         return static_cast<int>(ExitCode::Internal);
     }
 }

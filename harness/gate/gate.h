@@ -20,6 +20,7 @@ namespace shadowbench::gate {
 
 struct GateOptions {
     std::string base;                                   // see findBaseline
+    std::filesystem::path head = "/proc/self/exe";      // the program that is judged
     std::vector<std::string> scenes;                    // ids or files; empty: the standard scenes
     std::vector<std::string> techniques;                // variants or globs; empty: all
     std::vector<std::filesystem::path> externalFiles;   // of renderers that are not ours …

@@ -54,6 +54,17 @@ TEST(CommandLine, HelpOfTheProgramNamesEveryVerbAndEachHasAnExample) {
     EXPECT_EQ(std::ranges::count(verbs, "count-frames"), 0) << "for the program's own use";
 }
 
+TEST(CommandLine, OutputThatCannotBeWrittenIsOneLineAndACode) {
+    for (const char* words : {"list", "list schema", "policy", "--version", "gate --help"}) {
+        const Outcome full = shell(std::string("shadowbench ") + words + " 3>&1 >/dev/full 2>&3 3>&-; exit $? #");
+        EXPECT_EQ(full.code, 1) << words;
+        EXPECT_EQ(full.output, "shadowbench: cannot write to standard output: No space left on device; free some space or "
+                               "choose another place\n")
+            << words;
+    }
+    EXPECT_EQ(shell("shadowbench run --scene nowhere 2>/dev/full; exit $? #").code, 2) << "of what it could not say";
+}
+
 TEST(CommandLine, ListNamesEveryTechniqueWithItsParameters) {
     const Outcome json = shell("shadowbench list techniques --format json");
     ASSERT_EQ(json.code, 0);

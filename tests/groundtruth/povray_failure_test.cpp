@@ -35,6 +35,16 @@ TEST_F(PovRayFailure, AProgramThatIsNotPovRayHasNoVersion) {
     EXPECT_THROW(povray::version(fake("echo hello")), Inconclusive);
 }
 
+TEST_F(PovRayFailure, AProgramThatIsKilledBeforeItNamesItsVersionIsNotCalledAnotherProgram) {
+    try {
+        (void)povray::version(fake("kill -9 $$"));
+        FAIL() << "it has said no version";
+    } catch (const Inconclusive& error) {
+        EXPECT_TRUE(contains(error.what(), "was killed by signal 9; run it again")) << error.what();
+        EXPECT_TRUE(error.isTransient());
+    }
+}
+
 TEST_F(PovRayFailure, AProgramIsAskedForItsVersionOnce) {
     const std::string body = fmt::format("echo asked >> {}; echo 'POV-Ray 9.8.7 test'", file("asked").string());
     const povray::Options options = fake(body);

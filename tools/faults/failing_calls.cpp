@@ -95,14 +95,14 @@ bool isOwn(const Call& call) {
     return call.path.find("/cache/shaders") == std::string::npos;
 }
 
-std::uint64_t countCalls(Sandbox& sandbox, const Verb& verb, Kind kind) {
+std::map<Kind, std::uint64_t> countCalls(Sandbox& sandbox, const Verb& verb) {
     sandbox.reset();
-    std::uint64_t count = 0;
+    std::map<Kind, std::uint64_t> counts;
     (void)sandbox.run(verb, [&](const Call& call, pid_t) {
-        if (call.kind == kind && isOwn(call)) ++count;
+        if (isOwn(call)) ++counts[call.kind];
         return Decision{};
     });
-    return count;
+    return counts;
 }
 
 Trial failCall(Sandbox& sandbox, const Verb& verb, Kind kind, std::uint64_t number, std::uint64_t of, bool lasting) {

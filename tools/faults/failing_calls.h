@@ -4,6 +4,7 @@
 #include "tools/faults/sandbox.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,8 +26,8 @@ struct Trial {
 /// for themselves, Mesa's own cache of shaders, and what is written to standard error.
 bool isOwn(const Call& call);
 
-/// How many calls of a kind an undisturbed run makes.
-std::uint64_t countCalls(Sandbox& sandbox, const Verb& verb, Kind kind);
+/// How many own calls of each kind an undisturbed run makes.
+std::map<Kind, std::uint64_t> countCalls(Sandbox& sandbox, const Verb& verb);
 
 /// Lets the `number`-th own call of the kind fail. `lasting`: and all after it.
 Trial failCall(Sandbox& sandbox, const Verb& verb, Kind kind, std::uint64_t number, std::uint64_t of, bool lasting);

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <limits>
+#include <map>
 #include <random>
 
 namespace shadowbench::faults {
@@ -52,14 +53,20 @@ bool anyFaulty(const std::vector<Trial>& trials) {
 ExitCode failCalls(const Options& options) {
     const std::vector<Verb> verbs = verbsNamed(options.verbs);
     Sandbox sandbox(options.program, verbs);
+    std::string command = fmt::format("build/release/tools/faults/faults calls --verb {}", fmt::join(options.verbs, ","));
+    if (options.most < std::numeric_limits<std::uint64_t>::max()) command += fmt::format(" --most {}", options.most);
+    if (options.lasting) command += " --lasting";
     std::vector<Trial> trials;
     const auto keep = [&](Trial trial) {
         show(trial);
         trials.push_back(std::move(trial));
     };
     for (const Verb& verb : verbs) {
+        if (!trials.empty() && !options.out.empty()) // the whole takes hours: what there is can be read
+            writeFile(options.out, callsReport(trials, command + " (not finished)"));
+        std::map<Kind, std::uint64_t> counts = countCalls(sandbox, verb);
         for (const Kind kind : {Kind::Open, Kind::Write, Kind::Rename, Kind::Fsync, Kind::Fork, Kind::Thread, Kind::Pipe}) {
-            const std::uint64_t count = countCalls(sandbox, verb, kind);
+            const std::uint64_t count = counts[kind];
             for (const std::uint64_t number : spread(count, options.most))
                 keep(failCall(sandbox, verb, kind, number, count, false));
             if (options.lasting && count > 0) keep(failCall(sandbox, verb, kind, 1 + count / 2, count, true));
@@ -70,9 +77,6 @@ ExitCode failCalls(const Options& options) {
             keep(std::move(*trial));
         }
     }
-    std::string command = fmt::format("build/release/tools/faults/faults calls --verb {}", fmt::join(options.verbs, ","));
-    if (options.most < std::numeric_limits<std::uint64_t>::max()) command += fmt::format(" --most {}", options.most);
-    if (options.lasting) command += " --lasting";
     return end(callsReport(trials, command), options.out, anyFaulty(trials));
 }
 
@@ -96,19 +100,23 @@ ExitCode killVerbs(const Options& options) {
 ExitCode checkOrder(const Options& options) {
     const std::vector<Verb> verbs = verbsNamed(options.killed);
     Sandbox sandbox(options.program, verbs);
-    bool faulty = false;
+    std::vector<std::pair<std::string, WriteOrder>> orders;
     for (const Verb& verb : verbs) {
-        const WriteOrder order = writeOrderOf(sandbox, verb);
+        const WriteOrder& order = orders.emplace_back(verb.name, writeOrderOf(sandbox, verb)).second;
         fmt::print("{:<10} {} files are flushed before their rename and their folders after it, {} are made again\n",
                    verb.name, order.renames, order.madeAgain);
         for (const std::string& fault : order.faults) fmt::print("    FAULT {}\n", fault);
-        faulty = faulty || !order.faults.empty();
+        std::fflush(stdout);
     }
-    return faulty ? ExitCode::AccuracyRegression : ExitCode::Pass;
+    return end(orderReport(orders, "build/release/tools/faults/faults order"), options.out,
+               std::ranges::any_of(orders, [](const auto& order) { return !order.second.faults.empty(); }));
 }
 
 ExitCode runTogether(const Options& options) {
-    const Together together = workTogether(options.program, options.processes);
+    const Together together = workTogether(options.program, options.processes, [](const std::string& sentence) {
+        fmt::print("{}\n", sentence);
+        std::fflush(stdout);
+    });
     return end(togetherReport(together, fmt::format("build/release/tools/faults/faults together {}", options.processes)),
                options.out, !together.faults.empty());
 }

@@ -106,7 +106,7 @@ Ended Sandbox::run(const Verb& verb, const Decide& decide, const std::vector<std
 
 Ended Sandbox::runPlain(const std::vector<std::string>& arguments) const {
     Command command{.program = program_, .arguments = arguments, .folder = work_};
-    command.limit = std::chrono::minutes(5);
+    command.limit = std::chrono::minutes(30); // of which most may be a wait for the others
     command.cpuLimit.reset();
     command.openFiles.reset();
     command.memoryLimit.reset();

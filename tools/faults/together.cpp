@@ -8,11 +8,11 @@
 #include "tools/faults/sandbox.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 
 namespace shadowbench::faults {
@@ -30,7 +30,8 @@ std::size_t lines(const fs::path& file) {
 
 class Meeting {
 public:
-    Meeting(const fs::path& program, int processes) : sandbox_(program, {}) {
+    Meeting(const fs::path& program, int processes, const std::function<void(const std::string&)>& show)
+        : sandbox_(program, {}), show_(show) {
         together_.processes = processes;
         // What is computed twice shows in how often tools are called: POV-Ray, and a renderer that is not ours.
         const fs::path folder = sandbox_.folder();
@@ -101,7 +102,7 @@ private:
     void everythingAtOnce() {
         Commands all;
         for (int i = 0; i < together_.processes; ++i) {
-            all.push_back(run("shared", "shared-cache"));
+            all.push_back(run("pruned", "shared-cache")); // a folder of its own: the records are not there yet
             all.push_back(score(i));
             all.push_back({"cache", "prune", "--quiet", "--all", "--cache", "shared-cache"});
             if (i % 3 != 0) continue;
@@ -115,18 +116,17 @@ private:
             "{} runs, scores and prunes, {} gates, merges and reports at once: {} of {} rows of scores are there",
             together_.processes, (together_.processes + 2) / 3, rows, wanted));
         if (rows != wanted) fault(fmt::format("{} rows of scores are lost", wanted - rows));
-        if (records("shared") != records("alone")) fault("the records of runs beside prunes are not those of one run");
+        if (records("pruned") != records("alone")) fault("the records of runs beside prunes are not those of one run");
         check();
     }
 
     /// All at once; meanwhile what they write is read, and must be whole at any moment.
     void start(const Commands& commands) {
-        std::atomic<bool> done = false;
         std::size_t reads = 0;
-        std::jthread reader([&] {
-            while (!done) {
-                for (const char* folder : {"shared", "rows", "merged"}) reads += isReadable(folder) ? 1 : 0;
-                std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        std::jthread reader([&](const std::stop_token& stop) { // which comes, too, when a command cannot be started
+            while (!stop.stop_requested()) {
+                for (const char* folder : {"shared", "pruned", "rows", "merged"}) reads += isReadable(folder) ? 1 : 0;
+                std::this_thread::sleep_for(std::chrono::milliseconds(5));
             }
         });
         const int count = static_cast<int>(commands.size());
@@ -135,7 +135,7 @@ private:
             const Ended ended = sandbox_.runPlain(words);
             if (ended.code != 0) fault(fmt::format("{} ended with {}: {}", fmt::join(words, " "), ended.code, ended.errors));
         });
-        done = true;
+        reader.request_stop();
         reader.join();
         if (count > 1) note(fmt::format("{} times their records were read meanwhile, and were whole", reads));
     }
@@ -170,20 +170,27 @@ private:
         for (const std::string& sentence : sandbox_.leftFolders()) fault(sentence);
     }
 
-    void note(const std::string& fact) { together_.facts.push_back(fact); }
+    void note(const std::string& fact) {
+        show_(fact);
+        together_.facts.push_back(fact);
+    }
     void fault(const std::string& sentence) {
         const std::scoped_lock lock(mutex_);
         together_.faults.push_back(sandbox_.shown(sentence));
+        show_("FAULT " + together_.faults.back());
     }
 
     Sandbox sandbox_;
+    const std::function<void(const std::string&)>& show_;
     Together together_;
     std::mutex mutex_;
 };
 
 } // namespace
 
-Together workTogether(const fs::path& program, int processes) { return Meeting(program, processes).all(); }
+Together workTogether(const fs::path& program, int processes, const std::function<void(const std::string&)>& show) {
+    return Meeting(program, processes, show).all();
+}
 
 std::string togetherReport(const Together& together, const std::string& command) {
     std::string text = fmt::format("# At the same time\n\n`{}`\n\nVerbs at once on one cache and one output: every one ends "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,10 @@ struct Together {
     std::vector<std::string> faults;
 };
 
-/// So many runs, scores, gates, merges, reports and prunes of the cache, at the same time.
-Together workTogether(const std::filesystem::path& program, int processes);
+/// So many runs, scores, gates, merges, reports and prunes of the cache, at the same time. `show` is called with each fact
+/// and fault as it is found, one at a time: on a busy machine the whole takes minutes.
+Together workTogether(const std::filesystem::path& program, int processes,
+                      const std::function<void(const std::string& sentence)>& show);
 
 std::string togetherReport(const Together& together, const std::string& command);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 
@@ -72,6 +73,22 @@ WriteOrder writeOrderOf(Sandbox& sandbox, const Verb& verb) {
         return Decision{};
     });
     return order.result();
+}
+
+std::string orderReport(const std::vector<std::pair<std::string, WriteOrder>>& verbs, const std::string& command) {
+    std::string text = fmt::format(
+        "# What a power cut would leave\n\n`{}`\n\nOf the system calls of each verb: every file gets its name by a rename, "
+        "is "
+        "flushed before it, and its folder after it. Pages, tables and charts, which the same command makes again of the "
+        "records, need not be flushed.\n\n| verb | flushed, renamed, folder flushed | made again | faults "
+        "|\n|---|--:|--:|--:|\n",
+        command);
+    std::string faults;
+    for (const auto& [verb, order] : verbs) {
+        text += fmt::format("| {} | {} | {} | {} |\n", verb, order.renames, order.madeAgain, order.faults.size());
+        for (const std::string& fault : order.faults) faults += fmt::format("* {}: {}\n", verb, fault);
+    }
+    return text + "\n## Faults\n\n" + (faults.empty() ? "None.\n" : faults);
 }
 
 } // namespace shadowbench::faults

@@ -3,6 +3,10 @@
 
 #include "tools/faults/sandbox.h"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace shadowbench::faults {
 
 struct WriteOrder {
@@ -12,5 +16,8 @@ struct WriteOrder {
 };
 
 WriteOrder writeOrderOf(Sandbox& sandbox, const Verb& verb);
+
+/// A line a verb, and all faults, in Markdown.
+std::string orderReport(const std::vector<std::pair<std::string, WriteOrder>>& verbs, const std::string& command);
 
 } // namespace shadowbench::faults

@@ -32,7 +32,7 @@ protected:
 
     /// The middle one of the verb's calls of that kind.
     static Trial failed(const std::string& verbName, Kind kind) {
-        const std::uint64_t count = countCalls(*sandbox_, verb(verbName), kind);
+        const std::uint64_t count = countCalls(*sandbox_, verb(verbName))[kind];
         EXPECT_GT(count, 0U) << verbName << " " << name(kind);
         return failCall(*sandbox_, verb(verbName), kind, 1 + count / 2, count, false);
     }
@@ -79,7 +79,7 @@ TEST_F(Faults, FilesAreFlushedBeforeTheyAreRenamedAndFoldersAfter) {
 
 TEST(FaultsAtOnce, OnOneCacheAndOneOutputNothingIsLostAndNothingDoneTwice) {
     if (!wanted()) GTEST_SKIP() << "set SHADOWBENCH_FAULTS=1: on a busy machine this takes minutes";
-    const Together together = workTogether(PROGRAM, 3);
+    const Together together = workTogether(PROGRAM, 3, [](const std::string&) {});
     EXPECT_TRUE(together.faults.empty()) << fmt::format("{}", fmt::join(together.faults, "\n"));
     EXPECT_FALSE(together.facts.empty());
 }

@@ -1,0 +1,398 @@
+// The whole gate on stand-ins for base and head: what is judged, what is not and why, and what that comes to.
+#include "harness/gate/gate.h"
+
+#include "base/temporary_folder.h"
+#include "harness/cells/external_techniques.h"
+#include "harness/gate/verdict.h"
+#include "tests/harness/gate/programs/stand_in.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench::gate {
+namespace {
+
+namespace fs = std::filesystem;
+
+class GateOfStandIns : public testing::Test {
+protected:
+    GateOfStandIns() {
+        writeFile(path("tiny.toml"), standInScene());
+        bounds("");
+        options_.base = base_.program();
+        options_.head = head_.program();
+        options_.scenes = {path("tiny.toml")};
+        options_.techniques = {"pcf"};
+        options_.bounds = path("bounds.toml");
+        options_.out = path("out");
+        options_.cache = path("cache");
+        options_.instructions = options_.time = false;
+        options_.quiet = true;
+        head_.measures({headRecord()});
+    }
+
+    [[nodiscard]] std::string path(const std::string& name) const { return folder_.path() / name; }
+    void bounds(const std::string& text) const { writeFile(path("bounds.toml"), text); }
+    /// A file of records as the base.
+    void compareWith(const std::vector<Record>& records) {
+        writeRecords(path("records/results.jsonl"), records);
+        options_.base = path("records");
+    }
+    /// Of another commit than the base's.
+    static Record headRecord(const std::string& variant = "pcf", std::uint32_t seed = 1) {
+        Record record = standInRecord(variant, seed);
+        record.commit = "decaf";
+        return record;
+    }
+    static Record leaking(Record record, double leak = 0.1) {
+        record.values["accuracy.leak"] = leak;
+        return record;
+    }
+    [[nodiscard]] std::string complaint() const {
+        try {
+            (void)gate(options_);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "none";
+    }
+
+    TemporaryFolder folder_;
+    StandIn base_{folder_.path(), "base"}, head_{folder_.path(), "head"};
+    GateOptions options_;
+};
+
+std::string all(const std::vector<std::string>& sentences) {
+    std::string text;
+    for (const std::string& sentence : sentences) text += sentence + "\n";
+    return text;
+}
+
+bool has(const std::vector<std::string>& sentences, const std::string& part) {
+    return all(sentences).find(part) != std::string::npos;
+}
+
+std::vector<Change> of(const GateResult& result, const std::string& metric) {
+    std::vector<Change> changes;
+    std::ranges::copy_if(result.changes, std::back_inserter(changes), [&](const Change& c) { return c.metric == metric; });
+    return changes;
+}
+
+TEST_F(GateOfStandIns, EqualRecordsPass) {
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::Pass) << all(result.unjudged);
+    EXPECT_EQ(result.base, base_.program());
+    EXPECT_GT(result.changes.size(), 20U);
+    EXPECT_TRUE(result.pictures.empty());
+    EXPECT_TRUE(result.unjudged.empty());
+}
+
+TEST_F(GateOfStandIns, AWorseHeadIsARegressionWithPicturesOfBoth) {
+    head_.measures({leaking(headRecord())});
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
+    ASSERT_EQ(result.pictures.size(), 1U);
+    EXPECT_EQ(result.pictures[0].head, path("out") + "/head/images/tiny/pcf");
+    EXPECT_EQ(result.pictures[0].base, path("out") + "/base/images/tiny/pcf");
+    ASSERT_TRUE(result.pictures[0].headRecord && result.pictures[0].baseRecord);
+    EXPECT_EQ(result.pictures[0].headRecord->values["accuracy.leak"], 0.1);
+}
+
+TEST_F(GateOfStandIns, AgainstRecordsOnlyTheHeadIsDrawnAndNoTimeJudged) {
+    compareWith({standInRecord("pcf")});
+    head_.measures({leaking(headRecord())});
+    options_.time = true;
+    const GateResult result = gate(options_);
+    ASSERT_EQ(result.pictures.size(), 1U);
+    EXPECT_TRUE(result.pictures[0].base.empty());
+    EXPECT_FALSE(result.pictures[0].baseRecord);
+    EXPECT_TRUE(has(result.notes, "this build's policy alone judges"));
+    EXPECT_TRUE(has(result.notes, "time is not judged: the base is a file of records"));
+}
+
+TEST_F(GateOfStandIns, RecordsOfOtherCellsAreNotCompared) {
+    Record otherProfile = standInRecord("pcf"), otherSeed = standInRecord("pcf", 2), otherScene = standInRecord("pcf");
+    otherProfile.profile = "paper";
+    otherScene.scene = "trees"; // judged only by a gate of all techniques on the standard scenes
+    compareWith({otherProfile, otherSeed, otherScene, standInRecord("none")});
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::Inconclusive);
+    EXPECT_TRUE(has(result.unjudged, "no cell is scored in both")) << all(result.unjudged);
+    EXPECT_EQ(std::ranges::count(result.changes, Direction::Worse, &Change::direction), 0);
+}
+
+TEST_F(GateOfStandIns, TheSameCommitAgainstItsRecordsDecidesNothingUnlessThatIsMeant) {
+    compareWith({headRecord()});
+    EXPECT_EQ(gate(options_).code(), ExitCode::Inconclusive);
+    options_.aa = true;
+    EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
+}
+
+TEST_F(GateOfStandIns, InstructionsAreJudgedWhereTheBaseHasThem) {
+    options_.instructions = true;
+    compareWith({standInRecord("pcf")});
+    EXPECT_TRUE(has(gate(options_).notes, "instructions are not judged: the base's records hold none"));
+    Record before = standInRecord("pcf"), now = headRecord();
+    before.values["cost.instructions"] = 1e6;
+    now.values["cost.instructions"] = 1.1e6;
+    before.environment.valgrind = now.environment.valgrind = "3.19.0";
+    compareWith({before});
+    head_.measures({now});
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::CostRegression);
+    EXPECT_FALSE(has(result.notes, "instructions are not judged"));
+    EXPECT_TRUE(result.pictures.empty()) << "of a cost there is nothing to see";
+}
+
+TEST_F(GateOfStandIns, ACellThatFailsOrIsMissingIsNamed) {
+    Record failed = headRecord();
+    failed.status = Status::Error;
+    failed.reason = "the primary hits differ";
+    head_.measures({failed});
+    EXPECT_TRUE(has(gate(options_).unjudged, "pcf on tiny: the primary hits differ"));
+    const StandIn other(folder_.path(), "other");
+    options_.head = other.program();
+    other.measures({headRecord("none")});
+    EXPECT_TRUE(has(gate(options_).unjudged, "pcf on tiny was not measured"));
+}
+
+TEST_F(GateOfStandIns, TwoBuildsOfTheSameProgramDecideNothing) {
+    options_.head = base_.program();
+    EXPECT_NE(complaint().find("base and head are one program"), std::string::npos) << complaint();
+    options_.aa = true;
+    EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
+}
+
+TEST_F(GateOfStandIns, CommitsThatMakeTheSameProgramPassUnlessThePolicyDiffers) {
+    Identity before{"c0ffeec0ffeec0ffee", false, "same", readPolicy(options_.bounds, Profile::Gate)}, now = before;
+    now.commit = "decafdecafdecaf";
+    base_.is(before);
+    head_.is(now);
+    const GateResult same = gate(options_);
+    EXPECT_EQ(same.code(), ExitCode::Pass);
+    EXPECT_TRUE(has(same.notes, "commits c0ffeec0ffee and decafdecafde make the same program")) << all(same.notes);
+    EXPECT_EQ(base_.calls("run"), 0);
+
+    before.policy.watchlist.bounds = {{{"tiny", {"pcf"}, {}, "a test"}, "leak", 1e-6, true}};
+    base_.is(before);
+    const GateResult stricter = gate(options_);
+    EXPECT_EQ(stricter.code(), ExitCode::AccuracyRegression) << "the base's bound judges";
+    EXPECT_TRUE(has(stricter.notes, "the base's [bound] pcf on tiny: leak below 1e-06 is gone or looser here"));
+
+    before.policy.watchlist.bounds.clear();
+    base_.is(before);
+    bounds("[[bound]]\nscene = \"tiny\"\ntechniques = [\"pcf\"]\nmetric = \"leak\"\nbelow = 1e-6\nreason = \"a test\"\n");
+    EXPECT_EQ(gate(options_).code(), ExitCode::AccuracyRegression) << "the head's bound judges";
+}
+
+TEST_F(GateOfStandIns, OneCommitWithChangesIsAnotherProgramThanWithout) {
+    Identity before{"c0ffeec0ffeec0ffee", false, "same", readPolicy(options_.bounds, Profile::Gate)}, now = before;
+    base_.is(before);
+    head_.is(now);
+    EXPECT_NE(complaint().find("base and head are one program"), std::string::npos) << "one commit";
+    now.dirty = true;
+    head_.is(now);
+    EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
+}
+
+TEST_F(GateOfStandIns, ABaseThatSaysNoPolicyIsJudgedByThisBuilds) {
+    base_.does("policy", "exit 2\n");
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::Pass);
+    EXPECT_TRUE(has(result.notes, "the base was built before programs said what they judge"));
+}
+
+TEST_F(GateOfStandIns, WhatTheBaseShowsAndThisBuildDoesNotHaveIsUnjudged) {
+    base_.lists("techniques", R"([{"id": "pcf", "variants": [""], "parameters": []},)"
+                              R"({"id": "gone", "variants": [""], "parameters": []}])");
+    options_.techniques.clear();
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::Inconclusive);
+    EXPECT_TRUE(has(result.unjudged, "gone, which the base shows, no longer exists")) << all(result.unjudged);
+}
+
+TEST_F(GateOfStandIns, ABoundOnASceneThatNobodyHasIsNoted) {
+    bounds("[[bound]]\nscene = \"nowhere\"\ntechniques = [\"pcf\"]\nmetric = \"leak\"\nbelow = 1\nreason = \"a test\"\n");
+    EXPECT_TRUE(has(gate(options_).notes, "names a scene \"nowhere\" that is not among the chosen ones"));
+}
+
+TEST_F(GateOfStandIns, WhatTheSceneExpectsIsJudgedOfItsProfileAndOfTheFirstSeedOnly) {
+    writeFile(path("tiny.toml"), standInScene() + "[expect]\nholds = [{ technique = \"pcf\", metric = \"leak\", below = "
+                                                  "1e-6, reason = \"a test\" }]\n");
+    const GateResult result = gate(options_);
+    EXPECT_EQ(of(result, "bound.leak").size(), 1U);
+    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
+}
+
+TEST_F(GateOfStandIns, WhatIsDrawnByChanceIsMeasuredWithEightSeeds) {
+    bounds("[[seeds]]\nscene = \"tiny\"\ntechniques = [\"pcf\"]\nreason = \"a test\"\n");
+    std::vector<Record> before, now;
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+        before.push_back(leaking(standInRecord("pcf", seed), 0.01 + 0.001 * (seed % 3)));
+        now.push_back(leaking(headRecord("pcf", seed), 0.01 + 0.001 * ((seed + 1) % 3)));
+    }
+    base_.measures(before);
+    head_.measures(now);
+    EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
+    EXPECT_EQ(head_.calls("run"), 8);
+}
+
+constexpr const char* sweepOfTiny =
+    "[[sweep]]\nscene = \"tiny\"\ntechniques = [\"pcf\"]\naxis = \"near-plane\"\nvalues = [1, 0.1]\nreason = \"a test\"\n";
+
+std::vector<Record> swept(Record record, double breakPoint) {
+    std::vector<Record> records{record};
+    for (const double value : {1.0, 0.1}) {
+        record.sweep = SweepStep{"near-plane", "m", "pcf", value, breakPoint};
+        records.push_back(record);
+    }
+    return records;
+}
+
+TEST_F(GateOfStandIns, ABreakPointThatComesEarlierIsWorse) {
+    bounds(sweepOfTiny);
+    base_.measures(swept(standInRecord("pcf"), 0.1));
+    head_.measures(swept(headRecord(), 1));
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
+    EXPECT_EQ(std::ranges::count(result.changes, Class::BreakPoint, &Change::changeClass), 1);
+    EXPECT_EQ(head_.calls("sweep"), 1);
+}
+
+TEST_F(GateOfStandIns, ABaseOfRecordsWithoutSweepsJudgesNone) {
+    bounds(sweepOfTiny);
+    head_.measures(swept(headRecord(), 1));
+    compareWith({standInRecord("pcf")});
+    const GateResult without = gate(options_);
+    EXPECT_TRUE(has(without.notes, "break points are not judged: the base's records hold no sweep"));
+    EXPECT_EQ(without.code(), ExitCode::Pass) << all(without.unjudged);
+    compareWith(swept(standInRecord("pcf"), 0.1));
+    EXPECT_EQ(gate(options_).code(), ExitCode::AccuracyRegression);
+}
+
+std::string anchoredTo(const std::string& commit) {
+    return "[[anchor]]\ncommit = \"" + commit + "\"\nlimit = 2\nreason = \"a test\"\n";
+}
+
+TEST_F(GateOfStandIns, DriftSinceAnAnchorIsARegressionHoweverSmallTheLastStep) {
+    writeRecords(path("anchor/results.jsonl"), {leaking(standInRecord("pcf"), 0.0001)});
+    bounds(anchoredTo(path("anchor")));
+    base_.measures({leaking(standInRecord("pcf"), 0.0999)});
+    head_.measures({leaking(headRecord())});
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
+    EXPECT_NE(of(result, "accuracy.leak").back().sentence.find("since the anchor"), std::string::npos);
+}
+
+TEST_F(GateOfStandIns, AnAnchorThatIsAProgramIsMeasured) {
+    const StandIn anchor(folder_.path(), "anchor");
+    bounds(anchoredTo(anchor.program()));
+    EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
+    EXPECT_EQ(anchor.calls("run"), 1);
+}
+
+TEST_F(GateOfStandIns, AnAnchorWithWhichNothingCanBeComparedIsNamed) {
+    writeRecords(path("anchor/results.jsonl"), {standInRecord("none")});
+    bounds(anchoredTo(path("anchor")));
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::Inconclusive);
+    EXPECT_TRUE(has(result.unjudged, "nothing can be compared with the anchor")) << all(result.unjudged);
+}
+
+/// Renderers of which there is one, "external:copy"; nobody calls it here but the head, by its file.
+class OneRenderer : public ExternalTechniques {
+public:
+    OneRenderer() {
+        entry_.id = "external:copy";
+        variants_ = {techniques::Variant{&entry_, techniques::Parameters({}), entry_.id}};
+    }
+    [[nodiscard]] const std::vector<techniques::Variant>& variants() const override { return variants_; }
+    [[nodiscard]] std::optional<std::string> notApplicable(const Scene& /*scene*/,
+                                                           const techniques::Variant& /*variant*/) const override {
+        return {};
+    }
+    [[nodiscard]] std::vector<std::pair<Truth, int>> truthsOf(const Scene& /*scene*/,
+                                                              const techniques::Variant& /*variant*/) const override {
+        return {};
+    }
+    [[nodiscard]] std::string cellId(const Truths& /*truths*/, const Scene& /*scene*/,
+                                     const techniques::Variant& /*variant*/) const override {
+        return "";
+    }
+    void score(SceneFrames& /*frames*/, const techniques::Variant& /*variant*/, Record& /*record*/, CellImages& /*images*/,
+               const Progress& /*progress*/) const override {}
+
+private:
+    techniques::Entry entry_;
+    std::vector<techniques::Variant> variants_;
+};
+
+TEST_F(GateOfStandIns, OtherRenderersAreCalledByTheHeadEachTimeAndComparedWithRecords) {
+    options_.external = std::make_shared<OneRenderer>();
+    options_.externalFiles = {path("engine.toml")};
+    options_.techniques = {"external:*"};
+    EXPECT_NE(complaint().find("--external needs records as --base"), std::string::npos) << complaint();
+    compareWith({standInRecord("external:copy")});
+    bounds(anchoredTo(path("nowhere"))); // of which an anchor knows nothing: it is not even looked for
+    head_.measures({leaking(headRecord("external:copy"))});
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
+    EXPECT_TRUE(result.pictures.empty()) << "what others draw is not drawn again";
+    (void)gate(options_);
+    EXPECT_EQ(head_.calls("run"), 2);
+}
+
+class TimeOfStandIns : public GateOfStandIns {
+protected:
+    TimeOfStandIns() { options_.time = true; }
+
+    /// What becomes of a metric of time; its sentence.
+    [[nodiscard]] std::pair<Direction, std::string> judged(const std::string& metric = "time.ratio") const {
+        const std::vector<Change> changes = of(gate(options_), metric);
+        return changes.empty() ? std::pair(Direction::Same, std::string("none"))
+                               : std::pair(changes[0].direction, changes[0].sentence);
+    }
+};
+
+TEST_F(TimeOfStandIns, AsLongIsTheSameAndLongerIsWorse) {
+    base_.takes("100", "100");
+    head_.takes("100", "100");
+    EXPECT_EQ(judged().first, Direction::Same);
+    head_.takes("105", "105");
+    EXPECT_EQ(judged().first, Direction::Worse);
+    EXPECT_NE(judged().second.find("pcf on tiny: a frame takes 1.050 of the base's CPU time, surely more than 1.050"),
+              std::string::npos);
+    EXPECT_EQ(judged("time.wall_ratio").second, "none") << "its CPU time says it all";
+}
+
+TEST_F(TimeOfStandIns, AHeadThatWaitsIsWorseByItsWallTime) {
+    base_.takes("100", "100");
+    head_.takes("100", "150");
+    EXPECT_EQ(judged().first, Direction::Same);
+    EXPECT_EQ(judged("time.wall_ratio").first, Direction::Worse);
+}
+
+TEST_F(TimeOfStandIns, WhatStaysUncertainIsUnclear) {
+    base_.takes("1000", "1000");
+    head_.takes("(i % 20 < 9 ? 970 : 1030)", "1000"); // slower in the median, in eleven rounds of twenty
+    const auto [direction, sentence] = judged();
+    EXPECT_EQ(direction, Direction::Unclear) << sentence;
+    EXPECT_NE(sentence.find("which 400 rounds leave uncertain"), std::string::npos) << sentence;
+}
+
+TEST_F(TimeOfStandIns, OnAMachineThatIsNotSteadyNothingIsJudged) {
+    base_.takes("100 + 30 * odd", "100"); // the base, and once more as the control
+    base_.does("time-frames", "echo >>\"$here/starts\"\nodd=$(($(wc -l <\"$here/starts\") % 2))\n" +
+                                  readFile(base_.program().parent_path() / "time-frames.sh"));
+    head_.takes("100", "100");
+    const auto [direction, sentence] = judged();
+    EXPECT_EQ(direction, Direction::Unjudged) << sentence;
+    EXPECT_NE(sentence.find("the machine is not steady enough"), std::string::npos) << sentence;
+}
+
+TEST_F(TimeOfStandIns, WithoutATimedCellThereIsANote) {
+    base_.lists("techniques", R"([{"id": "none", "variants": [""], "parameters": []}])"); // it does not know the cell
+    EXPECT_TRUE(has(gate(options_).notes, "time is not judged: none of the chosen cells is timed"));
+}
+
+} // namespace
+} // namespace shadowbench::gate
