@@ -139,9 +139,9 @@ GreyPixels greyPixels(const metrics::ScoredFrame& frame, float (*undo)(float)) {
 
 bool isSuspect(const GreyPixels& grey) {
     constexpr int enough = 24;
-    constexpr double notable = 0.1; // sRGB makes an even ramp brighter by 0.19 on average
-    return grey.count >= enough && grey.evener > 0 && std::abs(grey.before) >= notable &&
-           std::abs(grey.after) <= std::abs(grey.before) * 2 / 3;
+    if (grey.count < enough || grey.evener <= 0) return false;
+    const double chance = 0.29 / std::sqrt(static_cast<double>(grey.count)); // of an even ramp's values
+    return std::abs(grey.before) - std::abs(grey.after) > 3 * chance;
 }
 
 } // namespace shadowbench::foreign
