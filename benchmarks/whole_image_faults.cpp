@@ -1,5 +1,5 @@
 // What `score` makes of images that are wrong as a whole, and of right ones that are merely bad: the images that `run
-// --images` keeps of all techniques, each as it is and with one fault, as another renderer's.
+// --images` keeps of all techniques and of other renderers, each as it is and with one fault, as another renderer's.
 //
 //   build/release/shadowbench run --scene simple --cost none --images --out RUN
 //   build/release/benchmarks/whole_image_faults RUN [--technique pcf] [--scene simple] [--fault as-drawn] [--evidence]
@@ -7,6 +7,7 @@
 #include "base/image_io.h"
 #include "base/temporary_folder.h"
 #include "harness/cells/kept_images.h"
+#include "harness/foreign/encodings.h"
 #include "harness/foreign/foreign_image.h"
 #include "harness/foreign/score_images.h"
 #include "harness/foreign/shadow_edges.h"
@@ -104,9 +105,8 @@ public:
         frames_.show(frames_.scored());
     }
 
-    Outcome judge(const std::string& technique, const Image<float>& drawn, const Fault& fault) {
+    Outcome judge(Means means, const Image<float>& drawn, const Fault& fault) {
         const Image<float> v = fault.made(drawn);
-        const Means means = meansOf(technique);
         const metrics::Mask& mask = frames_.mask(means == Means::Hard ? Truth::Hard : Truth::Soft);
         if (fault.name != "as-drawn" && v.width() == drawn.width()) {
             bool same = true;
@@ -127,10 +127,10 @@ public:
         return warnings.empty() ? Outcome{'.', ""} : Outcome{'W', warnings.front()};
     }
 
-    std::string evidence(const std::string& technique, const Image<float>& drawn, const Fault& fault) {
+    std::string evidence(Means means, const Image<float>& drawn, const Fault& fault) {
         const Image<float> v = fault.made(drawn);
         if (v.width() != drawn.width()) return "";
-        const bool labels = meansOf(technique) == Means::Hard;
+        const bool labels = means == Means::Hard;
         const Truth truth = labels ? Truth::Hard : Truth::Soft;
         const metrics::ScoredFrame frame{v, frames_.truth(truth), frames_.mask(truth)};
         const ShiftEvidence e = shiftEvidence(frame, labels);
@@ -138,19 +138,22 @@ public:
                                        e.by.x, e.by.y, e.towardsLight, e.towardsShadow, e.agreement, e.overHalf, e.overMore);
         if (!labels) return text;
         for (float (*undo)(float) : {linearFromSrgb, srgbFromLinear}) {
-            const EncodingEvidence encoding = encodingEvidence(frame, undo);
-            text += fmt::format("; straighter {:.1f} righter {:.1f} agreement {:.1f}", encoding.straighter, encoding.righter,
-                                encoding.agreement);
+            const GreyPixels grey = greyPixels(frame, undo);
+            text += fmt::format("; {} grey, evener {:.1f} mean {:.2f}, undone {:.2f}", grey.count, grey.evener, grey.before,
+                                grey.after);
         }
         return text;
     }
 
-private:
-    [[nodiscard]] Means meansOf(const std::string& variant) const {
-        const techniques::Answer answer = techniques::parseVariant(variant).entry->answer;
+    [[nodiscard]] Means meansOf(const Record& record) const {
+        for (const auto& [key, value] : record.parameters)
+            if (record.technique.starts_with(externalPrefix) && key == "means") return meansNamed(value);
+        const techniques::Answer answer = techniques::parseVariant(record.variant).entry->answer;
         if (scene_.light.isEnvironment()) return Means::Irradiance;
         return answer == techniques::Answer::Soft ? Means::Area : Means::Hard;
     }
+
+private:
     static Encoding encodingOf(const Fault& fault) {
         return fault.name == "srgb-undone" ? Encoding::Srgb : Encoding::Linear;
     }
@@ -202,23 +205,23 @@ private:
             if (!isChosen(options_.techniques, record.technique)) continue;
             const auto file = cellFolder(options_.run / "images", id, record.variant) / "visibility.exr";
             if (!std::filesystem::exists(file)) continue;
-            printRow(judge, record.variant, readChannel(file, "V"));
+            printRow(judge, record, readChannel(file, "V"));
         }
     }
 
-    void printRow(Judge& judge, const std::string& variant, const Image<float>& drawn) {
+    void printRow(Judge& judge, const Record& record, const Image<float>& drawn) {
+        const Means means = judge.meansOf(record);
         std::string letters, details;
         for (const Fault& fault : faults_) {
-            const Outcome outcome = judge.judge(variant, drawn, fault);
+            const Outcome outcome = judge.judge(means, drawn, fault);
             letters += outcome.letter;
             ++counts_[fault.name][outcome.letter];
             const bool isNews = fault.name == "as-drawn" ? outcome.letter != '.' : outcome.letter == 'W';
             if (!outcome.said.empty() && (options_.sentences || isNews))
                 details += fmt::format("      {}: {}\n", fault.name, outcome.said.substr(outcome.said.find("exr ") + 4));
-            if (options_.evidence)
-                details += fmt::format("      {}: {}\n", fault.name, judge.evidence(variant, drawn, fault));
+            if (options_.evidence) details += fmt::format("      {}: {}\n", fault.name, judge.evidence(means, drawn, fault));
         }
-        fmt::print("  {} {}\n{}", letters, variant, details);
+        fmt::print("  {} {}\n{}", letters, record.variant, details);
         std::fflush(stdout);
     }
 

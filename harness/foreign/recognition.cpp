@@ -1,5 +1,6 @@
 #include "harness/foreign/recognition.h"
 
+#include "harness/foreign/encodings.h"
 #include "harness/foreign/foreign_image.h"
 #include "harness/foreign/shadow_edges.h"
 
@@ -156,41 +157,56 @@ Finding shiftFinding(const Compared& compared, const Image<std::uint8_t>& pixels
             certain};
 }
 
-/// The grey scored pixels: how bright they are on average, and should be.
-struct Grey {
-    double v = 0, truth = 0;
-    std::size_t count = 0;
-};
-Grey greyOf(const Compared& compared, float (*undo)(float)) {
-    Grey grey;
-    for (std::size_t i = 0; i < compared.v.size(); ++i) {
-        if (compared.scored[i] == 0 || compared.v[i] < 0.02F || compared.v[i] > 0.98F) continue;
-        grey.v += static_cast<double>(undo(compared.v[i]));
-        grey.truth += static_cast<double>(compared.truth[i]);
-        ++grey.count;
-    }
-    if (grey.count == 0) return grey;
-    grey.v /= static_cast<double>(grey.count);
-    grey.truth /= static_cast<double>(grey.count);
-    return grey;
-}
-
 float asItIs(float v) { return v; }
 
-std::optional<Finding> misencodedLabels(const Compared& compared, float (*undo)(float), const std::string& looks,
-                                        const std::string& remedy) {
-    constexpr std::size_t enough = 24;
-    constexpr double least = 0.1; // sRGB makes an even ramp brighter by 0.19 on average
-    const Grey before = greyOf(compared, asItIs), after = greyOf(compared, undo);
-    const double was = before.v - before.truth, is = after.v - after.truth;
-    const double chance = 0.29 / std::sqrt(static_cast<double>(before.count)); // of ramps whose centres are lit or not
-    const double notable = std::max(least, 3 * chance);
-    const bool seems = compared.frame != nullptr ? isSure(encodingEvidence(*compared.frame, undo))
-                                                 : std::abs(was) >= notable && std::abs(is) <= std::abs(was) / 3;
-    if (before.count < enough || !seems) return {};
-    return Finding{fmt::format("looks {}: its grey pixels are {:.2g} too {} on average, and {:.2g} when that is undone; {}",
-                               looks, std::abs(was), was > 0 ? "bright" : "dark", std::abs(is), remedy),
-                   false};
+/// How an encoding is undone, and what to say of it.
+struct Misread {
+    float (*undo)(float);
+    std::string looks, remedy;
+};
+Misread misreadOf(Encoding encoding) {
+    if (encoding == Encoding::Srgb) return {srgbFromLinear, "linear, and was decoded from sRGB", "say --linear"};
+    return {linearFromSrgb, "sRGB-encoded", "say --srgb, or write linear numbers"};
+}
+
+/// Whether the grey values that pixels share are codes of a filter's fractions.
+std::optional<Finding> misencodedFractions(const Compared& compared, Encoding encoding) {
+    const bool decoded = encoding == Encoding::Srgb;
+    std::vector<float> stored;
+    for (std::size_t i = 0; i < compared.v.size(); ++i)
+        if (compared.scored[i] != 0) stored.push_back(decoded ? srgbFromLinear(compared.v[i]) : compared.v[i]);
+    const EncodedFractions linear = encodedFractions(stored, asItIs), srgb = encodedFractions(stored, srgbFromLinear);
+    const EncodedFractions& found = decoded ? linear : srgb;
+    if (!isSure(found, decoded ? srgb : linear)) return {};
+    const Misread misread = misreadOf(encoding);
+    return Finding{fmt::format("looks {}: its grey values are those of a filter of {} samples when that is undone, {} of "
+                               "which chance does not explain; {}",
+                               misread.looks, found.samples, found.levels, misread.remedy),
+                   true};
+}
+
+std::optional<Finding> misencodedShares(const Compared& compared, Encoding encoding) {
+    const Misread misread = misreadOf(encoding);
+    Image<float> v = compared.v;
+    std::ranges::transform(v, v.begin(), misread.undo);
+    const double before = errorOf(compared), after = errorWith(compared, v);
+    if (!halves(before, after, false)) return {};
+    return Finding{
+        fmt::format("looks {}: {} when that is undone; {}", misread.looks, fall(before, after, false), misread.remedy),
+        true};
+}
+
+std::optional<Finding> misencodedLabels(const Compared& compared, Encoding encoding) {
+    if (compared.frame == nullptr) return {};
+    const Misread misread = misreadOf(encoding);
+    const GreyPixels grey = greyPixels(*compared.frame, misread.undo);
+    if (!isSuspect(grey)) return {};
+    return Finding{
+        fmt::format("looks {}: its grey pixels at shadow edges are {:.2g} too {} on average, and {:.2g} when that "
+                    "is undone; {}",
+                    misread.looks, std::abs(grey.before), grey.before > 0 ? "bright" : "dark", std::abs(grey.after),
+                    misread.remedy),
+        false};
 }
 
 } // namespace
@@ -263,16 +279,9 @@ std::optional<Finding> shifted(const Compared& compared) {
 }
 
 std::optional<Finding> misencoded(const Compared& compared, Encoding encoding) {
-    const bool decoded = encoding == Encoding::Srgb;
-    const auto undo = decoded ? srgbFromLinear : linearFromSrgb;
-    const std::string looks = decoded ? "linear, and was decoded from sRGB" : "sRGB-encoded";
-    const std::string remedy = decoded ? "say --linear" : "say --srgb, or write linear numbers";
-    if (compared.labels) return misencodedLabels(compared, undo, looks, remedy);
-    Image<float> v = compared.v;
-    std::ranges::transform(v, v.begin(), undo);
-    const double before = errorOf(compared), after = errorWith(compared, v);
-    if (!halves(before, after, false)) return {};
-    return Finding{fmt::format("looks {}: {} when that is undone; {}", looks, fall(before, after, false), remedy), true};
+    auto found = compared.labels ? std::nullopt : misencodedShares(compared, encoding);
+    if (!found) found = misencodedFractions(compared, encoding);
+    return found || !compared.labels ? found : misencodedLabels(compared, encoding);
 }
 
 std::optional<Finding> shaded(const Compared& compared) {

@@ -42,10 +42,10 @@ std::optional<Finding> turned(const Compared& compared);
 /// better and some worse.
 std::optional<Finding> shifted(const Compared& compared);
 
-/// sRGB-encoded though taken for linear, or linear though decoded. Certain for graded truths where undoing it halves the
-/// error. Where the truth has labels it is suspected: where edges become straight or their grey pixels right everywhere
-/// (harness/foreign/shadow_edges.h), or, without the whole frame, where the grey pixels are too bright (too dark) on average
-/// and come right by it.
+/// sRGB-encoded though taken for linear, or linear though decoded. Certain where the image's grey values are codes of a
+/// filter's fractions (harness/foreign/encodings.h), and for graded truths where undoing it halves the error. Suspected
+/// where the truth has labels and distances from their edges, and the grey pixels at these are as an edge's when it is
+/// undone.
 std::optional<Finding> misencoded(const Compared& compared, Encoding encoding);
 
 /// Brightest receivers well below 1 though much is fully lit: a shaded picture. Suspected.

@@ -189,55 +189,6 @@ ShiftEvidence likeliestShift(const Points& points) {
     return found;
 }
 
-/// Distances to the exact edge as a straight line over values: what the line leaves of them.
-class Line {
-public:
-    void add(double value, double distance) {
-        ++count_;
-        const double fromValue = value - meanValue_, fromDistance = distance - meanDistance_;
-        meanValue_ += fromValue / count_;
-        meanDistance_ += fromDistance / count_;
-        values_ += fromValue * (value - meanValue_);
-        distances_ += fromDistance * (distance - meanDistance_);
-        both_ += fromValue * (distance - meanDistance_);
-    }
-    [[nodiscard]] int count() const { return count_; }
-    [[nodiscard]] double meanSquare() const {
-        const double explained = both_ > 0 && values_ > 0 ? both_ * both_ / values_ : 0; // lit must be the far side
-        return std::max(0.0, distances_ - explained) / count_;
-    }
-
-private:
-    int count_ = 0;
-    double meanValue_ = 0, meanDistance_ = 0, values_ = 0, distances_ = 0, both_ = 0;
-};
-
-/// How much straighter distance from the exact edge is over values that are undone.
-double straighterBy(const ScoredFrame& frame, float (*undo)(float)) {
-    constexpr float least = 0.04F, most = 0.96F;
-    constexpr float farthest = 6; // pixels from an exact edge: what is grey farther off is no edge
-    const Image<float> distances = signedDistances(frame.truth);
-    std::array<std::vector<Line>, 2> lines; // of values as they are, and undone
-    for (std::vector<Line>& one : lines) one.resize(squares * squares);
-    for (int y = 0; y < frame.v.height(); ++y)
-        for (int x = 0; x < frame.v.width(); ++x) {
-            const float v = frame.v(x, y), distance = distances(x, y);
-            if (frame.mask.scored(x, y) == 0 || v < least || v > most || !(std::abs(distance) <= farthest)) continue;
-            const std::size_t square = squareOf(frame, {x, y});
-            lines[0][square].add(static_cast<double>(v), static_cast<double>(distance));
-            lines[1][square].add(static_cast<double>(undo(v)), static_cast<double>(distance));
-        }
-    constexpr int enough = 4;
-    constexpr double known = 0.05 * 0.05; // square pixels: no edge is known better
-    double sum = 0;
-    for (std::size_t i = 0; i < lines[0].size(); ++i) {
-        const int count = lines[0][i].count();
-        if (count < enough) continue;
-        sum += 0.5 * (count - 2) * std::log((lines[0][i].meanSquare() + known) / (lines[1][i].meanSquare() + known));
-    }
-    return sum;
-}
-
 } // namespace
 
 ShiftEvidence shiftEvidence(const ScoredFrame& frame, bool labels) {
@@ -252,46 +203,6 @@ bool isSure(const ShiftEvidence& evidence) {
     return evidence.towardsLight + evidence.towardsShadow >= enough && evidence.agreement >= spread &&
            std::min(evidence.towardsLight, evidence.towardsShadow) >= each &&
            std::min(evidence.overHalf, evidence.overMore) >= doubt;
-}
-
-EncodingEvidence encodingEvidence(const ScoredFrame& frame, float (*undo)(float)) {
-    constexpr float least = 0.02F, most = 0.98F;
-    constexpr float farthest = 3; // pixels from an exact edge: what is grey farther off says more of the technique
-    struct Sums {
-        double was = 0, is = 0;
-        int count = 0;
-    };
-    const Image<float> distances = signedDistances(frame.truth);
-    std::vector<Sums> all(squares * squares);
-    for (int y = 0; y < frame.v.height(); ++y)
-        for (int x = 0; x < frame.v.width(); ++x) {
-            const float v = frame.v(x, y), label = frame.truth.visibility(x, y);
-            if (frame.mask.scored(x, y) == 0 || v < least || v > most || !(std::abs(distances(x, y)) <= farthest)) continue;
-            Sums& one = all[squareOf(frame, {x, y})];
-            one.was += static_cast<double>(v - label);
-            one.is += static_cast<double>(undo(v) - label);
-            ++one.count;
-        }
-    constexpr int enough = 4;
-    constexpr double variance = 1.0 / 12; // of a ramp that is even from 0 to 1, about its edge
-    constexpr double largest = 2;         // of one square
-    EncodingEvidence found{.straighter = straighterBy(frame, undo)};
-    double sumOfSquares = 0;
-    for (const Sums& one : all) {
-        if (one.count < enough) continue;
-        const double ratio = (one.was * one.was - one.is * one.is) / (2 * variance * one.count);
-        const double evidence = std::clamp(ratio, -largest, largest);
-        found.righter += evidence;
-        sumOfSquares += evidence * evidence;
-    }
-    if (sumOfSquares > 0) found.agreement = found.righter / std::sqrt(sumOfSquares);
-    return found;
-}
-
-bool isSure(const EncodingEvidence& evidence) {
-    constexpr double straight = 3;          // e³ times as likely
-    constexpr double right = 8, spread = 4; // a technique's own brightness differs from square to square
-    return evidence.straighter > straight || (evidence.righter > right && evidence.agreement > spread);
 }
 
 } // namespace shadowbench::foreign

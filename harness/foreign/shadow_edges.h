@@ -1,5 +1,5 @@
-// What a shift or a wrong encoding of a whole image does to all its shadow edges alike, and a technique's errors do not. The
-// truth tells: exact distances from shadow edges, or graded penumbrae. Pure functions.
+// What a shift of a whole image does to all its shadow edges alike, and a technique's errors do not. The truth tells: exact
+// distances from shadow edges, or graded penumbrae. Pure functions.
 #pragma once
 
 #include "harness/metrics/frames.h"
@@ -25,18 +25,5 @@ ShiftEvidence shiftEvidence(const metrics::ScoredFrame& frame, bool labels);
 
 /// Whether they leave no doubt.
 bool isSure(const ShiftEvidence& evidence);
-
-/// What speaks for an encoding, at the exact edges of labels: logarithms of ratios of likelihoods, summed over squares.
-struct EncodingEvidence {
-    double straighter = 0; // the image rises more evenly across edges when it is undone; where they lie does not matter
-    double righter = 0;    // grey pixels come nearer to what they should be on average
-    double agreement = 0;  // of `righter`, as in ShiftEvidence
-};
-
-/// For the encoding that `undo` undoes, and a frame with labels as its truth.
-EncodingEvidence encodingEvidence(const metrics::ScoredFrame& frame, float (*undo)(float));
-
-/// Whether an encoding is to be suspected.
-bool isSure(const EncodingEvidence& evidence);
 
 } // namespace shadowbench::foreign

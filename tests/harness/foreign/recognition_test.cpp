@@ -1,6 +1,7 @@
 // What is wrong with a whole image is named, and what is right or merely bad is not.
 #include "harness/foreign/foreign_image.h"
 #include "harness/foreign/recognition.h"
+#include "tests/harness/foreign/exact_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,12 +120,29 @@ TEST_F(Recognition, NamesEncodingsOfGradedTruthsForCertainAndOfSmoothedEdgesAsSu
     ASSERT_TRUE(twice);
     EXPECT_TRUE(has(twice->sentence, "say --linear")) << twice->sentence;
 
-    const std::optional<Finding> edges = misencoded(hard(encoded(filtered_)), Encoding::Linear);
+    const ExactEdges frame;
+    const auto edgesOf = [&](const Image<float>& v, Encoding encoding) {
+        const metrics::ScoredFrame known{v, frame.truth, frame.mask};
+        return misencoded({v, frame.truth.visibility, frame.mask.scored, true, &known}, encoding);
+    };
+    const Image<float> smoothed = ExactEdges::drawn(3, distanceAt);
+    const std::optional<Finding> edges = edgesOf(encoded(smoothed), Encoding::Linear);
     ASSERT_TRUE(edges);
     EXPECT_FALSE(edges->certain);
     EXPECT_TRUE(has(edges->sentence, "too bright on average")) << edges->sentence;
-    EXPECT_TRUE(misencoded(hard(decoded(filtered_)), Encoding::Srgb));
-    EXPECT_FALSE(misencoded(hard(encoded(labels_)), Encoding::Linear)) << "0 and 1 are the same in both";
+    EXPECT_TRUE(edgesOf(decoded(smoothed), Encoding::Srgb));
+    EXPECT_FALSE(edgesOf(smoothed, Encoding::Linear));
+    EXPECT_FALSE(edgesOf(encoded(labels_), Encoding::Linear)) << "0 and 1 are the same in both";
+}
+
+TEST_F(Recognition, NamesEncodingsOfAFilterOfAFewSamplesForCertain) {
+    const Image<float> counted = made([&](int x, int y) { return std::round(9 * filtered_(x, y)) / 9; });
+    const Image<float> encoded = made([&](int x, int y) { return srgbFromLinear(counted(x, y)); });
+    const std::optional<Finding> found = misencoded(hard(encoded), Encoding::Linear);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->certain);
+    EXPECT_TRUE(has(found->sentence, "sRGB-encoded: its grey values are those of a filter of 9 samples")) << found->sentence;
+    EXPECT_FALSE(misencoded(hard(counted), Encoding::Linear));
 }
 
 TEST_F(Recognition, NamesBlackAndGreyImagesAndSuspectsWhiteOnes) {
