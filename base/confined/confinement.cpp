@@ -11,6 +11,12 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+// Of the sanitizers' libraries, where they are linked: g++ and clang have different macros, and none for a library alone.
+// NOLINTBEGIN(bugprone-reserved-identifier): their own names
+extern "C" void __asan_init() __attribute__((weak));
+extern "C" void __tsan_init() __attribute__((weak));
+// NOLINTEND(bugprone-reserved-identifier)
+
 namespace shadowbench {
 namespace {
 
@@ -115,6 +121,8 @@ bool filterSystemCalls(int socket) {
 }
 
 } // namespace
+
+bool hasSanitizer() { return __asan_init != nullptr || __tsan_init != nullptr; }
 
 std::string Protections::inWords() const {
     std::string words = "limits";

@@ -8,13 +8,7 @@
 namespace shadowbench {
 
 /// A build with AddressSanitizer or ThreadSanitizer reserves terabytes, and works with threads and files of its own.
-constexpr bool hasSanitizer() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return true;
-#else
-    return false;
-#endif
-}
+bool hasSanitizer();
 
 /// What held a reader. Limits hold everywhere: no new descriptor, no byte into a file, no core dump, bounded memory and
 /// time.

@@ -91,7 +91,7 @@ TEST_F(Reader, ThatIsSoundAnswers) { EXPECT_EQ(asked("add"), 5U); }
 TEST_F(Reader, ThatDiesIsNamedWithTheFileAndTheSignal) {
     EXPECT_EQ(refusal("abort"),
               "cannot add up file: its reader was ended by signal 6 (Aborted): the file is damaged; write it again");
-    EXPECT_NE(refusal("crash").find("signal 11"), std::string::npos);
+    EXPECT_NE(refusal("crash").find(hasSanitizer() ? "ended with code 1" : "signal 11"), std::string::npos);
     EXPECT_NE(refusal("leave").find("ended with code 0 and without an answer"), std::string::npos);
     EXPECT_NE(refusal("stop").find("without an answer"), std::string::npos);
 }
@@ -99,19 +99,24 @@ TEST_F(Reader, ThatDiesIsNamedWithTheFileAndTheSignal) {
 TEST_F(Reader, ThatHangsIsEndedByItsTime) {
     const Set seconds(Limit::ReaderSeconds, "1");
     const auto start = std::chrono::steady_clock::now();
-    EXPECT_EQ(refusal("spin"), "cannot add up file: reading it takes more than 1 s, or more memory than there is: write the "
-                               "file again, or raise SHADOWBENCH_MAX_READER_SECONDS");
+    const std::string said = refusal("spin");
+    const bool isLate = said ==
+                        "cannot add up file: its reader gave no answer for 6 s and was stopped: write the file again, or "
+                        "raise SHADOWBENCH_MAX_READER_SECONDS"; // on a machine that gave it less than a sixth of a core
+    if (!isLate)
+        EXPECT_EQ(said,
+                  "cannot add up file: reading it takes more than 1 s, or more memory than there is: write the file again, "
+                  "or raise SHADOWBENCH_MAX_READER_SECONDS");
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(7));
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_F(Reader, ThatEatsMemoryIsRefusedMore) {
+    if (hasSanitizer()) GTEST_SKIP() << "it needs more memory than any limit";
     const Set memory(Limit::ReaderMib, "700");
     EXPECT_EQ(refusal("eat"),
               "cannot add up file: reading it takes more memory than the 700 MiB of SHADOWBENCH_MAX_READER_MIB, "
               "which can be raised");
 }
-#endif
 
 TEST_F(Reader, WhoseAnswerBreaksARuleIsRefused) {
     EXPECT_NE(refusal("lie").find("its reader's answer is malformed (18446744073709551615 as a size, at most 100 can be)"),
