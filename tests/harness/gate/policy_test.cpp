@@ -233,6 +233,7 @@ TEST(GateChoices, OfARangeAreItsLeastAndItsDefault) {
     EXPECT_EQ(choices(techniques::IntegerRange{1, 9}, "3"), (Words{"3", "1"}));
     EXPECT_EQ(choices(techniques::IntegerRange{1, 9}, "1"), Words{"1"});
     EXPECT_EQ(choices(techniques::RealRange{0.5, 9}, "3"), (Words{"3", "0.5"}));
+    EXPECT_EQ(choices(techniques::RealRange{0.5, 9}, "0.5"), Words{"0.5"});
 }
 
 TEST(GateChoices, OfATechniqueWithoutParametersIsItself) {

@@ -3,11 +3,14 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/folder_lock.h"
 #include "base/git.h"
 #include "base/temporary_folder.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>
+#include <optional>
+#include <unistd.h>
 
 namespace shadowbench::gate {
 namespace {
@@ -100,6 +103,21 @@ TEST_F(ABaseline, ACommitIsBuiltOnce) {
     EXPECT_EQ(lines_, (std::vector<std::string>{"cmake -S", "cmake -E"})) << "once, and its lines are progress";
 }
 
+TEST_F(ABaseline, ThatAnotherGateBuildsIsWaitedForAndNotBuiltAgain) {
+    makeRepository();
+    makeCmake("printf '#!/bin/sh\\n' >shadowbench; chmod +x shadowbench\n");
+    const fs::path program = find("v1").file;
+    fs::rename(program, "built");
+    std::optional<FolderLock> other(program.parent_path());
+    std::vector<std::string> lines;
+    (void)findBaseline("v1", folder_.path() / "cache", [&](double, std::string_view line) {
+        lines.emplace_back(line);
+        fs::rename("built", program);
+        other.reset();
+    });
+    EXPECT_EQ(lines, std::vector<std::string>{"waiting for another gate that builds it"});
+}
+
 TEST_F(ABaseline, WhereverTheCompilersCacheIsTheBuildHasIt) {
     makeRepository();
     makeCmake("printf '#!/bin/sh\\n' >shadowbench; chmod +x shadowbench\n");
@@ -118,6 +136,8 @@ TEST_F(ABaseline, WhereverTheCompilersCacheIsTheBuildHasIt) {
     const std::string home = std::getenv("HOME") != nullptr ? std::getenv("HOME") : "";
     setenv("HOME", "/home/someone", 1);
     EXPECT_NE(built().find("CCACHE_DIR=/home/someone/.cache/ccache "), std::string::npos);
+    unsetenv("HOME");
+    EXPECT_NE(built().find("CCACHE_DIR=/root/.cache/ccache "), std::string::npos);
     home.empty() ? unsetenv("HOME") : setenv("HOME", home.c_str(), 1);
     if (before != nullptr) setenv("CCACHE_DIR", kept.c_str(), 1);
 }
@@ -139,6 +159,8 @@ TEST_F(ABaseline, WithoutACompilerNamesThePackage) {
     fs::create_symlink("/usr/bin/git", folder_.path() / "bin/git");
     setenv("PATH", (folder_.path() / "bin").c_str(), 1);
     EXPECT_NE(complaint("v1").find("building the base needs c++, which is not installed"), std::string::npos);
+    setenv("PATH", "/nowhere", 1);
+    EXPECT_NE(complaint("v1").find("no git revision here"), std::string::npos) << "there is no git to ask";
 }
 
 } // namespace

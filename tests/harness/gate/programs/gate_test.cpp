@@ -1,81 +1,16 @@
 // The whole gate on stand-ins for base and head: what is judged, what is not and why, and what that comes to.
-#include "harness/gate/gate.h"
-
-#include "base/temporary_folder.h"
 #include "harness/cells/external_techniques.h"
 #include "harness/gate/verdict.h"
-#include "tests/harness/gate/programs/stand_in.h"
+#include "tests/harness/gate/programs/gate_of_stand_ins.h"
 
+#include <cstdlib>
 #include <gtest/gtest.h>
+#include <memory>
 
 namespace shadowbench::gate {
 namespace {
 
 namespace fs = std::filesystem;
-
-class GateOfStandIns : public testing::Test {
-protected:
-    GateOfStandIns() {
-        writeFile(path("tiny.toml"), standInScene());
-        bounds("");
-        options_.base = base_.program();
-        options_.head = head_.program();
-        options_.scenes = {path("tiny.toml")};
-        options_.techniques = {"pcf"};
-        options_.bounds = path("bounds.toml");
-        options_.out = path("out");
-        options_.cache = path("cache");
-        options_.instructions = options_.time = false;
-        options_.quiet = true;
-        head_.measures({headRecord()});
-    }
-
-    [[nodiscard]] std::string path(const std::string& name) const { return folder_.path() / name; }
-    void bounds(const std::string& text) const { writeFile(path("bounds.toml"), text); }
-    /// A file of records as the base.
-    void compareWith(const std::vector<Record>& records) {
-        writeRecords(path("records/results.jsonl"), records);
-        options_.base = path("records");
-    }
-    /// Of another commit than the base's.
-    static Record headRecord(const std::string& variant = "pcf", std::uint32_t seed = 1) {
-        Record record = standInRecord(variant, seed);
-        record.commit = "decaf";
-        return record;
-    }
-    static Record leaking(Record record, double leak = 0.1) {
-        record.values["accuracy.leak"] = leak;
-        return record;
-    }
-    [[nodiscard]] std::string complaint() const {
-        try {
-            (void)gate(options_);
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "none";
-    }
-
-    TemporaryFolder folder_;
-    StandIn base_{folder_.path(), "base"}, head_{folder_.path(), "head"};
-    GateOptions options_;
-};
-
-std::string all(const std::vector<std::string>& sentences) {
-    std::string text;
-    for (const std::string& sentence : sentences) text += sentence + "\n";
-    return text;
-}
-
-bool has(const std::vector<std::string>& sentences, const std::string& part) {
-    return all(sentences).find(part) != std::string::npos;
-}
-
-std::vector<Change> of(const GateResult& result, const std::string& metric) {
-    std::vector<Change> changes;
-    std::ranges::copy_if(result.changes, std::back_inserter(changes), [&](const Change& c) { return c.metric == metric; });
-    return changes;
-}
 
 TEST_F(GateOfStandIns, EqualRecordsPass) {
     const GateResult result = gate(options_);
@@ -160,6 +95,28 @@ TEST_F(GateOfStandIns, TwoBuildsOfTheSameProgramDecideNothing) {
     EXPECT_NE(complaint().find("base and head are one program"), std::string::npos) << complaint();
     options_.aa = true;
     EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
+    options_.aa = false;
+    base_.does("policy", "exit 2\n");
+    EXPECT_NE(complaint().find("base and head are one program"), std::string::npos)
+        << "though they say nothing of themselves";
+}
+
+TEST_F(GateOfStandIns, OfAllCellsAreThoseThatRecordsHaveOfTheStandardScenes) {
+    Record gone = standInRecord("gone"), other = standInRecord("gone"), step = standInRecord("gone");
+    gone.scene = step.scene = "dueling-frusta";
+    step.sweep = SweepStep{"near-plane", "m", "gone", 1, 0.1};
+    other.scene = "near-plane";
+    compareWith({gone, other, step});
+    options_.scenes.clear();
+    options_.techniques.clear();
+    options_.cache.clear();
+    setenv("SHADOWBENCH_CACHE", path("own-cache").c_str(), 1);
+    const GateResult result = gate(options_);
+    unsetenv("SHADOWBENCH_CACHE");
+    EXPECT_TRUE(fs::exists(path("own-cache"))) << "what the head has of them was measured there";
+    ASSERT_EQ(std::ranges::count(result.changes, Direction::Worse, &Change::direction), 1);
+    EXPECT_EQ(result.changes[0].scene, "dueling-frusta");
+    EXPECT_TRUE(has(result.unjudged, "pcf on dueling-frusta was not measured"));
 }
 
 TEST_F(GateOfStandIns, CommitsThatMakeTheSameProgramPassUnlessThePolicyDiffers) {
@@ -221,6 +178,8 @@ TEST_F(GateOfStandIns, WhatTheSceneExpectsIsJudgedOfItsProfileAndOfTheFirstSeedO
     const GateResult result = gate(options_);
     EXPECT_EQ(of(result, "bound.leak").size(), 1U);
     EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
+    options_.profile = Profile::Standard;
+    EXPECT_EQ(of(gate(options_), "bound.leak").size(), 0U);
 }
 
 TEST_F(GateOfStandIns, WhatIsDrawnByChanceIsMeasuredWithEightSeeds) {
@@ -339,59 +298,6 @@ TEST_F(GateOfStandIns, OtherRenderersAreCalledByTheHeadEachTimeAndComparedWithRe
     EXPECT_TRUE(result.pictures.empty()) << "what others draw is not drawn again";
     (void)gate(options_);
     EXPECT_EQ(head_.calls("run"), 2);
-}
-
-class TimeOfStandIns : public GateOfStandIns {
-protected:
-    TimeOfStandIns() { options_.time = true; }
-
-    /// What becomes of a metric of time; its sentence.
-    [[nodiscard]] std::pair<Direction, std::string> judged(const std::string& metric = "time.ratio") const {
-        const std::vector<Change> changes = of(gate(options_), metric);
-        return changes.empty() ? std::pair(Direction::Same, std::string("none"))
-                               : std::pair(changes[0].direction, changes[0].sentence);
-    }
-};
-
-TEST_F(TimeOfStandIns, AsLongIsTheSameAndLongerIsWorse) {
-    base_.takes("100", "100");
-    head_.takes("100", "100");
-    EXPECT_EQ(judged().first, Direction::Same);
-    head_.takes("105", "105");
-    EXPECT_EQ(judged().first, Direction::Worse);
-    EXPECT_NE(judged().second.find("pcf on tiny: a frame takes 1.050 of the base's CPU time, surely more than 1.050"),
-              std::string::npos);
-    EXPECT_EQ(judged("time.wall_ratio").second, "none") << "its CPU time says it all";
-}
-
-TEST_F(TimeOfStandIns, AHeadThatWaitsIsWorseByItsWallTime) {
-    base_.takes("100", "100");
-    head_.takes("100", "150");
-    EXPECT_EQ(judged().first, Direction::Same);
-    EXPECT_EQ(judged("time.wall_ratio").first, Direction::Worse);
-}
-
-TEST_F(TimeOfStandIns, WhatStaysUncertainIsUnclear) {
-    base_.takes("1000", "1000");
-    head_.takes("(i % 20 < 9 ? 970 : 1030)", "1000"); // slower in the median, in eleven rounds of twenty
-    const auto [direction, sentence] = judged();
-    EXPECT_EQ(direction, Direction::Unclear) << sentence;
-    EXPECT_NE(sentence.find("which 400 rounds leave uncertain"), std::string::npos) << sentence;
-}
-
-TEST_F(TimeOfStandIns, OnAMachineThatIsNotSteadyNothingIsJudged) {
-    base_.takes("100 + 30 * odd", "100"); // the base, and once more as the control
-    base_.does("time-frames", "echo >>\"$here/starts\"\nodd=$(($(wc -l <\"$here/starts\") % 2))\n" +
-                                  readFile(base_.program().parent_path() / "time-frames.sh"));
-    head_.takes("100", "100");
-    const auto [direction, sentence] = judged();
-    EXPECT_EQ(direction, Direction::Unjudged) << sentence;
-    EXPECT_NE(sentence.find("the machine is not steady enough"), std::string::npos) << sentence;
-}
-
-TEST_F(TimeOfStandIns, WithoutATimedCellThereIsANote) {
-    base_.lists("techniques", R"([{"id": "none", "variants": [""], "parameters": []}])"); // it does not know the cell
-    EXPECT_TRUE(has(gate(options_).notes, "time is not judged: none of the chosen cells is timed"));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "harness/gate/measured_program.h"
 
 #include "base/error.h"
+#include "base/folder_lock.h"
 #include "base/temporary_folder.h"
 #include "tests/harness/gate/programs/stand_in.h"
 
@@ -78,6 +79,24 @@ TEST_F(AMeasuredProgram, IsMeasuredAgainForOtherInputsAndWithOtherPrograms) {
     (void)measure(step_);
     (void)measure(step_);
     EXPECT_EQ(standIn_.calls("run"), 4);
+}
+
+TEST_F(AMeasuredProgram, SaysHowFarItIsInLinesOfTheirOwnForm) {
+    standIn_.does("run", "for line in 'a 1/2 x' '/2' 'x/2' '1/x' '1/' ' 1/2' 'no slash' ''; do echo \"$line\"; done\n");
+    (void)measure(step_);
+    EXPECT_EQ(progress_, (std::vector<std::string>{"a 1/2 x", "tiny 1/3  pcf"}));
+}
+
+TEST_F(AMeasuredProgram, ThatAnotherGateMeasuresIsWaitedFor) {
+    (void)measure(step_); // makes the folder
+    std::optional<FolderLock> other;
+    for (const auto& entry : fs::directory_iterator(folder_.path() / "cache/gate")) other.emplace(entry.path());
+    const Measured waited = measured().measure({step_}, [&](double, std::string_view line) {
+        progress_.emplace_back(line);
+        other.reset();
+    });
+    EXPECT_EQ(waited.records.size(), 1U);
+    EXPECT_EQ(progress_.back(), "waiting for another gate that measures this program");
 }
 
 TEST_F(AMeasuredProgram, WithErrorsInSomeCellsIsTriedAgain) {

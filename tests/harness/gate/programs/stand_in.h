@@ -13,16 +13,20 @@
 
 namespace shadowbench::gate {
 
-/// A scene whose id is "tiny".
-inline std::string standInScene() {
+constexpr const char* pointLight = "{ kind = \"point\", centre = [1.7, 6.1, -2.3] }";
+constexpr const char* areaLight = "{ kind = \"rectangle\", centre = [1.7, 6.1, -2.3], u = [0.9, 0, 0], v = [0, 0, 0.9] }";
+
+/// A scene; its id is its file's name.
+inline std::string standInScene(const std::string& light = pointLight) {
     return "# A box over a slab.\ntitle = \"Tiny\"\nsize = [32, 32]\nreference_samples = 16\n"
-           "camera = { eye = [2.1, 6.2, 7.3], target = [0.1, 0, 0.2], fovy = 45, near = 0.5, far = 40 }\n"
-           "light = { kind = \"point\", centre = [1.7, 6.1, -2.3] }\n[timeline]\nstill = 2\nmoving = 1\n"
+           "camera = { eye = [2.1, 6.2, 7.3], target = [0.1, 0, 0.2], fovy = 45, near = 0.5, far = 40 }\nlight = " +
+           light +
+           "\n[timeline]\nstill = 2\nmoving = 1\n"
            "[[object]]\nmesh = { box = { size = [12, 0.2, 12] } }\nplace = [{ at = [0, -0.1, 0] }]\n"
            "[[object]]\nmesh = { box = { size = [1.6, 0.4, 1.2] } }\nplace = [{ at = [0.13, 1.2, 0.21] }]\n";
 }
 
-/// A scored record of the scene above.
+/// A scored record of the scene "tiny".
 inline Record standInRecord(const std::string& variant, std::uint32_t seed = 1) {
     Record record = test::hardRecord();
     record.scene = "tiny";

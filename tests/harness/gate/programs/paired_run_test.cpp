@@ -1,0 +1,67 @@
+// Turns of two programs: how long they are, which workers share them, and what their samples come to.
+#include "harness/gate/paired_run.h"
+
+#include "base/temporary_folder.h"
+#include "tests/harness/gate/programs/stand_in.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace shadowbench::gate {
+namespace {
+
+PairedSamples samplesOf(double head, double headWall, double controlWall, int rounds = 100) {
+    PairedSamples samples;
+    samples.restarts.emplace_back(static_cast<std::size_t>(rounds),
+                                  PairedRound{{100, 100}, {head, headWall}, {100, controlWall}});
+    return samples;
+}
+
+class TurnsOfStandIns : public testing::Test {
+protected:
+    TurnsOfStandIns() { options_.restarts = 1; }
+    [[nodiscard]] std::vector<TimeJudgement> judged(const std::vector<TimedCell>& cells,
+                                                    const Progress& progress = {}) const {
+        return judgePairedTime(base_.program(), head_.program(), cells, options_, progress);
+    }
+
+    TemporaryFolder folder_;
+    StandIn base_{folder_.path(), "base"}, head_{folder_.path(), "head"};
+    PairedOptions options_;
+};
+
+TEST_F(TurnsOfStandIns, CellsOfOneSceneShareTheirWorkers) {
+    for (const StandIn* standIn : {&base_, &head_}) standIn->takes("100", "100");
+    std::vector<std::string> shown;
+    const auto judgements = judged({{"simple", "pcf"}, {"trees", "pcf"}, {"simple", "none"}},
+                                   [&](double, std::string_view what) { shown.emplace_back(what); });
+    ASSERT_EQ(judgements.size(), 3U);
+    EXPECT_EQ(judgements[2].cell.variant, "none");
+    EXPECT_EQ(shown, (std::vector<std::string>{"pcf", "none", "pcf"})) << "scene by scene";
+    EXPECT_EQ(base_.calls("time-frames"), 4) << "the base and the control, of two scenes";
+    EXPECT_EQ(head_.calls("time-frames"), 2);
+}
+
+TEST_F(TurnsOfStandIns, ShortFramesMakeATurnTogetherUpToSixteen) {
+    for (const StandIn* standIn : {&base_, &head_}) standIn->takes("1", "1");
+    EXPECT_EQ(judged({{"simple", "pcf"}})[0].samples.framesPerTurn, 4);
+    for (const StandIn* standIn : {&base_, &head_})
+        standIn->does("time-frames", "while read -r count variant; do echo 0.001 0.001; done\nexit\n");
+    EXPECT_EQ(judged({{"simple", "pcf"}})[0].samples.framesPerTurn, 16);
+}
+
+TEST(PairedSamples, ThatAreNoneAreNeverEnough) {
+    EXPECT_FALSE(enough({}, {}, 1));
+    EXPECT_EQ(judgeTime({}, {}, 1, 1), TimeVerdict::Unclear);
+}
+
+TEST(PairedSamples, SayThatAHeadWaitsOnlyWhereEqualProgramsDoNot) {
+    const TimedCell cell{"simple", "pcf"};
+    EXPECT_TRUE(judgeSamples(cell, samplesOf(100, 120, 100), {}, 1).waits);
+    EXPECT_FALSE(judgeSamples(cell, samplesOf(100, 120, 120), {}, 1).waits) << "so does the control";
+    EXPECT_FALSE(judgeSamples(cell, samplesOf(100, 104, 100), {}, 1).waits) << "under the floor of wall time";
+    EXPECT_FALSE(judgeSamples(cell, samplesOf(120, 120, 100), {}, 1).waits) << "it computes";
+}
+
+} // namespace
+} // namespace shadowbench::gate
