@@ -201,12 +201,13 @@ std::optional<Finding> misencodedLabels(const Compared& compared, Encoding encod
     const Misread misread = misreadOf(encoding);
     const GreyPixels grey = greyPixels(*compared.frame, misread.undo);
     if (!isSuspect(grey)) return {};
-    return Finding{
-        fmt::format("looks {}: its grey pixels at shadow edges are {:.2g} too {} on average, and {:.2g} when that "
-                    "is undone; {}",
-                    misread.looks, std::abs(grey.before), grey.before > 0 ? "bright" : "dark", std::abs(grey.after),
-                    misread.remedy),
-        false};
+    const std::string average = std::abs(grey.after) < std::abs(grey.before)
+                                    ? fmt::format("{:.2g} too {} on average, and {:.2g}", std::abs(grey.before),
+                                                  grey.before > 0 ? "bright" : "dark", std::abs(grey.after))
+                                    : "evenly bright and dark only";
+    return Finding{fmt::format("looks {}: its grey pixels at shadow edges are {} when that is undone; {}", misread.looks,
+                               average, misread.remedy),
+                   false};
 }
 
 } // namespace
@@ -264,16 +265,18 @@ std::optional<Finding> shifted(const Compared& compared) {
     const Image<std::uint8_t> pixels = inner(compared.scored);
     const Losses before = lossesWith(compared, pixels, {0, 0});
     ShiftEvidence evidence;
+    std::optional<Finding> byEdges;
     if (compared.frame != nullptr) {
         evidence = shiftEvidence(*compared.frame, compared.labels);
         const Moved moved{evidence.by, lossesWith(compared, pixels, evidence.by)};
-        if (isSure(evidence) && sumOf(moved.losses) < sumOf(before))
-            return shiftFinding(compared, pixels, before, moved, true);
+        if (isSuspect(evidence) && sumOf(moved.losses) < sumOf(before))
+            byEdges = shiftFinding(compared, pixels, before, moved, isSure(evidence));
     }
+    if (byEdges && byEdges->certain) return byEdges;
     const Moved best = bestMoved(compared, pixels, before);
     const Votes found = votes(before, best.losses, compared.labels);
     const double share = sumOf(best.losses) / sumOf(before);
-    if (found.better < enoughAre || found.worse > found.better / 2 || share > 0.85) return {};
+    if (found.better < enoughAre || found.worse > found.better / 2 || share > 0.85) return byEdges;
     const bool agree = compared.frame == nullptr || evidence.by == best.by;
     return shiftFinding(compared, pixels, before, best, agree && found.worse <= found.better / 5 && share <= 0.65);
 }

@@ -195,14 +195,19 @@ ShiftEvidence shiftEvidence(const ScoredFrame& frame, bool labels) {
     return labels ? likeliestShift(EdgePoints(frame)) : likeliestShift(PenumbraPixels(frame));
 }
 
-bool isSure(const ShiftEvidence& evidence) {
+bool isSuspect(const ShiftEvidence& evidence) {
     constexpr double enough = 6; // e⁶ times as likely, from both kinds of edges
     constexpr double each = 1.5;
-    constexpr double spread = 2.5; // beyond what squares that disagree by chance add up to
-    constexpr double doubt = -1;   // as good as no worse than another distance
+    constexpr double spread = 1; // beyond what squares that disagree by chance add up to
+    constexpr double doubt = -1; // as good as no worse than another distance
     return evidence.towardsLight + evidence.towardsShadow >= enough && evidence.agreement >= spread &&
            std::min(evidence.towardsLight, evidence.towardsShadow) >= each &&
            std::min(evidence.overHalf, evidence.overMore) >= doubt;
+}
+
+bool isSure(const ShiftEvidence& evidence) {
+    constexpr double spread = 2.5;
+    return isSuspect(evidence) && evidence.agreement >= spread;
 }
 
 } // namespace shadowbench::foreign

@@ -23,7 +23,8 @@ struct ShiftEvidence {
 /// `labels`: the truth is 0 or 1, and distances from the exact edges are compared; else visibilities in penumbrae.
 ShiftEvidence shiftEvidence(const metrics::ScoredFrame& frame, bool labels);
 
-/// Whether they leave no doubt.
+/// Whether all speak for it, and whether squares agree so much that they leave no doubt.
+bool isSuspect(const ShiftEvidence& evidence);
 bool isSure(const ShiftEvidence& evidence);
 
 } // namespace shadowbench::foreign
