@@ -103,11 +103,12 @@ TEST_F(Reader, ThatHangsIsEndedByItsTime) {
     const bool isLate = said ==
                         "cannot add up file: its reader gave no answer for 6 s and was stopped: write the file again, or "
                         "raise SHADOWBENCH_MAX_READER_SECONDS"; // on a machine that gave it less than a sixth of a core
-    if (!isLate)
+    if (!isLate) {
         EXPECT_EQ(said,
                   "cannot add up file: reading it takes more than 1 s, or more memory than there is: write the file again, "
                   "or raise SHADOWBENCH_MAX_READER_SECONDS");
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(7));
+    }
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
 TEST_F(Reader, ThatEatsMemoryIsRefusedMore) {
