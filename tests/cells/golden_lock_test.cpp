@@ -4,6 +4,7 @@
 #include "base/temporary_folder.h"
 #include "harness/cells/golden_lock.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace shadowbench {

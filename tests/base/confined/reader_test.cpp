@@ -108,7 +108,7 @@ TEST_F(Reader, ThatHangsIsEndedByItsTime) {
                   "cannot add up file: reading it takes more than 1 s, or more memory than there is: write the file again, "
                   "or raise SHADOWBENCH_MAX_READER_SECONDS");
     }
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(7));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
 TEST_F(Reader, ThatEatsMemoryIsRefusedMore) {
