@@ -88,6 +88,39 @@ private:
     TextTable table_;
 };
 
+/// Milliseconds of a pass beyond the least that it needs; of one without a least, all.
+double excess(const PassRecord& pass) {
+    const double bare = pass.bare ? pass.bare->milliseconds.value_or(0) : 0;
+    return std::max(pass.milliseconds.value_or(0) - bare, 0.0);
+}
+
+/// What asks something of the GPU: the processor's share is no part of a record's multiple of its bare passes.
+bool asksTheGpu(const PassRecord& pass) { return pass.draws > 0 || pass.fragments > 0 || pass.bare; }
+
+/// The G-buffer is on both sides.
+bool mayExceed(const PassRecord& pass) { return pass.name != "G-buffer" && asksTheGpu(pass); }
+
+std::vector<std::string> excessRow(const Record& record) {
+    const PassRecord* most = nullptr;
+    double all = 0;
+    for (const PassRecord& pass : record.passes) {
+        if (!mayExceed(pass)) continue;
+        all += excess(pass);
+        if (most == nullptr || excess(pass) > excess(*most)) most = &pass;
+    }
+    if (most == nullptr || all <= 0) return {};
+    const bool bounded = most->bare && most->bare->fragments > 0;
+    return {record.variant,
+            fmt::format("{:.2f}", record.values["cost.time.bare_ratio"].value()),
+            most->name,
+            percent(excess(*most) / all),
+            milliseconds(most->milliseconds),
+            milliseconds(most->bare ? most->bare->milliseconds : std::nullopt),
+            bounded
+                ? fmt::format("{:.2f}", static_cast<double>(most->fragments) / static_cast<double>(most->bare->fragments))
+                : "–"};
+}
+
 std::string cellOf(const std::optional<double>& value) { return value ? written(*value) : ""; }
 
 std::string csvRow(const Record& record, int width, int height, const PassRecord& pass) {
@@ -122,6 +155,18 @@ std::string rasteriserNote(const std::vector<Record>& records, const std::string
 std::string passTable(const std::vector<Record>& records, const std::string& scene) {
     const auto timed = timedRecords(records, scene);
     return timed.empty() ? "" : PassRows(timed).text();
+}
+
+std::string excessTable(const std::vector<Record>& records, const std::string& scene) {
+    TextTable table{{"technique", "× bare", "pass with most of the rest", "of the rest", "ms", "ms of its least",
+                     "fragments × its least"},
+                    {}};
+    for (const Record* record : timedRecords(records, scene)) {
+        if (record->values["cost.time.bare_ratio"].value_or(0) <= closeToBare) continue;
+        std::vector<std::string> row = excessRow(*record);
+        if (!row.empty()) table.rows.push_back(std::move(row));
+    }
+    return markdown(table);
 }
 
 std::string passCsv(const std::vector<Record>& records) {

@@ -17,6 +17,13 @@ std::string rasteriserNote(const std::vector<Record>& records, const std::string
 /// they need. "" where no record has passes with times.
 std::string passTable(const std::vector<Record>& records, const std::string& scene);
 
+/// A row that costs at most so many times its bare passes is close to them.
+inline constexpr double closeToBare = 1.3;
+
+/// Markdown: the timed records of `scene` that are not close to their bare passes, each with the pass that most of the rest
+/// is in. "" where there are none.
+std::string excessTable(const std::vector<Record>& records, const std::string& scene);
+
 /// One row a pass of a record, what is absent empty; passes on an image of another size (Record::otherScreen) have rows of
 /// their own. "" without passes.
 std::string passCsv(const std::vector<Record>& records);

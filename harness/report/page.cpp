@@ -78,6 +78,11 @@ std::string lodPictures(const std::vector<Record>& records, const std::string& s
     return rows.empty() ? "" : frame + "| technique | one instance through its transition |\n|:---|:---|\n" + rows + "\n";
 }
 
+constexpr const char* excessNote =
+    "A bare pass is the technique's with its shader's body replaced by a sum of the same texture reads (docs/metrics.md, "
+    "\"Bare passes\"): where a pass has as many fragments as its least, the rest is arithmetic, branches and what it "
+    "writes.\n";
+
 /// costs.md; "" where no record has passes with times.
 std::string costPage(const std::vector<Record>& records) {
     std::string text;
@@ -87,6 +92,8 @@ std::string costPage(const std::vector<Record>& records) {
         const Record& first = records[ofScene(records, scene).front()];
         text += fmt::format("\n## {}\n\n{} pixels. {}\n\n{}", markdownText(scene), imageSize(first),
                             rasteriserNote(records, scene), table);
+        const std::string excess = excessTable(records, scene);
+        if (!excess.empty()) text += fmt::format("\n### Above {} × bare\n\n{}\n{}", closeToBare, excessNote, excess);
     }
     return text.empty() ? "" : costPageHead + text;
 }

@@ -1,5 +1,7 @@
 #include "techniques/contract/resolve.h"
 
+#include <numeric>
+
 namespace shadowbench::techniques {
 
 void resolve(const Frame& frame, std::initializer_list<const gl::Texture*> outputs, const gl::Program& program,
@@ -8,6 +10,15 @@ void resolve(const Frame& frame, std::initializer_list<const gl::Texture*> outpu
     const gl::RenderTarget target(outputs);
     target.bind();
     program.drawScreen();
+}
+
+double sumOverPixels(const Frame& frame, const gl::Program& program) {
+    const gl::Texture numbers(gl::Format::R32F, frame.size);
+    const gl::RenderTarget target({&numbers});
+    target.bind();
+    program.drawScreen();
+    const Image<float> written = target.readFloat(0);
+    return std::accumulate(written.begin(), written.end(), 0.0);
 }
 
 } // namespace shadowbench::techniques

@@ -15,6 +15,9 @@ namespace {
 constexpr int widest = 8;       // texels of a box that are read one by one
 constexpr std::size_t run = 16; // texels of a column that an invocation of filtered/columns.comp writes
 
+/// Texels of a row that an invocation of filtered/rows.glsl writes: of many textures fewer, for it holds all of them.
+std::size_t rowRun(std::size_t textures) { return textures > 2 ? 8 : 16; }
+
 /// The view with `rim` texels of `side` left free on every side of the map.
 LightView withFreeRim(LightView view, int rim, int side) {
     const double share = std::max(1 - 2.0 * rim / side, 0.5);
@@ -74,13 +77,20 @@ ImageFormat imageFormat(gl::Format format) {
     }
 }
 
+/// Of the means along rows.
+gl::Format rowFormat(const Basis& basis) {
+    return basis.format == gl::Format::RGBA8 ? gl::Format::RGBA8 : gl::Format::RGBA32F;
+}
+
 /// The first of the box's two passes.
 gl::Program rowsPass(const BoxFilter& box, const Basis& basis, std::size_t textures) {
     gl::Defines defines = boxDefines(box, basis);
     defines.emplace_back("LEVEL", std::to_string(box.level));
     defines.emplace_back("TEXTURES", std::to_string(textures));
+    defines.emplace_back("RUN", std::to_string(rowRun(textures)));
+    defines.emplace_back("FORMAT", imageFormat(rowFormat(basis)).name);
     defines.insert(defines.end(), basis.defines.begin(), basis.defines.end());
-    return gl::Program::screen(basis.file, defines);
+    return gl::Program::compute(basis.file, defines);
 }
 
 /// The second one.
@@ -91,18 +101,11 @@ gl::Program columnsPass(const BoxFilter& box, const Basis& basis) {
 }
 
 std::vector<gl::Texture> rowTextures(const Basis& basis, glm::ivec2 size) {
-    const gl::Format format = basis.format == gl::Format::RGBA8 ? gl::Format::RGBA8 : gl::Format::RGBA32F;
     const int pack = packed(basis);
     std::vector<gl::Texture> rows;
     for (int i = 0; i < texturesAtOnce(basis); ++i)
-        rows.emplace_back(format, glm::ivec2((size.x + pack - 1) / pack, size.y));
+        rows.emplace_back(rowFormat(basis), glm::ivec2((size.x + pack - 1) / pack, size.y));
     return rows;
-}
-
-gl::RenderTarget targetOf(const std::vector<gl::Texture>& textures) {
-    std::vector<const gl::Texture*> attachments;
-    for (const gl::Texture& texture : textures) attachments.push_back(&texture);
-    return gl::RenderTarget(attachments);
 }
 
 /// From clip space to pixels.
@@ -164,8 +167,12 @@ void PrefilteredMap::draw(const Frame& frame) {
 
 void PrefilteredMap::blurRows(int firstTexture) {
     if (rowMeans_.uses("firstTexture")) rowMeans_.set("firstTexture", firstTexture);
-    targetOf(rows_).bind();
-    rowMeans_.drawScreen();
+    const GLenum format = imageFormat(rows_.front().format()).internal;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+        glBindImageTexture(static_cast<GLuint>(i), rows_[i].id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
+    const glm::ivec2 means = rows_.front().size() * glm::ivec2(4 / numbersOf(format_), 1);
+    const std::size_t length = rowRun(rows_.size()), runs = (static_cast<std::size_t>(means.x) + length - 1) / length;
+    rowMeans_.dispatch(runs * static_cast<std::size_t>(means.y));
 }
 
 void PrefilteredMap::blurColumns(const gl::Texture& rows, int layer) {
@@ -202,10 +209,16 @@ std::vector<BarePass> PrefilteredMap::bare(const Frame& frame, const std::string
                           .targets = ofMeans,
                           .taps = finerLevel});
     }
-    passes.push_back(
-        bareLookup("resolve", "dissertation 2.2.1: prefiltered, read once a pixel", frame.size,
-                   std::vector<Taps>(static_cast<std::size_t>(read), {format_, filtered_.size(), Read::Linear})));
+    passes.push_back(bareLookup(
+        "resolve", "dissertation 2.2.1: prefiltered and mipmapped, the bilinear reads of a pixel's footprint", frame.size,
+        std::vector<Taps>(static_cast<std::size_t>(read), {format_, filtered_.size(), Read::Linear, readsOf(frame)})));
     return passes;
+}
+
+int PrefilteredMap::readsOf(const Frame& frame) const {
+    gl::Program counting = gl::Program::screen("filtered/reads.frag");
+    bindTo(counting, frame);
+    return std::max(static_cast<int>(sumOverPixels(frame, counting) / (frame.size.x * frame.size.y)), 1);
 }
 
 void PrefilteredMap::bindTo(gl::Program& resolve, const Frame& frame) const {
@@ -213,8 +226,8 @@ void PrefilteredMap::bindTo(gl::Program& resolve, const Frame& frame) const {
         .set("normals", frame.gbuffer.normal())
         .set("mapFromWorld", mapFromWorld(light_))
         .set("imageFromWorld", glm::mat4(imageFromClip(frame.size) * frame.clipFromWorld))
-        .set("unitDepthFromWorld", glm::vec4(unitDepthFromWorld(light_)))
         .set("maps", filtered_);
+    if (resolve.uses("unitDepthFromWorld")) resolve.set("unitDepthFromWorld", glm::vec4(unitDepthFromWorld(light_)));
 }
 
 void PrefilteredMap::bindDepthsTo(gl::Program& resolve) const {

@@ -37,7 +37,7 @@ std::vector<Parameter> prefilteredMapParameters();
 
 /// What a texel stores: up to four numbers in each of `textures` textures of one format.
 struct Basis {
-    std::string file; // fragment shader over filtered/rows.glsl
+    std::string file; // compute shader over filtered/rows.glsl
     gl::Defines defines;
     gl::Format format;
     int textures;
@@ -72,6 +72,8 @@ public:
     void bindDepthsTo(gl::Program& resolve) const;
 
 private:
+    /// Bilinear reads that a pixel's lookup takes in the mean, rounded down: a trilinear one is two.
+    [[nodiscard]] int readsOf(const Frame& frame) const;
     void blurRows(int firstTexture);
     void blurColumns(const gl::Texture& rows, int layer);
 

@@ -1,7 +1,7 @@
 #include "techniques/sampled/shadow_buffer.h"
 
-#include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
+#include "techniques/gl/context.h"
 #include "techniques/shared/sampling/sampling.h"
 
 #include <algorithm>
@@ -74,8 +74,7 @@ ShadowBuffer::Images::Images(glm::ivec2 size, int border)
 }
 
 ShadowBuffer::ShadowBuffer(const Parameters& parameters)
-    : epsilon_(static_cast<float>(parameters.real("epsilon"))), overscan_(parameters.real("overscan")),
-      copy_(gl::Program::screen("sampled/inner_part.frag")) {}
+    : epsilon_(static_cast<float>(parameters.real("epsilon"))), overscan_(parameters.real("overscan")) {}
 
 void ShadowBuffer::begin(const Frame& frame) {
     if (!images_ || images_->inner != frame.size)
@@ -101,11 +100,21 @@ void ShadowBuffer::update(const Frame& frame, gl::Program& program, const gl::Te
     std::swap(images_->read, images_->write);
     images_->fresh = false;
 
-    copy_.set("wide", images_->shown).set("border", images_->overscan.border());
-    resolve(frame, {&visibility}, copy_, "crop");
+    crop(frame, visibility);
 }
 
-/// The overscan's part of the G-buffer is not among it: drawn with the rest it needs no vertices of its own.
+/// A copy of texels, without a shader.
+void ShadowBuffer::crop(const Frame& frame, const gl::Texture& visibility) const {
+    const auto pass = frame.pass("crop");
+    const int border = images_->overscan.border();
+    const glm::ivec2 size = images_->inner;
+    glCopyImageSubData(images_->shown.id(), GL_TEXTURE_2D, 0, border, border, 0, visibility.id(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                       size.x, size.y, 1);
+    ++gl::Context::current().tally().passes;
+}
+
+/// The overscan's part of the G-buffer is not among it: drawn with the rest it needs no vertices of its own. Nor is the
+/// crop, which copies texels.
 std::vector<BarePass> ShadowBuffer::bare(int side, Read read, const std::string& source) const {
     const glm::ivec2 wide = images_->overscan.size();
     BarePass update = bareLookup("temporal resolve", source, wide,
@@ -113,12 +122,7 @@ std::vector<BarePass> ShadowBuffer::bare(int side, Read read, const std::string&
                                   {gl::Format::Depth32F, glm::ivec2(side), read},
                                   {gl::Format::RGBA16F, wide, Read::Linear}});
     update.targets.push_back(gl::Format::RGBA16F);
-    return {std::move(update),
-            {.pass = "crop",
-             .source = "dissertation 4.2, pass 3",
-             .size = images_->inner,
-             .targets = {gl::Format::R32F},
-             .taps = {{gl::Format::R32F, images_->inner, Read::Pixel}}}};
+    return {std::move(update)};
 }
 
 std::map<std::string, double> ShadowBuffer::figures(int firstSamples) const {

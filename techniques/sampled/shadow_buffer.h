@@ -63,10 +63,10 @@ private:
     void setReprojection(const Frame& frame, gl::Program& resolve) const;
     void drawInner(const Frame& frame, gl::Program& resolve) const;
     void drawOverscan(gl::Program& resolve) const;
+    void crop(const Frame& frame, const gl::Texture& visibility) const;
 
     float epsilon_;
     double overscan_;
-    gl::Program copy_;
     std::optional<Images> images_;
 };
 

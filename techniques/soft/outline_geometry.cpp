@@ -56,7 +56,7 @@ void OutlineGeometry::build(const Frame& frame, const LightView& view, const Att
     buffer_.upload(vertices.data(), vertices.size() * sizeof(AttachedVertex));
 }
 
-void OutlineGeometry::draw(gl::Program& program, const LinearDepthMap& map) const {
+void OutlineGeometry::draw(gl::Program& program, const LinearisedMap& map) const {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_CLAMP);
@@ -64,9 +64,9 @@ void OutlineGeometry::draw(gl::Program& program, const LinearDepthMap& map) cons
     glBlendEquation(GL_MIN);
     program.set("clipFromWorld", glm::mat4(view_.clipFromWorld))
         .set("depthFromWorld", glm::vec4(view_.depthFromWorld))
-        .set("worldFromLight", glm::mat4(glm::inverse(lightFromWorld_)))
-        .set("linearDepth", map.texture())
-        .use();
+        .set("worldFromLight", glm::mat4(glm::inverse(lightFromWorld_)));
+    map.bindTo(program);
+    program.use();
     layout_.bind();
     for (std::size_t placement = 0; placement < ranges_.size(); ++placement) {
         const Range& range = ranges_[placement];
@@ -80,7 +80,7 @@ void OutlineGeometry::draw(gl::Program& program, const LinearDepthMap& map) cons
     glDisable(GL_DEPTH_CLAMP);
 }
 
-std::vector<BarePass> bareOutlineMap(const Frame& frame, const LightView& view, const LinearDepthMap& map, gl::Format format,
+std::vector<BarePass> bareOutlineMap(const Frame& frame, const LightView& view, const LinearisedMap& map, gl::Format format,
                                      BarePass attached) {
     const glm::ivec2 size(map.side());
     return {bareDepthMap("course, Shadow Mapping", map.side(), view.clipFromWorld), std::move(attached),
@@ -97,14 +97,14 @@ std::vector<Parameter> receiverBiasParameters() {
     return parameters;
 }
 
-void bindOutlineReceiver(gl::Program& program, const Frame& frame, const LightView& view, const LinearDepthMap& map,
+void bindOutlineReceiver(gl::Program& program, const Frame& frame, const LightView& view, const LinearisedMap& map,
                          Bias bias) {
     const glm::dmat4 toLight = lightFromWorld(frame.snapshot.light, glm::dvec3(view.depthFromWorld));
+    map.bindTo(program);
     program.set("positions", frame.gbuffer.position())
         .set("normals", frame.gbuffer.normal())
         .set("mapFromWorld", mapFromWorld(view))
         .set("lightFromWorld", glm::mat4(toLight))
-        .set("linearDepth", map.texture())
         .set("texel", glm::vec2(view.span / static_cast<double>(map.side())))
         .set("bias", glm::vec2(bias.factor, bias.units * depthStep * view.far));
 }

@@ -6,7 +6,7 @@
 #include "techniques/gl/program.h"
 #include "techniques/shared/casters/edge_meshes.h"
 #include "techniques/shared/casters/outline.h"
-#include "techniques/shared/maps/linear_depth_map.h"
+#include "techniques/shared/maps/linearised_map.h"
 
 #include <cstddef>
 #include <functional>
@@ -46,7 +46,7 @@ public:
 
     /// Draws them with a program of soft/outline_geometry.vert into the framebuffer that is bound, each channel of each
     /// texel keeping the least value. Points that are not moved lie where `map` has them, to the last bit.
-    void draw(gl::Program& program, const LinearDepthMap& map) const;
+    void draw(gl::Program& program, const LinearisedMap& map) const;
 
 private:
     /// The triangles of one placement: a range of the buffer.
@@ -64,7 +64,7 @@ private:
 
 /// The least of such a technique: the map, what is drawn over it (`attached`), and a lookup of both, the latter of texels of
 /// `format`.
-std::vector<BarePass> bareOutlineMap(const Frame& frame, const LightView& view, const LinearDepthMap& map, gl::Format format,
+std::vector<BarePass> bareOutlineMap(const Frame& frame, const LightView& view, const LinearisedMap& map, gl::Format format,
                                      BarePass attached);
 
 /// `depthMapParameters` of techniques that test receivers as soft/outline_receiver.glsl does. The map has no bias: where a
@@ -72,7 +72,7 @@ std::vector<BarePass> bareOutlineMap(const Frame& frame, const LightView& view, 
 std::vector<Parameter> receiverBiasParameters();
 
 /// Sets the uniforms of soft/outline_receiver.glsl.
-void bindOutlineReceiver(gl::Program& program, const Frame& frame, const LightView& view, const LinearDepthMap& map,
+void bindOutlineReceiver(gl::Program& program, const Frame& frame, const LightView& view, const LinearisedMap& map,
                          Bias bias);
 
 } // namespace shadowbench::techniques

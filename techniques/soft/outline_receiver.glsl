@@ -1,9 +1,9 @@
 // A pixel's surface point against a map of linear depth and what is drawn over it (bindOutlineReceiver of soft/outline_geometry.h).
 #include "gl/receiver.glsl"
 #include "shared/maps/light_space.glsl"
+#include "shared/maps/linearised_map.glsl"
 
 uniform sampler2D normals;
-uniform sampler2D linearDepth;  // negative: moving caster
 uniform mat4 lightFromWorld;    // metres right, up and away from the light's plane
 uniform vec2 texel;             // its width and height in the light's image, the plane at unit distance
 uniform vec2 bias;              // of the receiver's depth: in slopes per texel, and in metres
@@ -23,7 +23,7 @@ OutlineReceiver outlineReceiver() {
     vec3 n = mat3(lightFromWorld) * normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);
     // The plane dot(n, q) = dot(n, p) has depth dot(n, p) / dot(n, (x, y, 1)) at (x, y) of the light's image.
     float slope = p.z * p.z / max(abs(dot(n, p)), 1e-9);
-    return OutlineReceiver(point.at.xy, p.z, slope * dot(abs(n.xy), texel), abs(texture(linearDepth, point.at.xy).r),
+    return OutlineReceiver(point.at.xy, p.z, slope * dot(abs(n.xy), texel), linearDepthAt(point.at.xy),
                          !receiver.seen || point.behind);
 }
 

@@ -51,7 +51,7 @@ class CsmFourier final : public Technique {
 public:
     explicit CsmFourier(const Parameters& p)
         : terms_(p.integer("terms")), damping_(p.real("damping")), offset_(0.5 * p.real("offset") / terms_),
-          map_(p, {"filtered/csm-fourier/waves.frag", {}, gl::Format::RGBA8, terms_ / 2}), resolve_(program({})) {
+          map_(p, {"filtered/csm-fourier/waves.comp", {}, gl::Format::RGBA8, terms_ / 2}), resolve_(program({})) {
         map_.basis().set("usedDepth", static_cast<float>(usedDepth(terms_)));
         resolve_.set("gain", static_cast<float>(litGain(terms_, damping_, offset_)));
     }

@@ -1,4 +1,4 @@
-// The mathematics of convolution shadow maps, as filtered/csm-fourier/*.frag compute it.
+// The mathematics of convolution shadow maps, as the shaders under filtered/csm-fourier/ compute it.
 #pragma once
 
 namespace shadowbench::techniques {

@@ -19,7 +19,7 @@ namespace {
 class Esm final : public Technique {
 public:
     explicit Esm(const Parameters& p)
-        : map_(p, {"filtered/esm/exponential.frag", {}, gl::Format::R32F, 1}), fallsBack_(p.text("beyond") == "pcf"),
+        : map_(p, {"filtered/esm/exponential.comp", {}, gl::Format::R32F, 1}), fallsBack_(p.text("beyond") == "pcf"),
           resolve_(
               gl::Program::screen("filtered/esm/esm.frag", fallsBack_ ? gl::Defines{{"PCF_BEYOND", "1"}} : gl::Defines{})) {
         const auto c = static_cast<float>(p.real("c"));

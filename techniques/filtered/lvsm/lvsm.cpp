@@ -41,7 +41,7 @@ private:
     static Basis basis(const Parameters& p) {
         const int layers = p.integer("layers");
         const gl::Format format = layers == 1 ? gl::Format::RG32F : gl::Format::RGBA32F;
-        return {"filtered/lvsm/moments.frag", defines(p), format, (layers + 1) / 2};
+        return {"filtered/lvsm/moments.comp", defines(p), format, (layers + 1) / 2};
     }
 
     static gl::Defines defines(const Parameters& p) { return {{"LAYERS", p.text("layers")}}; }

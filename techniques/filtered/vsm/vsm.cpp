@@ -26,7 +26,7 @@ namespace {
 class Vsm final : public Technique {
 public:
     explicit Vsm(const Parameters& p)
-        : map_(p, {"filtered/vsm/moments.frag", {}, gl::Format::RG32F, 1}),
+        : map_(p, {"filtered/vsm/moments.comp", {}, gl::Format::RG32F, 1}),
           resolve_(gl::Program::screen("filtered/vsm/vsm.frag")) {
         resolve_.set("leastVariance", static_cast<float>(p.real("variance")))
             .set("bleeding", static_cast<float>(p.real("bleeding")));

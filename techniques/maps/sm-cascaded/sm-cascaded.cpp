@@ -68,9 +68,15 @@ public:
     }
 
     [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return {atlas_.bare("dissertation 2.2.2: a map for each slice"),
-                bareLookup("resolve", "dissertation 2.2.2: one test a pixel", frame.size,
-                           {{gl::Format::Depth32F, atlas_.texture().size(), Read::Compare}})};
+        std::vector<BarePass> passes{atlas_.bare("dissertation 2.2.2: a map for each slice")};
+        if (receivers_) { // what they find is too little to write
+            const BarePass bounds =
+                bareLookup("receiver bounds", "Lauritzen et al. 2011: where visible points lie", frame.size, {});
+            passes.insert(passes.end(), {bounds, bounds}); // their depths, then the box of each slice
+        }
+        passes.push_back(bareLookup("resolve", "dissertation 2.2.2: one test a pixel", frame.size,
+                                    {{gl::Format::Depth32F, atlas_.texture().size(), Read::Compare}}));
+        return passes;
     }
 
     /// In the slice's own map where two are blended.

@@ -5,8 +5,26 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
+#include <tuple>
+#include <utility>
 
 namespace shadowbench::techniques {
+namespace {
+
+using TapsOf = std::tuple<int, bool, Region>; // how many, on a grid, over what
+
+/// Finding Poisson taps takes longer than drawing a small map: they are kept.
+const std::vector<glm::vec2>& tapsOf(int count, bool grid, Region region) {
+    thread_local std::map<TapsOf, std::vector<glm::vec2>> kept;
+    const auto known = kept.find({count, grid, region});
+    if (known != kept.end()) return known->second;
+    std::vector<glm::vec2> taps =
+        grid ? gridTaps(static_cast<int>(std::lround(std::sqrt(count)))) : poissonTaps(count, region);
+    return kept.emplace(TapsOf{count, grid, region}, std::move(taps)).first->second;
+}
+
+} // namespace
 
 PcssTaps PcssTaps::parse(const std::string& text) {
     const std::size_t plus = text.find('+');
@@ -29,13 +47,9 @@ void setBlockerSearch(gl::Program& program, const Light& light, const LightView&
 void setPcss(gl::Program& program, const PcssTaps& taps, const Light& light, const LightView& view, const LinearisedMap& map,
              bool followPlane) {
     const Region region = light.kind == LightKind::Disk ? Region::Disk : Region::Square;
-    const auto points = [&](int count) {
-        return taps.grid ? gridTaps(static_cast<int>(std::lround(std::sqrt(count)))) : poissonTaps(count, region);
-    };
-    const std::vector<glm::vec2> search = points(taps.search);
-    const std::vector<glm::vec2> filter = points(taps.filter);
     setBlockerSearch(program, light, view, map, followPlane);
-    program.set("searchTaps", search).set("filterTaps", filter);
+    program.set("searchTaps", tapsOf(taps.search, taps.grid, region))
+        .set("filterTaps", tapsOf(taps.filter, taps.grid, region));
 }
 
 } // namespace shadowbench::techniques

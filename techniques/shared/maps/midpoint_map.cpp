@@ -6,8 +6,9 @@ namespace shadowbench::techniques {
 
 TwoDepths::TwoDepths(int side, SecondDepth second)
     : kind_(second), first_(gl::Format::Depth32F, {side, side}, gl::Filter::Nearest, gl::Wrap::BorderFar),
-      second_(gl::Format::Depth32F, {side, side}, gl::Filter::Nearest, gl::Wrap::BorderFar), firstTarget_{&first_},
-      secondTarget_{&second_}, nearest_("shared/maps/depth_map.vert", "gl/depth_only.frag"),
+      second_(second == SecondDepth::Surface ? gl::Format::R32F : gl::Format::Depth32F, {side, side}, gl::Filter::Nearest,
+              gl::Wrap::BorderFar),
+      firstTarget_{&first_}, nearest_("shared/maps/depth_map.vert", "gl/depth_only.frag"),
       peel_("shared/maps/depth_map.vert", "shared/maps/midpoint_peel.frag") {}
 
 void TwoDepths::draw(const LightView& light, const Frame& frame) {
@@ -23,8 +24,25 @@ void TwoDepths::drawSurfaces(const LightView& light, const Frame& frame) {
         drawNearest(firstTarget_, nearest_, Faces::Both, light, frame.scene);
     }
     const auto pass = frame.pass("second depth");
-    peel_.set("firstDepth", first_);
-    drawNearest(secondTarget_, peel_, Faces::Both, light, frame.scene);
+    drawBehindFirst(light, frame.scene);
+}
+
+/// The depth test rejects the first surfaces before anything is computed of them; of what is left blending keeps the
+/// nearest.
+void TwoDepths::drawBehindFirst(const LightView& light, const gl::SceneBuffers& scene) {
+    const gl::RenderTarget target{&second_, &first_};
+    target.clearColour(0, glm::vec4(1));
+    target.bind();
+    const CasterPass pass(peel_, light, Bias{});
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_MIN);
+    scene.draw();
+    glBlendEquation(GL_FUNC_ADD);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
 }
 
 void TwoDepths::drawFaces(const LightView& light, const Frame& frame) {
@@ -33,7 +51,7 @@ void TwoDepths::drawFaces(const LightView& light, const Frame& frame) {
         drawNearest(firstTarget_, nearest_, Faces::Front, light, frame.scene);
     }
     const auto pass = frame.pass("second depth");
-    drawNearest(secondTarget_, nearest_, Faces::Back, light, frame.scene);
+    drawNearest(gl::RenderTarget{&second_}, nearest_, Faces::Back, light, frame.scene);
 }
 
 std::vector<BarePass> TwoDepths::bare(const LightView& light) const {

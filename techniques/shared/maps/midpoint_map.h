@@ -10,8 +10,8 @@ namespace shadowbench::techniques {
 /// BackFace: nearest front face and nearest back face (Zápotocký); where a mesh is open they belong to different objects.
 enum class SecondDepth { Surface, BackFace };
 
-/// Two square maps of depths in [0, 1], 1 where there is no such surface; midpoint() of shared/maps/midpoint.glsl averages
-/// them.
+/// Two square maps of depths in [0, 1], 1 where there is no such surface (beside the map 1 or more); midpoint() of
+/// shared/maps/midpoint.glsl averages them.
 class TwoDepths {
 public:
     TwoDepths(int side, SecondDepth second);
@@ -29,11 +29,12 @@ private:
     static void drawNearest(const gl::RenderTarget& target, gl::Program& program, Faces faces, const LightView& light,
                             const gl::SceneBuffers& scene);
     void drawSurfaces(const LightView& light, const Frame& frame);
+    void drawBehindFirst(const LightView& light, const gl::SceneBuffers& scene);
     void drawFaces(const LightView& light, const Frame& frame);
 
     SecondDepth kind_;
-    gl::Texture first_, second_;
-    gl::RenderTarget firstTarget_, secondTarget_;
+    gl::Texture first_, second_; // the second one a colour where it is found by blending
+    gl::RenderTarget firstTarget_;
     gl::Program nearest_, peel_;
 };
 

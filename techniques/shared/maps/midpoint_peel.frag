@@ -1,7 +1,7 @@
-// Second surface: whatever lies behind the first one of this texel. The first surface is the same fragment to the last bit, so equality
-// peels exactly it.
-uniform sampler2D firstDepth;
+// Second surface: the nearest of what the depth test leaves behind the first one. The first surface is the same fragment to the last bit, so
+// that equality peels exactly it. Occluders before the near plane lie at depth 0, as in the first map.
+out float depth;
 
 void main() {
-    if (gl_FragCoord.z <= texelFetch(firstDepth, ivec2(gl_FragCoord.xy), 0).r) discard;
+    depth = max(gl_FragCoord.z, 0.0);
 }

@@ -11,5 +11,6 @@ void main() {
     if (!receiver.seen) return;
     LightReceiver r = lightReceiver(receiver.position, normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz));
     if (r.behind) return;
-    visibility = pcssVisibility(r, averageBlockerDepth(r, SEARCH_TAPS), FILTER_TAPS);
+    float blocker = averageBlockerDepth(r, SEARCH_TAPS);
+    visibility = pcssVisibility(r, blocker, blocker < 0.0 ? 0 : FILTER_TAPS);  // without blockers nothing is filtered (Fernando 2005)
 }

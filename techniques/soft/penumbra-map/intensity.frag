@@ -1,13 +1,13 @@
 // Intensity that a cone or sheet leaves on what the shadow map sees (dissertation, eq. 2.2).
+#include "shared/maps/linearised_map.glsl"
+
 in float depth;          // Z_F
 in float acrossSurface;  // Z_v, which a sheet interpolates between its vertices
-
-uniform sampler2D linearDepth;
 
 out float intensity;
 
 void main() {
-    float receiver = abs(texelFetch(linearDepth, ivec2(gl_FragCoord.xy), 0).r);  // Z_P
+    float receiver = linearDepth(texelFetch(windowDepths, ivec2(gl_FragCoord.xy), 0).r);  // Z_P
     if (depth >= receiver) discard;
     intensity = (depth - acrossSurface) / (receiver - acrossSurface);
 }

@@ -1,5 +1,5 @@
 // Penumbra maps (Wyman, Hansen 2003; dissertation 2.3.2, eq. 2.2 and Fig. 2.17; course, "Construct Smoothies"):
-// 1. a shadow map of linear depth from the centre of a round light  2. the casters' silhouette edges  3. a cone from each
+// 1. a shadow map from the centre of a round light  2. the casters' silhouette edges  3. a cone from each
 // silhouette vertex, as wide at each depth as the outer penumbra, and a sheet along each silhouette edge, tangent to the
 // cones of its ends, are drawn from the light into the penumbra map with intensity I = (Z_F − Z_v) / (Z_P − Z_v) of vertex,
 // fragment and map; where they overlap the least is kept  4. a pixel is dark behind the shadow map, and has the intensity of
@@ -123,7 +123,7 @@ private:
 
     Bias bias_;
     LightView view_;
-    LinearDepthMap map_;
+    LinearisedMap map_;
     ConesAndSheets attached_{0};
     OutlineGeometry geometry_;
     gl::Texture penumbrae_; // least intensity on what the shadow map sees

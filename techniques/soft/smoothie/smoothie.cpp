@@ -1,5 +1,5 @@
 // Smoothies (Chan, Durand 2003; course, "Rendering Fake Soft Shadows with Smoothies"; dissertation 2.3.2):
-// 1. a shadow map of linear depth from the light's centre  2. the casters' silhouette edges  3. smoothies: a rectangle of
+// 1. a shadow map from the light's centre  2. the casters' silhouette edges  3. smoothies: a rectangle of
 // fixed width in the light's image on the outside of each edge, and a quad at each convex corner, drawn into a buffer of
 // depth and α' = α / (1 − b/r), with α from 0 at the edge to 1 at the rim, b the smoothie's depth and r the map's; where
 // smoothies overlap the least α' is kept  4. a pixel is dark behind the map, has α' behind a smoothie, and is lit elsewhere.
@@ -107,7 +107,7 @@ private:
 
     Bias bias_;
     LightView view_;
-    LinearDepthMap map_;
+    LinearisedMap map_;
     Smoothies smoothies_{0};
     OutlineGeometry geometry_;
     gl::Texture buffer_; // depth of the nearest smoothie, least α'

@@ -52,6 +52,15 @@ TEST(PassTable, IsAbsentWithoutTimes) {
         << "work is there";
 }
 
+TEST(ExcessTable, NamesThePassThatKeepsARowFromItsLeast) {
+    std::vector<Record> records = timed();
+    records[1].values["cost.time.bare_ratio"] = 1.3;
+    const std::string table = report::excessTable(records, "dueling-frusta");
+    EXPECT_TRUE(contains(table, "| sm-uniform | 1.40 | depth map | 100 % | 15.40 | 11.00 | 2.00 |\n")) << table;
+    EXPECT_FALSE(contains(table, "vsm")) << "is close enough";
+    EXPECT_EQ(report::excessTable(untimed(), "dueling-frusta"), "");
+}
+
 TEST(RasteriserNote, SaysWhatDrewAndWhatThatDoesToTimes) {
     std::vector<Record> records = timed();
     const std::string software = report::rasteriserNote(records, "dueling-frusta");

@@ -85,7 +85,7 @@ std::vector<std::string> declaringVariants() {
             "sm-psm:map=128",
             "sm-lispsm:map=128",
             "sm-tsm:map=128",
-            "sm-cascaded:map=128",
+            "sm-cascaded:fit=view,map=128",
             "sm-cube:map=128",
             "sm-history:map=128",
             "volume-zpass",
@@ -123,9 +123,10 @@ std::vector<std::string> declaringVariants() {
             "depth-complexity"};
 }
 
-/// Those that filter by compute shaders, which have neither fragments nor draws.
+/// Those that reduce or filter by compute shaders, which have neither fragments nor draws.
 std::vector<std::string> computingVariants() {
-    return {"vsm:map=128",
+    return {"sm-cascaded:map=128",
+            "vsm:map=128",
             "lvsm:map=128",
             "esm:map=128",
             "esm:kernel=32,map=128",
