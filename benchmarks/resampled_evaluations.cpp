@@ -34,6 +34,7 @@ void count(Verdicts& verdicts, const gate::TimeJudgement& judgement) {
         break;
     }
     if (judgement.controlAlarm) ++verdicts.controlAlarms;
+    verdicts.restarts += static_cast<int>(judgement.samples.restarts.size());
 }
 
 std::vector<Pool> pools(const std::vector<Evaluation>& evaluations) {

@@ -8,9 +8,9 @@
 
 namespace shadowbench::benchmarks {
 
-/// Verdicts by count.
+/// Verdicts by count, and the restarts that they took.
 struct Verdicts {
-    int pass = 0, unclear = 0, slower = 0, controlAlarms = 0;
+    int pass = 0, unclear = 0, slower = 0, controlAlarms = 0, restarts = 0;
     [[nodiscard]] int all() const { return pass + unclear + slower; }
 };
 

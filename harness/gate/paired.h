@@ -13,22 +13,39 @@ struct TimeRule {
     double floor = 0.01; // slowdowns up to this are never a regression: machines differ by as much from one hour to the next
     double wallFloor = 0.05; // the same of wall time, in which other processes count, too
     double alpha = 0.01;     // of a false alarm in the whole gate, shared by all cells
-    double beta = 0.01;      // of passing a cell early that is slower by more than the floor, each time it is looked at
 };
 
 enum class TimeVerdict { Pass, Slower, Unclear };
 
-/// Log-ratios of head to base, one a round. Slower: the one-sided lower bound of their median lies above the floor at
-/// `alpha` / `cells`. Unclear: the median does, its bound does not. `looks`: how often the cell
-/// may be judged, as one that is unclear is measured again: α is split between them.
-TimeVerdict judgeTime(const std::vector<double>& logRatios, const TimeRule& rule, int cells, int looks);
+/// Logarithms of the times that the three took in one restart, each in the middle of its rounds; their differences count.
+/// Restarts are independent, the rounds of one are not: where a process lies in memory moves its speed.
+struct RestartTimes {
+    double base = 0, head = 0, control = 0;
+};
 
-/// Whether no more rounds are needed to pass the cell: the one-sided upper bound of the median lies at or under the floor
-/// with probability 1 − β.
-bool surelyNotSlower(const std::vector<double>& logRatios, const TimeRule& rule);
+/// The median of the means of all pairs of `samples`, each with itself, too: their middle (Hodges and Lehmann 1963). Samples
+/// must not be empty.
+double hodgesLehmann(const std::vector<double>& samples);
+
+/// Estimated logarithm of the head's time over that of base and control. Restarts must not be empty.
+double logSlowdown(const std::vector<RestartTimes>& restarts);
+
+/// Probability that chance puts the head as far behind as `restarts` show when it is slower by exp(`logSlowdown`): then any
+/// of the three may have been the head in any restart. Quade's test (1979), one-sided and exact: ranks of the three in a
+/// restart, weighted by the rank of their range. With blocks of two it would be Wilcoxon's signed-rank test.
+double quadeTail(const std::vector<RestartTimes>& restarts, double logSlowdown);
+
+/// The largest logarithm of a slowdown that `quadeTail` refuses at `alpha`; −infinity when there are too few restarts.
+double slowdownLowerBound(const std::vector<RestartTimes>& restarts, double alpha);
+
+/// Pass: the estimate lies at or under the floor. Slower: it does not, and a slowdown by the floor alone is refused at
+/// `alpha` / `cells` / `looks`. Unclear: it is not refused. `looks`: how often the cell may be judged slower, as one
+/// that is unclear is measured again: α is split between them.
+TimeVerdict judgeTime(const std::vector<RestartTimes>& restarts, const TimeRule& rule, int cells, int looks);
 
 /// Whether two equal programs were measured as different, in either direction: then the machine cannot be trusted and the
-/// gate is inconclusive.
+/// gate is inconclusive. Log-ratios of control to base, one a round: that rounds of a restart are alike makes it alarm
+/// somewhat more often than at α.
 bool controlAlarms(const std::vector<double>& logRatios, const TimeRule& rule, int cells);
 
 } // namespace shadowbench::gate

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <sched.h>
 
@@ -15,7 +16,11 @@ namespace {
 constexpr double turnMilliseconds =
     4;                         // at least: what a process finds in the caches after the others' turns is then little of it
 constexpr int mostFrames = 16; // a turn
-constexpr int looks = 3;       // a cell may be judged three times, so each time at a third of the error
+// How many times the options' restarts are done when a cell may be judged slower, each time at a share of the error. The
+// smallest probability that three restarts can show is 1/27: after the first of these looks it suffices for a thousand
+// cells.
+constexpr std::array<int, 4> looks{3, 6, 12, 24};
+constexpr auto lookCount = static_cast<int>(looks.size());
 
 enum Contestant : std::size_t { Base, Head, Control };
 
@@ -60,9 +65,14 @@ private:
         return groups;
     }
 
-    [[nodiscard]] std::array<timing::FrameWorker, 3> startWorkers(const std::string& scene) const {
+    /// In a random order: whoever comes first may find another machine.
+    [[nodiscard]] std::array<timing::FrameWorker, 3> startWorkers(const std::string& scene) {
         const timing::WorkerJob job{scene, options_.profile, options_.seed, sched_getcpu()};
-        return {timing::FrameWorker(base_, job), timing::FrameWorker(head_, job), timing::FrameWorker(base_, job)};
+        std::array<std::size_t, 3> order{Base, Head, Control};
+        std::shuffle(order.begin(), order.end(), random_);
+        std::array<std::optional<timing::FrameWorker>, 3> started;
+        for (const std::size_t who : order) started[who].emplace(who == Head ? head_ : base_, job);
+        return {std::move(*started[Base]), std::move(*started[Head]), std::move(*started[Control])};
     }
 
     void addRestart(std::array<timing::FrameWorker, 3>& workers, const std::string& variant, PairedSamples& samples) {
@@ -92,14 +102,20 @@ private:
     std::mt19937 random_;
 };
 
-void judgeWallTime(const PairedSamples& samples, TimeRule rule, int cells, TimeJudgement& judgement) {
+TimeRule ofWallTime(TimeRule rule) {
     rule.floor = rule.wallFloor;
-    const auto wall = [&](timing::FrameTime PairedRound::*who) { return logRatios(samples, who, &timing::FrameTime::wall); };
-    const std::vector<double> head = wall(&PairedRound::head);
-    judgement.wallRatio = std::exp(timing::median(head));
-    judgement.waits = judgement.verdict != TimeVerdict::Slower &&
-                      judgeTime(head, rule, cells, looks) == TimeVerdict::Slower &&
-                      !controlAlarms(wall(&PairedRound::control), rule, cells);
+    return rule;
+}
+
+TimeVerdict wallVerdict(const PairedSamples& samples, const TimeRule& rule, int cells) {
+    return judgeTime(restartTimes(samples, &timing::FrameTime::wall), ofWallTime(rule), cells, lookCount);
+}
+
+void judgeWallTime(const PairedSamples& samples, const TimeRule& rule, int cells, TimeJudgement& judgement) {
+    judgement.wallRatio = std::exp(logSlowdown(restartTimes(samples, &timing::FrameTime::wall)));
+    judgement.waits =
+        judgement.verdict != TimeVerdict::Slower && wallVerdict(samples, rule, cells) == TimeVerdict::Slower &&
+        !controlAlarms(logRatios(samples, &PairedRound::control, &timing::FrameTime::wall), ofWallTime(rule), cells);
 }
 
 } // namespace
@@ -112,25 +128,47 @@ std::vector<double> logRatios(const PairedSamples& samples, timing::FrameTime Pa
     return ratios;
 }
 
+std::vector<RestartTimes> restartTimes(const PairedSamples& samples, double timing::FrameTime::*clock) {
+    std::vector<RestartTimes> result;
+    for (const auto& rounds : samples.restarts) {
+        std::array<std::vector<double>, 3> times; // of two rounds, without what both share
+        for (std::size_t i = 0; i < rounds.size(); i += 2) {
+            std::array<double, 3> both{};
+            for (const PairedRound& round : {rounds[i], rounds[std::min(i + 1, rounds.size() - 1)]}) {
+                both[Base] += std::log(round.base.*clock) / 2;
+                both[Head] += std::log(round.head.*clock) / 2;
+                both[Control] += std::log(round.control.*clock) / 2;
+            }
+            const double shared = (both[Base] + both[Head] + both[Control]) / 3;
+            for (std::size_t who = 0; who < both.size(); ++who) times[who].push_back(both[who] - shared);
+        }
+        result.push_back({hodgesLehmann(times[Base]), hodgesLehmann(times[Head]), hodgesLehmann(times[Control])});
+    }
+    return result;
+}
+
 bool enough(const PairedSamples& samples, const PairedOptions& options, int cells) {
     const auto done = static_cast<int>(samples.restarts.size());
-    if (done == 0) return false;
-    const std::vector<double> head = logRatios(samples, &PairedRound::head);
-    if (surelyNotSlower(head, options.rule)) return true;
-    if (done == options.restarts || done == 2 * options.restarts)
-        return judgeTime(head, options.rule, cells, looks) != TimeVerdict::Unclear;
-    return done >= 4 * options.restarts;
+    if (done == 0 || done % options.restarts != 0) return false;
+    const int times = done / options.restarts;
+    if (times >= looks.back()) return true;
+    const bool look = std::ranges::find(looks, times) != looks.end();
+    const auto decided = [&](TimeVerdict verdict) {
+        return verdict == TimeVerdict::Pass || (look && verdict == TimeVerdict::Slower);
+    };
+    const TimeVerdict verdict = judgeTime(restartTimes(samples), options.rule, cells, lookCount);
+    return decided(verdict) && (verdict == TimeVerdict::Slower || decided(wallVerdict(samples, options.rule, cells)));
 }
 
 TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const PairedOptions& options, int cells) {
-    const std::vector<double> head = logRatios(samples, &PairedRound::head);
+    const std::vector<RestartTimes> restarts = restartTimes(samples);
     TimeJudgement judgement;
     judgement.cell = cell;
-    judgement.verdict = judgeTime(head, options.rule, cells, looks);
-    judgement.ratio = std::exp(timing::median(head));
-    judgement.lowerBound = std::exp(medianLowerBound(head, options.rule.alpha / cells / looks));
-    judgement.rounds = static_cast<int>(head.size());
-    judgement.doubled = static_cast<int>(samples.restarts.size()) > options.restarts;
+    judgement.verdict = judgeTime(restarts, options.rule, cells, lookCount);
+    judgement.ratio = std::exp(logSlowdown(restarts));
+    if (judgement.verdict == TimeVerdict::Slower)
+        judgement.lowerBound = std::exp(slowdownLowerBound(restarts, options.rule.alpha / cells / lookCount));
+    for (const auto& rounds : samples.restarts) judgement.rounds += static_cast<int>(rounds.size());
     judgement.controlAlarm = controlAlarms(logRatios(samples, &PairedRound::control), options.rule, cells);
     judgeWallTime(samples, options.rule, cells, judgement);
     judgement.samples = std::move(samples);

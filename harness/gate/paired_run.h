@@ -21,7 +21,7 @@ struct TimedCell {
 struct PairedOptions {
     Profile profile = Profile::Gate;
     TimeRule rule;
-    int restarts = 5; // of all workers, for where a process lies in memory moves its speed; twice or four times if unclear
+    int restarts = 4; // of all workers, for where a process lies in memory moves its speed; as many again while unclear
     int rounds = 20;  // a restart, one turn of each worker a round
     std::uint32_t seed = 1; // of the order of turns, and of the techniques' pseudo-random choices
 };
@@ -40,21 +40,25 @@ struct PairedSamples {
 std::vector<double> logRatios(const PairedSamples& samples, timing::FrameTime PairedRound::*who,
                               double timing::FrameTime::*clock = &timing::FrameTime::cpu);
 
+/// What the three took in each restart. A round and the next, which has the reversed order, count as one.
+std::vector<RestartTimes> restartTimes(const PairedSamples& samples,
+                                       double timing::FrameTime::*clock = &timing::FrameTime::cpu);
+
 struct TimeJudgement {
     TimedCell cell;
-    TimeVerdict verdict = TimeVerdict::Unclear; // Unclear for good: slower in the median, but that is not certain enough
-    double ratio = 1;                           // head's CPU time over the base's, median of the rounds
-    double lowerBound = 0;                      // one-sided, of `ratio`'s true value; 0 when there are too few rounds
+    TimeVerdict verdict = TimeVerdict::Unclear; // Unclear for good: slower by the estimate, but that is not certain enough
+    double ratio = 1;                           // head's CPU time over that of base and control, estimated
+    double lowerBound = 0;                      // one-sided, of `ratio`'s true value, where the head is slower
     int rounds = 0;                             // in all
-    bool doubled = false;                       // measured again, once or twice, for the first rounds left it unclear
     bool controlAlarm = false;                  // two equal programs were measured as different: inconclusive
     double wallRatio = 1;                       // the same as `ratio`, of wall time
     bool waits = false;                         // slower by wall time, for which equal programs show no difference
     PairedSamples samples;
 };
 
-/// Whether no more restarts are wanted of one of `cells` cells: it is surely not slower, or the options' restarts are done
-/// or twice as many are, and leave nothing unclear, or four times as many are.
+/// Whether no more restarts are wanted of one of `cells` cells. Each time that `options.restarts` more are done, a cell
+/// passes that is not slower by the estimate, of CPU time and of wall time; after 3, 6, 12 and 24 times as many it is slower
+/// or waits if that is certain.
 bool enough(const PairedSamples& samples, const PairedOptions& options, int cells);
 
 /// The rule's judgement of a cell once its samples are enough. A head that sleeps or waits takes no CPU time for it: its
@@ -62,11 +66,11 @@ bool enough(const PairedSamples& samples, const PairedOptions& options, int cell
 TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const PairedOptions& options, int cells);
 
 /// Whether each cell is slower with the program `head` than with `base`, in the order of `cells`. Each restart starts three
-/// workers a scene on one core, base, head and base again as the control, which take all cells of the scene one after the
-/// other: warm up, then rounds of one turn each in an order that is drawn anew and then reversed. What is judged is CPU
-/// time, in which another process on the core does not count. A turn is as many frames as take the base some milliseconds,
-/// the same for all three. Takes one to four times `options.restarts` restarts a cell (see `enough`). Throws what the
-/// workers throw; `progress` stays at 1 while unclear cells are measured on.
+/// workers a scene on one core, base, head and base again as the control, in a random order, which take all cells of the
+/// scene one after the other: warm up, then rounds of one turn each in an order that is drawn anew and then reversed. What
+/// is judged is CPU time, in which another process on the core does not count. A turn is as many frames as take the base
+/// some milliseconds, the same for all three. Takes 1 to 24 times `options.restarts` restarts a cell (see `enough`). Throws
+/// what the workers throw; `progress` stays at 1 while unclear cells are measured on.
 std::vector<TimeJudgement> judgePairedTime(const std::filesystem::path& base, const std::filesystem::path& head,
                                            const std::vector<TimedCell>& cells, const PairedOptions& options,
                                            const Progress& progress);

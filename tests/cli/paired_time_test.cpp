@@ -51,10 +51,9 @@ TEST_F(PairedTime, AConstantSlowdownIsFoundInEveryCell) {
         EXPECT_EQ(judgement.verdict, TimeVerdict::Slower);
         EXPECT_NEAR(judgement.ratio, 1.05, 1e-9);
         EXPECT_NEAR(judgement.lowerBound, 1.05, 1e-9);
-        EXPECT_EQ(judgement.rounds, 40);
-        EXPECT_FALSE(judgement.doubled);
+        EXPECT_EQ(judgement.rounds, 240);
         EXPECT_FALSE(judgement.controlAlarm);
-        EXPECT_EQ(judgement.samples.restarts.size(), 2U);
+        EXPECT_EQ(judgement.samples.restarts.size(), 12U); // 3⁻⁶ > 0.01/3/4, the share of a look at a cell
     }
     EXPECT_EQ(judgements[1].cell.scene, "dueling-frusta");
     EXPECT_EQ(judgements[2].cell.variant, "pcss");
@@ -64,7 +63,7 @@ TEST_F(PairedTime, ASpeedUpAndASlowdownUnderTheFloorPass) {
     for (const int head : {1009, 700}) {
         const TimeJudgement judgement = judge(taking(1000), taking(head))[0];
         EXPECT_EQ(judgement.verdict, TimeVerdict::Pass);
-        EXPECT_EQ(judgement.rounds, 20); // sure after one restart
+        EXPECT_EQ(judgement.rounds, 40);
     }
 }
 
@@ -80,19 +79,30 @@ TEST_F(PairedTime, AHeadThatSleepsIsFoundByItsWallTime) {
     EXPECT_FALSE(judge(taking(100), taking(120))[0].waits) << "which is slower, and does not wait";
 }
 
-TEST_F(PairedTime, AnUnclearCellIsMeasuredOnceMore) {
-    // Six rounds of a restart's twenty are as fast as the base's. P(Bin(40, ½) ≤ 12) = 0.008 does not lie below 0.01/2,
-    // P(Bin(80, ½) ≤ 24) = 0.0002 does.
-    const std::string head = program("head", "case $turn in *[369]) t=100;; *) t=110;; esac\necho $((count * t)) 1");
-    const TimeJudgement judgement = judge(taking(100), head)[0];
-    EXPECT_TRUE(judgement.doubled);
-    EXPECT_EQ(judgement.rounds, 80);
-    EXPECT_EQ(judgement.samples.restarts.size(), 4U);
+TEST_F(PairedTime, AnUnclearCellIsMeasuredOnUntilALookDecides) {
+    PairedOptions options;
+    options.restarts = 1;
+    const TimeJudgement judgement = judgePairedTime(taking(100), taking(110), {{"simple", "none"}}, options, {})[0];
+    EXPECT_EQ(judgement.samples.restarts.size(), 6U); // of looks at 3, 6, 12 and 24: 3⁻³ > 0.01/4 > 3⁻⁶
     EXPECT_EQ(judgement.verdict, TimeVerdict::Slower);
 }
 
+TEST_F(PairedTime, AnUnclearCellPassesAsSoonAsItIsNoSlower) {
+    // Slow in two restarts, then fast.
+    const std::string came = folder_ / "came";
+    const std::string head =
+        program("head", fmt::format("[ $turn = 1 ] && {{ echo >> {0}; [ $(wc -l < {0}) -le 2 ] && t=110 || t=90; }}\n"
+                                    "echo $((count * t)) 1",
+                                    came));
+    PairedOptions options;
+    options.restarts = 1;
+    const TimeJudgement judgement = judgePairedTime(taking(100), head, {{"simple", "none"}}, options, {})[0];
+    EXPECT_EQ(judgement.verdict, TimeVerdict::Pass);
+    EXPECT_EQ(judgement.samples.restarts.size(), 4U);
+}
+
 TEST_F(PairedTime, EqualProgramsThatTakeDifferentTimesAreAnAlarm) {
-    // The first process to come is the base, the third the control: whoever makes the folder is faster.
+    // Of base and control, whoever comes first and makes the folder is faster.
     const std::string marker = folder_ / "came";
     const std::string base =
         program("base", fmt::format("[ $turn = 1 ] && {{ mkdir {} 2>/dev/null && t=100 || t=103; }}\necho $((count * t)) 1",

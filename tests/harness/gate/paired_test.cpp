@@ -1,4 +1,4 @@
-// The paired-time rule against the binomial distribution's own figures, then its error rates on simulated frames.
+// The paired-time rule against figures of its tests that can be counted by hand, then its error rates on simulated restarts.
 #include "harness/gate/paired.h"
 
 #include <algorithm>
@@ -30,25 +30,58 @@ TEST(MedianLowerBound, IsNothingForTooFewSamples) {
     EXPECT_EQ(medianLowerBound({}, 0.5), -std::numeric_limits<double>::infinity());
 }
 
-TEST(TimeRule, AConstantSlowdownIsJudgedByTheFloor) {
-    const TimeRule rule;
-    EXPECT_EQ(judgeTime(std::vector<double>(100, std::log(1.02)), rule, 200, 1), TimeVerdict::Slower);
-    EXPECT_EQ(judgeTime(std::vector<double>(100, std::log(1.009)), rule, 200, 1), TimeVerdict::Pass);
-    EXPECT_EQ(judgeTime(std::vector<double>(100, std::log(0.9)), rule, 200, 1), TimeVerdict::Pass);
-    EXPECT_EQ(judgeTime(std::vector<double>(10, std::log(1.5)), rule, 200, 1), TimeVerdict::Unclear); // 2⁻¹⁰ > 0.01/200
+TEST(HodgesLehmann, IsTheMedianOfTheMeansOfPairs) {
+    EXPECT_DOUBLE_EQ(hodgesLehmann({6, 1, 2}), 2.75); // of 1, 1.5, 2, 3.5, 4 and 6
+    EXPECT_DOUBLE_EQ(hodgesLehmann({-3}), -3);
 }
 
-TEST(TimeRule, ACellPassesEarlyOnlyByItsUpperBound) {
+/// The same times in every restart; the base's and the control's lie 0.02 apart.
+std::vector<RestartTimes> constant(double head, std::size_t count) {
+    return std::vector<RestartTimes>(count, {-0.01, head, 0.01});
+}
+
+TEST(QuadeTail, IsTheShareOfThePlacesThatTheHeadCouldHaveHad) {
+    EXPECT_DOUBLE_EQ(quadeTail(constant(0.05, 3), 0), 1.0 / 27); // last of three, three times
+    EXPECT_DOUBLE_EQ(quadeTail(constant(0, 3), 0), 17.0 / 27);   // in the middle: half of the rest lies above
+    EXPECT_DOUBLE_EQ(quadeTail(constant(-0.05, 3), 0), 1);
+    EXPECT_DOUBLE_EQ(quadeTail(constant(0.05, 3), 0.05), 17.0 / 27);
+    EXPECT_DOUBLE_EQ(quadeTail({}, 0), 1);
+}
+
+TEST(QuadeTail, ARestartCountsByTheRankOfItsRange) {
+    // Sums of ±1 or 0 and ±2 or 0: of nine, four are at least 2 − 1 and six at least 1 − 2.
+    EXPECT_NEAR(quadeTail({{0, -1, -0.5}, {0, 2, 1}}, 0), 4.0 / 9, 1e-12);
+    EXPECT_NEAR(quadeTail({{0, 1, 0.5}, {0, -2, -1}}, 0), 7.0 / 9, 1e-12);
+    EXPECT_NEAR(quadeTail({{0, 1, 0.5}, {0, -1, -0.5}}, 0), 6.0 / 9, 1e-12) << "equal ranges share their rank";
+}
+
+TEST(QuadeTail, EqualTimesAreNoOrder) {
+    EXPECT_DOUBLE_EQ(quadeTail({{0, 1, 0}}, 0), 1.0 / 3);
+    EXPECT_DOUBLE_EQ(quadeTail({{0, 0, -1}}, 0), 2.0 / 3);
+    EXPECT_DOUBLE_EQ(quadeTail({{0, 0, 0}}, 0), 1);
+}
+
+TEST(SlowdownLowerBound, IsWhereTheTailRefusesNoMore) {
+    const std::vector<RestartTimes> restarts = constant(0.05, 12);
+    const double bound = slowdownLowerBound(restarts, 1e-4);
+    EXPECT_NEAR(bound, 0.04, 1e-9); // where the control is as slow
+    EXPECT_LE(quadeTail(restarts, bound - 1e-6), 1e-4);
+    EXPECT_GT(quadeTail(restarts, bound + 1e-6), 1e-4);
+    EXPECT_EQ(slowdownLowerBound(constant(0.05, 4), 0.01), -std::numeric_limits<double>::infinity()); // 3⁻⁴ > 0.01
+    EXPECT_EQ(slowdownLowerBound({}, 0.5), -std::numeric_limits<double>::infinity());
+}
+
+TEST(TimeRule, AConstantSlowdownIsJudgedByTheFloor) {
     const TimeRule rule;
-    EXPECT_TRUE(surelyNotSlower(std::vector<double>(20, std::log(1.009)), rule));
-    EXPECT_FALSE(surelyNotSlower(std::vector<double>(20, std::log(1.011)), rule));
-    EXPECT_FALSE(surelyNotSlower(std::vector<double>(6, 0), rule)); // 2⁻⁶ > 0.01: too few to be sure of anything
-    // The upper bound of 20 rounds at 1 % is the fifth largest, P(Bin(20, ½) ≤ 4) = 0.0059: five slow rounds are too many.
-    std::vector<double> ratios(20, 0);
-    std::fill_n(ratios.begin(), 4, 0.1);
-    EXPECT_TRUE(surelyNotSlower(ratios, rule));
-    ratios[4] = 0.1;
-    EXPECT_FALSE(surelyNotSlower(ratios, rule));
+    const auto judge = [&](double ratio, std::size_t restarts) {
+        return judgeTime(std::vector<RestartTimes>(restarts, {0, std::log(ratio), 0}), rule, 200, 4);
+    };
+    EXPECT_EQ(judge(1.02, 12), TimeVerdict::Slower);
+    EXPECT_EQ(judge(1.009, 12), TimeVerdict::Pass);
+    EXPECT_EQ(judge(0.9, 12), TimeVerdict::Pass);
+    EXPECT_EQ(judge(1.5, 10), TimeVerdict::Unclear); // 3⁻¹⁰ > 0.01/200/4
+    EXPECT_EQ(judge(1.5, 11), TimeVerdict::Slower);
+    EXPECT_EQ(judgeTime({}, rule, 1, 1), TimeVerdict::Unclear);
 }
 
 TEST(TimeRule, TheControlAlarmsInBothDirections) {
@@ -58,26 +91,34 @@ TEST(TimeRule, TheControlAlarmsInBothDirections) {
     EXPECT_FALSE(controlAlarms(std::vector<double>(100, 0.005), rule, 200));
 }
 
-/// Log-ratios of paired frames as they were seen on a shared machine: a narrow middle, and one round in ten disturbed.
-std::vector<double> rounds(std::mt19937& random, double slowdown, std::size_t count) {
-    std::normal_distribution<double> calm(0, 0.02), disturbed(0, 0.2);
-    std::bernoulli_distribution isDisturbed(0.1);
-    std::vector<double> ratios(count);
-    for (double& ratio : ratios) ratio = std::log1p(slowdown) + (isDisturbed(random) ? disturbed(random) : calm(random));
-    return ratios;
+/// Times as they were seen on a shared machine: most processes run alike, one in ten is placed badly.
+std::vector<RestartTimes> restarts(std::mt19937& random, double slowdown, std::size_t count) {
+    std::normal_distribution<double> well(0, 0.015), badly(0, 0.1);
+    std::bernoulli_distribution isBad(0.1);
+    const auto process = [&] { return isBad(random) ? badly(random) : well(random); };
+    std::vector<RestartTimes> times(count);
+    for (RestartTimes& t : times) t = {process(), process() + std::log1p(slowdown), process()};
+    return times;
 }
 
-int alarms(double slowdown, int trials) {
+int alarms(double slowdown, std::size_t count, int cells, int trials) {
     std::mt19937 random(7);
-    int count = 0;
+    int alarmed = 0;
     for (int i = 0; i < trials; ++i)
-        if (judgeTime(rounds(random, slowdown, 100), {}, 200, 2) == TimeVerdict::Slower) ++count;
-    return count;
+        if (judgeTime(restarts(random, slowdown, count), {}, cells, 4) == TimeVerdict::Slower) ++alarmed;
+    return alarmed;
 }
 
-TEST(TimeRule, HasNoFalseAlarmInTwoThousandSimulatedCells) { EXPECT_EQ(alarms(0, 2000), 0); }
+TEST(TimeRule, HasNoFalseAlarmInTwoThousandSimulatedCells) { EXPECT_EQ(alarms(0, 24, 200, 2000), 0); }
 
-TEST(TimeRule, FindsNineteenOfTwentySimulatedSlowdownsOfFivePerCent) { EXPECT_GE(alarms(0.05, 2000), 1900); }
+TEST(TimeRule, AlarmsNoMoreOftenThanAllowedAtTheFloorItself) {
+    // α = 1 % at one cell and four looks: 10 of 4000 expected, and 22 or more in one of a thousand such tests.
+    const int count = alarms(0.01, 12, 1, 4000);
+    EXPECT_LT(count, 22);
+    EXPECT_GT(count, 0) << "a rule that never alarms is no test";
+}
+
+TEST(TimeRule, FindsNineteenOfTwentySimulatedSlowdownsOfFivePerCent) { EXPECT_GE(alarms(0.05, 48, 200, 1000), 950); }
 
 } // namespace
 } // namespace shadowbench::gate
