@@ -53,6 +53,7 @@ Image<float> rearranged(const Image<float>& image, Source source) {
 struct Undone {
     std::string_view looks, by;
     Image<float> v;
+    bool inverts = false;
 };
 
 std::vector<Undone> turnsOf(const Image<float>& v) {
@@ -64,13 +65,25 @@ std::vector<Undone> turnsOf(const Image<float>& v) {
         {"turned by half a turn", "turned back", rearranged(v, [&](int x, int y) { return v(right - x, bottom - y); })});
     if (v.width() == v.height())
         all.push_back({"transposed", "rows and columns are swapped", rearranged(v, [&](int x, int y) { return v(y, x); })});
-    all.push_back(
-        {"inverted (1 is lit, 0 is shadow)", "subtracted from 1", rearranged(v, [&](int x, int y) { return 1 - v(x, y); })});
+    all.push_back({"inverted (1 is lit, 0 is shadow)", "subtracted from 1",
+                   rearranged(v, [&](int x, int y) { return 1 - v(x, y); }), true});
     return all;
 }
 
 double errorWith(const Compared& compared, const Image<float>& v) {
     return errorOf({v, compared.truth, compared.scored, compared.labels});
+}
+
+/// The error of the best image that is the same everywhere.
+double errorOfOneGrey(const Compared& compared) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < compared.truth.size(); ++i) {
+        if (compared.scored[i] == 0) continue;
+        sum += static_cast<double>(compared.truth[i]);
+        ++count;
+    }
+    const Image<float> grey(compared.v.width(), compared.v.height(), static_cast<float>(count > 0 ? sum / count : 0));
+    return errorWith(compared, grey);
 }
 
 // Shifts.
@@ -255,8 +268,10 @@ std::optional<Finding> turned(const Compared& compared) {
         const double after = errorWith(compared, undone.v);
         if (after >= least || !halves(before, after, compared.labels)) continue;
         least = after;
+        // What shadows itself nearly everywhere would be as good as lit everywhere when it is inverted.
+        const bool certain = !undone.inverts || halves(errorOfOneGrey(compared), after, compared.labels);
         best = Finding{fmt::format("looks {}: {} when {}", undone.looks, fall(before, after, compared.labels), undone.by),
-                       true};
+                       certain};
     }
     return best;
 }

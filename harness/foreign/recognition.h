@@ -33,7 +33,8 @@ struct Finding {
 /// fully lit though some have none (suspected: a renderer without shadows draws that).
 std::optional<Finding> uniform(const Compared& compared);
 
-/// Flipped about either axis or both, rows and columns swapped, or 1 − V. Certain where undoing it halves the error.
+/// Flipped about either axis or both, rows and columns swapped, or 1 − V. Certain where undoing it halves the error; 1 − V,
+/// where it also halves that of the best single grey, else suspected.
 std::optional<Finding> turned(const Compared& compared);
 
 /// Shifted by up to two whole pixels each way. Certain where the whole frame is known and leaves no doubt

@@ -87,6 +87,14 @@ TEST_F(Recognition, NamesEachWayOfTurningWithItsFigures) {
     }
 }
 
+TEST_F(Recognition, TakesAnImageThatShadowsItselfForNoInvertedOneForCertain) {
+    const Image<float> acne = made([&](int x, int y) { return (x + 3 * y) % 16 == 0 ? labels_(x, y) : 0.0F; });
+    const std::optional<Finding> found = turned(hard(acne)); // 84 % should be lit
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(found->certain) << found->sentence;
+    EXPECT_TRUE(has(found->sentence, "looks inverted")) << found->sentence;
+}
+
 TEST_F(Recognition, NamesAShiftByAPixelEitherWay) {
     for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(2, -1)}) {
         for (const double blur : {0.01, 1.5}) {
