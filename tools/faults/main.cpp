@@ -50,6 +50,11 @@ bool anyFaulty(const std::vector<Trial>& trials) {
     return std::ranges::any_of(trials, [](const Trial& trial) { return !trial.faults.empty(); });
 }
 
+/// The verbs, as the command line names them.
+std::string chosen(const Options& options) {
+    return options.killed.empty() ? "" : fmt::format(" --verb \"{}\"", fmt::join(options.killed, ","));
+}
+
 ExitCode failCalls(const Options& options) {
     const std::vector<Verb> verbs = verbsNamed(options.verbs);
     Sandbox sandbox(options.program, verbs);
@@ -87,14 +92,16 @@ ExitCode killVerbs(const Options& options) {
     for (const Verb& verb : verbs) moments.push_back(countMoments(sandbox, verb));
     std::mt19937 random(options.seed);
     std::vector<Trial> trials;
+    const std::string command =
+        fmt::format("build/release/tools/faults/faults kills {} --seed {}", options.kills, options.seed) + chosen(options);
     for (int i = 0; i < options.kills; ++i) {
+        if (i > 0 && i % 10 == 0 && !options.out.empty()) // see failCalls
+            writeFile(options.out, killsReport(trials, command + " (not finished)"));
         const std::size_t v = static_cast<std::size_t>(i) % verbs.size(); // each as often
         trials.push_back(killAt(sandbox, verbs[v], drawKill(random, moments[v]), moments[v]));
         show(trials.back());
     }
-    return end(killsReport(trials,
-                           fmt::format("build/release/tools/faults/faults kills {} --seed {}", options.kills, options.seed)),
-               options.out, anyFaulty(trials));
+    return end(killsReport(trials, command), options.out, anyFaulty(trials));
 }
 
 ExitCode checkOrder(const Options& options) {
@@ -108,7 +115,7 @@ ExitCode checkOrder(const Options& options) {
         for (const std::string& fault : order.faults) fmt::print("    FAULT {}\n", fault);
         std::fflush(stdout);
     }
-    return end(orderReport(orders, "build/release/tools/faults/faults order"), options.out,
+    return end(orderReport(orders, "build/release/tools/faults/faults order" + chosen(options)), options.out,
                std::ranges::any_of(orders, [](const auto& order) { return !order.second.faults.empty(); }));
 }
 

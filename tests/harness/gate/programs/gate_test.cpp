@@ -13,6 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST_F(GateOfStandIns, EqualRecordsPass) {
+    fs::create_symlink(head_.program(), path("link"));
+    options_.head = path("link");
     const GateResult result = gate(options_);
     EXPECT_EQ(result.code(), ExitCode::Pass) << all(result.unjudged);
     EXPECT_EQ(result.base, base_.program());
@@ -119,6 +121,16 @@ TEST_F(GateOfStandIns, OfAllCellsAreThoseThatRecordsHaveOfTheStandardScenes) {
     EXPECT_TRUE(has(result.unjudged, "pcf on dueling-frusta was not measured"));
 }
 
+TEST_F(GateOfStandIns, OfAllTechniquesAreThoseThatRecordsHaveOfTheScenesThatAreNamed) {
+    Record gone = standInRecord("gone"), standard = standInRecord("gone");
+    standard.scene = "dueling-frusta";
+    compareWith({gone, standard, standInRecord("pcf")});
+    options_.techniques.clear();
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::Inconclusive) << "most of them the head does not have";
+    EXPECT_EQ(std::ranges::count(result.changes, Direction::Worse, &Change::direction), 0) << "nobody judges what is gone";
+}
+
 TEST_F(GateOfStandIns, CommitsThatMakeTheSameProgramPassUnlessThePolicyDiffers) {
     Identity before{"c0ffeec0ffeec0ffee", false, "same", readPolicy(options_.bounds, Profile::Gate)}, now = before;
     now.commit = "decafdecafdecaf";
@@ -156,6 +168,10 @@ TEST_F(GateOfStandIns, ABaseThatSaysNoPolicyIsJudgedByThisBuilds) {
     const GateResult result = gate(options_);
     EXPECT_EQ(result.code(), ExitCode::Pass);
     EXPECT_TRUE(has(result.notes, "the base was built before programs said what they judge"));
+    base_.is({"c0ffee", false, "base", {}});
+    base_.does("policy", "");
+    head_.does("policy", "exit 2\n");
+    EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
 }
 
 TEST_F(GateOfStandIns, WhatTheBaseShowsAndThisBuildDoesNotHaveIsUnjudged) {

@@ -92,6 +92,7 @@ TEST_F(CellsOfStandIns, OfABuiltInSceneAreRunByProgramsThatHaveIt) {
 
 TEST_F(CellsOfStandIns, AreSweptWhereTheProgramHasSceneAndTechnique) {
     const std::string axis = "axis = \"near-plane\"\nvalues = [1, 0.1]\n";
+    options_.techniques = {"pcf", "none", "esm"}; // the last of which the program does not have
     bounds(entry("sweep", "tiny", "pcf") + axis + entry("sweep", "tiny", "esm") + axis + entry("sweep", "trees", "pcf") +
            axis);
     EXPECT_EQ(steps(), (Words{"tiny: pcf none", "tiny over near-plane: pcf"}));
@@ -114,9 +115,9 @@ TEST_F(CellsOfStandIns, WithoutAPolicyOrATruthAreKnownNevertheless) {
 
 TEST_F(CellsOfStandIns, OfChoicesAreThoseThatMeanSomethingUnderTheLight) {
     writeFile(path("area.toml"), standInScene(areaLight));
-    bounds(entry("choices", "tiny.toml", "*") + "except = [\"esm:map=16\"]\n" + entry("choices", "area.toml", "*"));
+    bounds(entry("choices", "tiny.toml", "*") + entry("choices", "area.toml", "*"));
     options_.scenes.clear();
-    options_.techniques = {"pcf", "pcss", "esm"};
+    options_.techniques = {"pcf", "pcss", "esm", "lod-switch"};
     const JudgedCells cells(options_);
     const auto tried = [&](const std::string& scene, const std::string& technique) {
         const auto found = std::ranges::find(cells.scenes, scene, &JudgedScene::id);
@@ -129,7 +130,12 @@ TEST_F(CellsOfStandIns, OfChoicesAreThoseThatMeanSomethingUnderTheLight) {
     EXPECT_FALSE(tried("tiny", "pcss")) << "a point light has no penumbra";
     EXPECT_TRUE(tried("area", "pcss"));
     EXPECT_FALSE(tried("area", "pcf")) << "it does there what it does elsewhere";
-    EXPECT_FALSE(cells.chooses("tiny", "esm:map=16"));
+    EXPECT_FALSE(tried("tiny", "lod-switch")) << "it has no levels";
+    const std::string last = std::ranges::find(cells.scenes, "tiny", &JudgedScene::id)->variants.back();
+    bounds(entry("choices", "tiny.toml", "*") + "except = [\"" + last + "\"]\n");
+    const JudgedCells fewer(options_);
+    EXPECT_TRUE(cells.chooses("tiny", last));
+    EXPECT_FALSE(fewer.chooses("tiny", last));
 }
 
 Change worse(const std::string& variant, Class of = Class::Leak, Direction direction = Direction::Worse) {
@@ -162,6 +168,21 @@ TEST_F(PicturesOfStandIns, OfWhatTheBaseLacksAreOfTheHeadAlone) {
     EXPECT_TRUE(pictures[0].base.empty());
     EXPECT_FALSE(pictures[0].baseRecord);
     EXPECT_EQ(base_.calls("run"), 0);
+}
+
+TEST_F(PicturesOfStandIns, AreOfEachSceneItsOwn) {
+    writeFile(path("other.toml"), standInScene());
+    options_.scenes.push_back(path("other.toml"));
+    Record other = standInRecord("pcf");
+    other.scene = "other";
+    for (const StandIn* standIn : {&base_, &head_}) standIn->measures({standInRecord("none"), other});
+    Change ofOther = worse("pcf");
+    ofOther.scene = "other";
+    const std::vector<FailurePictures> pictures = drawn({worse("none"), ofOther});
+    ASSERT_EQ(pictures.size(), 2U);
+    EXPECT_TRUE(pictures[0].head.string().ends_with("tiny/none"));
+    ASSERT_TRUE(pictures[1].headRecord);
+    EXPECT_EQ(pictures[1].headRecord->scene, "other");
 }
 
 TEST_F(PicturesOfStandIns, AreADozenAtMost) {
