@@ -10,11 +10,9 @@
 namespace shadowbench::gate {
 namespace {
 
-PairedSamples samplesOf(double head, double headWall, double controlWall, int rounds = 100) {
-    PairedSamples samples;
-    samples.restarts.emplace_back(static_cast<std::size_t>(rounds),
-                                  PairedRound{{100, 100}, {head, headWall}, {100, controlWall}});
-    return samples;
+PairedSamples samplesOf(double head, double headWall, double controlWall) {
+    const std::vector<PairedRound> rounds(20, PairedRound{{100, 100}, {head, headWall}, {100, controlWall}});
+    return {1, std::vector(24, rounds)};
 }
 
 class TurnsOfStandIns : public testing::Test {
