@@ -15,8 +15,8 @@ namespace {
 constexpr int widest = 8;       // texels of a box that are read one by one
 constexpr std::size_t run = 16; // texels of a column that an invocation of filtered/columns.comp writes
 
-/// Texels of a row that an invocation of filtered/rows.glsl writes: of many textures fewer, for it holds all of them.
-std::size_t rowRun(std::size_t textures) { return textures > 2 ? 8 : 16; }
+/// Texels of a row that an invocation of filtered/rows.glsl writes: of several textures fewer, for it holds all of them.
+std::size_t rowRun(std::size_t textures) { return textures > 1 ? 8 : 16; }
 
 /// The view with `rim` texels of `side` left free on every side of the map.
 LightView withFreeRim(LightView view, int rim, int side) {
