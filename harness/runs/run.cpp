@@ -32,14 +32,12 @@ namespace {
 
 using shards::MeasuredCell;
 
-/// The records of an unfinished run that need not be made again.
-std::vector<Record> finishedRecords(const RunOptions& options) {
+/// The records of an earlier run of this program into the same folder.
+std::vector<Record> earlierRecords(const RunOptions& options) {
     const std::filesystem::path file = options.out / "results.jsonl";
     if (!options.resume || !std::filesystem::exists(file)) return {};
     std::vector<Record> records = readRecords(file);
-    std::erase_if(records, [](const Record& r) {
-        return r.status == Status::Error || r.commit != builtFrom().hash || r.program != programHash();
-    });
+    std::erase_if(records, [](const Record& r) { return r.commit != builtFrom().hash || r.program != programHash(); });
     return records;
 }
 
@@ -71,7 +69,7 @@ class Runner {
 public:
     explicit Runner(const RunOptions& options)
         : options_(options), variants_(chosenVariants(options.techniques, options.measure.external.get())),
-          scenes_(chosenScenes(options.scenes, options.profile)), finished_(finishedRecords(options)),
+          scenes_(chosenScenes(options.scenes, options.profile)), earlier_(earlierRecords(options)),
           cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), known_(cellCount()) {
         if (options.instructions) timing::valgrindVersion(); // to fail before the long part
         requireContext();
@@ -247,13 +245,13 @@ private:
         if (!context_) context_ = contextOfRun(cache_.folder(), false);
     }
 
-    /// The cell's record of an unfinished run, if the same rasteriser drew it.
+    /// The cell's record of an earlier run that need not be made again: no error, and drawn by the same rasteriser.
     const Record* finishedAlready(const Record& cell) const {
-        const auto found = std::find_if(finished_.begin(), finished_.end(), [&](const Record& r) {
-            return r.cell == cell.cell &&
+        const auto found = std::find_if(earlier_.begin(), earlier_.end(), [&](const Record& r) {
+            return r.status != Status::Error && r.cell == cell.cell &&
                    (isExternal(r) || !gate::difference(r.environment, cell.environment, gate::Surroundings::OfScores));
         });
-        return found == finished_.end() ? nullptr : &*found;
+        return found == earlier_.end() ? nullptr : &*found;
     }
 
     void addInstructions() {
@@ -285,9 +283,10 @@ private:
         return records;
     }
 
-    /// With what an unfinished run has left of other cells.
+    /// With what an earlier run has left of cells that are not known yet: errors, too, which are made again where they are
+    /// chosen.
     [[nodiscard]] std::vector<Record> withEarlier(std::vector<Record> all) const {
-        for (const Record& earlier : finished_) {
+        for (const Record& earlier : earlier_) {
             const bool again = std::any_of(all.begin(), all.end(), [&](const Record& r) {
                 return r.scene == earlier.scene && r.variant == earlier.variant && r.profile == earlier.profile;
             });
@@ -299,7 +298,7 @@ private:
     RunOptions options_;
     std::vector<techniques::Variant> variants_;
     std::vector<Scene> scenes_;
-    std::vector<Record> finished_;
+    std::vector<Record> earlier_;
     groundtruth::Cache cache_;
     std::vector<std::optional<Record>> known_; // of each cell, once it is known
     ExitCode code_ = ExitCode::Pass;

@@ -87,6 +87,22 @@ TEST_F(External, RowScoresAsTheTechniqueThatDrewTheImages) {
     EXPECT_TRUE(contains(readFile(out_ + "/results.csv"), "external.reported.milliseconds"));
 }
 
+TEST_F(External, RowThatFailedStaysWhenARunGoesOnWithOthers) {
+    write(entry("broken", "exit 3"));
+    EXPECT_EQ(run("--technique 'external:*'").code, 5);
+    ASSERT_TRUE(record("external:broken"));
+    const Outcome other = run("--technique none --resume");
+    EXPECT_EQ(other.code, 0) << other.output;
+    ASSERT_TRUE(record("external:broken")) << "it was not chosen, and not made again";
+    EXPECT_EQ(record("external:broken")->status, Status::Error);
+    EXPECT_TRUE(record("none"));
+
+    write(entry("broken", copies()));
+    EXPECT_EQ(run("--technique 'external:*' --resume").code, 0);
+    EXPECT_EQ(record("external:broken")->status, Status::Scored);
+    EXPECT_EQ(records().size(), 2U);
+}
+
 TEST_F(External, EachFailureIsOneLineAndHarmsNoOtherRow) {
     const std::string small = "printf 'Pf\\n2 2\\n-1.0\\n0000000000000000' > {out}/frame-";
     write(entry("hangs", "sleep 300 & sleep 300", "time_limit = 0.5") + entry("dies", "kill -SEGV $$") +
