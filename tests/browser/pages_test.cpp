@@ -34,19 +34,6 @@ TEST(Pages, AreThereAndTheFirstIsTheIndex) {
     EXPECT_GE(pagesOf(siteFolder()).size(), 3U);
 }
 
-// Two seconds are the aim, from the beginning until charts and the viewer are drawn. The bound is four times as far off:
-// other programs may have the processor.
-TEST(Pages, OpenWithinTwoSeconds) {
-    for (const fs::path& page : kindsOfPages()) {
-        const auto tab = chromium().tab();
-        tab->open(page);
-        tab->waitFor("[...document.querySelectorAll('.viewer')].every((e) => !e.viewer || e.viewer.shown?.edges)");
-        const double seconds = tab->value("performance.now()").get<double>() / 1000; // since the page was asked for
-        std::printf("%s opens in %.2f s\n", fs::relative(page, siteFolder()).c_str(), seconds);
-        EXPECT_LT(seconds, 8) << page;
-    }
-}
-
 TEST(Pages, LoadWithoutComplaintAndFitPhonesAndWideScreens) {
     const auto tab = chromium().tab();
     for (const fs::path& page : pagesOf(siteFolder())) {
