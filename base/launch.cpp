@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
@@ -14,6 +15,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 
 namespace shadowbench {
@@ -121,6 +123,13 @@ std::optional<int> Child::poll() {
     if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == 0)
         return std::nullopt;
     return kill();
+}
+
+void Child::askToEnd(std::chrono::milliseconds grace) {
+    ::kill(-pid_, SIGTERM);
+    const auto end = std::chrono::steady_clock::now() + grace;
+    constexpr std::chrono::milliseconds tick{5};
+    while (pid_ > 0 && !poll() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(tick);
 }
 
 int Child::kill() {

@@ -49,6 +49,9 @@ public:
     /// The status if it has ended.
     std::optional<int> poll();
 
+    /// Tells the group to end (SIGTERM); returns when the child has, or after `grace`.
+    void askToEnd(std::chrono::milliseconds grace);
+
     /// Ends the whole group and returns the child's status.
     int kill();
 

@@ -130,9 +130,11 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
         else if (readable(output.get(), tick))
             open = readSome(output.get(), lines);
         status = child.poll();
-        if (!status && DeferredInterrupts::pending())
+        if (!status && DeferredInterrupts::pending()) {
+            if (command.grace.count() > 0) child.askToEnd(command.grace);
             throw Inconclusive(fmt::format("{} was stopped: the run was interrupted", command.program.filename().string()),
                                Failure::Transient);
+        }
         const bool late = Clock::now() >= end, flooded = command.outputLimit && lines.bytes() > *command.outputLimit;
         if (!status && (late || flooded)) {
             Finished stopped = decoded(child.kill());

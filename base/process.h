@@ -33,6 +33,8 @@ struct Command {
     std::optional<std::vector<std::string>> environment = {};
     std::vector<std::string> inherited = {};        // names of further variables that it has as this process has them
     std::optional<std::uintmax_t> outputLimit = {}; // bytes of standard output and error; the group is killed after them
+    // When the user interrupts, the group is told to end (SIGTERM) and has this long to leave nothing half done.
+    std::chrono::milliseconds grace{0};
     bool endsStrays = false; // processes that left the group (setsid, daemons) are killed as well, as soon as the child ends
 };
 

@@ -46,6 +46,7 @@ std::pair<int, std::string> runToEnd(const fs::path& program, const std::vector<
     command.memoryLimit = std::uintmax_t{64} << 30U; // of addresses: Valgrind reserves far more than it uses
     command.fileLimit = std::uintmax_t{1} << 30U;
     command.inherited = gl::platformVariables();
+    command.grace = std::chrono::seconds(10); // it is writing records and images into the cache
     std::string last;
     const Finished finished = runProcess(command, [&](std::string_view line) {
         if (!line.empty()) last = line;

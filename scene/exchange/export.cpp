@@ -8,6 +8,7 @@
 #include "scene/exchange/texts.h"
 #include "scene/sky.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -17,31 +18,45 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDescription = "scene.json"; // written last: a folder that has it is complete
+constexpr const char* kDescription = "scene.json";            // written last: a folder that has it is complete
+constexpr const char* kUnfinished = ".scene.json.unfinished"; // lists what an export is about to remove and write
 
 bool isThere(const fs::path& path) {
     std::error_code ignored;
     return fs::exists(path, ignored);
 }
 
-/// The files of the export that `folder` holds, by the list in its scene.json; nothing if it holds none.
-std::vector<std::string> earlierExport(const fs::path& folder) {
-    return isThere(folder / kDescription) ? exportedFiles(readFile(folder / kDescription)) : std::vector<std::string>();
+/// The files of the exports that `folder` holds, by the lists in their scene.json and of one that was killed; nothing if it
+/// holds none.
+std::vector<std::string> earlierExports(const fs::path& folder) {
+    std::vector<std::string> files;
+    for (const char* list : {kDescription, kUnfinished})
+        if (isThere(folder / list))
+            for (std::string& file : exportedFiles(readFile(folder / list))) files.push_back(std::move(file));
+    return files;
 }
 
-/// Nothing of the user's is overwritten: the folder is new, empty, or an earlier export's, whose files are removed.
-void clear(const fs::path& folder) {
+/// Whether the folder has something in it but what a killed writer left.
+bool holdsFiles(const fs::path& folder) {
+    std::error_code failed;
+    const fs::directory_iterator entries(folder, failed);
+    return std::any_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
+        return !isTemporary(entry.path()) && entry.path().filename() != kUnfinished;
+    });
+}
+
+/// What may be removed from the folder: it is new, empty, or an earlier export's. Nothing of the user's is overwritten.
+std::vector<std::string> replaceable(const fs::path& folder) {
     if (folder.empty()) throw BadInput("cannot export into a folder without a name; name one");
-    if (!isThere(folder)) return;
+    if (!isThere(folder)) return {};
     std::error_code failed;
     if (!fs::is_directory(folder, failed))
         throw BadInput(fmt::format("cannot export into {}: it is a file; name a folder", folder.string()));
-    const std::vector<std::string> earlier = earlierExport(folder);
-    if (earlier.empty() && !fs::is_empty(folder, failed))
+    std::vector<std::string> earlier = earlierExports(folder);
+    if (earlier.empty() && holdsFiles(folder))
         throw BadInput(
             fmt::format("cannot export into {}: it holds other files; name a new or an empty folder", folder.string()));
-    for (const std::string& file : earlier)
-        if (fs::is_regular_file(folder / file, failed)) fs::remove(folder / file, failed);
+    return earlier;
 }
 
 /// Files that are all written, or none: what is there when something fails is removed again.
@@ -54,7 +69,18 @@ public:
         if (complete_) return;
         std::error_code ignored;
         for (const std::string& name : names_) fs::remove(folder_ / name, ignored);
+        fs::remove(folder_ / kUnfinished, ignored);
         if (madeFolder_) fs::remove(folder_, ignored); // unless something else is in it
+    }
+
+    /// Removes `earlier`, which `names` will follow. The list of both outlives a kill, so that the next export goes on.
+    void replace(const std::vector<std::string>& earlier, const std::vector<std::string>& names) const {
+        std::vector<std::string> all = earlier;
+        all.insert(all.end(), names.begin(), names.end());
+        writeFile(folder_ / kUnfinished, nlohmann::json{{"format", "shadowbench-scene"}, {"files", all}}.dump());
+        std::error_code failed;
+        for (const std::string& file : earlier)
+            if (fs::is_regular_file(folder_ / file, failed)) fs::remove(folder_ / file, failed);
     }
 
     void add(const std::string& name, std::string_view content) {
@@ -66,6 +92,8 @@ public:
     }
     std::vector<std::string> complete() {
         complete_ = true;
+        std::error_code ignored;
+        fs::remove(folder_ / kUnfinished, ignored);
         return names_;
     }
 
@@ -106,8 +134,9 @@ Exported exportScene(const Scene& scene, const fs::path& folder) {
     if (sky != nullptr) names.all.emplace_back("sky.exr");
     names.all.emplace_back(kDescription);
 
-    clear(folder);
+    const std::vector<std::string> earlier = replaceable(folder);
     Files files(folder);
+    files.replace(earlier, names.all);
     files.add("scene.bin", gltf.bin);
     files.add("scene.gltf", gltf.gltf);
     files.add("scene.mtl", mtlOf(parts));

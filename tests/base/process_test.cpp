@@ -116,5 +116,20 @@ TEST_F(RunningAProgram, StopsItWhenTheUserInterrupts) {
     EXPECT_THROW(run(script("kill -TERM $PPID; sleep 300")), Inconclusive);
 }
 
+TEST_F(RunningAProgram, LetsItLeaveNothingHalfDoneWhenTheUserInterrupts) {
+    Command tidy =
+        script("trap 'echo all > whole; exit' TERM; echo half > whole; kill -TERM $PPID; while :; do sleep 0.1; done");
+    tidy.grace = 10s;
+    EXPECT_THROW(run(tidy), Inconclusive);
+    EXPECT_EQ(readFile(folder_.path() / "whole"), "all\n");
+}
+
+TEST_F(RunningAProgram, StopsItInTheEndWhenTheUserInterrupts) {
+    Command stubborn = script("trap '' TERM; echo $$ > stubborn; kill -TERM $PPID; while :; do sleep 0.1; done");
+    stubborn.grace = 100ms;
+    EXPECT_THROW(run(stubborn), Inconclusive);
+    EXPECT_TRUE(endsSoon("stubborn"));
+}
+
 } // namespace
 } // namespace shadowbench

@@ -5,6 +5,7 @@
 #include "tests/scene/exchange/same_scene.h"
 
 #include <fmt/format.h>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <set>
@@ -123,6 +124,31 @@ TEST(Export, ReplacesAnEarlierExportWholeAndLeavesOtherFilesAlone) {
     EXPECT_EQ(loadScene(folder.path().string(), Profile::Gate).id, "second");
     EXPECT_EQ(second.files.back(), "scene.json");
     EXPECT_EQ(second.frames.front(), 59);
+}
+
+/// A killed one leaves its list and some files, or one that was being written.
+TEST(Export, GoesOnWhereOneWasKilled) {
+    const TemporaryFolder folder;
+    const fs::path out = folder.path() / "out";
+    const Scene scene = sceneOf(kHead + kPoint + kBox);
+    exportScene(scene, out);
+    EXPECT_FALSE(fs::exists(out / ".scene.json.unfinished"));
+    fs::remove(out / "scene.json");
+    writeFile(out / ".scene.json.unfinished",
+              R"({"format":"shadowbench-scene","files":["scene.bin","scene.gltf","old.toml"]})");
+    writeFile(out / "old.toml", "of an export before it");
+    writeFile(out / "photo.png", "mine");
+    exportScene(scene, out);
+    EXPECT_TRUE(fs::exists(out / "scene.json"));
+    EXPECT_EQ(readFile(out / "photo.png"), "mine");
+    for (const char* gone : {"old.toml", ".scene.json.unfinished"}) EXPECT_FALSE(fs::exists(out / gone)) << gone;
+
+    const fs::path begun = folder.path() / "begun"; // killed at its first file
+    fs::create_directory(begun);
+    const fs::path half = begun / ".scene.shadowbench-k5sLbg.bin";
+    std::ofstream(half) << "half";
+    EXPECT_NO_THROW(exportScene(scene, begun));
+    EXPECT_FALSE(fs::exists(half));
 }
 
 TEST(Export, TakesNoFileOfAnotherFolderForAnEarlierExports) {
