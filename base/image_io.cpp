@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void failToWrite(const fs::path& file, const std::string& reason) {
-    throw InternalError(fmt::format("cannot write {}: {}; free some space or choose another place", file.string(), reason));
+    throw InternalError(fmt::format("cannot write {}: {}; free some space or choose another place", file.string(),
+                                    reason.empty() ? "the library does not say why" : inOneLine(reason)));
 }
 
 void write(const fs::path& file, const OIIO::ImageSpec& spec, const void* pixels) {

@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 #include <string_view>
+#include <system_error>
 #include <unistd.h>
 
 namespace shadowbench {
@@ -18,6 +19,12 @@ pid_t speaker = 0;
 /// Without allocating: there may be no memory, or a library may hold the allocator's lock.
 void say(std::string_view words) {
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, words.data(), words.size());
+}
+
+void sayError(const std::exception& error) {
+    say("shadowbench: internal error: ");
+    say(error.what());
+    say("\n");
 }
 
 [[noreturn]] void end() { _exit(static_cast<int>(ExitCode::Internal)); }
@@ -36,10 +43,16 @@ void onTerminate() {
     } catch (const std::bad_alloc&) {
         say("shadowbench: there is not enough memory; free some, or use --jobs 1 where there is one\n");
         end();
+    } catch (const std::system_error& error) {
+        if (error.code() == std::errc::resource_unavailable_try_again)
+            say("shadowbench: a thread could not be started; allow more (ulimit -u), free memory, or use --jobs 1 where "
+                "there is "
+                "one\n");
+        else
+            sayError(error);
+        end();
     } catch (const std::exception& error) {
-        say("shadowbench: internal error: ");
-        say(error.what());
-        say("\n");
+        sayError(error);
         end();
     } catch (...) { // of a library
     }

@@ -5,7 +5,7 @@ namespace shadowbench {
 
 /// From now on an abort of this process (a library's assertion, an exception that leaves a thread or a destructor) ends it
 /// with one line on standard error and ExitCode::Internal. Processes that are forked from it still end by the signal, which
-/// their parent reports.
+/// their parent reports. May be called before any object or library is initialised.
 void sayWhyAborted();
 
 } // namespace shadowbench

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -32,7 +33,10 @@ void inParallel(int count, int threads, const Progress& progress, std::string_vi
     };
     {
         std::vector<std::jthread> others;
-        for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(loop, false);
+        try {
+            for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(loop, false);
+        } catch (const std::system_error&) { // the system has no more threads: those there are do the work
+        }
         loop(true);
     }
     if (failure) std::rethrow_exception(failure);

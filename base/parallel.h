@@ -14,8 +14,8 @@ namespace shadowbench {
 int hardwareThreads();
 
 /// Calls `work(i)` once for each 0 ≤ i < count, in this order as threads become free; the calling thread is one of the
-/// `threads` (≥ 1). Where a call throws, no more are begun, and the first exception is thrown here when those under way have
-/// ended.
+/// `threads` (≥ 1), of which there are fewer where the system has no more. Where a call throws, no more are begun, and the
+/// first exception is thrown here when those under way have ended.
 void inParallel(int count, int threads, const std::function<void(int)>& work);
 
 /// The same, reporting the share that is done, with `what`, from the calling thread only.

@@ -63,8 +63,9 @@ ExitCode dispatch(int argc, char** argv) {
     return action();
 }
 
-/// Before objects with static storage are made, which may lack memory, too.
-__attribute__((constructor(101))) void beforeStatics() { sayWhyAborted(); }
+/// Before objects with static storage are made, which may lack memory, too, and before the libraries that start threads as
+/// they are loaded (log4cplus, of OpenVDB, of OpenImageIO).
+__attribute__((section(".preinit_array"), used)) void (*const beforeLibraries)() = sayWhyAborted;
 
 [[noreturn]] void failToPrint(const char* stream, int error) {
     throw InternalError(fmt::format("cannot write to {}: {}; free some space or choose another place", stream,

@@ -11,7 +11,7 @@ namespace shadowbench::lod {
 /// How long a walk is timed.
 struct LodTimingLimits {
     int maximumRounds = 5;
-    double budgetSeconds = 1.0; // of timing one technique, once the least has been done
+    double budgetSeconds = 0.8; // of timing one technique, once the least has been done
     int leastFrames = 3;        // timed at least, of a walk that takes longer than the budget
 };
 

@@ -1,5 +1,6 @@
 #include "harness/runs/run.h"
 
+#include "base/files.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress_line.h"
@@ -41,6 +42,19 @@ std::vector<Record> earlierRecords(const RunOptions& options) {
     return records;
 }
 
+/// A record as a line of results.jsonl.
+std::string lineOf(const Record& record) { return toJson(record) + "\n"; }
+
+std::vector<std::string> linesOf(const std::vector<Record>& records) {
+    std::vector<std::string> lines(records.size());
+    std::ranges::transform(records, lines.begin(), lineOf);
+    return lines;
+}
+
+bool isSameCell(const Record& a, const Record& b) {
+    return a.scene == b.scene && a.variant == b.variant && a.profile == b.profile;
+}
+
 /// Whether all times that are asked for have been taken; of other renderers none are.
 bool isTimed(const Record& record, const MeasureOptions& options) {
     if (isExternal(record)) return true;
@@ -70,7 +84,9 @@ public:
     explicit Runner(const RunOptions& options)
         : options_(options), variants_(chosenVariants(options.techniques, options.measure.external.get())),
           scenes_(chosenScenes(options.scenes, options.profile)), earlier_(earlierRecords(options)),
-          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), known_(cellCount()) {
+          earlierLines_(linesOf(earlier_)),
+          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), known_(cellCount()),
+          lines_(cellCount()) {
         if (options.instructions) timing::valgrindVersion(); // to fail before the long part
         requireContext();
         std::error_code failed;
@@ -259,7 +275,10 @@ private:
         const std::vector<std::string> names = chosenSceneNames(options_.scenes);
         for (std::size_t i = 0; i < scenes_.size(); ++i) options.scenes[scenes_[i].id] = names[i];
         std::vector<Record> counted = records();
-        countInstructions(counted, options, [&] { writeRecords(resultsFile(), withEarlier(counted)); });
+        countInstructions(counted, options, [&] {
+            for (std::size_t cell = 0; cell < counted.size(); ++cell) lines_[cell] = lineOf(counted[cell]);
+            writeLines();
+        });
         for (std::size_t cell = 0; cell < known_.size(); ++cell) known_[cell] = counted[cell];
         const bool failed =
             std::any_of(counted.begin(), counted.end(), [](const Record& r) { return r.status == Status::Error; });
@@ -270,7 +289,19 @@ private:
     void keep(std::size_t cell, MeasuredCell measured) {
         if (measured.code != ExitCode::Pass && code_ == ExitCode::Pass) code_ = measured.code;
         known_[cell] = std::move(measured.record);
-        writeRecords(resultsFile(), withEarlier(records()));
+        lines_[cell] = lineOf(*known_[cell]);
+        for (std::size_t i = 0; i < earlier_.size(); ++i)
+            if (isSameCell(earlier_[i], *known_[cell])) earlierLines_[i].clear();
+        writeLines();
+    }
+
+    /// Of the cells that are known, in order, and then what an earlier run has left of others: errors, too, which are made
+    /// again where they are chosen.
+    void writeLines() const {
+        std::string all;
+        for (const auto& lines : {std::cref(lines_), std::cref(earlierLines_)})
+            for (const std::string& line : lines.get()) all += line;
+        writeFile(resultsFile(), all);
     }
 
     [[nodiscard]] std::filesystem::path resultsFile() const { return options_.out / "results.jsonl"; }
@@ -283,24 +314,14 @@ private:
         return records;
     }
 
-    /// With what an earlier run has left of cells that are not known yet: errors, too, which are made again where they are
-    /// chosen.
-    [[nodiscard]] std::vector<Record> withEarlier(std::vector<Record> all) const {
-        for (const Record& earlier : earlier_) {
-            const bool again = std::any_of(all.begin(), all.end(), [&](const Record& r) {
-                return r.scene == earlier.scene && r.variant == earlier.variant && r.profile == earlier.profile;
-            });
-            if (!again) all.push_back(earlier);
-        }
-        return all;
-    }
-
     RunOptions options_;
     std::vector<techniques::Variant> variants_;
     std::vector<Scene> scenes_;
     std::vector<Record> earlier_;
+    std::vector<std::string> earlierLines_; // of the same, empty once they are made again
     groundtruth::Cache cache_;
     std::vector<std::optional<Record>> known_; // of each cell, once it is known
+    std::vector<std::string> lines_;           // of the same: each is written many times, with every cell that follows
     ExitCode code_ = ExitCode::Pass;
     std::map<std::size_t, std::string> lost_; // cells whose process ended, and how
     std::unique_ptr<gl::Context> context_;    // of a worker, later of this process

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <sys/wait.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -61,6 +62,8 @@ TEST(LastWords, AnExceptionThatLeavesAThreadIsOneLine) {
 #endif
     expectOneLine(endOf([] { std::thread([] { throw std::bad_alloc(); }).join(); }), "not enough memory");
     expectOneLine(endOf([] { std::thread([] { throw std::runtime_error("why"); }).join(); }), "internal error: why");
+    const auto noThread = std::make_error_code(std::errc::resource_unavailable_try_again);
+    expectOneLine(endOf([&] { std::thread([&] { throw std::system_error(noThread); }).join(); }), "--jobs 1");
     expectOneLine(endOf([] { std::thread([] { throw 7; }).join(); }), "a library aborted the program");
 }
 

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <gtest/gtest.h>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 namespace shadowbench {
@@ -18,6 +20,22 @@ TEST(InParallel, DoesEachPieceOnce) {
         for (const std::atomic<int>& times : done) EXPECT_EQ(times, 1) << threads;
     }
     inParallel(0, 2, [](int) { FAIL() << "there is nothing to do"; });
+}
+
+/// In a process that may have no more memory, of which each thread takes some for its stack.
+TEST(InParallel, GoesOnWithoutThreadsThatCannotBeStarted) {
+#ifdef __SANITIZE_THREAD__
+    GTEST_SKIP() << "ThreadSanitizer allocates as it goes";
+#endif
+    const auto alone = [] {
+        const rlimit none{1, 1};
+        setrlimit(RLIMIT_AS, &none);
+        int done = 0;
+        const std::thread::id here = std::this_thread::get_id();
+        inParallel(8, 4, [&](int) { done += std::this_thread::get_id() == here ? 1 : 100; });
+        _exit(done);
+    };
+    EXPECT_EXIT(alone(), testing::ExitedWithCode(8), "");
 }
 
 TEST(InParallel, ThrowsWhatWasThrownAndBeginsNoMore) {

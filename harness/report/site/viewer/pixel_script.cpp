@@ -23,11 +23,12 @@ std::string planes(const std::vector<float>& values) {
     return bytes;
 }
 
+/// Not as small as it could be: the last few percent take ten times as long.
 std::string deflated(const std::string& bytes) {
     uLongf size = compressBound(bytes.size());
     std::string result(size, '\0');
     if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
-                  Z_BEST_COMPRESSION) != Z_OK)
+                  Z_DEFAULT_COMPRESSION) != Z_OK)
         throw InternalError("making pages: compressing pixel values failed");
     result.resize(size);
     return result;
