@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/interrupts.h"
 #include "base/limits.h"
+#include "base/live_files.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <sys/file.h>
@@ -87,6 +89,7 @@ public:
             ::flock(descriptor_.get(), LOCK_EX);
         } while (!isStillNamed(descriptor_.get(), path_)); // another process may have taken it for a dead one's
         ::fchmod(descriptor_.get(), 0644);                 // it was made private to its owner
+        live_.emplace(path_);
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -101,6 +104,7 @@ public:
         if (const int failed = lasting ? flush(path_, 0) : 0; failed != 0) failToWrite(target_, failed);
         if (::rename(path_.c_str(), target_.c_str()) != 0) failToWrite(target_, errno);
         path_.clear();
+        live_.reset();
         if (const int failed = lasting ? flushFolder(target_.parent_path()) : 0; failed != 0) failToWrite(target_, failed);
     }
 
@@ -108,6 +112,7 @@ private:
     DeferredInterrupts deferred_; // destroyed last
     fs::path target_;
     std::string path_;
+    std::optional<LiveFile> live_;
     Descriptor descriptor_{-1}; // holds the lock
 };
 

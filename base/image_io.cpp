@@ -4,12 +4,14 @@
 #include "base/files.h"
 #include "base/image_input.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
+#include <vector>
 
 namespace shadowbench {
 namespace fs = std::filesystem;
@@ -20,14 +22,17 @@ namespace {
                                     reason.empty() ? "the library does not say why" : inOneLine(reason)));
 }
 
+/// Into memory first: the library does not notice when what it has buffered cannot be written.
 void write(const fs::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
-    writeFileWith(file, [&](const fs::path& path) {
-        const auto output = OIIO::ImageOutput::create(path.string());
-        if (!output) failToWrite(file, OIIO::geterror());
-        if (!output->open(path.string(), spec)) failToWrite(file, output->geterror());
-        if (!output->write_image(spec.format, pixels)) failToWrite(file, output->geterror());
-        if (!output->close()) failToWrite(file, output->geterror());
-    });
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create(file.string());
+    if (!output) failToWrite(file, OIIO::geterror());
+    if (!output->set_ioproxy(&memory)) failToWrite(file, "the library cannot write this format into memory");
+    if (!output->open(file.string(), spec)) failToWrite(file, output->geterror());
+    if (!output->write_image(spec.format, pixels)) failToWrite(file, output->geterror());
+    if (!output->close()) failToWrite(file, output->geterror());
+    writeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 std::uint8_t byte(float value) {

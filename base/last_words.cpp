@@ -1,6 +1,7 @@
 #include "base/last_words.h"
 
 #include "base/error.h"
+#include "base/live_files.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -27,7 +28,10 @@ void sayError(const std::exception& error) {
     say("\n");
 }
 
-[[noreturn]] void end() { _exit(static_cast<int>(ExitCode::Internal)); }
+[[noreturn]] void end() {
+    removeLiveFiles();
+    _exit(static_cast<int>(ExitCode::Internal));
+}
 
 void onAbort(int /*signal*/) {
     if (getpid() != speaker) return; // abort() then ends the process by the signal

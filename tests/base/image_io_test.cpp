@@ -3,9 +3,11 @@
 #include "base/image_io.h"
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <limits>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace shadowbench {
@@ -41,6 +43,26 @@ TEST_F(ImageFiles, TheSameExrHasTheSameBytes) {
     ::sleep(1); // a stamp of the time of day would differ
     writeExr(folder_ / "b.exr", {{"V", &image}});
     EXPECT_EQ(readFile(folder_ / "a.exr"), readFile(folder_ / "b.exr"));
+}
+
+/// So little that a library writes it when it closes the file, and no sooner.
+TEST_F(ImageFiles, AnImageThatCannotBeWrittenIsAnErrorAndNoFile) {
+    const auto full = [&] { // a process whose files may have no byte
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit none{0, 0};
+        setrlimit(RLIMIT_FSIZE, &none);
+        const Image<float> image = ramp(4, 4);
+        try {
+            writeExr(folder_ / "a.exr", {{"V", &image}});
+        } catch (const InternalError&) {
+            const bool left = !fs::is_empty(folder_);
+            fs::remove_all(folder_);
+            _exit(left ? 8 : 7);
+        }
+        _exit(9);
+    };
+    GTEST_FLAG_SET(death_test_style, "threadsafe"); // the library's threads are not copied with a process
+    EXPECT_EXIT(full(), testing::ExitedWithCode(7), "");
 }
 
 TEST_F(ImageFiles, APngIsLinearInEightBits) {

@@ -1,10 +1,14 @@
 #include "base/last_words.h"
 
 #include "base/error.h"
+#include "base/files.h"
+#include "base/temporary_folder.h"
 
 #include <array>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
 #include <new>
@@ -65,6 +69,18 @@ TEST(LastWords, AnExceptionThatLeavesAThreadIsOneLine) {
     const auto noThread = std::make_error_code(std::errc::resource_unavailable_try_again);
     expectOneLine(endOf([&] { std::thread([&] { throw std::system_error(noThread); }).join(); }), "--jobs 1");
     expectOneLine(endOf([] { std::thread([] { throw 7; }).join(); }), "a library aborted the program");
+}
+
+TEST(LastWords, NoFileThatIsBeingWrittenIsLeft) {
+    const TemporaryFolder folder;
+    const auto aborting = [&] {
+        writeFileWith(folder.path() / "a.txt", [](const std::filesystem::path& half) {
+            std::ofstream(half) << "half";
+            std::abort();
+        });
+    };
+    expectOneLine(endOf(aborting), "a library aborted the program");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(LastWords, AForkedProcessEndsByTheSignalThatItsParentReports) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 #include <sys/resource.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -30,6 +31,10 @@ TEST(InParallel, GoesOnWithoutThreadsThatCannotBeStarted) {
     const auto alone = [] {
         const rlimit none{1, 1};
         setrlimit(RLIMIT_AS, &none);
+        try {
+            for (;;) std::thread(pause).detach(); // on stacks that are kept from earlier threads
+        } catch (const std::system_error&) {
+        }
         int done = 0;
         const std::thread::id here = std::this_thread::get_id();
         inParallel(8, 4, [&](int) { done += std::this_thread::get_id() == here ? 1 : 100; });
