@@ -1,5 +1,6 @@
 // Image files become visibility, or one clear sentence.
 #include "base/error.h"
+#include "base/files.h"
 #include "base/image_io.h"
 #include "base/temporary_folder.h"
 #include "harness/foreign/foreign_image.h"
@@ -162,6 +163,15 @@ TEST_F(ForeignFiles, OfAPaletteAreReadWithAWarning) {
     EXPECT_EQ(found.v(8, 3), 1);
     ASSERT_EQ(warnings_.size(), 1U);
     expectIn(warnings_.front(), "has a palette, so at most 256 values: save it as grey");
+}
+
+TEST_F(ForeignFiles, OfAWindowOfALargerPictureAreRefused) {
+    const fs::path file = exr("window.exr", ramp_);
+    std::string bytes = readFile(file);
+    const std::string name("displayWindow\0box2i\0", 20);
+    bytes[bytes.find(name) + name.size() + 12] = 99; // its right edge
+    std::ofstream(file, std::ios::binary) << bytes;
+    expectIn(refusal(file), "is a window of a larger picture, or holds depth samples: write it whole and flat");
 }
 
 TEST_F(ForeignFiles, DepthIsTheChannelZAmongOthers) {
