@@ -48,7 +48,7 @@ struct Finished {
     bool flooded = false; // wrote more than Command::outputLimit
 };
 
-/// Called with each complete line (ended by '\n' or '\r', terminator removed) of the child's standard output and error.
+/// Called with each complete line but empty ones (ended by '\n' or '\r', which is removed) of the child's two outputs.
 using OnLine = std::function<void(std::string_view)>;
 
 /// Runs to the end. The child has its own process group and dies with the calling thread; no member of the group is left

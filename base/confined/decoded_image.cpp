@@ -52,12 +52,18 @@ DecodedImage::DecodedImage(std::string bytes) : bytes_(std::move(bytes)), memory
     header_.format = beginning.format;
     if (!beginning.isRead) return;
     OIIO::attribute("exr_threads", -1); // all in the one thread that there is
-    input_ = OIIO::ImageInput::create(std::string(beginning.format));
+    open();
+    header_ = headerOf(*input_);
+}
+
+void DecodedImage::open() {
+    memory_.seek(0);
+    input_ = OIIO::ImageInput::create(header_.format);
     if (!input_ || !input_->set_ioproxy(&memory_)) throw BadInput("OpenImageIO cannot read its format from memory");
     OIIO::ImageSpec found;
     // The name is only for messages: the bytes come from memory_.
     if (!input_->open("image." + header_.format, found, asStored())) throw BadInput(inOneLine(input_->geterror()));
-    header_ = headerOf(*input_);
+    isRead_ = false;
 }
 
 Image<float> DecodedImage::channel(int index) {
@@ -67,6 +73,8 @@ Image<float> DecodedImage::channel(int index) {
     const auto pixels = static_cast<std::uint64_t>(header_.width) * static_cast<std::uint64_t>(header_.height);
     if (header_.width < 1 || header_.height < 1 || pixels > limitOf(Limit::Pixels))
         throw BadInput(fmt::format("it has {} × {} pixels, {}", header_.width, header_.height, beyond(Limit::Pixels)));
+    if (isRead_) open(); // for an earlier row OpenImageIO would open a file of that name, which is none
+    isRead_ = true;
     return pixelsOf(*input_, index);
 }
 

@@ -23,10 +23,13 @@ public:
     Image<float> channel(int index);
 
 private:
+    void open();
+
     std::string bytes_;
     OIIO::Filesystem::IOMemReader memory_; // must outlive what reads it
     std::unique_ptr<OIIO::ImageInput> input_;
     ImageHeader header_;
+    bool isRead_ = false; // since it was opened
 };
 
 } // namespace shadowbench

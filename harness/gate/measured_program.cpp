@@ -49,7 +49,7 @@ std::pair<int, std::string> runToEnd(const fs::path& program, const std::vector<
     command.grace = std::chrono::seconds(10); // it is writing records and images into the cache
     std::string last;
     const Finished finished = runProcess(command, [&](std::string_view line) {
-        if (!line.empty()) last = line;
+        last = line;
         onLine(line);
     });
     if (finished.timedOut) return {-1, "it took more than three hours"};

@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
 
 namespace shadowbench {
@@ -249,6 +250,10 @@ TEST_F(EnvironmentFiles, AreRefusedWithFileLineAndKey) {
     write("negative.exr", negative, negative, negative);
     writeExr(folder_.path() / "bright.exr", {{"Y", &bright}});
     writeExr(folder_.path() / "depth.exr", {{"Z", &square}});
+    writeExr(folder_.path() / "red.exr", {{"R", &black}});
+    writeExr(folder_.path() / "yellow.exr", {{"R", &black}, {"G", &black}});
+    const Image<float> none(4, 2, std::numeric_limits<float>::quiet_NaN());
+    writeExr(folder_.path() / "none.exr", {{"Y", &none}});
     writeFile(folder_.path() / "text.exr", "no image");
 
     const std::vector<std::pair<std::string, std::string>> mistakes{
@@ -268,7 +273,10 @@ TEST_F(EnvironmentFiles, AreRefusedWithFileLineAndKey) {
         {"sky = { harmonics = [-1] }", ":3: light.sky.harmonics: the radiance is nowhere above 0"},
         {"sky = { harmonics = [1], scale = 0 }", ":3: light.sky.scale: expected a number above 0, got 0"},
         {"sky = { image = \"sky.png\" }", ":3: light.sky.image: expected an OpenEXR file"},
-        {"sky = { image = \"none.exr\" }", ":3: light.sky.image: cannot read image"},
+        {"sky = { image = \"missing.exr\" }", ":3: light.sky.image: cannot read image"},
+        {"sky = { image = \"none.exr\" }", ":3: light.sky.image: a pixel has the radiance nan"},
+        {"sky = { image = \"red.exr\" }", ":3: light.sky.image: cannot read channel \"Y\""},
+        {"sky = { image = \"yellow.exr\" }", ":3: light.sky.image: cannot read channel \"Y\""},
         {"sky = { image = \"text.exr\" }", ":3: light.sky.image: cannot read image"},
         {"sky = { image = \"depth.exr\" }", ":3: light.sky.image: cannot read channel \"Y\""},
         {"sky = { image = \"square.exr\" }",

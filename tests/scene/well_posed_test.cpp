@@ -1,12 +1,17 @@
 // Set-ups without a defined answer are refused; their near neighbours are not. Scattered fields keep their promises.
 #include "base/error.h"
 #include "scene/load/load.h"
+#include "scene/load/scene_file.h"
 #include "scene/meshes/scatter.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <memory>
+#include <optional>
+#include <string>
 
 namespace shadowbench {
 namespace {
@@ -64,6 +69,66 @@ TEST(SceneSound, AScenePutTogetherInCodeIsCheckedToo) {
     } catch (const BadInput& error) {
         EXPECT_EQ(std::string(error.what()).find("x: light.v: the light has no size"), 0U) << error.what();
     }
+}
+
+/// What is wrong with the scene after `change`, which no scene file could make.
+std::string problemOf(const std::function<void(Scene&)>& change) {
+    Scene scene = parseScene(sceneText(kFarEye, kFarLight), "x.toml", Profile::Gate);
+    change(scene);
+    const std::optional<Problem> problem = findProblem(scene);
+    return problem ? problem->key + ": " + problem->sentence : "";
+}
+
+TEST(SceneSound, ADirectionOfNoLengthGivesNoLight) {
+    EXPECT_EQ(problemOf([](Scene& scene) {
+                  scene.light = {LightKind::Directional, {}, {0, 0, 0}};
+              }),
+              "light.direction: expected a vector other than zero");
+    EXPECT_EQ(problemOf([](Scene& scene) { scene.light = {LightKind::Directional, {}, {0, -1, 0}}; }), "");
+}
+
+TEST(SceneSound, WhatSweepsMoveFartherThanAnyFileMayIsRefused) {
+    const std::string where = "farther than 1e+12 m from the origin at frame 59; ";
+    EXPECT_EQ(problemOf([](Scene& scene) { scene.camera.eye.x = 2e12; }), "camera.eye: lies " + where + "move it nearer");
+    for (const int part : {0, 1, 2}) {
+        const auto move = [&](Scene& scene) {
+            scene.light = {LightKind::Rectangle, {0, 20, 0}, {}, {1, 0, 0}, {0, 0, 1}};
+            if (part == 0) scene.light.centre.y = 2e12;
+            if (part == 1) scene.light.u.x = 2e12;
+            if (part == 2) scene.light.v.z = 2e12;
+        };
+        EXPECT_EQ(problemOf(move), "light.centre: the light reaches " + where + "move it nearer") << part;
+    }
+    const std::string object = "object: an object reaches " + where + "make it smaller or move it nearer";
+    EXPECT_EQ(problemOf([](Scene& scene) { scene.objects[0].instances[0].place[3].x = 2e12; }), object);
+    EXPECT_EQ(problemOf([](Scene& scene) { scene.objects[0].instances[0].place[3].x = -2e12; }), object);
+    EXPECT_EQ(problemOf([](Scene& scene) { scene.objects.clear(); }), "") << "nothing is no problem of its own";
+}
+
+/// Shapes whose bounding boxes overlap and that still lie apart: each is told from its neighbour that touches.
+TEST(SceneSound, ALightBesideASlantedTriangleDoesNotTouchIt) {
+    const auto touches = [](const Light& light) {
+        Mesh slanted;
+        slanted.positions = {{0, 0, 0}, {2, 2, 0}, {2, 2, 2}};
+        slanted.triangles = {{0, 1, 2}};
+        return problemOf([&](Scene& scene) {
+                   scene.objects.resize(1);
+                   scene.objects[0].levels[0].mesh = std::make_shared<const Mesh>(slanted);
+                   scene.objects[0].instances = {{glm::dmat4(1), 0}};
+                   scene.light = light;
+               })
+            .starts_with("light.centre: the light lies on a surface");
+    };
+    EXPECT_TRUE(touches({LightKind::Point, {1.5, 1.5, 0.5}}));
+    EXPECT_FALSE(touches({LightKind::Point, {1.5, 1.4, 0.5}})) << "below its plane";
+    EXPECT_FALSE(touches({LightKind::Point, {0.5, 0.5, 1.5}})) << "in its plane, beyond an edge";
+    EXPECT_TRUE(touches({LightKind::Line, {1.5, 1.5, 0.5}, {}, {1, -1, 0}}));
+    EXPECT_FALSE(touches({LightKind::Line, {0.8, 0.8, 1.6}, {}, {1, -1, 0}})) << "through the plane, beyond an edge";
+    EXPECT_FALSE(touches({LightKind::Line, {0.6, 0.6, 1.4}, {}, {1, 1, 1}})) << "in the plane, along an edge";
+    EXPECT_TRUE(touches({LightKind::Rectangle, {1.5, 1.5, 0.5}, {}, {1, -1, 0}, {0, 0, 1}}));
+    EXPECT_FALSE(touches({LightKind::Rectangle, {0.5, 0.5, 1.5}, {}, {0.6, -0.6, 0}, {0, 0, 0.6}}));
+    EXPECT_FALSE(touches({LightKind::Rectangle, {2.1, 0.9, 1}, {}, {0, 2, 0}, {0, 0, 1}})) << "in a plane beside it";
+    EXPECT_FALSE(touches({LightKind::Rectangle, {1, 1, 1.7}, {}, {1, 1, 0}, {1, -1, 0}})) << "above it, cutting its plane";
 }
 
 TEST(SceneScatter, FillsTheFieldWithExactlyTheCountAndKeepsClearOfTheEye) {

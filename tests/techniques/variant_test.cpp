@@ -57,6 +57,34 @@ TEST(Variant, HalfAnAssignmentAndARepeatedOneAreRefused) {
     EXPECT_NE(refusal("pcss:map=64,map=128").find("twice"), std::string::npos);
 }
 
+TEST(Parameters, OfEachDomainAreTakenWithinItAlone) {
+    const std::vector<Parameter> declared{{"m", "0.5", RealRange{0.25, 4}, "", ""}, {"n", "2", IntegerRange{1, 8}, "", ""}};
+    const auto taken = [&](const std::string& words) {
+        try {
+            const Parameters parameters = parseParameters(words, declared, "t");
+            return canonicalVariant("t", parameters, declared);
+        } catch (const BadInput& error) {
+            return std::string(error.what());
+        }
+    };
+    EXPECT_EQ(taken("m=0.25,n=8"), "t:m=0.25,n=8");
+    EXPECT_EQ(taken("m=4.0"), "t:m=4");
+    for (const std::string value : {"0.2", "4.1", "x", "1x", ""})
+        EXPECT_EQ(taken("m=" + value), "technique t: m=" + value + " is not allowed; valid: 0.25…4");
+    for (const std::string value : {"0", "9", "x", "1x", "1.5", "99999999999", ""})
+        EXPECT_EQ(taken("n=" + value), "technique t: n=" + value + " is not allowed; valid: 1…8");
+    EXPECT_EQ(parseParameters("m=2", declared, "t").real("m"), 2);
+    EXPECT_EQ(parseParameters("m=2", declared, "t").integer("n"), 2);
+}
+
+TEST(Parameters, ThatATechniqueAsksForAsWhatTheyAreNotAreAnErrorOfOurs) {
+    const Parameters parameters(std::vector<std::pair<std::string, std::string>>{{"filter", "box"}});
+    EXPECT_THROW((void)parameters.integer("filter"), InternalError);
+    EXPECT_THROW((void)parameters.real("filter"), InternalError);
+    EXPECT_THROW((void)parameters.text("fitler"), InternalError);
+    EXPECT_EQ(parameters.text("filter"), "box");
+}
+
 TEST(Variant, GlobsGiveEveryShownVariantOfEachMatch) {
     std::set<std::string> names;
     for (const Variant& variant : matchVariants("pc*")) names.insert(variant.name);

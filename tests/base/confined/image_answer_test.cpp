@@ -46,6 +46,10 @@ TEST(ImageAnswer, BeyondABoundIsRefusedBeforeAnythingIsAllocated) {
 
 TEST(ImageAnswer, DoesNothingToATerminal) {
     EXPECT_EQ(refusal(numbers({0, 9}) + "a\nb\x1b[31m\t"), "cannot read a.png: a b [31m");
+    EXPECT_EQ(refusal(numbers({0, 3}) + "a\x7f"
+                                        "b"),
+              "cannot read a.png: a b");
+    EXPECT_EQ(refusal(numbers({0, 2}) + "\n\n"), "cannot read a.png: ");
     ImageHeader header;
     EXPECT_EQ(refusal(answer("png", 4, 0, 1, 1, "Y\x1b[2J\n"), &header), "");
     EXPECT_EQ(header.channels, std::vector<std::string>{"Y [2J"});

@@ -5,11 +5,14 @@
 #include "groundtruth/contract/reference_files.h"
 #include "groundtruth/oracle.h"
 #include "groundtruth/store/cache.h"
+#include "tests/support/failing_call.h"
 #include "tests/support/povray_scene.h"
 #include "tests/support/reference_samples.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <fcntl.h>
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
@@ -182,6 +185,27 @@ TEST_F(CacheFolder, ACacheThatCannotBeWrittenCostsOneWarning) {
     EXPECT_EQ(readFile(folder_ / "file"), "in the way");
 }
 
+TEST_F(CacheFolder, AnEntryThatCannotBeReadIsKeptAndCostsAWarning) {
+    cache().store(sample(someKey));
+    testing::internal::CaptureStderr();
+    const auto find = [&] { return std::string(cache().find(someKey) ? "found" : "not found"); };
+    EXPECT_EQ(test::saidWhere(test::failingOpen(EACCES, O_DIRECTORY, 0), find), "not found");
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(said, "warning: a stored reference is not used: cannot read " + cache().entry(someKey).string() +
+                        ": Permission denied\n");
+    EXPECT_TRUE(cache().find(someKey));
+}
+
+TEST_F(CacheFolder, ADamagedEntryThatCannotBeRemovedIsNotUsedEither) {
+    writeFile(cache().entry(someKey), "rubbish");
+    testing::internal::CaptureStderr();
+    const auto find = [&] { return std::string(cache().find(someKey) ? "found" : "not found"); };
+    EXPECT_EQ(test::saidWhere({SCMP_SYS(unlink), EROFS}, find), "not found");
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_TRUE(said.ends_with("; it cannot be removed\n")) << said;
+    EXPECT_TRUE(fs::exists(cache().entry(someKey)));
+}
+
 TEST_F(CacheFolder, WrittenReferenceHoldsTheFourChannelsAndTheProvenance) {
     Reference reference = sample(someKey);
     reference.surface(0, 0) = Surface::Receiver;
@@ -208,6 +232,13 @@ TEST(DefaultCacheFolder, FollowsTheVariablesInOrder) {
     EXPECT_EQ(defaultCacheFolder(), "/b/shadowbench");
     setenv("XDG_CACHE_HOME", "relative", 1);
     EXPECT_EQ(defaultCacheFolder(), "/c/.cache/shadowbench");
+    unsetenv("HOME");
+    EXPECT_TRUE(defaultCacheFolder().is_absolute()) << "of the user's entry in the system";
+    EXPECT_EQ(test::saidByACopy([]() -> std::string {
+                  if (::setuid(987'654) != 0) return "there is no home folder: nobody else can be tried";
+                  return defaultCacheFolder();
+              }).substr(0, 23),
+              "there is no home folder");
     own.empty() ? unsetenv("SHADOWBENCH_CACHE") : setenv("SHADOWBENCH_CACHE", own.c_str(), 1);
     xdg.empty() ? unsetenv("XDG_CACHE_HOME") : setenv("XDG_CACHE_HOME", xdg.c_str(), 1);
     home.empty() ? unsetenv("HOME") : setenv("HOME", home.c_str(), 1);

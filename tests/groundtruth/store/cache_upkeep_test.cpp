@@ -258,6 +258,7 @@ TEST(CacheLimits, AreShownInTheUnitAPersonWouldTake) {
     EXPECT_EQ(bytesText(1900846), "1.8 MiB");
     EXPECT_EQ(bytesText(std::uintmax_t{4} << 30), "4.0 GiB");
     EXPECT_EQ(durationText(std::chrono::seconds(59)), "59 s");
+    EXPECT_EQ(durationText(std::chrono::seconds(150)), "2 min");
     EXPECT_EQ(durationText(hours(47)), "1 d");
     EXPECT_EQ(durationText(hours(3)), "3 h");
 }

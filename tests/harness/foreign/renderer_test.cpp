@@ -111,7 +111,8 @@ TEST_F(RenderersFile, NamesLineAndKeyOfWhatIsWrong) {
 }
 
 TEST_F(RenderersFile, RefusesIdsThatCannotBePartOfATechniquesName) {
-    for (const char* id : {"", "A", "a b", "a:b", "a,b", "../a", "-a"})
+    EXPECT_EQ(refusal("[[renderer]]\nid = \"engine_2.1-b\"\ncommand = \"{scene}{out}\"\n"), "");
+    for (const char* id : {"", "A", "a b", "a:b", "a,b", "../a", ".a", "-a"})
         EXPECT_TRUE(contains(refusal(std::string("[[renderer]]\nid = \"") + id + "\"\ncommand = \"{scene}{out}\"\n"),
                              "cannot be an id"))
             << id;

@@ -1,7 +1,9 @@
 // Image files become visibility, or one clear sentence.
 #include "base/error.h"
+#include "base/files.h"
 #include "base/image_io.h"
 #include "base/temporary_folder.h"
+#include "harness/foreign/foreign_image.h"
 #include "harness/foreign/visibility.h"
 
 #include <cmath>
@@ -22,13 +24,15 @@ Image<float> ramp() {
     return image;
 }
 
-/// A little-endian PFM file, rows from the bottom.
-void writePfm(const fs::path& file, const Image<float>& image) {
+/// A little-endian PFM file, rows from the bottom: of one channel or of three.
+void writePfm(const fs::path& file, const std::vector<const Image<float>*>& channels) {
+    const Image<float>& first = *channels.front();
     std::ofstream stream(file, std::ios::binary);
-    stream << "Pf\n" << image.width() << ' ' << image.height() << "\n-1.0\n";
-    for (int y = image.height() - 1; y >= 0; --y)
-        stream.write(reinterpret_cast<const char*>(&image(0, y)),
-                     static_cast<std::streamsize>(sizeof(float)) * image.width());
+    stream << (channels.size() == 3 ? "PF\n" : "Pf\n") << first.width() << ' ' << first.height() << "\n-1.0\n";
+    for (int y = first.height() - 1; y >= 0; --y)
+        for (int x = 0; x < first.width(); ++x)
+            for (const Image<float>* channel : channels)
+                stream.write(reinterpret_cast<const char*>(&(*channel)(x, y)), sizeof(float));
 }
 
 class ForeignFiles : public testing::Test {
@@ -72,7 +76,7 @@ protected:
 TEST_F(ForeignFiles, ExrAndPfmAreReadToTheBitAndPngToItsSteps) {
     EXPECT_EQ(read(exr("v.exr", ramp_)).v, ramp_);
     EXPECT_EQ(read(exr("rgb.exr", {{"R", &ramp_}, {"G", &ramp_}, {"B", &ramp_}})).v, ramp_);
-    writePfm(folder_.path() / "v.pfm", ramp_);
+    writePfm(folder_.path() / "v.pfm", {&ramp_});
     EXPECT_EQ(read(folder_.path() / "v.pfm").v, ramp_);
     const fs::path png = folder_.path() / "v.png";
     writePng(png, ramp_);
@@ -103,6 +107,81 @@ TEST_F(ForeignFiles, NumbersThatAreNoneAreCountedAndPlaced) {
         expectIn(refusal(exr("bad.exr", image)), "holds 1 pixel without a finite number; the first is");
         expectIn(refusal(exr("bad.exr", image)), "at (3, 5)");
     }
+}
+
+TEST_F(ForeignFiles, NumbersThatAreNoneAreCountedInThePlural) {
+    Image<float> image = ramp_;
+    image(3, 5) = image(4, 6) = std::numeric_limits<float>::infinity();
+    expectIn(refusal(exr("bad.exr", image)), "holds 2 pixels without a finite number; the first is inf at (3, 5)");
+}
+
+TEST_F(ForeignFiles, OfAnotherFormatOrOfNoRelatedSizeAreRefused) {
+    std::ofstream(folder_.path() / "v.bmp", std::ios::binary) << "BM" << std::string(52, '\0');
+    expectIn(refusal(folder_.path() / "v.bmp"), "is of the format bmp: give EXR, PNG or PFM");
+    expectIn(refusal(exr("odd.exr", Image<float>(5, 7, 1))), "has 5 × 7 pixels; the scene's images have 16 × 16");
+}
+
+/// 16 × 16 pixels of two entries of a palette: black in the left half, white in the right one.
+std::string pngWithPalette() {
+    constexpr std::string_view digits =
+        "89504e470d0a1a0a0000000d4948445200000010000000100103000000253d6d2200000006504c5445000000ffffffa5"
+        "d99fdd0000000e4944415478da6360f8cf400a020076c70ff1f9ef6fae0000000049454e44ae426082";
+    std::string bytes;
+    for (std::size_t i = 0; i < digits.size(); i += 2)
+        bytes += static_cast<char>(std::stoi(std::string(digits.substr(i, 2)), nullptr, 16));
+    return bytes;
+}
+
+TEST_F(ForeignFiles, OfThreeEqualColoursAreReadAsOfOneGrey) {
+    Image<glm::vec3> grey(side, side);
+    for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = glm::vec3(ramp_[i]);
+    writePng(folder_.path() / "rgb.png", grey);
+    const Image<float> eight = read(folder_.path() / "rgb.png", Encoding::Linear).v;
+    for (std::size_t i = 0; i < eight.size(); ++i) EXPECT_NEAR(eight[i], ramp_[i], 0.5 / 255 + 1e-6);
+    writePfm(folder_.path() / "rgb.pfm", {&ramp_, &ramp_, &ramp_});
+    EXPECT_EQ(read(folder_.path() / "rgb.pfm").v, ramp_);
+    fs::resize_file(folder_.path() / "rgb.pfm", fs::file_size(folder_.path() / "rgb.pfm") / 2);
+    expectIn(refusal(folder_.path() / "rgb.pfm"), "rgb.pfm");
+}
+
+TEST_F(ForeignFiles, ColoursOfEachFormatAreToldApart) {
+    Image<float> red = ramp_;
+    red(7, 2) = 0;
+    writePfm(folder_.path() / "c.pfm", {&red, &ramp_, &ramp_});
+    expectIn(refusal(folder_.path() / "c.pfm"), "is coloured: red, green and blue differ by");
+    Image<glm::vec3> coloured(side, side, glm::vec3(1));
+    coloured(7, 2) = glm::vec3(1, 1, 0.5F);
+    writePng(folder_.path() / "c.png", coloured);
+    expectIn(refusal(folder_.path() / "c.png", Encoding::Linear), "at receiver pixel (7, 2)");
+}
+
+TEST_F(ForeignFiles, OfAPaletteAreReadWithAWarning) {
+    const fs::path file = folder_.path() / "palette.png";
+    std::ofstream(file, std::ios::binary) << pngWithPalette();
+    const Visibility found = read(file, Encoding::Linear);
+    EXPECT_EQ(found.v(7, 3), 0);
+    EXPECT_EQ(found.v(8, 3), 1);
+    ASSERT_EQ(warnings_.size(), 1U);
+    expectIn(warnings_.front(), "has a palette, so at most 256 values: save it as grey");
+}
+
+TEST_F(ForeignFiles, OfAWindowOfALargerPictureAreRefused) {
+    const fs::path file = exr("window.exr", ramp_);
+    std::string bytes = readFile(file);
+    const std::string name("displayWindow\0box2i\0", 20);
+    bytes[bytes.find(name) + name.size() + 12] = 99; // its right edge
+    std::ofstream(file, std::ios::binary) << bytes;
+    expectIn(refusal(file), "is a window of a larger picture, or holds depth samples: write it whole and flat");
+}
+
+TEST_F(ForeignFiles, DepthIsTheChannelZAmongOthers) {
+    const Image<float> other(side, side, 0.5F);
+    const glm::ivec2 size(side, side);
+    EXPECT_EQ(readNumbers(exr("z.exr", {{"R", &other}, {"Z", &ramp_}, {"mask", &other}}), size), ramp_);
+    EXPECT_EQ(readNumbers(exr("layer.exr", {{"View.Z", &ramp_}, {"View.mask", &other}}), size), ramp_);
+    EXPECT_EQ(readNumbers(exr("one.exr", ramp_), size), ramp_);
+    EXPECT_THROW(readNumbers(exr("two.exr", {{"a.Z", &ramp_}, {"b.Z", &other}}), size), BadInput) << "which of them?";
+    expectIn(refusal(exr("three.exr", {{"R", &ramp_}, {"G", &ramp_}, {"mask", &other}})), "name the one that is visibility");
 }
 
 TEST_F(ForeignFiles, ValuesOutsideOfZeroToOneMatterAtReceivers) {
@@ -147,7 +226,7 @@ TEST_F(ForeignFiles, MissingDamagedAndOtherFilesAreNamed) {
         if (name == "v.png")
             writePng(file, ramp_);
         else if (name == "v.pfm")
-            writePfm(file, noise);
+            writePfm(file, {&noise});
         else
             writeExr(file, {{"Y", &noise}});
         fs::resize_file(file, fs::file_size(file) * 2 / 3);

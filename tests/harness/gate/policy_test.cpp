@@ -183,6 +183,15 @@ TEST(GateAnchor, NeitherFiguresNorWhatIsNewOrGoneDrift) {
     EXPECT_TRUE(judgeDrift({"v1", 4, ""}, {before}, {now, isNew}).changes.empty());
 }
 
+TEST(GateAnchor, BreakPointsDoNotDrift) {
+    const auto swept = [](double breakPoint) {
+        Record record = counted(1e6);
+        record.sweep = SweepStep{"near-plane", "m", record.variant, 1, breakPoint};
+        return record;
+    };
+    EXPECT_TRUE(judgeDrift({"v1", 4, ""}, {swept(0.1)}, {swept(1)}).changes.empty()) << "the gate judges each by itself";
+}
+
 TEST(GateAnchor, WhatCannotBeComparedIsNotedOnce) {
     Record other = counted(1e6), another = counted(1e6);
     other.reference->key = another.reference->key = "other";

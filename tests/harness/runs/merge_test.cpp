@@ -122,6 +122,9 @@ TEST_F(Merge, OfRepeatedCellsKeepsTheEarlierInEveryOrder) {
     put(b, 1, again);
     EXPECT_EQ(merge({a, b}).result.records[1].time, again.time);
     EXPECT_EQ(lines(merge({b, a})), lines(merge({a, b})));
+    again.time = "2026-01-02T03:04:06Z";
+    put(b, 1, again);
+    EXPECT_EQ(merge({a, b}).result.records[1].time, records_[1].time) << "the first folder's is the earlier one";
 }
 
 TEST_F(Merge, RefusesRepeatedCellsWithOtherScores) {
@@ -172,6 +175,38 @@ TEST_F(Merge, RefusesCellsOfAnotherTreeWithChanges) {
     EXPECT_TRUE(names(refusal<Inconclusive>({a}), {"another program of commit c0ffee with changes", manifest_[2].id}));
 }
 
+TEST_F(Merge, TellsATreeWithChangesFromTheCommitItself) {
+    const fs::path a = folder("a", {0, 1, 2});
+    Record other = records_[2];
+    other.dirty = true;
+    put(a, 2, other);
+    EXPECT_TRUE(names(refusal<Inconclusive>({a}), {"by commit c0ffee with changes, the manifest is of c0ffee;"}));
+    other.dirty = false;
+    other.program = "abcd";
+    put(a, 2, other);
+    EXPECT_TRUE(names(refusal<Inconclusive>({a}), {"another program of commit c0ffee: its sources"}));
+    manifest_[2].dirty = true;
+    const fs::path b = folder("b", {0, 1, 2});
+    EXPECT_TRUE(names(refusal<Inconclusive>({b}), {"by commit c0ffee, the manifest is of c0ffee with changes;"}));
+}
+
+TEST_F(Merge, WithoutAFolderSaysWhatItIsFor) {
+    EXPECT_EQ(refusal<BadInput>({}), "merge joins the folders of a run in parts; name at least one");
+}
+
+TEST_F(Merge, DoesNotCompareWhereOtherRenderersRan) {
+    const fs::path a = folder("a", {0, 1, 2});
+    Record external = records_[2];
+    external.technique = "external:my-engine";
+    external.variant = "external:my-engine";
+    external.external = ExternalInfo{};
+    external.external->reported = ReportedCost{3.5};
+    external.environment.renderer = "another machine's";
+    put(a, 2, external);
+    EXPECT_TRUE(merge({a}).missing.empty());
+    EXPECT_FALSE(withoutTimings(external).external->reported);
+}
+
 TEST_F(Merge, RefusesFoldersOfDifferentRuns) {
     const fs::path a = folder("a", {0, 1, 2});
     manifest_[1].seed = 2;
@@ -185,6 +220,8 @@ TEST_F(Merge, BringsTheImagesAlong) {
     writeFile(a / "images/scene/none/error.png", "picture");
     copyImages(a, folder_.path() / "out");
     copyImages(a, a);
+    copyImages(folder("without", {}), folder_.path() / "none");
+    EXPECT_FALSE(fs::exists(folder_.path() / "none"));
     EXPECT_EQ(readFile(folder_.path() / "out/images/scene/none/error.png"), "picture");
 }
 

@@ -213,6 +213,15 @@ TEST(Claims, MistakesNameClaimAndKey) {
     EXPECT_EQ(message(claim(R"({"says": "s", "scene": "x", "metric": "m", "published": {"a": 1}, )"
                             R"("rank correlation at least": 1})")),
               "reading claims: K0: \"published\" must give the document's numbers of two variants or more");
+    const auto order = [&](const std::string& published) {
+        return message(claim(R"({"says": "s", "scene": "x", "metric": "m", "published": )" + published +
+                             R"(, "rank correlation at least": 1})"));
+    };
+    EXPECT_EQ(order("[1, 2]"), "reading claims: K0: \"published\" must give the document's numbers of two variants or more");
+    EXPECT_EQ(order(R"({"a": 1, "b": "2"})"), "reading claims: K0: the published number of b must be a number");
+    EXPECT_EQ(message(R"([{"id": "K0", "says": "s", "where": "w", "untestable": "u", "checks": []}])"),
+              "reading claims: K0: a claim has either \"checks\" or \"untestable\"");
+    EXPECT_EQ(message(R"([{"id": "K0", "says": "s", "where": "w", "untestable": "nobody measured it"}])"), "");
 }
 
 TEST(Claims, TheReportNamesTheFigures) {

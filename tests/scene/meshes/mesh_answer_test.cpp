@@ -60,6 +60,9 @@ TEST(MeshAnswer, WithAnIndexOutOfRangeOrANumberThatIsNoneIsRefused) {
     EXPECT_EQ(refusal(numbers({1}) + triangle(0, ~0U)), "cannot read a.png: a triangle uses position 4294967295 of 3");
     for (const float z : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
         EXPECT_EQ(refusal(numbers({1}) + triangle(z)), "cannot read a.png: position 2 is not finite");
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    for (const auto& [x, y] : {std::pair{none, 0.0F}, std::pair{0.0F, none}})
+        EXPECT_EQ(refusal(numbers({1, 1, 0}) + bytesOf<float>({x, y, 0})), "cannot read a.png: position 0 is not finite");
 }
 
 TEST(MeshAnswer, BeyondABoundIsRefusedBeforeAnythingIsAllocated) {

@@ -1,7 +1,7 @@
 // The whole gate on stand-ins for base and head: what is judged, what is not and why, and what that comes to.
-#include "harness/cells/external_techniques.h"
 #include "harness/gate/verdict.h"
 #include "tests/harness/gate/programs/gate_of_stand_ins.h"
+#include "tests/harness/gate/programs/one_renderer.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -272,34 +272,6 @@ TEST_F(GateOfStandIns, AnAnchorWithWhichNothingCanBeComparedIsNamed) {
     EXPECT_EQ(result.code(), ExitCode::Inconclusive);
     EXPECT_TRUE(has(result.unjudged, "nothing can be compared with the anchor")) << all(result.unjudged);
 }
-
-/// Renderers of which there is one, "external:copy"; nobody calls it here but the head, by its file.
-class OneRenderer : public ExternalTechniques {
-public:
-    OneRenderer() {
-        entry_.id = "external:copy";
-        variants_ = {techniques::Variant{&entry_, techniques::Parameters({}), entry_.id}};
-    }
-    [[nodiscard]] const std::vector<techniques::Variant>& variants() const override { return variants_; }
-    [[nodiscard]] std::optional<std::string> notApplicable(const Scene& /*scene*/,
-                                                           const techniques::Variant& /*variant*/) const override {
-        return {};
-    }
-    [[nodiscard]] std::vector<std::pair<Truth, int>> truthsOf(const Scene& /*scene*/,
-                                                              const techniques::Variant& /*variant*/) const override {
-        return {};
-    }
-    [[nodiscard]] std::string cellId(const Truths& /*truths*/, const Scene& /*scene*/,
-                                     const techniques::Variant& /*variant*/) const override {
-        return "";
-    }
-    void score(SceneFrames& /*frames*/, const techniques::Variant& /*variant*/, Record& /*record*/, CellImages& /*images*/,
-               const Progress& /*progress*/) const override {}
-
-private:
-    techniques::Entry entry_;
-    std::vector<techniques::Variant> variants_;
-};
 
 TEST_F(GateOfStandIns, OtherRenderersAreCalledByTheHeadEachTimeAndComparedWithRecords) {
     options_.external = std::make_shared<OneRenderer>();

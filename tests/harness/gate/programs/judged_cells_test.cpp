@@ -3,10 +3,12 @@
 
 #include "base/temporary_folder.h"
 #include "harness/gate/failure_pictures.h"
+#include "tests/harness/gate/programs/one_renderer.h"
 #include "tests/harness/gate/programs/stand_in.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>
+#include <memory>
 
 namespace shadowbench::gate {
 namespace {
@@ -58,6 +60,10 @@ TEST_F(CellsOfStandIns, AreCountedWhereThePolicyNamesThemAndAllWhereItNamesNoneO
     EXPECT_EQ(steps(false), Words{"tiny: pcf none"});
     bounds(entry("count", "trees", "pcf"));
     EXPECT_EQ(steps(true), Words{"tiny, instructions: pcf none"});
+    writeFile(path("other.toml"), standInScene());
+    options_.scenes.push_back(path("other.toml"));
+    bounds(entry("count", "tiny", "pcf"));
+    EXPECT_EQ(steps(true), (Words{"tiny: none", "tiny, instructions: pcf", "other: pcf none"})) << "of one scene alone";
 }
 
 TEST_F(CellsOfStandIns, AreTimedWhereThePolicyNamesThemAndBothProgramsHaveThem) {
@@ -81,6 +87,12 @@ TEST_F(CellsOfStandIns, OfLevelsOfDetailAndThoseThatDoNotApplyHaveNoPairedTime) 
     EXPECT_EQ(timed(), Words{}) << "the scene has a point light, and no levels";
     writeFile(path("tiny.toml"), standInScene(areaLight));
     EXPECT_EQ(timed(), Words{"pcss"});
+}
+
+TEST_F(CellsOfStandIns, OfOtherRenderersHaveNoPairedTime) {
+    options_.external = std::make_shared<OneRenderer>();
+    options_.techniques = {"external:*", "pcf"};
+    EXPECT_EQ(timed(), Words{"pcf"}) << "nobody says that they would take the same time again";
 }
 
 TEST_F(CellsOfStandIns, OfABuiltInSceneAreRunByProgramsThatHaveIt) {
@@ -183,6 +195,16 @@ TEST_F(PicturesOfStandIns, AreOfEachSceneItsOwn) {
     EXPECT_TRUE(pictures[0].head.string().ends_with("tiny/none"));
     ASSERT_TRUE(pictures[1].headRecord);
     EXPECT_EQ(pictures[1].headRecord->scene, "other");
+}
+
+TEST_F(PicturesOfStandIns, OfTwoTechniquesOnOneSceneHaveTheRecordOfEach) {
+    for (const StandIn* standIn : {&base_, &head_}) standIn->measures({standInRecord("none"), standInRecord("pcf")});
+    const std::vector<FailurePictures> pictures = drawn({worse("pcf"), worse("none")});
+    ASSERT_EQ(pictures.size(), 2U);
+    for (const FailurePictures& cell : pictures) {
+        ASSERT_TRUE(cell.headRecord);
+        EXPECT_EQ(cell.headRecord->variant, cell.variant);
+    }
 }
 
 TEST_F(PicturesOfStandIns, AreADozenAtMost) {

@@ -3,9 +3,11 @@
 
 #include "base/error.h"
 #include "base/folder_lock.h"
+#include "base/process.h"
 #include "base/temporary_folder.h"
 #include "tests/harness/gate/programs/stand_in.h"
 
+#include <cstdlib>
 #include <gtest/gtest.h>
 
 namespace shadowbench::gate {
@@ -79,6 +81,21 @@ TEST_F(AMeasuredProgram, IsMeasuredAgainForOtherInputsAndWithOtherPrograms) {
     (void)measure(step_);
     (void)measure(step_);
     EXPECT_EQ(standIn_.calls("run"), 4);
+}
+
+/// Its instructions may be counted there, and are not here.
+TEST_F(AMeasuredProgram, IsMeasuredAgainWhereThereIsNoValgrind) {
+    (void)measure(step_);
+    const fs::path tools = folder_.path() / "tools";
+    fs::create_directories(tools);
+    for (const char* tool : {"basename", "cat", "dirname", "grep", "mkdir"})
+        if (const auto found = findProgram(tool)) fs::create_symlink(*found, tools / tool);
+    const std::string before = std::getenv("PATH");
+    setenv("PATH", tools.c_str(), 1);
+    const Measured without = measure(step_);
+    setenv("PATH", before.c_str(), 1);
+    EXPECT_EQ(without.records.size(), 1U);
+    EXPECT_EQ(standIn_.calls("run"), findProgram("valgrind") ? 2 : 1);
 }
 
 TEST_F(AMeasuredProgram, SaysHowFarItIsInLinesOfTheirOwnForm) {
