@@ -74,6 +74,18 @@ int flushFolder(const fs::path& folder) {
     return cannot ? 0 : failed;
 }
 
+/// The path of a file that is removed in the end, unless it was cleared.
+struct RemovedPath {
+    std::string text;
+
+    RemovedPath() = default;
+    RemovedPath(const RemovedPath&) = delete;
+    RemovedPath& operator=(const RemovedPath&) = delete;
+    ~RemovedPath() {
+        if (!text.empty()) ::unlink(text.c_str());
+    }
+};
+
 /// A file of its own name beside `target`, removed again unless it was renamed to its target.
 class TemporaryFile {
 public:
@@ -82,28 +94,25 @@ public:
         const std::string stem = target.stem().string().substr(0, longestStem);
         const std::string name = (target.parent_path() / fmt::format(".{}{}{}{}", stem, mark, unique, extension)).string();
         do {
-            path_ = name;
-            descriptor_ = Descriptor(::mkostemps(path_.data(), static_cast<int>(extension.size()), O_CLOEXEC));
+            path_.text = name;
+            descriptor_ = Descriptor(::mkostemps(path_.text.data(), static_cast<int>(extension.size()), O_CLOEXEC));
             if (descriptor_.get() < 0) failToWrite(target, errno);
             // Where the file system has no locks, nobody can take the file for abandoned either.
             ::flock(descriptor_.get(), LOCK_EX);
-        } while (!isStillNamed(descriptor_.get(), path_)); // another process may have taken it for a dead one's
-        ::fchmod(descriptor_.get(), 0644);                 // it was made private to its owner
-        live_.emplace(path_);
+        } while (!isStillNamed(descriptor_.get(), path_.text)); // another process may have taken it for a dead one's
+        ::fchmod(descriptor_.get(), 0644);                      // it was made private to its owner
+        live_.emplace(path_.text);
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() {
-        if (!path_.empty()) ::unlink(path_.c_str());
-    }
 
-    [[nodiscard]] fs::path path() const { return path_; }
+    [[nodiscard]] fs::path path() const { return path_.text; }
 
     /// `lasting`: it outlives a power cut, in which a file that was renamed before it was on the disk can be left empty.
     void moveToTarget(bool lasting) {
-        if (const int failed = lasting ? flush(path_, 0) : 0; failed != 0) failToWrite(target_, failed);
-        if (::rename(path_.c_str(), target_.c_str()) != 0) failToWrite(target_, errno);
-        path_.clear();
+        if (const int failed = lasting ? flush(path_.text, 0) : 0; failed != 0) failToWrite(target_, failed);
+        if (::rename(path_.text.c_str(), target_.c_str()) != 0) failToWrite(target_, errno);
+        path_.text.clear();
         live_.reset();
         if (const int failed = lasting ? flushFolder(target_.parent_path()) : 0; failed != 0) failToWrite(target_, failed);
     }
@@ -111,7 +120,7 @@ public:
 private:
     DeferredInterrupts deferred_; // destroyed last
     fs::path target_;
-    std::string path_;
+    RemovedPath path_;
     std::optional<LiveFile> live_;
     Descriptor descriptor_{-1}; // holds the lock
 };
