@@ -1,6 +1,7 @@
 // A glTF file as a scene: its meshes where its nodes put them, its camera and its light, at rest.
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "scene/exchange/gltf.h"
 #include "scene/exchange/json_values.h"
 
@@ -113,7 +114,7 @@ public:
 
     std::string text() {
         const Json& scenes = listIn(gltf_, "scenes");
-        const std::size_t shown = gltf_.value("scene", std::size_t{0});
+        const std::size_t shown = gltf_.contains("scene") ? whole(gltf_["scene"]) : 0;
         if (shown >= scenes.size()) fail(fmt::format("it has no scenes[{}]", shown));
         for (const Json& root : listIn(scenes[shown], "nodes")) visit(root, glm::dmat4(1), 0);
         if (objects_.empty()) fail("no node of it shows a mesh");
@@ -140,8 +141,16 @@ private:
         return json;
     }
 
+    [[nodiscard]] std::size_t whole(const Json& number) const {
+        try {
+            return wholeNumber<std::size_t>(number);
+        } catch (const BadInput& error) {
+            fail(error.what());
+        }
+    }
+
     [[nodiscard]] const Json& entry(const Json& list, const char* name, const Json& index) const {
-        const auto at = index.get<std::size_t>();
+        const std::size_t at = whole(index);
         if (at >= list.size()) fail(fmt::format("it has no {}[{}]", name, at));
         return list[at];
     }
@@ -168,7 +177,7 @@ private:
 
     void addMesh(const Json& index, const glm::dmat4& world) {
         const Json& mesh = entry(listIn(gltf_, "meshes"), "meshes", index);
-        const auto number = index.get<std::size_t>();
+        const std::size_t number = whole(index);
         // Instances keep the order of their nodes, and so their numbers.
         if (objects_.empty() || lastMesh_ != number) objects_.push_back(objectOf(mesh, number));
         lastMesh_ = number;

@@ -1,5 +1,6 @@
 // The reader of meshes by name. assimp's rounds matrices and may reorder vertices; here each mesh is as it lies in the file.
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/limits.h"
 #include "scene/meshes/foreign_mesh.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kTriangles = 4;
+constexpr std::size_t kTriangles = 4;
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126; // glTF's numbers for the types of components
 
 std::size_t sizeOf(int component) { return component == kByte ? 1 : component == kShort ? 2 : 4; }
@@ -51,6 +52,13 @@ private:
         }
     }
 
+    [[nodiscard]] static std::size_t whole(const Json& number) { return wholeNumber<std::size_t>(number); }
+
+    [[nodiscard]] static std::size_t wholeOr(const Json& object, const char* name, std::size_t otherwise) {
+        const auto found = object.find(name);
+        return found == object.end() ? otherwise : whole(*found);
+    }
+
     [[nodiscard]] const Json& list(const char* name) const {
         static const Json none = Json::array();
         const auto found = gltf_.find(name);
@@ -75,12 +83,12 @@ private:
     [[nodiscard]] Elements elementsOf(std::size_t accessor, std::size_t components) const {
         const Json& a = entry("accessors", accessor);
         if (!a.contains("bufferView") || a.contains("sparse")) fail(fmt::format("accessors[{}] is sparse", accessor));
-        const Json& view = entry("bufferViews", a.at("bufferView"));
-        const std::string& bytes = bytesOf(view.at("buffer"));
-        const int component = a.at("componentType");
-        const std::size_t width = components * sizeOf(component), count = a.at("count");
-        const std::size_t stride = view.value("byteStride", width);
-        const std::size_t first = view.value("byteOffset", std::size_t{0}) + a.value("byteOffset", std::size_t{0});
+        const Json& view = entry("bufferViews", whole(a.at("bufferView")));
+        const std::string& bytes = bytesOf(whole(view.at("buffer")));
+        const int component = wholeNumber<int>(a.at("componentType"));
+        const std::size_t width = components * sizeOf(component), count = whole(a.at("count"));
+        const std::size_t stride = wholeOr(view, "byteStride", width);
+        const std::size_t first = wholeOr(view, "byteOffset", 0) + wholeOr(a, "byteOffset", 0);
         if (count == 0 || stride < width || first > bytes.size() || count - 1 > (bytes.size() - first) / stride ||
             (count - 1) * stride + width > bytes.size() - first)
             fail(fmt::format("accessors[{}] reaches beyond its buffer", accessor));
@@ -92,10 +100,10 @@ private:
         const Json& primitives = mesh.at("primitives");
         if (primitives.size() != 1) return std::nullopt;
         const Json& primitive = primitives[0];
-        if (primitive.value("mode", kTriangles) != kTriangles || !primitive.contains("indices")) return std::nullopt;
+        if (wholeOr(primitive, "mode", kTriangles) != kTriangles || !primitive.contains("indices")) return std::nullopt;
         Mesh result;
-        readPositions(elementsOf(primitive.at("attributes").at("POSITION"), 3), result);
-        readIndices(elementsOf(primitive.at("indices"), 1), result);
+        readPositions(elementsOf(whole(primitive.at("attributes").at("POSITION")), 3), result);
+        readIndices(elementsOf(whole(primitive.at("indices")), 1), result);
         return result;
     }
 

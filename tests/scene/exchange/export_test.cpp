@@ -219,19 +219,21 @@ TEST_P(DamagedGltf, IsRefusedByNameAndReason) {
     EXPECT_NE(message.find(GetParam().message), std::string::npos) << message;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DamagedGltf,
-                         testing::Values(Damage{"NoJson", "{", "[", "not valid JSON"},
-                                         Damage{"OtherVersion", "\"2.0\"", "\"1.0\"", "no glTF 2.0"},
-                                         Damage{"OtherName", "\"meshes\": [\n  {\"name\":\"object_1\"",
-                                                "\"meshes\": [\n  {\"name\":\"objekt_1\"",
-                                                "has no mesh \"object_1\" (did you mean \"objekt_1\"?)"},
-                                         Damage{"NoBuffer", "scene.bin", "other.bin", "other.bin"},
-                                         Damage{"InsideTheFile", "scene.bin", "data:,x", "a buffer is inside of the file"},
-                                         Damage{"TooLong", "\"count\":8", "\"count\":9999", "reaches beyond its buffer"},
-                                         Damage{"WrongKind", "\"count\":8", "\"count\":\"8\"", "of another kind"},
-                                         Damage{"NoFloats", "5126", "5125", "positions are no 32-bit floats"},
-                                         Damage{"NoView", "\"bufferView\":1", "\"bufferView\":7", "has no bufferViews[7]"}),
-                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    All, DamagedGltf,
+    testing::Values(Damage{"NoJson", "{", "[", "not valid JSON"},
+                    Damage{"OtherVersion", "\"2.0\"", "\"1.0\"", "no glTF 2.0"},
+                    Damage{"OtherName", "\"meshes\": [\n  {\"name\":\"object_1\"", "\"meshes\": [\n  {\"name\":\"objekt_1\"",
+                           "has no mesh \"object_1\" (did you mean \"objekt_1\"?)"},
+                    Damage{"NoBuffer", "scene.bin", "other.bin", "other.bin"},
+                    Damage{"InsideTheFile", "scene.bin", "data:,x", "a buffer is inside of the file"},
+                    Damage{"TooLong", "\"count\":8", "\"count\":9999", "reaches beyond its buffer"},
+                    Damage{"WrongKind", "\"count\":8", "\"count\":\"8\"", "is no whole number"},
+                    Damage{"NoSuchNumber", "\"indices\"", "\"mode\":4e32,\"indices\"", "4e+32 is no whole number"},
+                    Damage{"NoIndices", "\"indices\"", "\"other\"", "has no mesh"},
+                    Damage{"NoFloats", "5126", "5125", "positions are no 32-bit floats"},
+                    Damage{"NoView", "\"bufferView\":1", "\"bufferView\":7", "has no bufferViews[7]"}),
+    [](const auto& test) { return test.param.name; });
 
 } // namespace
 } // namespace shadowbench
