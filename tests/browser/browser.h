@@ -36,6 +36,10 @@ public:
 
     /// Waits until the expression is true; throws after ten seconds, naming it.
     void waitFor(const std::string& expression);
+    /// Waits until all viewers of cells on the page show theirs, if it has any.
+    void waitForViewers() {
+        waitFor("[...document.querySelectorAll('.viewer')].every((e) => !e.viewer || e.viewer.shown?.edges)");
+    }
 
     /// A key with its name in KeyboardEvent.key ("n", "ArrowLeft").
     void press(const std::string& key);

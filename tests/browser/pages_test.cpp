@@ -69,6 +69,7 @@ TEST(Pages, AreOperableByTheKeyboardWithVisibleFocus) {
         if (!fs::exists(file)) continue; // of another site
         const auto tab = chromium().tab();
         tab->open(file);
+        tab->waitForViewers();
         EXPECT_EQ(keyboardFaults(*tab), Sentences()) << page;
     }
 }

@@ -39,7 +39,7 @@ void shoot(Browser& browser, const fs::path& site, const fs::path& out, const st
     const std::size_t hash = std::min(page.find('#'), page.size());
     const auto tab = browser.tab(looksOf(words.substr(page.size())));
     tab->open(site / page.substr(0, hash), page.substr(hash));
-    tab->waitFor("[...document.querySelectorAll('.viewer')].every((e) => !e.viewer || e.viewer.shown?.edges)");
+    tab->waitForViewers();
     tab->value("new Promise((done) => setTimeout(done, 300))"); // charts are drawn once they are seen
     const fs::path file = out / (nameOf(words) + ".png");
     shadowbench::writeFile(file, tab->screenshot());

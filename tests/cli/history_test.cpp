@@ -13,7 +13,8 @@ namespace {
 class History : public ::testing::Test {
 protected:
     void SetUp() override {
-        ASSERT_EQ(git("init --quiet").code, 0);
+        const Outcome made = git("init --quiet");
+        ASSERT_EQ(made.code, 0) << made.output;
         for (int i = 0; i < 4; ++i) {
             const std::string date = "2026-01-0" + std::to_string(i + 1) + "T12:00:00Z";
             ASSERT_EQ(git("commit --quiet --allow-empty -m 'step " + std::to_string(i) + "'", date).code, 0);
