@@ -40,10 +40,10 @@ Reached toldOf = [](std::size_t) {};
 // ---- in the worker
 // ---------------------------------------------------------------------------------------------------------------
 
-/// The signal ends a worker whose input takes longer.
-void allowASecond() {
-    const itimerval second{{0, 0}, {1, 0}};
-    ::setitimer(ITIMER_PROF, &second, nullptr);
+/// The signal ends a worker whose input takes longer than a fifth of a second, which is far more than most need.
+void allowTime() {
+    const itimerval time{{0, 0}, {0, 200'000}};
+    ::setitimer(ITIMER_PROF, &time, nullptr);
 }
 
 std::pair<Said, std::string> readOne(const Worker::Read& read, const std::string& input) {
@@ -72,7 +72,7 @@ std::pair<Said, std::string> readOne(const Worker::Read& read, const std::string
     try {
         for (Wire wire{Descriptor(socket)};;) {
             const std::string input = wire.text(longestInput);
-            allowASecond();
+            allowTime();
             const auto [said, sentence] = readOne(read, input);
             wire.put(static_cast<std::uint64_t>(said));
             wire.put(std::string_view(sentence).substr(0, longestSentence));

@@ -33,9 +33,9 @@ public:
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    /// Throws BadInput where the input is refused, where the library dies of it, and after one second of processor time or
-    /// 15 of any. Throws std::logic_error with the report where our own code is at fault (tests/fuzz/fault.h), in a new
-    /// worker, too: an earlier input may have done the damage.
+    /// Throws BadInput where the input is refused, where the library dies of it, and after a fifth of a second of processor
+    /// time or 15 of any. Throws std::logic_error with the report where our own code is at fault (tests/fuzz/fault.h), in a
+    /// new worker, too: an earlier input may have done the damage.
     void read(std::string_view input);
 
 private:
