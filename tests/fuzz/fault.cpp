@@ -42,9 +42,10 @@ bool isOfTheSystem(std::string_view library) {
     return std::ranges::any_of(system, [&](std::string_view name) { return library.starts_with(name); });
 }
 
-/// The sanitizers' functions have no source file here, or one of compiler-rt.
+/// The sanitizers' functions have no source file here, or one of compiler-rt. Templates of the C++ library that this program
+/// has, too, are run by libraries in its stead.
 bool isOurs(const std::string& symbol) {
-    if (symbol.find("/compiler-rt/") != std::string::npos) return false;
+    if (symbol.find("/compiler-rt/") != std::string::npos || symbol.find("/include/c++/") != std::string::npos) return false;
     const bool hasFile = !symbol.ends_with("??") && !symbol.ends_with("<null>") && !symbol.ends_with(' ');
     return hasFile || symbol.find("shadowbench::") != std::string::npos;
 }
@@ -59,6 +60,8 @@ std::string symbolAt(std::uintptr_t address) {
 }
 
 std::string libraryAtFault(std::string_view report, std::string_view program, const SymbolAt& symbol) {
+    // Where std::bad_alloc would be thrown, which the reader of a run refuses the file for, the sanitizer cannot throw it.
+    if (report.find("ERROR: AddressSanitizer: allocator is out of memory") != std::string_view::npos) return "memory";
     for (const Frame& frame : firstStackOf(report)) {
         if (frame.module == program) {
             if (isOurs(symbol(frame.address))) return "";

@@ -13,6 +13,7 @@ std::string symbolOf(std::uintptr_t address) {
         {0x10, "__asan_memcpy ??"},
         {0x15, "__asan_memmove /build/llvm-14/compiler-rt/lib/asan/asan_interceptors_memintrinsics.cpp"},
         {0x20, "operator new(unsigned long) <null>"},
+        {0x25, "std::string::resize(unsigned long, char) /usr/include/c++/12/bits/basic_string.h"},
         {0x30, "shadowbench::(anonymous namespace)::addTriangles(shadowbench::Mesh&, aiMesh const&) /s/scene/read_mesh.cpp"},
         {0x40, "shadowbench::weld(shadowbench::Mesh const&) ??"},
         {0x50, "Assimp::MemoryIOStream::Read(void*, unsigned long, unsigned long) /usr/include/assimp/MemoryIOWrapper.h"}};
@@ -31,6 +32,18 @@ TEST(Fault, LiesInTheInnermostFunctionThatIsOursOrALibrarys) {
     EXPECT_EQ(blamed("    #0 0x99  (/usr/lib/libassimp.so.5+0x99)\n    #1 0x30  (/b/fuzz+0x30)\n"), "libassimp.so.5");
     EXPECT_EQ(blamed("    #0 0x30  (/b/fuzz+0x30)\n    #1 0x99  (/usr/lib/libassimp.so.5+0x99)\n"), "");
     EXPECT_EQ(blamed("    #0 0x50  (/b/fuzz+0x50)\n    #1 0x99  (/usr/lib/libassimp.so.5+0x99)\n"), "");
+}
+
+TEST(Fault, DoesNotLieInTemplatesOfTheCppLibrary) {
+    EXPECT_EQ(blamed("    #0 0x25  (/b/fuzz+0x25)\n    #1 0x99  (/usr/lib/libOpenEXR.so.30+0x99)\n"), "libOpenEXR.so.30");
+    EXPECT_EQ(blamed("    #0 0x25  (/b/fuzz+0x25)\n    #1 0x30  (/b/fuzz+0x30)\n"), "");
+}
+
+TEST(Fault, IsNoneWhereThereIsNoMemory) {
+    const std::string report =
+        "==7==ERROR: AddressSanitizer: allocator is out of memory trying to allocate 0x6f646e6a bytes\n"
+        "    #0 0x30  (/b/fuzz+0x30)\n";
+    EXPECT_NE(libraryAtFault(report, "/b/fuzz", symbolOf), "");
 }
 
 TEST(Fault, DoesNotLieInTheSanitizersOrTheCLibrary) {
