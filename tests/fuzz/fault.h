@@ -16,8 +16,8 @@ using SymbolAt = std::function<std::string(std::uintptr_t address)>;
 std::string symbolAt(std::uintptr_t address);
 
 /// The file name of the library that the fault lies in: of the innermost function of the report's first stack that is
-/// neither the sanitizers' nor of the C and C++ libraries. "" where that function is ours, and where there is no stack; "memory" where an allocation failed.
-/// `program`: the path of this program, as reports have it.
+/// neither the sanitizers' nor of the C and C++ libraries. "" where that function is ours, and where there is no stack;
+/// "memory" where an allocation failed. `program`: the path of this program, as reports have it.
 std::string libraryAtFault(std::string_view report, std::string_view program, const SymbolAt& symbol);
 
 } // namespace shadowbench::fuzz
