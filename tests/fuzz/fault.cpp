@@ -42,12 +42,11 @@ bool isOfTheSystem(std::string_view library) {
     return std::ranges::any_of(system, [&](std::string_view name) { return library.starts_with(name); });
 }
 
-/// The sanitizers' functions have no source file here, or one of compiler-rt. Templates of the C++ library that this program
-/// has, too, are run by libraries in its stead.
+/// The sanitizers' functions have no source file here, an object file, or one of compiler-rt. Templates of the C++ library
+/// that this program has, too, are run by libraries in its stead.
 bool isOurs(const std::string& symbol) {
     if (symbol.find("/compiler-rt/") != std::string::npos || symbol.find("/include/c++/") != std::string::npos) return false;
-    const bool hasFile = !symbol.ends_with("??") && !symbol.ends_with("<null>") && !symbol.ends_with(' ');
-    return hasFile || symbol.find("shadowbench::") != std::string::npos;
+    return symbol.find(" /") != std::string::npos || symbol.find("shadowbench::") != std::string::npos;
 }
 
 } // namespace

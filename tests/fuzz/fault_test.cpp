@@ -12,6 +12,7 @@ std::string symbolOf(std::uintptr_t address) {
     static const std::map<std::uintptr_t, std::string> symbols{
         {0x10, "__asan_memcpy ??"},
         {0x15, "__asan_memmove /build/llvm-14/compiler-rt/lib/asan/asan_interceptors_memintrinsics.cpp"},
+        {0x17, "StrtolFixAndCheck(void*, char const*, char**, char*, int) asan_interceptors.cpp.o"},
         {0x20, "operator new(unsigned long) <null>"},
         {0x25, "std::string::resize(unsigned long, char) /usr/include/c++/12/bits/basic_string.h"},
         {0x30, "shadowbench::(anonymous namespace)::addTriangles(shadowbench::Mesh&, aiMesh const&) /s/scene/read_mesh.cpp"},
@@ -48,6 +49,7 @@ TEST(Fault, IsNoneWhereThereIsNoMemory) {
 
 TEST(Fault, DoesNotLieInTheSanitizersOrTheCLibrary) {
     EXPECT_EQ(blamed("    #0 0x10  (/b/fuzz+0x10)\n    #1 0x99  (/usr/lib/libassimp.so.5+0x99)\n"), "libassimp.so.5");
+    EXPECT_EQ(blamed("    #0 0x17  (/b/fuzz+0x17)\n    #1 0x99  (/usr/lib/libassimp.so.5+0x99)\n"), "libassimp.so.5");
     EXPECT_EQ(blamed("    #0 0x15  (/b/fuzz+0x15)\n    #1 0x99  (/usr/lib/libassimp.so.5+0x99)\n"), "libassimp.so.5");
     EXPECT_EQ(blamed("    #0 0x7f  (/lib/x86_64-linux-gnu/libc.so.6+0x7f)\n    #1 0x40  (/b/fuzz+0x40)\n"), "");
     EXPECT_EQ(
