@@ -74,7 +74,7 @@ int flushFolder(const fs::path& folder) {
     return cannot ? 0 : failed;
 }
 
-/// The path of a file that is removed in the end, unless it was cleared.
+/// The path of a file that is removed in the end; empty: of none.
 struct RemovedPath {
     std::string text;
 
@@ -94,9 +94,10 @@ public:
         const std::string stem = target.stem().string().substr(0, longestStem);
         const std::string name = (target.parent_path() / fmt::format(".{}{}{}{}", stem, mark, unique, extension)).string();
         do {
-            path_.text = name;
-            descriptor_ = Descriptor(::mkostemps(path_.text.data(), static_cast<int>(extension.size()), O_CLOEXEC));
+            std::string made = name;
+            descriptor_ = Descriptor(::mkostemps(made.data(), static_cast<int>(extension.size()), O_CLOEXEC));
             if (descriptor_.get() < 0) failToWrite(target, errno);
+            path_.text = std::move(made);
             // Where the file system has no locks, nobody can take the file for abandoned either.
             ::flock(descriptor_.get(), LOCK_EX);
         } while (!isStillNamed(descriptor_.get(), path_.text)); // another process may have taken it for a dead one's

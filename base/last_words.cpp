@@ -49,9 +49,7 @@ void onTerminate() {
         end();
     } catch (const std::system_error& error) {
         if (error.code() == std::errc::resource_unavailable_try_again)
-            say("shadowbench: a thread could not be started; allow more (ulimit -u), free memory, or use --jobs 1 where "
-                "there is "
-                "one\n");
+            say("shadowbench: a thread could not be started; allow more (ulimit -u) or free memory\n");
         else
             sayError(error);
         end();

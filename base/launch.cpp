@@ -129,7 +129,7 @@ void Child::askToEnd(std::chrono::milliseconds grace) {
     ::kill(-pid_, SIGTERM);
     const auto end = std::chrono::steady_clock::now() + grace;
     constexpr std::chrono::milliseconds tick{5};
-    while (pid_ > 0 && !poll() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(tick);
+    while (!poll() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(tick);
 }
 
 int Child::kill() {

@@ -17,7 +17,7 @@ struct Place {
 };
 static_assert(std::atomic<State>::is_always_lock_free); // as a signal handler needs
 
-std::array<Place, 32> places; // more than there are threads that write
+std::array<Place, 32> places; // with room for the threads of most machines
 
 } // namespace
 

@@ -12,12 +12,16 @@ void resolve(const Frame& frame, std::initializer_list<const gl::Texture*> outpu
     program.drawScreen();
 }
 
-double sumOverPixels(const Frame& frame, const gl::Program& program) {
+Image<float> numbersOf(const Frame& frame, const gl::Program& program) {
     const gl::Texture numbers(gl::Format::R32F, frame.size);
     const gl::RenderTarget target({&numbers});
     target.bind();
     program.drawScreen();
-    const Image<float> written = target.readFloat(0);
+    return target.readFloat(0);
+}
+
+double sumOverPixels(const Frame& frame, const gl::Program& program) {
+    const Image<float> written = numbersOf(frame, program);
     return std::accumulate(written.begin(), written.end(), 0.0);
 }
 

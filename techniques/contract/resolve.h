@@ -14,6 +14,9 @@ namespace shadowbench::techniques {
 void resolve(const Frame& frame, std::initializer_list<const gl::Texture*> outputs, const gl::Program& program,
              std::string_view name = "resolve");
 
+/// What a full-screen pass over the frame's pixels writes, a number a pixel.
+Image<float> numbersOf(const Frame& frame, const gl::Program& program);
+
 /// What a full-screen pass over the frame's pixels writes, added up: how many they are, or how often they read something.
 double sumOverPixels(const Frame& frame, const gl::Program& program);
 

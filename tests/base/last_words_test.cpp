@@ -67,7 +67,8 @@ TEST(LastWords, AnExceptionThatLeavesAThreadIsOneLine) {
     expectOneLine(endOf([] { std::thread([] { throw std::bad_alloc(); }).join(); }), "not enough memory");
     expectOneLine(endOf([] { std::thread([] { throw std::runtime_error("why"); }).join(); }), "internal error: why");
     const auto noThread = std::make_error_code(std::errc::resource_unavailable_try_again);
-    expectOneLine(endOf([&] { std::thread([&] { throw std::system_error(noThread); }).join(); }), "--jobs 1");
+    expectOneLine(endOf([&] { std::thread([&] { throw std::system_error(noThread); }).join(); }),
+                  "a thread could not be started");
     expectOneLine(endOf([] { std::thread([] { throw 7; }).join(); }), "a library aborted the program");
 }
 

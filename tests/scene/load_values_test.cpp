@@ -1,6 +1,7 @@
 // What a scene file's values become, and the limits that hold whatever it asks for.
 #include "base/error.h"
 #include "scene/load/load.h"
+#include "tests/support/message_of.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -20,12 +21,7 @@ std::string sceneOf(const std::string& body) {
 const std::string kBox = "mesh = { box = { size = [2, 1, 2] } }";
 
 std::string messageOf(const std::string& toml) {
-    try {
-        parseScene(toml, "scenes/x.toml", Profile::Gate);
-    } catch (const BadInput& error) {
-        return error.what();
-    }
-    return "";
+    return test::messageOf<BadInput>([&] { parseScene(toml, "scenes/x.toml", Profile::Gate); });
 }
 
 /// A variable of the environment, while the object lives.

@@ -1,5 +1,7 @@
 #include "techniques/shared/filters/back_projection.h"
 
+#include "techniques/contract/resolve.h"
+
 #include <cstddef>
 #include <glm/geometric.hpp>
 
@@ -26,11 +28,7 @@ void setBackProjection(gl::Program& program, const Frame& frame, const LightView
 }
 
 double meanOverReceivers(const Frame& frame, const gl::Program& program) {
-    const gl::Texture values(gl::Format::R32F, frame.size);
-    const gl::RenderTarget target({&values});
-    target.bind();
-    program.drawScreen();
-    const Image<float> numbers = target.readFloat(0);
+    const Image<float> numbers = numbersOf(frame, program);
     const Image<unsigned> ids = frame.gbuffer.readIds();
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/temporary_folder.h"
+#include "tests/support/message_of.h"
 
 #include <array>
 #include <cstdint>
@@ -28,14 +29,7 @@ std::string bytesOf(std::string_view hexadecimal) {
     return bytes;
 }
 
-std::string refusal(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const BadInput& error) {
-        return error.what();
-    }
-    return "";
-}
+std::string refusal(const std::function<void()>& work) { return test::messageOf<BadInput>(work); }
 
 class ConfinedImages : public testing::Test {
 protected:

@@ -7,6 +7,7 @@
 #include "base/interrupts.h"
 #include "base/temporary_folder.h"
 #include "tests/support/failing_call.h"
+#include "tests/support/message_of.h"
 
 #include <array>
 #include <cerrno>
@@ -26,14 +27,7 @@ namespace {
 using std::chrono::milliseconds;
 using test::saidByACopy;
 
-std::string refusal(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const WireError& error) {
-        return error.what();
-    }
-    return "";
-}
+std::string refusal(const std::function<void()>& work) { return test::messageOf<WireError>(work); }
 
 TEST(Wire, WithoutAnybodyAtItsOtherEndSaysSo) {
     const std::string closed = "the other end has closed";

@@ -3,6 +3,7 @@
 #include "base/image_io.h"
 #include "tests/scene/exchange/exported_folder.h"
 #include "tests/scene/exchange/same_scene.h"
+#include "tests/support/message_of.h"
 
 #include <fmt/format.h>
 #include <fstream>
@@ -15,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using exchange::exportScene;
+using test::messageOf;
 
 const std::string kHead = "# Shows \"it\".\ntitle = \"x\"\nsize = [64, 40]\n"
                           "camera = { eye = [0.1, 2.3, 6.7], target = [0, 0.1, 0], fovy = 41.3, near = 0.1, far = 60 }\n";
@@ -28,15 +30,6 @@ Scene sceneOf(const std::string& toml, const std::string& file = "scenes/own.tom
 Scene exportedAndLoaded(const Scene& scene) {
     const ExportedFolder folder(scene);
     return loadScene(folder.path().string(), Profile::Gate);
-}
-
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
 }
 
 TEST(Export, KeepsEveryKindOfMotionAndLevel) {
