@@ -14,7 +14,7 @@ namespace shadowbench::timing {
 struct TimingLimits {
     int minimumRounds = 3;
     int maximumRounds = 25;
-    double budgetSeconds = 0.4; // once the minimum is done
+    double budgetSeconds = 0.3; // once the minimum is done
 };
 
 /// Renders the next frame of what the stage shows, so that the one that is measured after it follows one like it.

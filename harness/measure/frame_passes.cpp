@@ -10,7 +10,7 @@ namespace {
 // Of timing a frame's passes: parts of a frame, of which the whole is timed more often. A frame that takes longer than the
 // budget is timed once: so long a time varies little.
 constexpr int rounds = 5;
-constexpr double budgetMilliseconds = 150;
+constexpr double budgetMilliseconds = 100;
 
 RenderFrame framesOf(Stage& stage, Sequence& frames) {
     return [&](techniques::PassListener& listener) {
