@@ -1,4 +1,5 @@
 // Independent pieces of work on several threads.
+#include "base/confined/confinement.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -25,9 +26,7 @@ TEST(InParallel, DoesEachPieceOnce) {
 
 /// In a process that may have no more memory, of which each thread takes some for its stack.
 TEST(InParallel, GoesOnWithoutThreadsThatCannotBeStarted) {
-#ifdef __SANITIZE_THREAD__
-    GTEST_SKIP() << "ThreadSanitizer allocates as it goes";
-#endif
+    if (hasSanitizer()) GTEST_SKIP() << "a sanitizer allocates as it goes";
     const auto alone = [] {
         const rlimit none{1, 1};
         setrlimit(RLIMIT_AS, &none);

@@ -22,7 +22,7 @@ namespace shadowbench {
 namespace {
 
 void spin() {
-    volatile int turns = 0;
+    volatile unsigned turns = 0;
     for (;;) turns = turns + 1;
 }
 
