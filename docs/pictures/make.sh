@@ -1,5 +1,6 @@
 #!/bin/sh
-# Makes the pictures beside this file, which the front page shows: PCSS on overlapping-occluders in the gate profile.
+# Makes the pictures beside this file, in the gate profile: PCSS on overlapping-occluders, which the front page shows, and what
+# filters do where they are worse than the map alone (docs/findings.md).
 set -eu
 cd "$(dirname "$0")/../.."
 out=$(mktemp -d)
@@ -8,3 +9,8 @@ trap 'rm -rf "$out"' EXIT
 for picture in visibility reference error; do
     cp "$out/images/overlapping-occluders/pcss/$picture.png" "docs/pictures/pcss-$picture.png"
 done
+./bench run --scene light-behind-camera --scene tessellation --technique sm-uniform --technique pcf \
+    --technique sm-history:filter=pcf --cost none --images --quiet --out "$out"
+cp "$out/images/light-behind-camera/sm-uniform/error.png" docs/pictures/behind-uniform.png
+cp "$out/images/light-behind-camera/pcf/error.png" docs/pictures/behind-pcf.png
+cp "$out/images/tessellation/sm-history_filter=pcf/error.png" docs/pictures/tessellation-history.png
