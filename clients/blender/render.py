@@ -48,14 +48,20 @@ def read_command_line(words):
     return options
 
 
-def add_meshes(exported):
+def white(kind):
+    """A material of one node of that kind."""
     material = bpy.data.materials.new("white")
     material.use_nodes = True
     nodes = material.node_tree.nodes
     nodes.clear()
-    diffuse = nodes.new("ShaderNodeBsdfDiffuse")
-    diffuse.inputs["Color"].default_value = (1, 1, 1, 1)
-    material.node_tree.links.new(diffuse.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    node = nodes.new(kind)
+    node.inputs["Color"].default_value = (1, 1, 1, 1)
+    material.node_tree.links.new(node.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    return material
+
+
+def add_meshes(exported):
+    material = white("ShaderNodeBsdfDiffuse")
     meshes = {}
     for name, (vertices, triangles) in exported.meshes.items():
         meshes[name] = bpy.data.meshes.new(name)
@@ -91,11 +97,21 @@ def add_sun(light, middle):
     return add_object("light", data, frame_from(back.orthogonal(), back, middle))
 
 
+def add_shining_mesh(u, v, centre):
+    """Blender's own area lights have right angles; this one may have others. It shines on both sides."""
+    if bpy.context.scene.render.engine != "CYCLES":
+        raise BadInput("EEVEE has no area light with slanted sides; give --engine cycles, or a scene whose light has right angles")
+    data = bpy.data.meshes.new("light")
+    data.from_pydata([-(u + v) / 2, (u - v) / 2, (u + v) / 2, (v - u) / 2], [], [(0, 1, 2, 3)])
+    data.materials.append(white("ShaderNodeEmission"))
+    return add_object("light", data, Matrix.Translation(centre))
+
+
 def add_area(light, middle):
     """An area light of Blender shines along its −z only: it is turned towards the middle of the scene."""
     u, v, centre = Vector(light["u"]), Vector(light["v"]), Vector(light["centre"])
     if abs(u.normalized().dot(v.normalized())) > 1e-6:
-        raise BadInput("Blender has no area light with slanted sides; choose a scene whose light has right angles")
+        return add_shining_mesh(u, v, centre)
     data = bpy.data.lights.new("light", "AREA")
     data.shape = "ELLIPSE" if light["kind"] == "disk" else "RECTANGLE"
     data.size, data.size_y = u.length, v.length
@@ -117,8 +133,8 @@ def add_light(light, middle, radius, area):
         made = add_object("light", data, Matrix.Translation(Vector(light["centre"])))
     else:
         raise BadInput(f"a light of kind {kind} is not for this client; choose a scene with another light")
-    # So bright that EEVEE's threshold, below which it leaves a light out, does not matter.
-    made.data.energy = 1000 * ((middle - Vector(light["centre"])).length + radius) ** 2
+    if made.type == "LIGHT":  # so bright that EEVEE's threshold, below which it leaves a light out, does not matter
+        made.data.energy = 1000 * ((middle - Vector(light["centre"])).length + radius) ** 2
     made.visible_camera = False
     return made
 
@@ -166,10 +182,14 @@ def set_up_eevee(options):
     scene.render.filter_size = 0 if options.pixel == "centre" else 1
 
 
-def cast_shadows(light, cast):
-    light.use_shadow = cast  # EEVEE
-    light.cycles.cast_shadow = cast
-    light.cycles.use_multiple_importance_sampling = False  # every sample goes to the light
+def cast_shadows(light, occluders, cast):
+    if light.type == "LIGHT":
+        light.data.use_shadow = cast  # EEVEE
+        light.data.cycles.cast_shadow = cast
+        light.data.cycles.use_multiple_importance_sampling = False  # every sample goes to the light
+    else:  # a mesh that shines has no such switch, and is found by diffuse rays, too
+        for occluder in occluders:
+            occluder.visible_shadow = occluder.visible_diffuse = cast
 
 
 def rendered(folder):
@@ -197,15 +217,14 @@ def write_pfm(file, size, image):
 def render_frame(exported, frame, meshes, options):
     for old in list(bpy.data.objects):
         bpy.data.objects.remove(old)
-    for node in frame["nodes"]:
-        add_object(node["name"], meshes[node["mesh"]], matrix_of(node["matrix"]))
+    occluders = [add_object(node["name"], meshes[node["mesh"]], matrix_of(node["matrix"])) for node in frame["nodes"]]
     middle, radius = exported.bounds(frame)
     light = add_light(frame["light"], Vector(middle), radius, options.light == "area")
     add_camera(frame)
     with tempfile.TemporaryDirectory() as folder:
-        cast_shadows(light.data, True)
+        cast_shadows(light, occluders, True)
         lit = rendered(folder)
-        cast_shadows(light.data, False)
+        cast_shadows(light, occluders, False)
         unshadowed = rendered(folder)
     return array.array("f", (a / b if b > 0 else 0 for a, b in zip(lit, unshadowed)))
 
