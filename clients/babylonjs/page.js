@@ -98,7 +98,7 @@ function makePoint(frame, centre, scene) {
 function makeGenerator(light, casters) {
     const cascaded = settings.cascades > 0;
     const Generator = cascaded ? BABYLON.CascadedShadowGenerator : BABYLON.ShadowGenerator;
-    const generator = new Generator(settings["map-size"], light);
+    const generator = new Generator(settings["map-size"], light, settings.floats === "full");
     if (cascaded) generator.numCascades = settings.cascades;
     filters[settings.filter](generator);
     generator.bias = settings.bias;

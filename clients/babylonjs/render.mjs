@@ -11,6 +11,8 @@ await run(puppeteer, fileURLToPath(new URL(".", import.meta.url)), {
     "map-size": { standard: 1024, whole: [16, 8192], help: "of the generator, of each face or cascade" },
     bias: { standard: 0.00005, help: "generator.bias" },
     "normal-bias": { standard: 0, help: "generator.normalBias" },
+    floats: { values: ["half", "full"], standard: "half",
+              help: "of the map's texels, where it holds no hardware depths (pcf, pcss, cascades do): usefulFloatFirst" },
     "back-faces": { values: ["no", "yes"], standard: "no", help: "generator.forceBackFacesOnly" },
     map: { values: ["auto", "cube", "single"], standard: "auto",
            help: "of a point light; auto: a cube where the filter allows it, else one map around the scene" },

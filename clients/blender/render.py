@@ -100,7 +100,7 @@ def add_sun(light, middle):
 def add_shining_mesh(u, v, centre):
     """Blender's own area lights have right angles; this one may have others. It shines on both sides."""
     if bpy.context.scene.render.engine != "CYCLES":
-        raise BadInput("EEVEE has no area light with slanted sides; give --engine cycles, or a scene whose light has right angles")
+        raise BadInput("EEVEE has no area light with slanted sides; give --engine cycles, or another scene")
     data = bpy.data.meshes.new("light")
     data.from_pydata([-(u + v) / 2, (u - v) / 2, (u + v) / 2, (v - u) / 2], [], [(0, 1, 2, 3)])
     data.materials.append(white("ShaderNodeEmission"))

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes the pictures beside this file, in the gate profile: PCSS on overlapping-occluders, which the front page shows, and what
-# filters do where they are worse than the map alone (docs/findings.md).
+# filters do where they are worse than the map alone (docs/findings.md). Those of engines need clients/*/setup.
 set -eu
 cd "$(dirname "$0")/../.."
 out=$(mktemp -d)
@@ -14,3 +14,9 @@ done
 cp "$out/images/light-behind-camera/sm-uniform/error.png" docs/pictures/behind-uniform.png
 cp "$out/images/light-behind-camera/pcf/error.png" docs/pictures/behind-pcf.png
 cp "$out/images/tessellation/sm-history_filter=pcf/error.png" docs/pictures/tessellation-history.png
+for client in threejs:threejs-pcf babylonjs:babylonjs-none blender:eevee-hard; do
+    row=${client#*:}
+    ./bench run --scene windmills --external "clients/${client%:*}/external.toml" --technique "external:$row" --cost none \
+        --images --quiet --out "$out"
+    cp "$out/images/windmills/external_$row/visibility.png" "docs/pictures/engines-${row%-*}.png"
+done
