@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <limits>
+#include <numeric>
 
 namespace shadowbench::report {
 namespace {
@@ -19,6 +20,31 @@ Box candidate(glm::dvec2 point, glm::dvec2 size, glm::ivec2 direction, double di
 }
 
 Box around(glm::dvec2 point) { return {point - pointRadius, point + pointRadius}; }
+
+/// Heights in the order of the wanted ones, `step` apart at least, from `low` to `high`: what is left of a wanted height
+/// when the steps before it are taken away must not fall, so neighbours that would fall take their mean (isotonic
+/// regression).
+std::vector<double> spread(const std::vector<double>& wanted, double step, double low, double high) {
+    struct Level {
+        double sum;
+        int count;
+        [[nodiscard]] double mean() const { return sum / count; }
+    };
+    std::vector<Level> levels;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        Level last{wanted[i] - step * static_cast<double>(i), 1};
+        for (; !levels.empty() && levels.back().mean() > last.mean(); levels.pop_back())
+            last = {last.sum + levels.back().sum, last.count + levels.back().count};
+        levels.push_back(last);
+    }
+    const double highest = high - step * (static_cast<double>(wanted.size()) - 1);
+    std::vector<double> result;
+    for (const Level& level : levels)
+        for (int i = 0; i < level.count; ++i)
+            result.push_back(std::clamp(level.mean(), low, std::max(low, highest)) +
+                             step * static_cast<double>(result.size()));
+    return result;
+}
 
 } // namespace
 
@@ -67,6 +93,26 @@ std::vector<PlacedLabel> placeLabels(const std::vector<LabelledPoint>& points, c
             }
         }
         placed.push_back(best);
+    }
+    return placed;
+}
+
+std::vector<PlacedLabel> placeInColumn(const std::vector<LabelledPoint>& points, const Box& area, glm::dvec2 letter) {
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return points[i].at.y; });
+    std::vector<double> wanted;
+    wanted.reserve(order.size());
+    for (const std::size_t i : order) wanted.push_back(points[i].at.y);
+    const double step =
+        std::min(letter.y, (area.high.y - area.low.y) / static_cast<double>(std::max<std::size_t>(1, order.size())));
+    const std::vector<double> heights = spread(wanted, step, area.low.y + 0.5 * step, area.high.y - 0.5 * step);
+    std::vector<PlacedLabel> placed(points.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const LabelledPoint& point = points[order[k]];
+        const double wide = letter.x * static_cast<double>(point.text.size());
+        placed[order[k]] = {
+            {{area.low.x, heights[k] - 0.5 * step}, {area.low.x + wide, heights[k] + 0.5 * step}}, {1, 0}, true};
     }
     return placed;
 }

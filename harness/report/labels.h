@@ -35,4 +35,9 @@ struct PlacedLabel {
 std::vector<PlacedLabel> placeLabels(const std::vector<LabelledPoint>& points, const Box& area,
                                      const std::vector<std::pair<glm::dvec2, glm::dvec2>>& lines, glm::dvec2 letter);
 
+/// Puts the labels of points that share a column one below another at the left side of `area`, in the order of the points'
+/// heights and each as near to its own as the others allow (least squares of the distances). They are `letter.y` apart, or
+/// nearer where `area` has less room.
+std::vector<PlacedLabel> placeInColumn(const std::vector<LabelledPoint>& points, const Box& area, glm::dvec2 letter);
+
 } // namespace shadowbench::report

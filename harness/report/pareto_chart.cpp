@@ -16,6 +16,8 @@ constexpr double left = 96, top = 84, bottom = 540; // of the plot, pixels, y do
 constexpr double widest = 936, besideStrip = 700;   // its right side; beside a strip of rows without a place
 constexpr std::size_t longestLabel = 100;           // letters: as wide as two thirds of the plot
 constexpr glm::dvec2 letter(6.4, 16);               // of a label at 12 points, pixels
+constexpr std::size_t longestName = 30;             // letters: what fits into the strip
+constexpr std::size_t mostNames = 35;               // rows of letters in the strip, nearly without room between them
 
 /// A row of a renderer whose cost is not measured here, so that it has an error and no place.
 struct External {
@@ -140,21 +142,26 @@ std::string labels(const std::vector<Point>& all, const Canvas& canvas, const st
     return script;
 }
 
-/// The rows without a cost, by their errors alone, in a strip of their own right of the plot.
-std::string strip(const std::vector<External>& rows, const Canvas& canvas) {
+/// The rows without a cost, by their errors alone, in a strip of their own right of the plot: a mark each, and the names of
+/// as many as can be read there, those of least error.
+std::string strip(std::vector<External> rows, const Canvas& canvas) {
     if (rows.empty()) return "";
     const double x = canvas.right() + 24;
-    const auto text = [&](const char* words, double y) {
-        return fmt::format("set label '{}' at {} left font ',12'\n", words, Canvas::screen({x - 8, y}));
+    const auto text = [&](const std::string& words, double y) {
+        return fmt::format("set label {} at {} left font ',12'\n", literal(words), Canvas::screen({x - 8, y}));
     };
-    std::string script = text("cost not measured here:", top - 24) + text("other renderers", top - 8);
+    std::string script = text("cost not measured here:", top - 24);
+    std::ranges::stable_sort(rows, {}, &External::error);
     std::vector<LabelledPoint> named;
     for (const External& row : rows) {
-        named.push_back({{x, canvas.rowOf(row.error)}, row.variant});
+        named.push_back({{x, canvas.rowOf(row.error)}, row.variant.substr(std::string("external:").size(), longestName)});
         script += fmt::format("set label '' at {} point pt {} ps 1.2 lw 2 lc rgb '{}'\n", Canvas::screen(named.back().at),
                               row.adequate ? 13 : 12, vermilion);
     }
-    const std::vector<PlacedLabel> placed = placeLabels(named, {{x + 4, top}, {width - 4, bottom - 2}}, {}, letter);
+    named.resize(std::min(named.size(), mostNames));
+    const std::size_t unnamed = rows.size() - named.size();
+    script += text(unnamed == 0 ? "other renderers" : fmt::format("other renderers ({} not named)", unnamed), top - 8);
+    const std::vector<PlacedLabel> placed = placeInColumn(named, {{x + 36, top}, {width - 4, bottom}}, letter);
     for (std::size_t i = 0; i < placed.size(); ++i) script += labelScript(named[i], placed[i], "#444444");
     return script;
 }

@@ -17,18 +17,21 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The first page and that of the first scene, with a picture in the place of gnuplot's chart.
+void writeSite(const fs::path& folder, const std::vector<Record>& records) {
+    site::SiteWriter site(folder, {});
+    const fs::path chart = folder / "pareto-scene-01.svg";
+    writeFile(chart, R"(<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>)");
+    site::addIndexPage(records, "", {}, site);
+    site::addScenePage(records, "scene-01", {}, {chart}, site);
+    site.writeAssets();
+}
+
 class LargeSite {
 public:
     LargeSite() {
         const fs::path file = folder_.path() / "results.jsonl";
         writeRecords(file, largeRun(100, 30));
-        const std::vector<Record> records = readRecords(file);
-        site::SiteWriter site(folder_.path(), {});
-        const fs::path chart = folder_.path() / "pareto-scene-01.svg";
-        writeFile(chart, R"(<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>)");
-        site::addIndexPage(records, "", {}, site);
-        site::addScenePage(records, "scene-01", {}, {chart}, site);
-        site.writeAssets();
+        writeSite(folder_.path(), readRecords(file));
     }
 
     [[nodiscard]] fs::path operator/(const char* page) const { return folder_.path() / page; }
@@ -112,6 +115,39 @@ TEST(LargeSite, LeadsFromMarkToMarkByArrowsAndToTheRowByEnter) {
     tab->press("Enter");
     const std::string lit = tab->value("document.querySelector('tr.lit').cells[0].textContent");
     EXPECT_TRUE(second.starts_with(lit)) << second << " / " << lit;
+}
+
+/// They have an error and no cost: without a place of their own they were in the key of the chart and not in the chart.
+TEST(SceneChart, HasOtherRenderersBesideWhatItsCostIsKnownOf) {
+    const TemporaryFolder folder;
+    std::vector<Record> records = largeRun(5, 1);
+    for (const char* name : {"external:engine", "external:other-engine"}) {
+        Record row = test::hardCell(name, 0.002, 1);
+        row.scene = "scene-01";
+        row.technique = name;
+        row.external = {.title = "An engine", .source = "version 4"};
+        row.values["cost.time.ratio"].reset();
+        records.push_back(row);
+    }
+    writeSite(folder.path(), records);
+    const auto tab = chromium().tab();
+    tab->open(folder.path() / "scenes/scene-01.html");
+    tab->waitFor("document.querySelector('svg.plot')");
+    const auto labels =
+        tab->value("[...document.querySelectorAll('svg.plot .dot')].map((dot) => dot.getAttribute('aria-label'))");
+    ASSERT_EQ(labels.size(), 7U);
+    EXPECT_EQ(std::ranges::count_if(labels,
+                                    [](const nlohmann::json& label) {
+                                        return label.get<std::string>().find("not measured here") != std::string::npos;
+                                    }),
+              2);
+    const auto beside = tab->value(R"js((() => {
+        const right = document.querySelector('svg.plot .limit').getBoundingClientRect().right;
+        return [...document.querySelectorAll('svg.plot .dot')].filter((dot) => dot.getBoundingClientRect().left > right).length;
+    })())js");
+    EXPECT_EQ(beside, 2);
+    EXPECT_EQ(tab->complaints(), Sentences());
+    EXPECT_EQ(overlaps(*tab, 400, 800), Sentences());
 }
 
 TEST(LargeSite, FitsItsWindow) {

@@ -5,7 +5,9 @@
 #include "harness/report/terminal_summary.h"
 #include "tests/support/report_examples.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <regex>
 
 namespace shadowbench {
 namespace {
@@ -62,9 +64,46 @@ TEST(ExternalRows, AreAlwaysInTheTerminal) {
 TEST(ExternalRows, HaveAStripOfTheirOwnBesideTheChart) {
     const std::optional<std::string> chart = report::paretoChart(withExternal(), scene);
     ASSERT_TRUE(chart);
-    EXPECT_TRUE(contains(*chart, "external:my-engine"));
+    EXPECT_TRUE(contains(*chart, "my-engine"));
     EXPECT_TRUE(contains(*chart, "cost not measured here"));
     EXPECT_FALSE(contains(*report::paretoChart(hardScene(), scene), "cost not measured here"));
+}
+
+/// The heights of the texts of a chart that hold these words, in pixels.
+std::vector<double> heightsOf(const std::string& svg, const std::string& words) {
+    const std::regex text("<g transform=\"translate\\([^,]*,([^)]*)\\)[^>]*>\\s*<text>[^<]*(?:<tspan[^>]*>)?[^<]*" + words);
+    std::vector<double> heights;
+    for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it) heights.push_back(std::stod((*it)[1]));
+    return heights;
+}
+
+std::string chartWith(int rows) {
+    std::vector<Record> records = hardScene();
+    for (int i = 0; i < rows; ++i) {
+        Record row = externalRow();
+        row.technique = row.variant = "external:engine-" + std::to_string(i);
+        row.values["accuracy.mismatch"] = 0.02 + 0.0001 * i; // all but the same height
+        records.push_back(row);
+    }
+    return *report::paretoChart(records, scene);
+}
+
+/// Names of rows that err alike were written over each other.
+TEST(ExternalRows, AreNamedInTheStripOneBelowAnother) {
+    std::vector<double> heights = heightsOf(chartWith(25), "engine-");
+    ASSERT_EQ(heights.size(), 25U);
+    std::ranges::sort(heights);
+    for (std::size_t i = 1; i < heights.size(); ++i)
+        EXPECT_GE(heights[i] - heights[i - 1], 12) << i; // as high as letters are
+}
+
+TEST(ExternalRows, AreNamedWhileThereIsRoomForNames) {
+    const std::string chart = chartWith(50);
+    EXPECT_LT(heightsOf(chart, "engine-").size(), 50U);
+    EXPECT_TRUE(contains(chart, "not named)"));
+    EXPECT_TRUE(contains(chart, "engine-0<"));
+    EXPECT_FALSE(contains(chart, "engine-49<")); // has the greatest error
+    EXPECT_FALSE(contains(chartWith(25), "not named)"));
 }
 
 TEST(ExternalRows, ComeBackFromJsonAsTheyWere) {

@@ -183,12 +183,16 @@
 
     function draw() {
       const x = columns[across.value], y = columns[up.value];
-      const points = shownRows(entry).map((row) => ({ row, x: valueOf(row.cells[x.column]), y: valueOf(row.cells[y.column]),
-        spread: x.key === "cost.time.ratio" ? Number(row.dataset.spread) || 0 : 0 })).filter((p) => !Number.isNaN(p.x) && !Number.isNaN(p.y));
+      const all = shownRows(entry).map((row) => ({ row, x: valueOf(row.cells[x.column]), y: valueOf(row.cells[y.column]),
+        spread: x.key === "cost.time.ratio" ? Number(row.dataset.spread) || 0 : 0 })).filter((p) => !Number.isNaN(p.y));
+      const points = all.filter((p) => !Number.isNaN(p.x));
+      // Other renderers have no cost of ours: they stand beside the plot, at their errors, and are on no front.
+      const beside = x.key.startsWith("cost.") ? all.filter((p) => Number.isNaN(p.x) && p.row.dataset.family === "external") : [];
       const area = canvas(figure, 460);
+      if (beside.length > 0) area.right += 84;
       const limit = y.key === figure.dataset.y && figure.dataset.tolerance ? Number(figure.dataset.tolerance) : NaN;
       const sx = scaleOf(points.map((p) => p.x), [area.left, area.width - area.right]);
-      const sy = scaleOf(points.map((p) => p.y).concat(Number.isNaN(limit) ? [] : [limit]), [area.height - area.bottom, area.top]);
+      const sy = scaleOf(points.concat(beside).map((p) => p.y).concat(Number.isNaN(limit) ? [] : [limit]), [area.height - area.bottom, area.top]);
       drawAxis(area.svg.append("g").attr("transform", `translate(0,${area.height - area.bottom})`), sx, "x", x.unit, area.height - area.top - area.bottom);
       drawAxis(area.svg.append("g").attr("transform", `translate(${area.left},0)`), sy, "y", y.unit, area.width - area.left - area.right);
       labels(area, x.title === "cost" ? "cost: frame time as a multiple of sm-uniform's" : x.title, y.title);
@@ -203,13 +207,16 @@
         placed.push(at);
         area.svg.append("text").attr("class", "name").attr("x", at.x).attr("y", at.y).text(nameOf(p.row).slice(0, 48));
       }
+      if (beside.length > 0) area.svg.append("text").attr("class", "beside").attr("x", area.width - 50).attr("y", area.height - area.bottom + 17)
+        .attr("text-anchor", "middle").text("not measured");
+      const places = points.map((p) => sx.at(p.x)).concat(beside.map((p, i) => area.width - 66 + 16 * (i % 3)));
       const symbol = (p) => d3.symbol().size(75).type(p.row.dataset.baseline === "yes" ? d3.symbolSquare : d3.symbolCircle)();
-      const described = (p) => `${nameOf(p.row)}\n${p.row.cells[0].title}\n${x.title} ${written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`;
-      const dots = area.svg.append("g").selectAll("a").data(points).join("path").attr("class", "dot").attr("d", symbol)
-        .attr("transform", (p) => `translate(${sx.at(p.x)},${sy.at(p.y)})`).attr("stroke", (p) => colour(p.row))
+      const described = (p) => `${nameOf(p.row)}\n${p.row.cells[0].title}\n${x.title} ${Number.isNaN(p.x) ? "not measured here" : written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`;
+      const dots = area.svg.append("g").selectAll("a").data(points.concat(beside)).join("path").attr("class", "dot").attr("d", symbol)
+        .attr("transform", (p, i) => `translate(${places[i]},${sy.at(p.y)})`).attr("stroke", (p) => colour(p.row))
         .attr("fill", (p) => (p.row.dataset.within === "yes" && p.row.dataset.baseline !== "yes" ? colour(p.row) : "transparent"))
         .on("click", (p) => go(p.row)).on("mousemove", (p) => say(described(p), d3.event)).on("mouseout", hush);
-      reachable(dots.nodes().map((node, i) => ({ node, at: points[i].x, text: described(points[i]), act: () => go(points[i].row) }))
+      reachable(dots.data().map((p, i) => ({ node: dots.nodes()[i], at: places[i], text: described(p), act: () => go(p.row) }))
         .sort((a, b) => a.at - b.at));
     }
     const again = whenSeen(figure, entry, draw);
