@@ -52,7 +52,7 @@ TEST(Clients, AreThreeJsBabylonJsAndBlender) {
 TEST(Clients, HaveExecutableCommands) {
     for (const fs::path& folder : clientFolders())
         for (const char* command : {"render", "setup"}) EXPECT_TRUE(isExecutable(folder / command)) << folder << command;
-    EXPECT_TRUE(isExecutable(clients / "engines"));
+    for (const char* command : {"engines", "blender/definitions"}) EXPECT_TRUE(isExecutable(clients / command)) << command;
 }
 
 TEST(Clients, ListRenderersThatStartTheirOwnCommand) {
