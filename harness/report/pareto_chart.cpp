@@ -154,7 +154,7 @@ std::string strip(std::vector<External> rows, const Canvas& canvas) {
     std::ranges::stable_sort(rows, {}, &External::error);
     std::vector<LabelledPoint> named;
     for (const External& row : rows) {
-        named.push_back({{x, canvas.rowOf(row.error)}, row.variant.substr(std::string("external:").size(), longestName)});
+        named.push_back({{x, canvas.rowOf(row.error)}, row.variant.substr(externalPrefix.size(), longestName)});
         script += fmt::format("set label '' at {} point pt {} ps 1.2 lw 2 lc rgb '{}'\n", Canvas::screen(named.back().at),
                               row.adequate ? 13 : 12, vermilion);
     }

@@ -26,7 +26,8 @@ TEST(InParallel, DoesEachPieceOnce) {
 
 /// In a process that may have no more memory, of which each thread takes some for its stack.
 TEST(InParallel, GoesOnWithoutThreadsThatCannotBeStarted) {
-    // Its runtime allocates for each thread and ends the process where it cannot, before our code learns of it.
+    // A sanitizer's runtime allocates memory for each thread. Where it cannot, it ends the process, and our code never
+    // learns of it.
     if (hasSanitizer()) GTEST_SKIP() << "a sanitizer ends a process that has no more memory";
     const auto alone = [] {
         const rlimit none{1, 1};

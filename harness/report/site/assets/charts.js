@@ -207,7 +207,7 @@
         placed.push(at);
         area.svg.append("text").attr("class", "name").attr("x", at.x).attr("y", at.y).text(nameOf(p.row).slice(0, 48));
       }
-      if (beside.length > 0) area.svg.append("text").attr("class", "beside").attr("x", area.width - 50).attr("y", area.height - area.bottom + 17)
+      if (beside.length > 0) area.svg.append("text").attr("x", area.width - 50).attr("y", area.height - area.bottom + 17)
         .attr("text-anchor", "middle").text("not measured");
       const places = points.map((p) => sx.at(p.x)).concat(beside.map((p, i) => area.width - 66 + 16 * (i % 3)));
       const symbol = (p) => d3.symbol().size(75).type(p.row.dataset.baseline === "yes" ? d3.symbolSquare : d3.symbolCircle)();
