@@ -145,6 +145,20 @@ void setStillFrames(Scene& scene, double frames) {
     scene.timeline.still = static_cast<int>(frames);
 }
 
+/// A history is then filled, with what it has seen on the way.
+void setTurn(Scene& scene, double degrees) {
+    constexpr int frames = 30;
+    scene.timeline.approach = frames;
+    scene.eye.keys.clear();
+    scene.target.keys.clear();
+    const glm::dvec3 view = scene.camera.target - scene.camera.eye;
+    for (int frame = -frames; frame <= 0; ++frame) {
+        const double left = glm::radians(degrees) * frame / frames;
+        const glm::dmat4 turn = glm::rotate(glm::dmat4(1), left, glm::dvec3(0, 1, 0));
+        scene.target.keys.push_back({static_cast<double>(frame), scene.camera.eye + glm::dvec3(turn * glm::dvec4(view, 0))});
+    }
+}
+
 /// Shapes stay the same, so the truth does.
 void setTessellation(Scene& scene, double times) {
     if (times < 0 || times > 6) throw BadInput(fmt::format("triangles can be quartered 0 to 6 times, not {:g}", times));
@@ -222,6 +236,13 @@ const std::array allAxes{
          true,
          true,
          setStillFrames},
+    Axis{"turn",
+         "°",
+         "angle by which the camera turns on the spot, in 30 frames before the still ones",
+         {0, 3, 9, 30, 90},
+         false,
+         false,
+         setTurn},
     Axis{"map", "texels", "side of the shadow map", {4096, 2048, 1024, 512, 256, 128, 64}, true, true, {}},
     Axis{"units",
          "",

@@ -143,6 +143,24 @@ TEST(Axes, CasterCountsEndWithAllThatTheSceneHas) {
               axisNamed("near-plane").values);
 }
 
+TEST(Axes, ACameraThatTurnsEndsWhereTheSceneHasItAtAnEvenPace) {
+    Scene scene = loadScene("turned-camera", Profile::Gate); // which has a path of its own
+    const auto view = [&](int frame) {
+        const Camera camera = snapshot(scene, frame).camera;
+        EXPECT_EQ(camera.eye, scene.camera.eye);
+        return glm::normalize(camera.target - camera.eye);
+    };
+    const glm::dvec3 atRest = glm::normalize(scene.camera.target - scene.camera.eye);
+    axisNamed("turn").move(scene, 90);
+    EXPECT_EQ(scene.timeline.approach, 30);
+    for (const int frame : {0, 20}) EXPECT_LT(glm::distance(view(frame), atRest), 1e-9);
+    for (const int frame : {-30, -20, -10}) {
+        const glm::dvec3 flat(view(frame).x, 0, view(frame).z), end(atRest.x, 0, atRest.z);
+        EXPECT_NEAR(view(frame).y, atRest.y, 1e-9) << "turns about the vertical";
+        EXPECT_NEAR(glm::dot(glm::normalize(flat), glm::normalize(end)), std::cos(glm::radians(-3.0 * frame)), 1e-9);
+    }
+}
+
 TEST(Axes, WhatASceneLacksIsAnError) {
     Scene scene = loadScene("dueling-frusta", Profile::Gate);
     EXPECT_THROW(axisNamed("light-size").move(scene, 2), BadInput);
