@@ -20,6 +20,7 @@ std::string kindOf(Verdict verdict) {
     case Verdict::Reproduced:
         return "reproduced";
     case Verdict::Partly:
+    case Verdict::NotToldApart:
         return "partly";
     case Verdict::NotReproduced:
         return "refuted";
@@ -28,7 +29,22 @@ std::string kindOf(Verdict verdict) {
     }
 }
 
-std::string figuresOf(const Judgement& judgement) {
+std::string kindOf(Outcome outcome) {
+    switch (outcome) {
+    case Outcome::Yes:
+        return "reproduced";
+    case Outcome::No:
+        return "refuted";
+    case Outcome::Partly:
+    case Outcome::NotToldApart:
+        return "partly";
+    case Outcome::NotMeasured:
+        return "unmeasured";
+    }
+    return "";
+}
+
+std::string textOf(const Judgement& judgement) {
     const Claim& claim = *judgement.claim;
     const std::vector<std::string> found = describedFindings(judgement);
     std::string text = claim.untestable;
@@ -50,7 +66,7 @@ Table board(const std::vector<Judgement>& judgements) {
         const std::string basis = basisOf(judgement);
         table.rows.push_back({{Cell{.text = claim.id, .address = claimAddress(claim)},
                                Cell{.text = std::string(name(judgement.verdict)), .kind = kindOf(judgement.verdict)},
-                               Cell{claim.says}, Cell{claim.where}, Cell{.text = figuresOf(judgement), .kind = "small"},
+                               Cell{claim.says}, Cell{claim.where}, Cell{.text = textOf(judgement), .kind = "small"},
                                Cell{.text = basis.empty() ? "–" : basis, .kind = "small"}},
                               {}});
     }
@@ -95,19 +111,8 @@ private:
 
 Table recordTable(const Claim& claim, const std::vector<Record>& records, const std::filesystem::path& images) {
     RecordRows found(records, images);
-    for (const Check& check : claim.checks) {
-        std::vector<Figure> figures{check.left};
-        if (check.right) figures.push_back(*check.right);
-        for (const double value : check.growsOver) {
-            figures.push_back(check.left);
-            figures.back().value = value;
-        }
-        for (const Published& row : check.published) {
-            figures.push_back(check.left);
-            figures.back().variant = row.variant;
-        }
-        for (const Figure& figure : figures) found.add(figure);
-    }
+    for (const Check& check : claim.checks)
+        for (const Figure& figure : figuresOf(check)) found.add(figure);
     Table table{.id = "records", .caption = "The records behind it", .rows = found.rows()};
     for (const char* title : {"technique", "scene", "at", "profile", "size", "status", "commit", "cell"})
         table.columns.push_back({.title = title, .number = false});
@@ -123,15 +128,9 @@ Table checkTable(const Judgement& judgement) {
                 .rows = {}};
     const std::vector<std::string> found = describedFindings(judgement);
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const std::optional<bool>& holds = judgement.findings[i].holds;
+        const Outcome outcome = judgement.findings[i].outcome;
         table.rows.push_back({{Cell{judgement.claim->checks[i].says},
-                               Cell{.text = !holds   ? "not measured"
-                                            : *holds ? "yes"
-                                                     : "no",
-                                    .kind = !holds   ? "unmeasured"
-                                            : *holds ? "reproduced"
-                                                     : "refuted"},
-                               Cell{found[i]}},
+                               Cell{.text = std::string(name(outcome)), .kind = kindOf(outcome)}, Cell{found[i]}},
                               {}});
     }
     return table;
@@ -148,6 +147,8 @@ void addClaimPage(const Judgement& judgement, const std::vector<Record>& records
     data.set("says", claim.says);
     data.set("where", claim.where);
     data.set("untestable", claim.untestable);
+    data.set("exact", claim.exact.empty() ? "" : "No interval: " + claim.exact);
+    data.set("paragraph", paragraphOf(judgement));
     data.set("basis", basis);
     data.set("checks", site.table(address, checkTable(judgement)));
     data.set("records", site.table(address, recordTable(claim, records, images)));

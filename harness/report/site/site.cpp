@@ -28,18 +28,26 @@ std::vector<Link> navigationOf(const Sources& sources, const std::vector<Record>
     return links;
 }
 
-/// Records of one scene that were measured at another profile, size or seed than its first ones stand apart, as a scene of
-/// their own: "basic, paper, 700²". Their errors and costs are not those of the others.
+/// The records of one seed of each scene, the first's: the others serve claims alone.
+std::vector<Record> ofOneSeed(const std::vector<Record>& records) {
+    std::map<std::string, std::uint32_t> seeds;
+    std::vector<Record> kept;
+    for (const Record& record : records)
+        if (seeds.try_emplace(record.scene, record.seed).first->second == record.seed) kept.push_back(record);
+    return kept;
+}
+
+/// Records of one scene that were measured at another profile or size than its first ones stand apart, as a scene of their
+/// own: "basic, paper, 700²". Their errors and costs are not those of the others.
 std::vector<Record> apart(std::vector<Record> records) {
     std::map<std::string, const Record*> firsts;
     std::vector<std::string> names;
     for (const Record& record : records) {
         const Record& first = *firsts.try_emplace(record.scene, &record).first->second;
-        const bool same = std::tie(first.profile, first.width, first.height, first.seed) ==
-                          std::tie(record.profile, record.width, record.height, record.seed);
+        const bool same =
+            std::tie(first.profile, first.width, first.height) == std::tie(record.profile, record.width, record.height);
         names.push_back(same ? record.scene
-                             : fmt::format("{}, {}, {}{}", record.scene, record.profile, report::imageSize(record),
-                                           record.seed == first.seed ? "" : fmt::format(", seed {}", record.seed)));
+                             : fmt::format("{}, {}, {}", record.scene, record.profile, report::imageSize(record)));
     }
     for (std::size_t i = 0; i < records.size(); ++i) records[i].scene = names[i];
     return records;
@@ -69,11 +77,12 @@ Comparison comparisonOf(const Sources& sources) {
 } // namespace
 
 std::filesystem::path writeSite(const Sources& sources, const std::filesystem::path& folder) {
-    std::vector<Record> measured = sources.records;
+    const std::vector<Record> shown = ofOneSeed(sources.records);
+    std::vector<Record> measured = shown;
     std::erase_if(measured, [](const Record& record) { return record.sweep.has_value(); });
     const std::string command = measured.empty() ? "" : report::runCommand(measured);
     measured = apart(std::move(measured));
-    const std::vector<Sweep> sweeps = sweepsOf(sources.records);
+    const std::vector<Sweep> sweeps = sweepsOf(shown);
     SiteWriter site(folder, navigationOf(sources, measured, sweeps));
 
     const Comparison compared = comparisonOf(sources);

@@ -2,6 +2,7 @@
 #include "harness/studies/claims/claims.h"
 
 #include "harness/report/summary.h"
+#include "harness/studies/claims/mean_interval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,8 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 namespace shadowbench {
 namespace {
@@ -19,6 +22,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool matches(const Record& record, const Figure& figure) {
     if (!figure.profile.empty() && record.profile != figure.profile) return false;
+    if (figure.seed && record.seed != *figure.seed) return false;
     if (record.scene != figure.scene || record.sweep.has_value() != figure.value.has_value()) return false;
     if (!record.sweep) return record.variant == figure.variant;
     return record.sweep->axis == figure.axis && record.sweep->value == *figure.value &&
@@ -60,59 +64,136 @@ std::optional<double> settledFrom(const Json& list, double bound) {
     return restless == list.size() ? infinity : static_cast<double>(restless + 1);
 }
 
+/// What stands at a path, or at several that are added up.
 std::optional<double> numberOf(const Figure& figure, const Record& record) {
-    const Json value = valueAt(record, figure.metric);
-    return figure.settles ? settledFrom(value, *figure.settles) : numberIn(value);
+    if (figure.settles) return settledFrom(valueAt(record, figure.metric), *figure.settles);
+    std::istringstream words(figure.metric);
+    std::string path;
+    double sum = 0, sign = 1;
+    while (words >> path) {
+        if (path == "+" || path == "-") {
+            sign = path == "+" ? 1 : -1;
+            continue;
+        }
+        const std::optional<double> term = numberIn(valueAt(record, path));
+        if (!term) return std::nullopt;
+        sum += sign * *term;
+    }
+    return sum;
 }
 
 /// What a figure is in the records.
 using LookUp = std::function<std::optional<double>(const Figure&)>;
 
-Finding examineGrowth(const Check& check, const LookUp& number) {
-    Finding finding;
-    for (const double place : check.growsOver) {
-        Figure there = check.left;
-        there.value = place;
-        finding.places.push_back(number(there));
-    }
-    if (std::ranges::any_of(finding.places, [](const auto& value) { return !value; })) return finding;
-    finding.holds = std::ranges::adjacent_find(finding.places, std::greater_equal<>()) == finding.places.end();
-    return finding;
+Figure atPlace(Figure figure, double place) {
+    figure.value = place;
+    return figure;
 }
 
-Finding examineOrder(const Check& check, const LookUp& number) {
-    Finding finding;
+Figure ofVariant(Figure figure, const std::string& variant) {
+    figure.variant = variant;
+    return figure;
+}
+
+void decide(Sample& sample, double margin) {
+    sample.margin = margin;
+    sample.holds = margin >= 0;
+}
+
+Sample examineGrowth(const Check& check, const Figure& left, const LookUp& number) {
+    Sample sample;
+    for (const double place : check.growsOver) sample.places.push_back(number(atPlace(left, place)));
+    if (std::ranges::any_of(sample.places, [](const auto& value) { return !value; })) return sample;
+    sample.holds = std::ranges::adjacent_find(sample.places, std::greater_equal<>()) == sample.places.end();
+    return sample;
+}
+
+Sample examineOrder(const Check& check, const Figure& left, const LookUp& number) {
+    Sample sample;
     std::vector<double> ours, theirs;
     for (const Published& row : check.published) {
-        Figure figure = check.left;
-        figure.variant = row.variant;
-        finding.places.push_back(number(figure));
-        if (!finding.places.back()) continue;
-        ours.push_back(*finding.places.back());
+        sample.places.push_back(number(ofVariant(left, row.variant)));
+        if (!sample.places.back()) continue;
+        ours.push_back(*sample.places.back());
         theirs.push_back(row.number);
     }
-    if (ours.size() < check.published.size()) return finding;
-    finding.left = rankCorrelation(ours, theirs);
-    if (finding.left) finding.holds = *finding.left >= check.factor;
-    return finding;
+    if (ours.size() < check.published.size()) return sample;
+    sample.left = rankCorrelation(ours, theirs);
+    if (sample.left) decide(sample, *sample.left - check.factor);
+    return sample;
 }
 
-Finding examine(const Check& check, const LookUp& number) {
-    if (!check.growsOver.empty()) return examineGrowth(check, number);
-    if (!check.published.empty()) return examineOrder(check, number);
-    Finding finding{number(check.left), {}, {}};
-    if (check.right) finding.right = number(*check.right);
-    if (!finding.left || (check.right && !finding.right)) return finding;
-    const double bound = check.factor * finding.right.value_or(1);
-    finding.holds = check.atMost ? *finding.left <= bound : *finding.left >= bound;
+Sample examine(const Check& check, const Case& place, const LookUp& number) {
+    if (!check.growsOver.empty()) return examineGrowth(check, place.left, number);
+    if (!check.published.empty()) return examineOrder(check, place.left, number);
+    Sample sample{number(place.left), {}, {}, {}};
+    if (place.right) sample.right = number(*place.right);
+    if (!sample.left || (place.right && !sample.right)) return sample;
+    const double bound = check.factor * sample.right.value_or(1);
+    decide(sample, *sample.left == bound ? 0 : check.atMost ? bound - *sample.left : *sample.left - bound);
+    return sample;
+}
+
+/// The seeds of all records that a case may be asked of.
+std::set<std::uint32_t> seedsOf(const std::vector<Figure>& figures, const std::vector<Record>& records) {
+    std::set<std::uint32_t> seeds;
+    for (const Record& record : records)
+        if (std::ranges::any_of(figures, [&](const Figure& figure) { return matches(record, figure); }))
+            seeds.insert(record.seed);
+    return seeds;
+}
+
+std::vector<Figure> figuresOf(const Check& check, const Case& place) {
+    std::vector<Figure> figures;
+    for (const double value : check.growsOver) figures.push_back(atPlace(place.left, value));
+    for (const Published& row : check.published) figures.push_back(ofVariant(place.left, row.variant));
+    if (figures.empty()) figures.push_back(place.left);
+    if (place.right) figures.push_back(*place.right);
+    return figures;
+}
+
+/// A sample for each seed of which there are all figures; if there is none, one that says what is missing.
+std::vector<Sample> samplesOf(const Check& check, const Case& place, const std::vector<Record>& records,
+                              const std::function<void(const Record&)>& found) {
+    std::vector<Sample> complete;
+    for (const std::uint32_t seed : seedsOf(figuresOf(check, place), records)) {
+        std::vector<const Record*> read;
+        const Sample sample = examine(check, place, [&](Figure figure) {
+            figure.seed = seed;
+            return lookUp(figure, records, [&](const Record& record) { read.push_back(&record); });
+        });
+        if (!sample.holds) continue;
+        complete.push_back(sample);
+        for (const Record* record : read) found(*record);
+    }
+    if (!complete.empty()) return complete;
+    return {examine(check, place, [&](const Figure& figure) { return lookUp(figure, records, found); })};
+}
+
+Finding examine(const Check& check, const std::vector<Record>& records, const std::function<void(const Record&)>& found) {
+    Finding finding{{}, Outcome::NotMeasured};
+    std::vector<Outcome> outcomes;
+    for (const Case& place : check.cases) {
+        finding.cases.push_back(samplesOf(check, place, records, found));
+        outcomes.push_back(outcomeOf(finding.cases.back()));
+    }
+    const auto isFirst = [&](Outcome outcome) { return outcome == outcomes.front(); };
+    if (std::ranges::find(outcomes, Outcome::NotMeasured) == outcomes.end())
+        finding.outcome = std::ranges::all_of(outcomes, isFirst) ? outcomes.front() : Outcome::Partly;
     return finding;
 }
 
 Verdict verdictOf(const std::vector<Finding>& findings) {
-    if (std::ranges::any_of(findings, [](const Finding& f) { return !f.holds; })) return Verdict::NotMeasured;
-    const auto held = std::ranges::count_if(findings, [](const Finding& f) { return *f.holds; });
-    if (held == 0) return Verdict::NotReproduced;
-    return held == std::ssize(findings) ? Verdict::Reproduced : Verdict::Partly;
+    std::size_t held = 0, failed = 0, cases = 0;
+    for (const Finding& finding : findings) {
+        if (finding.outcome == Outcome::NotMeasured) return Verdict::NotMeasured;
+        held += std::ranges::count(finding.cases, Outcome::Yes, outcomeOf);
+        failed += std::ranges::count(finding.cases, Outcome::No, outcomeOf);
+        cases += finding.cases.size();
+    }
+    if (held == cases) return Verdict::Reproduced;
+    if (held > 0) return Verdict::Partly;
+    return failed > 0 ? Verdict::NotReproduced : Verdict::NotToldApart;
 }
 
 /// The place of each number among all, from 1; equal ones have the mean of their places.
@@ -145,6 +226,43 @@ std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& re
     return divided && *divided != 0 ? std::optional(*number / *divided) : std::nullopt;
 }
 
+std::vector<Figure> figuresOf(const Check& check) {
+    std::vector<Figure> all;
+    for (const Case& place : check.cases)
+        for (Figure& figure : figuresOf(check, place)) all.push_back(std::move(figure));
+    return all;
+}
+
+Outcome outcomeOf(const std::vector<Sample>& samples) {
+    std::vector<double> margins;
+    for (const Sample& sample : samples) {
+        if (!sample.holds) return Outcome::NotMeasured;
+        if (sample.margin && std::isfinite(*sample.margin)) margins.push_back(*sample.margin);
+    }
+    if (margins.size() < samples.size()) {
+        const auto held = std::ranges::count_if(samples, [](const Sample& sample) { return *sample.holds; });
+        return held == 0 ? Outcome::No : held == std::ssize(samples) ? Outcome::Yes : Outcome::NotToldApart;
+    }
+    const auto [mean, halfWidth] = meanInterval(margins);
+    return mean - halfWidth >= 0 ? Outcome::Yes : mean + halfWidth < 0 ? Outcome::No : Outcome::NotToldApart;
+}
+
+std::string_view name(Outcome outcome) {
+    switch (outcome) {
+    case Outcome::Yes:
+        return "yes";
+    case Outcome::No:
+        return "no";
+    case Outcome::Partly:
+        return "partly";
+    case Outcome::NotToldApart:
+        return "not told apart";
+    case Outcome::NotMeasured:
+        return "not measured";
+    }
+    return "";
+}
+
 std::string_view name(Verdict verdict) {
     switch (verdict) {
     case Verdict::Reproduced:
@@ -153,6 +271,8 @@ std::string_view name(Verdict verdict) {
         return "partly";
     case Verdict::NotReproduced:
         return "not reproduced";
+    case Verdict::NotToldApart:
+        return "not told apart";
     case Verdict::NotTestable:
         return "not testable here";
     case Verdict::NotMeasured:
@@ -174,17 +294,18 @@ std::optional<double> rankCorrelation(const std::vector<double>& ours, const std
 }
 
 Judgement judge(const Claim& claim, const std::vector<Record>& records) {
-    if (!claim.untestable.empty()) return {&claim, Verdict::NotTestable, {}, {}};
+    if (!claim.untestable.empty()) return {&claim, Verdict::NotTestable, {}, {}, {}};
     std::vector<std::string> basis;
     const auto found = [&](const Record& record) {
         const std::string name = fmt::format("{}, {}, {}", record.scene, record.profile, report::imageSize(record));
         if (std::ranges::find(basis, name) == basis.end()) basis.push_back(name);
     };
-    const auto number = [&](const Figure& figure) { return lookUp(figure, records, found); };
-    std::vector<Finding> findings;
-    for (const Check& check : claim.checks) findings.push_back(examine(check, number));
-    const Verdict verdict = verdictOf(findings);
-    return {&claim, verdict, std::move(findings), std::move(basis)};
+    Judgement judgement{&claim, Verdict::NotMeasured, {}, {}, {}};
+    for (const Check& check : claim.checks) judgement.findings.push_back(examine(check, records, found));
+    for (const Check& check : claim.ruledOut) judgement.ruledOut.push_back(examine(check, records, found));
+    judgement.verdict = verdictOf(judgement.findings);
+    judgement.basis = std::move(basis);
+    return judgement;
 }
 
 } // namespace shadowbench

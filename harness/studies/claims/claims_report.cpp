@@ -1,7 +1,10 @@
 // Claims and verdicts for people and machines.
 #include "harness/report/summary.h"
 #include "harness/studies/claims/claims.h"
+#include "harness/studies/claims/figure_text.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,87 +14,92 @@ namespace shadowbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string described(const Figure& figure) {
-    std::string at = figure.value ? fmt::format(" at {} {:g}", figure.axis, *figure.value) : "";
-    if (figure.settles) at += fmt::format(", frame from which it stays ≤ {:g}", *figure.settles);
-    const std::string over = figure.over ? fmt::format(" over {} of {}", figure.over->metric, figure.over->variant) : "";
-    return fmt::format("{} of {}{} on {}{}", figure.metric, figure.variant, over, figure.scene, at);
-}
-
-std::string valued(const Figure& figure, const std::optional<double>& value) {
-    if (!value) return described(figure) + " is missing";
-    return described(figure) + (std::isinf(*value) ? " = none" : fmt::format(" = {:.4g}", *value));
-}
-
-std::string outcome(const Finding& finding) { return !finding.holds ? "not measured" : *finding.holds ? "yes" : "no"; }
-
-/// "figures.tiles of a on s at casters 1, 2, 4 = 3, 5, 9 grows: yes".
-std::string describedGrowth(const Check& check, const Finding& finding) {
-    std::vector<std::string> values;
-    for (const std::optional<double>& value : finding.places)
-        values.push_back(value ? fmt::format("{:.4g}", *value) : "missing");
-    return fmt::format("{} at {} {:g} = {} grows: {}", described(check.left), check.left.axis,
-                       fmt::join(check.growsOver, ", "), fmt::join(values, ", "), outcome(finding));
-}
-
-/// "accuracy.rmse on s, theirs and ours: a 57.2, 55.1; b 88.1, 87: rank correlation 1 ≥ 0.9: yes".
-std::string describedOrder(const Check& check, const Finding& finding) {
-    std::vector<std::string> rows;
-    for (std::size_t i = 0; i < check.published.size(); ++i)
-        rows.push_back(fmt::format("{} {:g}, {}", check.published[i].variant, check.published[i].number,
-                                   finding.places[i] ? fmt::format("{:.4g}", *finding.places[i]) : "missing"));
-    const std::string correlation = finding.left ? fmt::format(" {:.3f} ≥ {:g}", *finding.left, check.factor) : "";
-    return fmt::format("{} on {}, theirs and ours: {}: rank correlation{}: {}", check.left.metric, check.left.scene,
-                       fmt::join(rows, "; "), correlation, outcome(finding));
-}
-
-/// "accuracy.mismatch of a on s = 0.0147 ≤ 0.5 × accuracy.mismatch of b on s = 0.0169: no".
-std::string described(const Check& check, const Finding& finding) {
-    if (!check.growsOver.empty()) return describedGrowth(check, finding);
-    if (!check.published.empty()) return describedOrder(check, finding);
-    const std::string sign = check.atMost ? "≤" : "≥";
-    const std::string right = check.right ? fmt::format("{:g} × {}", check.factor, valued(*check.right, finding.right))
-                                          : fmt::format("{:g}", check.factor);
-    return fmt::format("{} {} {}: {}", valued(check.left, finding.left), sign, right, outcome(finding));
-}
+using report::markdownText;
 
 std::string asText(const Judgement& judgement) {
     const Claim& claim = *judgement.claim;
+    const std::vector<std::string> found = describedFindings(judgement);
     std::string text = fmt::format("{}: {}\n    {} ({})\n", claim.id, name(judgement.verdict), claim.says, claim.where);
-    if (!claim.untestable.empty()) text += fmt::format("    {}\n", claim.untestable);
-    for (std::size_t i = 0; i < claim.checks.size(); ++i)
-        text += fmt::format("    - {}\n      {}\n", claim.checks[i].says, described(claim.checks[i], judgement.findings[i]));
-    if (const std::string basis = basisOf(judgement); !basis.empty()) text += fmt::format("    {}\n", basis);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        text += fmt::format("    - {}\n      {}\n", claim.checks[i].says, found[i]);
+    for (const std::string& line : {claim.untestable, claim.exact, paragraphOf(judgement), basisOf(judgement)})
+        if (!line.empty()) text += fmt::format("    {}\n", line);
     return text;
 }
 
 std::string asMarkdown(const Judgement& judgement) {
     const Claim& claim = *judgement.claim;
-    std::string figures = report::markdownText(claim.untestable);
-    for (std::size_t i = 0; i < claim.checks.size(); ++i)
-        figures += fmt::format("{}{}: {}", i == 0 ? "" : "<br>", report::markdownText(claim.checks[i].says),
-                               report::markdownText(described(claim.checks[i], judgement.findings[i])));
-    if (const std::string basis = basisOf(judgement); !basis.empty()) figures += "<br>" + report::markdownText(basis);
-    return fmt::format("| {} | {} | {} | {} | {} |\n", claim.id, report::markdownText(claim.says), claim.where,
-                       name(judgement.verdict), figures);
+    const std::vector<std::string> found = describedFindings(judgement);
+    std::string text = fmt::format("\n## {}\n\n{} ({}): **{}**.\n", claim.id, markdownText(claim.says),
+                                   markdownText(claim.where), name(judgement.verdict));
+    if (!found.empty()) text += "\n";
+    for (std::size_t i = 0; i < found.size(); ++i)
+        text += fmt::format("* {}: {}\n", markdownText(claim.checks[i].says), markdownText(found[i]));
+    const std::string exact = claim.exact.empty() ? "" : "No interval: " + claim.exact;
+    for (const std::string& line : {claim.untestable, exact, paragraphOf(judgement), basisOf(judgement)})
+        if (!line.empty()) text += fmt::format("\n{}\n", markdownText(line));
+    return text;
+}
+
+/// Of a heading, as GitHub makes it.
+std::string anchorOf(std::string id) {
+    std::ranges::transform(id, id.begin(), [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return id;
+}
+
+std::string markdownPage(const std::vector<Judgement>& judgements) {
+    std::string text =
+        "# Claims\n\n"
+        "What the papers claim, asked of the records. Each check is asked on every scene and at every place or threshold "
+        "that "
+        "it lists: it holds (yes) or fails (no) in all of them, or in some. Where there are records of several seeds, ± is "
+        "the "
+        "half width of the 95 % interval of the mean over them (Student's t), and what is compared are figures of the same "
+        "seed; where the interval of their difference has the bound inside, they are not told apart. A range, such as 58 to "
+        "209, is that over scenes, places and seeds.\n\n"
+        "| # | claim | where | verdict |\n|---|---|---|---|\n";
+    for (const Judgement& judgement : judgements) {
+        const Claim& claim = *judgement.claim;
+        text += fmt::format("| [{}](#{}) | {} | {} | {} |\n", claim.id, anchorOf(claim.id), markdownText(claim.says),
+                            markdownText(claim.where), name(judgement.verdict));
+    }
+    for (const Judgement& judgement : judgements) text += asMarkdown(judgement);
+    return text;
+}
+
+Json asJson(const std::optional<double>& number) {
+    return !number ? Json() : std::isinf(*number) ? Json("none") : Json(*number);
+}
+
+Json asJson(const Check& check, const Finding& finding) {
+    Json json{{"says", check.says}, {"test", described(check, finding)}, {"outcome", name(finding.outcome)}};
+    json["cases"] = Json::array();
+    for (const std::vector<Sample>& samples : finding.cases) {
+        Json ofCase = Json::array();
+        for (const Sample& sample : samples) {
+            Json one = Json::object();
+            if (sample.left) one["left"] = asJson(sample.left);
+            if (sample.right) one["right"] = asJson(sample.right);
+            for (const std::optional<double>& value : sample.places) one["places"].push_back(asJson(value));
+            if (sample.holds) one["holds"] = *sample.holds;
+            ofCase.push_back(std::move(one));
+        }
+        json["cases"].push_back(std::move(ofCase));
+    }
+    return json;
 }
 
 Json asJson(const Judgement& judgement) {
     const Claim& claim = *judgement.claim;
-    Json checks = Json::array();
-    for (std::size_t i = 0; i < claim.checks.size(); ++i) {
-        const Finding& finding = judgement.findings[i];
-        Json check{{"says", claim.checks[i].says}, {"test", described(claim.checks[i], finding)}};
-        if (finding.left) check["left"] = std::isinf(*finding.left) ? Json("none") : Json(*finding.left);
-        if (finding.right) check["right"] = std::isinf(*finding.right) ? Json("none") : Json(*finding.right);
-        for (const std::optional<double>& value : finding.places) check["places"].push_back(value ? Json(*value) : Json());
-        if (finding.holds) check["holds"] = *finding.holds;
-        checks.push_back(std::move(check));
-    }
     Json json{{"id", claim.id}, {"says", claim.says}, {"where", claim.where}, {"verdict", name(judgement.verdict)}};
     if (!claim.untestable.empty()) json["untestable"] = claim.untestable;
-    json["checks"] = std::move(checks);
+    json["checks"] = Json::array();
+    for (std::size_t i = 0; i < judgement.findings.size(); ++i)
+        json["checks"].push_back(asJson(claim.checks[i], judgement.findings[i]));
+    for (std::size_t i = 0; i < judgement.ruledOut.size(); ++i)
+        json["ruled out"].push_back(asJson(claim.ruledOut[i], judgement.ruledOut[i]));
+    if (!claim.exact.empty()) json["no interval"] = claim.exact;
+    if (const std::string paragraph = paragraphOf(judgement); !paragraph.empty()) json["paragraph"] = paragraph;
     json["basis"] = judgement.basis;
     if (!claim.replay.empty()) json["replay"] = claim.replay;
     return json;
@@ -114,14 +122,35 @@ std::string basisOf(const Judgement& judgement) {
     return text;
 }
 
+bool isShort(Verdict verdict) {
+    return verdict == Verdict::NotReproduced || verdict == Verdict::Partly || verdict == Verdict::NotToldApart;
+}
+
+std::string paragraphOf(const Judgement& judgement) {
+    if (!isShort(judgement.verdict)) return "";
+    const Claim& claim = *judgement.claim;
+    std::vector<std::string> ours, ruledOut, open;
+    for (std::size_t i = 0; i < claim.checks.size(); ++i)
+        if (judgement.findings[i].outcome != Outcome::Yes) ours.push_back(inShort(claim.checks[i], judgement.findings[i]));
+    for (std::size_t i = 0; i < claim.ruledOut.size(); ++i)
+        (judgement.ruledOut[i].outcome == Outcome::Yes ? ruledOut : open)
+            .push_back(inShort(claim.ruledOut[i], judgement.ruledOut[i]));
+    if (!claim.replay.empty()) ruledOut.push_back("our code, whose figures a test computes again in double precision");
+    std::string text = fmt::format("The document: {}. Here: {}.", claim.theirs, fmt::join(ours, "; "));
+    if (!ruledOut.empty()) text += fmt::format(" Ruled out: {}.", fmt::join(ruledOut, "; "));
+    if (!open.empty()) text += fmt::format(" Not ruled out: {}.", fmt::join(open, "; "));
+    return text + fmt::format(" What is left: {}.", claim.left);
+}
+
 std::string claimsReport(const std::vector<Judgement>& judgements, const std::string& format) {
+    if (format == "md") return markdownPage(judgements);
     if (format == "json") {
         Json all = Json::array();
         for (const Judgement& judgement : judgements) all.push_back(asJson(judgement));
         return all.dump(2) + "\n";
     }
-    std::string text = format == "md" ? "| # | claim | where | verdict | figures |\n|---|---|---|---|---|\n" : "";
-    for (const Judgement& judgement : judgements) text += format == "md" ? asMarkdown(judgement) : asText(judgement);
+    std::string text;
+    for (const Judgement& judgement : judgements) text += asText(judgement);
     return text;
 }
 

@@ -85,14 +85,6 @@ std::string canonical(const std::string& variant) {
     return isToCome(idOf(variant)) ? variant : techniques::parseVariant(variant).name;
 }
 
-std::vector<std::string> variantsOf(const Check& check) {
-    std::vector<std::string> variants;
-    for (const Published& row : check.published) variants.push_back(row.variant);
-    if (check.published.empty()) variants.push_back(check.left.variant);
-    if (check.right) variants.push_back(check.right->variant);
-    return variants;
-}
-
 TEST(Papers, TheProgramsOwnNameWhatRecordsCanHave) {
     const std::vector<std::string> scenes = builtinScenes();
     const auto isScene = [&](const std::string& id) { return std::ranges::find(scenes, id) != scenes.end(); };
@@ -106,10 +98,14 @@ TEST(Papers, TheProgramsOwnNameWhatRecordsCanHave) {
         for (const PaperRow& row : page.table->rows) EXPECT_EQ(canonical(row.variant), row.variant);
     }
     for (const Claim& claim : claims())
-        for (const Check& check : claim.checks) {
-            EXPECT_TRUE(isScene(check.left.scene)) << claim.id;
-            for (const std::string& variant : variantsOf(check)) EXPECT_EQ(canonical(variant), variant) << claim.id;
-        }
+        for (const auto& checks : {claim.checks, claim.ruledOut})
+            for (const Check& check : checks)
+                for (const Figure& figure : figuresOf(check)) {
+                    EXPECT_TRUE(isScene(figure.scene)) << claim.id << ": " << figure.scene;
+                    EXPECT_EQ(canonical(figure.variant), figure.variant) << claim.id;
+                    const std::string over = figure.over ? figure.over->variant : figure.variant;
+                    EXPECT_EQ(canonical(over), over) << claim.id;
+                }
 }
 
 } // namespace
