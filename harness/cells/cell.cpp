@@ -90,12 +90,14 @@ Truth sequenceTruth(const Scene& scene, const techniques::Variant& variant) {
     return usesPixelAreas(scene, variant) ? Truth::PixelArea : mainTruth(scene, variant);
 }
 
-std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed,
-                   int seeds) {
-    std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, seed,
+std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant,
+                   const MeasureOptions& options) {
+    std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, options.seed,
                                      scene.timeline.still, scene.timeline.moving);
     if (scene.timeline.approach > 0) inputs += fmt::format("approach {}\n", scene.timeline.approach);
-    if (seeds > 1) inputs += fmt::format("seeds {}\n", seeds);
+    if (options.seeds > 1) inputs += fmt::format("seeds {}\n", options.seeds);
+    if (options.views > 1) inputs += fmt::format("views {}\n", options.views);
+    if (options.neighbours) inputs += "neighbours\n";
     for (const int frame : truths.scoredFrames()) {
         inputs += truths.key(mainTruth(scene, variant), frame) + "\n";
         if (usesPixelAreas(scene, variant)) inputs += truths.key(Truth::PixelArea, frame) + "\n";
@@ -152,6 +154,12 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     record.status = Status::Scored;
 }
 
+std::optional<double> scoredError(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Truth truth) {
+    const auto technique = variant.entry->make(variant.parameters);
+    renderScored(frames, variant, *technique, seed);
+    return errorBy(truth, {frames.stage().visibility(), frames.truth(truth), frames.mask(truth)});
+}
+
 void splitErrorOverSeeds(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, int seeds,
                          const Image<float>& v, Record& record) {
     std::vector<Image<float>> images{v};
@@ -162,8 +170,17 @@ void splitErrorOverSeeds(SceneFrames& frames, const techniques::Variant& variant
         if (i == 1 && std::ranges::equal(images[0], images[1])) return;
     }
     const Truth graded = gradedTruth(frames.scene());
-    metrics::compute<metrics::OfSeeds>(metrics::SeedFrames{images, frames.truth(graded), frames.mask(graded)},
-                                       record.values);
+    const groundtruth::Reference& truth = frames.truth(graded);
+    const Mask& mask = frames.mask(graded);
+    metrics::compute<metrics::OfSeeds>(metrics::SeedFrames{images, truth, mask}, record.values);
+    std::vector<double> errors;
+    for (const Image<float>& image : images)
+        if (const std::optional<double> error = errorBy(graded, {image, truth, mask})) errors.push_back(*error);
+    if (errors.empty()) return;
+    const auto [mean, half] = metrics::meanInterval(errors);
+    record.values["stability.seeds.mean"] = mean;
+    record.values["stability.seeds.interval"] = half;
+    record.values.list("stability.seeds.errors") = std::move(errors);
 }
 
 void timeCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record) {

@@ -1,6 +1,7 @@
 // One cell: a technique variant on a scene. Renders its frames, scores them against the truth, measures their cost.
 #pragma once
 
+#include "harness/cells/measure_options.h"
 #include "harness/cells/scene_frames.h"
 #include "harness/cells/truths.h"
 #include "harness/records/record.h"
@@ -39,9 +40,9 @@ Truth sequenceTruth(const Scene& scene, const techniques::Variant& variant);
 /// what changes from frame to frame.
 bool usesPixelAreas(const Scene& scene, const techniques::Variant& variant);
 
-/// Hash of everything a cell's scores depend on: truths (hence the scene), variant, frames, seeds, schema.
-std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant, std::uint32_t seed,
-                   int seeds = 1);
+/// Hash of everything a cell's scores depend on: truths (hence the scene), variant, frames, seeds, views, schema.
+std::string cellId(const Truths& truths, const Scene& scene, const techniques::Variant& variant,
+                   const MeasureOptions& options);
 
 /// Why the variant does not apply to the scene; nothing if it does.
 std::optional<std::string> notApplicable(const Scene& scene, const techniques::Variant& variant);
@@ -51,6 +52,9 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
 /// a score.
 void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record,
                CellImages& images);
+
+/// The error of a variant on the scored frame by `truth` (`errorBy`), drawn from an empty history.
+std::optional<double> scoredError(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Truth truth);
 
 /// Splits the error of the scored frame, of which `v` is the image that `seed` drew, over `seeds` ≥ 2 of them from `seed` on
 /// into what all have in common and noise; of a variant that draws the same with all it says nothing.

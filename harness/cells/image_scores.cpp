@@ -60,6 +60,13 @@ void score(const metrics::ScoredFrame& frame, Record& record) {
     worst = std::max(worst.value_or(0), frame.mask.primaryMismatch);
 }
 
+/// How many times the error of an image without shadows `v` has; nothing where that has none.
+std::optional<double> timesNone(Truth truth, const metrics::ScoredFrame& frame) {
+    const Image<float> lit(frame.v.width(), frame.v.height(), 1.0F);
+    const std::optional<double> none = errorBy(truth, {lit, frame.truth, frame.mask}), own = errorBy(truth, frame);
+    return none && *none > 0 ? std::optional(own.value() / *none) : std::nullopt;
+}
+
 /// The last still frame, which is shown, against every truth it is scored by (docs/metrics.md, "Which truth a cell is scored
 /// against").
 void scoreStillFrame(SceneFrames& frames, const ScoringRule& rule, const Receivers& receivers, const Image<float>& v,
@@ -72,6 +79,8 @@ void scoreStillFrame(SceneFrames& frames, const ScoringRule& rule, const Receive
         if (truth == Truth::Soft && scene.light.isArea()) reference->area = besideArea(frames, receivers, v);
         score<metrics::OfVisibility>({v, frames.truth(truth), alignedMask(receivers, truth, frame)}, record);
     };
+    record.values["sanity.times_none"] =
+        timesNone(rule.truth, {v, frames.truth(rule.truth), alignedMask(receivers, rule.truth, frame)});
     if (rule.truth != Truth::Hard) return scoreSoft(rule.truth, record.reference);
     const metrics::ScoredFrame labels{v, frames.truth(Truth::Hard), alignedMask(receivers, Truth::Hard, frame)};
     record.reference = described(Truth::Hard);
@@ -178,6 +187,10 @@ struct ImageScores::Sequences {
 
 bool usesPixelAreas(const Scene& scene, Truth truth) {
     return truth == Truth::Hard && (scene.timeline.moving > 0 || !scene.light.isArea());
+}
+
+std::optional<double> errorBy(Truth truth, const metrics::ScoredFrame& frame) {
+    return truth == Truth::Hard ? metrics::labelErrors(frame).mismatch : metrics::rmse(frame);
 }
 
 Truth gradedTruth(const Scene& scene) { return hasTruth(scene.light, Truth::Soft) ? Truth::Soft : Truth::Hard; }

@@ -26,6 +26,9 @@ struct ScoringRule {
 /// what changes from frame to frame.
 bool usesPixelAreas(const Scene& scene, Truth truth);
 
+/// The error of an image in one number: wrong labels by the hard truth, rms by others. Nothing where no pixel is scored.
+std::optional<double> errorBy(Truth truth, const metrics::ScoredFrame& frame);
+
 /// What visibility is graded against, whatever the images claim to show.
 Truth gradedTruth(const Scene& scene);
 

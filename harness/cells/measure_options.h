@@ -12,6 +12,8 @@ class ExternalTechniques;
 struct MeasureOptions {
     std::uint32_t seed = 1;
     int seeds = 1;                // from it on; with two or more the error of what depends on the seed is split
+    int views = 1;                // still views of the scene: its own, and others by a rule (changed_scene.h)
+    bool neighbours = false;      // each row again with its map, and with the image, a fortieth larger
     bool time = true;             // wall time
     std::filesystem::path images; // folder of what is kept for pages (harness/cells/kept_images.h); empty: nothing is
     bool pictures = false;        // for people, too: visibility, reference and error as EXR and PNG

@@ -23,16 +23,15 @@ bool names(const std::string& expected, const techniques::Variant& variant) {
     }
 }
 
-/// What the scene is there to break is broken: the first of its bounds that is exceeded is said with the scores.
+/// What the scene is there to break is broken: the bounds that are exceeded are said with the scores.
 void markExpectedFailure(const Scene& scene, const techniques::Variant& variant, Record& record) {
     for (const Expectation& expected : scene.fails) {
         if (!names(expected.technique, variant)) continue;
         const std::optional<double> value = metrics::bounded(record.values, expected.metric);
         if (!value || *value <= expected.bound) continue;
         record.status = Status::ExpectedFailure;
-        record.reason =
-            fmt::format("{} is expected to lie above {:g}: {}", expected.metric, expected.bound, expected.reason);
-        return;
+        record.reason += fmt::format("{}{} is expected to lie above {:g}: {}", record.reason.empty() ? "" : "; ",
+                                     expected.metric, expected.bound, expected.reason);
     }
 }
 
@@ -48,8 +47,7 @@ std::optional<std::string> SceneCells::notApplicable(const techniques::Variant& 
 
 std::string SceneCells::id(const techniques::Variant& variant) const {
     if (isExternal(variant)) return options_.external->cellId(truths_, scene_, variant);
-    return variant.isLod() ? lod::lodCellId(scene_, variant)
-                           : cellId(truths_, scene_, variant, options_.seed, options_.seeds);
+    return variant.isLod() ? lod::lodCellId(scene_, variant) : cellId(truths_, scene_, variant, options_);
 }
 
 Record SceneCells::blank(const techniques::Variant& variant) const {
@@ -139,6 +137,20 @@ void SceneCells::scoreOwn(const techniques::Variant& variant, Record& record, Ce
     scoreCell(frames(), variant, options_.seed, record, images);
     if (options_.seeds > 1)
         splitErrorOverSeeds(frames(), variant, options_.seed, options_.seeds, images.visibility(), record);
+    scoreBeside(variant, record);
+}
+
+/// What is asked for of the same row on copies of the scene.
+void SceneCells::scoreBeside(const techniques::Variant& variant, Record& record) {
+    if (options_.neighbours) {
+        if (!neighbour_) neighbour_ = std::make_unique<ChangedScene>(withNeighbourImage(scene_), cache_);
+        scoreNeighbours(frames(), neighbour_->frames(), variant, options_.seed, record);
+    }
+    if (options_.views < 2) return;
+    if (otherViews_.empty())
+        for (Scene& view : otherViews(scene_, options_.views))
+            otherViews_.push_back(std::make_unique<ChangedScene>(std::move(view), cache_));
+    scoreViews(frames(), otherViews_, variant, options_.seed, record);
 }
 
 void SceneCells::scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress) {

@@ -5,12 +5,14 @@
 #include "harness/cells/cell.h"
 #include "harness/cells/lod_cell.h"
 #include "harness/cells/measure_options.h"
+#include "harness/cells/neighbours.h"
 #include "harness/cells/scene_frames.h"
 #include "harness/cells/truths.h"
 #include "harness/records/record.h"
 #include "techniques/contract/entry.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -60,6 +62,7 @@ public:
     void measure(const techniques::Variant& variant, Record& record, const Progress& progress);
 
 private:
+    void scoreBeside(const techniques::Variant& variant, Record& record);
     void scoreOwn(const techniques::Variant& variant, Record& record, CellImages& images);
     void scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress);
     SceneFrames& frames();
@@ -76,6 +79,8 @@ private:
     Truths truths_;
     lod::LodScene lodScene_;
     std::optional<SceneFrames> frames_;
+    std::unique_ptr<ChangedScene> neighbour_;
+    std::vector<std::unique_ptr<ChangedScene>> otherViews_;
     std::set<Truth> keptTruths_, keptSequences_; // whose files this object has written
 };
 

@@ -105,6 +105,14 @@ void addRun(CLI::App& app, Action& action) {
                      "common and noise (stability.seeds)")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
+    verb->add_option("--views", options->measure.views,
+                     "Score what keeps no history from so many still views, the eye turned about what it looks at by 10° to "
+                     "either side, then 20° …: errors are then their mean, with the worst beside")
+        ->check(CLI::Range(1, 15))
+        ->capture_default_str();
+    verb->add_flag("--neighbours", options->measure.neighbours,
+                   "Score each row again with its map, and with the image, a fortieth larger; a row whose error changes by "
+                   "more than a factor of two is marked (sanity)");
     verb->add_flag("--resume", options->resume, "Keep the cells that --out already holds of this program, run the rest");
     verb->add_flag("--images", *images,
                    "Write visibility, reference and error of each cell as EXR and PNG, too, and pictures of walks");

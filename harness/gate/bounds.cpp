@@ -24,10 +24,12 @@ Change judged(const Record& record, const Bound& bound) {
         fmt::format("{} on {}: {} {} and {}: {}", record.variant, record.scene, bound.metric, is, what, bound.cells.reason)};
 }
 
+/// The gate measures nothing that is measured on demand alone.
 std::vector<Bound> listOf(const Scene& scene, const std::vector<Expectation>& expectations, bool below) {
     std::vector<Bound> bounds;
     for (const Expectation& e : expectations)
-        bounds.push_back({{scene.id, {e.technique}, {}, e.reason}, e.metric, e.bound, below});
+        if (metrics::boundedMetric(e.metric)->unjudged != metrics::onDemand)
+            bounds.push_back({{scene.id, {e.technique}, {}, e.reason}, e.metric, e.bound, below});
     return bounds;
 }
 

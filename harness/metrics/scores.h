@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace shadowbench::metrics {
 
@@ -140,6 +141,12 @@ struct SeedErrors {
 /// Both parts are unbiased as squares: the variance of a pixel is taken with n − 1, and what the mean over n seeds keeps of
 /// it does not count as systematic. Absent with fewer than two seeds.
 std::optional<SeedErrors> seedErrors(const SeedFrames& frames);
+
+/// The mean of samples, at least two, and half its 95 % interval by Student's t.
+struct MeanInterval {
+    double mean, half;
+};
+MeanInterval meanInterval(const std::vector<double>& samples);
 
 /// Number of the first frame, counted from 1, from which the error stays ≤ 1.05 × its steady state, the mean of the last
 /// tenth of the frames (at least one). Absent without frames and for an error still restless at the end.

@@ -3,6 +3,7 @@
 #include "harness/metrics/pixels.h"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 namespace shadowbench::metrics {
@@ -31,6 +32,16 @@ std::optional<SeedErrors> seedErrors(const SeedFrames& frames) {
     result.noise = std::sqrt(variances / pixels);
     result.systematic = std::sqrt(std::max(0.0, (squares - variances) / pixels));
     return result;
+}
+
+MeanInterval meanInterval(const std::vector<double>& samples) {
+    const auto count = static_cast<double>(samples.size());
+    double sum = 0, around = 0;
+    for (const double sample : samples) sum += sample;
+    const double mean = sum / count;
+    for (const double sample : samples) around += (sample - mean) * (sample - mean);
+    const boost::math::students_t student(count - 1);
+    return {mean, boost::math::quantile(student, 0.975) * std::sqrt(around / (count - 1) / count)};
 }
 
 } // namespace shadowbench::metrics

@@ -26,7 +26,7 @@ inline constexpr double strayWidth = 0.004; // two points in a thousand, each of
 // Why lines are not judged, where several have one reason.
 inline constexpr std::string_view noisyTime = "another run gives another value: frames in turns are judged instead";
 inline constexpr std::string_view behindScores = "the numbers behind scores that are judged";
-inline constexpr std::string_view onDemand = "measured by `run --seeds` alone: accuracy.rmse is judged";
+inline constexpr std::string_view onDemand = "measured on demand alone, by `run --seeds`, `--views` or `--neighbours`";
 inline constexpr std::string_view classSize = "what shares are of: a property of scene and truth";
 
 // A line states what differs from the columns' defaults in metric.h; clang-format would give each column a line.
@@ -219,6 +219,21 @@ inline constexpr auto table = std::to_array<Metric>({
      .about = Class::Labels, .allowance = Allowance{.pixels = 2},
      .meaning = "pixels where rasteriser and truth see different surfaces; above 0.1 % nothing is scored"},
 
+    {.path = "views.mean", .unit = "1", .range = range::size, .unjudged = onDemand,
+     .meaning = "error over several still views of the scene, mean; wrong labels or rms, as the record is ranked by"},
+    {.path = "views.worst", .unit = "1", .range = range::size, .unjudged = onDemand,
+     .meaning = "the same, largest"},
+    {.path = "views.errors", .unit = "1", .range = range::size, .list = true, .optional = true, .unjudged = onDemand,
+     .meaning = "the same, from each view, the scene's own first"},
+
+    {.path = "sanity.times_none", .unit = "ratio", .range = range::size, .optional = true, .about = Class::Labels, .bound = "times_none",
+     .unjudged = behindScores,
+     .meaning = "error of the answer as a multiple of that of an image without shadows"},
+    {.path = "sanity.map_step", .unit = "ratio", .range = range::size, .optional = true, .about = Class::Labels, .bound = "map_step",
+     .unjudged = onDemand, .meaning = "factor by which that error changes with a map that is a fortieth larger"},
+    {.path = "sanity.image_step", .unit = "ratio", .range = range::size, .optional = true, .about = Class::Labels, .bound = "image_step",
+     .unjudged = onDemand, .meaning = "factor by which it changes with an image that is a fortieth larger"},
+
     {.path = "aliasing.median", .unit = "pixels", .range = range::size, .unjudged = "of the map, not of the image: labels and edges show what it does there",
      .computed = OfMap{part<aliasing, &Aliasing::median>},
      .meaning = "that one texel of the technique's map covers where it is stretched most, median over the receivers"},
@@ -275,6 +290,12 @@ inline constexpr auto table = std::to_array<Metric>({
     {.path = "stability.seeds.noise", .unit = "1", .range = range::size, .optional = true, .unjudged = onDemand,
      .computed = OfSeeds{part<seedErrors, &SeedErrors::noise>},
      .meaning = "the same, standard deviation of a pixel over the seeds"},
+    {.path = "stability.seeds.mean", .unit = "1", .range = range::size, .optional = true, .unjudged = onDemand,
+     .meaning = "the error that ranks the record, wrong labels or rms, mean over the seeds"},
+    {.path = "stability.seeds.interval", .unit = "1", .range = range::size, .optional = true, .unjudged = onDemand,
+     .meaning = "half the 95 % interval of that mean, by Student's t"},
+    {.path = "stability.seeds.errors", .unit = "1", .range = range::size, .list = true, .optional = true, .unjudged = onDemand,
+     .meaning = "the same error, with each seed"},
     {.path = "stability.reuse", .unit = "share", .range = range::share, .optional = true,
      .unjudged = "a property of the camera's path",
      .computed = OfMovingFrames{of<reuse>}, .meaning = "surface pixels of the moving frames that the frame before saw, too"},

@@ -163,6 +163,8 @@ void fields(auto& visit, Is<Record> auto& r) {
     visit("sweep", r.sweep);
     metricGroup(visit, "lod", r.values);
     metricGroup(visit, "accuracy", hasAccuracy(r), r.values);
+    metricGroup(visit, "views", r.values);
+    metricGroup(visit, "sanity", r.values);
     metricGroup(visit, "aliasing", r.values);
     metricGroup(visit, "off_geometry_edges", r.values);
     visit.figures("figures", r.figures);

@@ -34,7 +34,10 @@ std::optional<Headline> headline(const Record& record) {
     const bool labels = record.values["accuracy.mismatch"].has_value();
     const bool soft = isSoft(record.reference) || isSoft(record.softReference);
     const std::string metric = soft || !labels ? "rmse" : "mismatch";
-    const std::optional<double> value = metrics::bounded(record.values, metric);
+    const metrics::Values& values = record.values;
+    for (const auto& mean : {values["views.mean"], values["stability.seeds.mean"]})
+        if (mean) return Headline{metric, *mean};
+    const std::optional<double> value = metrics::bounded(values, metric);
     return value ? std::optional(Headline{metric, *value}) : std::nullopt;
 }
 

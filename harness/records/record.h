@@ -148,8 +148,8 @@ std::string_view name(Status status);
 bool wasScored(Status status);
 
 /// The metric that ranks a record's accuracy, the same for all records of one scene: "rmse" where a soft truth (oracle
-/// "povray") was used, for a hard technique beside its exact one, and where there are no labels, else "mismatch"; nothing if
-/// it was not scored.
+/// "povray") was used, for a hard technique beside its exact one, and where there are no labels, else "mismatch"; its mean
+/// over views or seeds where several were drawn; nothing if it was not scored.
 struct Headline {
     std::string metric;
     double value;

@@ -229,7 +229,7 @@ private:
 
 std::string recordSchema() {
     Json schema = Json::parse(withoutMetrics);
-    for (const char* group : {"lod", "accuracy", "aliasing", "off_geometry_edges", "stability", "cost"}) {
+    for (const char* group : {"lod", "accuracy", "views", "sanity", "aliasing", "off_geometry_edges", "stability", "cost"}) {
         Describer describer(schema["properties"][group]);
         const metrics::Values values;
         records::metricFields(describer, metrics::linesOf(group), std::string_view(group).size() + 1, values);

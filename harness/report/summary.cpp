@@ -112,6 +112,15 @@ std::string formatValue(const std::string& metric, double value) {
     return isShare(metric) ? percent(value) : fmt::format("{:.4f}", value);
 }
 
+std::string errorText(const Record& record) {
+    const Headline head = headline(record).value();
+    std::string text = formatValue(head.metric, head.value);
+    const metrics::Values& values = record.values;
+    if (const auto& half = values["stability.seeds.interval"]) text += " ± " + formatValue(head.metric, *half);
+    if (const auto& worst = values["views.worst"]) text += ", worst " + formatValue(head.metric, *worst);
+    return text;
+}
+
 std::string formatBound(const Tolerance& limit) {
     return isShare(limit.metric) ? fmt::format("{:g} %", 100 * limit.value) : fmt::format("{:g}", limit.value);
 }

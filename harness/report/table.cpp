@@ -1,6 +1,7 @@
 // Tables of one scene, for a terminal and in Markdown.
 #include "harness/report/columns.h"
 #include "harness/report/cost_report.h"
+#include "harness/report/doubts.h"
 #include "harness/report/run_report.h"
 #include "harness/report/summary.h"
 #include "harness/report/text_table.h"
@@ -16,17 +17,13 @@ namespace {
 
 using Cell = std::optional<std::string>; // nothing: does not apply
 
-std::string error(const Record& record) {
-    const std::optional<Headline> head = headline(record);
-    return formatValue(head->metric, head->value);
-}
-
 Cell cell(const Column& column, const Record& record) {
     const std::optional<double>& value = record.values[column.metric];
     return value ? Cell(column.format(*value)) : Cell();
 }
 
 std::string rowName(const Record& record) {
+    if (!unexplainedDoubts(record).empty()) return record.variant + " (doubtful)";
     return record.status == Status::ExpectedFailure ? record.variant + " (fails as expected)" : record.variant;
 }
 
@@ -35,7 +32,7 @@ TextTable table(const std::vector<Record>& records, const std::string& scene, bo
     const std::vector<std::size_t> scored = scoredOf(records, scene);
     TextTable result{{"technique"}, {}};
     if (!scored.empty()) result.titles.emplace_back("error");
-    for (const std::size_t i : scored) result.rows.push_back({rowName(records[i]), error(records[i])});
+    for (const std::size_t i : scored) result.rows.push_back({rowName(records[i]), errorText(records[i])});
     for (const Column* column : columnsOf(records, scored)) {
         if (column->pageOnly && !page) continue;
         result.titles.emplace_back(column->title);
@@ -92,6 +89,8 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
     std::vector<std::pair<std::string, std::string>> inapplicable; // reason → variants, in order of first occurrence
     for (const std::size_t i : ofScene(records, scene)) {
         const Record& record = records[i];
+        if (const std::string doubt = unexplainedDoubts(record); !doubt.empty())
+            lines.push_back(fmt::format("doubtful: {} ({})", record.variant, doubt));
         if (record.status == Status::Error) lines.push_back(fmt::format("error: {} ({})", record.variant, record.reason));
         if (record.status != Status::NotApplicable) continue;
         const auto same = std::find_if(inapplicable.begin(), inapplicable.end(),

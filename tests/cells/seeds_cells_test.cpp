@@ -34,8 +34,13 @@ TEST(SeedsOfACell, SayNothingOfWhatDoesNotDependOnThem) {
 TEST(SeedsOfACell, ArePartOfItsId) {
     CellScene& cells = stillScene("contact", 1);
     const techniques::Variant variant = techniques::parseVariant("pcf-poisson");
-    EXPECT_EQ(cellId(cells.truths(), cells.scene(), variant, 1), cellId(cells.truths(), cells.scene(), variant, 1, 1));
-    EXPECT_NE(cellId(cells.truths(), cells.scene(), variant, 1), cellId(cells.truths(), cells.scene(), variant, 1, 4));
+    MeasureOptions options;
+    const std::string one = cellId(cells.truths(), cells.scene(), variant, options);
+    options.seeds = 4;
+    EXPECT_NE(cellId(cells.truths(), cells.scene(), variant, options), one);
+    options.seeds = 1;
+    options.views = 5;
+    EXPECT_NE(cellId(cells.truths(), cells.scene(), variant, options), one);
 }
 
 } // namespace

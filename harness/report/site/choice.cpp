@@ -56,9 +56,6 @@ Choice choiceFor(const std::vector<Record>& records, const std::string& scene) {
     return choice;
 }
 
-std::string errorText(const Record& record) {
-    const std::optional<Headline> error = headline(record);
-    return error ? report::formatValue(error->metric, error->value) : "–";
-}
+std::string errorText(const Record& record) { return headline(record) ? report::errorText(record) : "–"; }
 
 } // namespace shadowbench::site

@@ -21,7 +21,7 @@ struct Choice {
 /// shadow do not count.
 Choice choiceFor(const std::vector<Record>& records, const std::string& scene);
 
-/// "0.5 %", "31.2 %", "0.0312": the headline error of a scored record.
+/// report::errorText of a scored record, "–" of another.
 std::string errorText(const Record& record);
 
 } // namespace shadowbench::site

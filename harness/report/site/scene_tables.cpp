@@ -2,6 +2,7 @@
 
 #include "harness/metrics/table.h"
 #include "harness/report/columns.h"
+#include "harness/report/doubts.h"
 #include "harness/report/run_report.h"
 #include "harness/report/site/choice.h"
 #include "harness/report/site/names.h"
@@ -108,6 +109,8 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
         const Record& record = records[i];
         Row row{{techniqueCell(record, images), {errorText(record), headline(record)->value}}, marksOf(records, i)};
         if (record.status == Status::ExpectedFailure) row.cells[0].note += "; fails as the scene expects: " + record.reason;
+        if (const std::string doubt = report::unexplainedDoubts(record); !doubt.empty())
+            row.cells[0].note += "; doubtful: " + doubt;
         if (choice.take == i) row.cells[0].kind = "take";
         if (!limits.empty()) row.cells.push_back(shareCell(record, limits));
         for (const report::Column* column : chosen) {

@@ -176,7 +176,9 @@ private:
             return;
         }
         try {
-            record.cell = cellId(frames.truths(), scene, variant, options_.seed);
+            MeasureOptions measure;
+            measure.seed = options_.seed;
+            record.cell = cellId(frames.truths(), scene, variant, measure);
             CellImages images;
             scoreCell(frames, variant, options_.seed, record, images);
         } catch (const Error& error) {

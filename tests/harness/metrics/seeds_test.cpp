@@ -29,6 +29,13 @@ std::optional<metrics::SeedErrors> errorsOf(int seeds) {
     return metrics::seedErrors({images, truth, mask});
 }
 
+TEST(MeanInterval, IsStudentsOverTheSamples) {
+    const auto [mean, half] = metrics::meanInterval({2, 4, 4, 6}); // deviation 1.63299, t of 3 degrees 3.18245
+    EXPECT_DOUBLE_EQ(mean, 4);
+    EXPECT_NEAR(half, 3.18245 * 1.63299 / 2, 1e-4);
+    EXPECT_EQ(metrics::meanInterval({3, 3}).half, 0);
+}
+
 TEST(SeedErrors, AreThoseThatTheImagesWereMadeWith) {
     const double systematic = std::hypot(brighter, wave);
     for (const int seeds : {2, 8, 32}) {

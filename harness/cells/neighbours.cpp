@@ -1,0 +1,64 @@
+#include "harness/cells/neighbours.h"
+
+#include "base/error.h"
+#include "harness/cells/cell.h"
+#include "harness/cells/image_scores.h"
+#include "techniques/catalog.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <numeric>
+#include <string>
+
+namespace shadowbench {
+
+std::optional<techniques::Variant> withNeighbourMap(const techniques::Variant& variant) {
+    const std::vector<techniques::Parameter>& declared = variant.entry->parameters;
+    const auto map = std::ranges::find(declared, "map", &techniques::Parameter::name);
+    if (map == declared.end()) return std::nullopt;
+    std::string text;
+    for (const auto& [name, value] : variant.parameters.all())
+        text += fmt::format("{}{}={}", text.empty() ? "" : ",", name,
+                            name == "map" ? std::to_string(neighbourOf(variant.parameters.integer("map"))) : value);
+    try {
+        return techniques::parseVariant(variant.entry->id + ":" + text);
+    } catch (const BadInput&) { // beyond its range, or no size that goes with the other values
+        return std::nullopt;
+    }
+}
+
+double stepBetween(Truth truth, double error, double neighbour) {
+    const double least = truth == Truth::Hard ? 0.001 : 0.005;
+    const auto [low, high] = std::minmax(std::max(error, least), std::max(neighbour, least));
+    return high / low;
+}
+
+void scoreNeighbours(SceneFrames& frames, SceneFrames& larger, const techniques::Variant& variant, std::uint32_t seed,
+                     Record& record) {
+    const Truth truth = mainTruth(frames.scene(), variant);
+    const std::optional<double> own = scoredError(frames, variant, seed, truth);
+    const auto step = [&](SceneFrames& there, const techniques::Variant& neighbour) -> std::optional<double> {
+        const std::optional<double> error = scoredError(there, neighbour, seed, truth);
+        return own && error ? std::optional(stepBetween(truth, *own, *error)) : std::nullopt;
+    };
+    if (const auto neighbour = withNeighbourMap(variant)) record.values["sanity.map_step"] = step(frames, *neighbour);
+    record.values["sanity.image_step"] = step(larger, variant);
+}
+
+void scoreViews(SceneFrames& frames, const std::vector<std::unique_ptr<ChangedScene>>& others,
+                const techniques::Variant& variant, std::uint32_t seed, Record& record) {
+    if (variant.entry->temporal) return;
+    const Truth truth = gradedTruth(frames.scene());
+    std::vector<double> errors;
+    const auto add = [&](SceneFrames& view) {
+        if (const std::optional<double> error = scoredError(view, variant, seed, truth)) errors.push_back(*error);
+    };
+    add(frames);
+    for (const auto& other : others) add(other->frames());
+    if (errors.size() < 2) return;
+    record.values["views.mean"] = std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
+    record.values["views.worst"] = *std::ranges::max_element(errors);
+    record.values.list("views.errors") = std::move(errors);
+}
+
+} // namespace shadowbench

@@ -1,0 +1,31 @@
+// Whether a row's error is an accident of one image: the same row with another map, another image size, from other views.
+#pragma once
+
+#include "harness/cells/changed_scene.h"
+#include "harness/records/record.h"
+#include "techniques/contract/entry.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace shadowbench {
+
+/// The variant with a map of `neighbourOf` its size; nothing for a technique without a map, or where it may be no larger.
+std::optional<techniques::Variant> withNeighbourMap(const techniques::Variant& variant);
+
+/// The factor by which two errors by `truth` differ, at least 1. What is below a thousandth of the labels, or 0.005 of full
+/// light, counts as that: so little rests on single pixels.
+double stepBetween(Truth truth, double error, double neighbour);
+
+/// Fills in `sanity.map_step` and `sanity.image_step`. `frames` are the scene's own, `larger` those of its neighbour.
+void scoreNeighbours(SceneFrames& frames, SceneFrames& larger, const techniques::Variant& variant, std::uint32_t seed,
+                     Record& record);
+
+/// Fills in the error from each view, the scene's own first, their mean and the worst; nothing of a variant with a history,
+/// whose still frames are a sequence.
+void scoreViews(SceneFrames& frames, const std::vector<std::unique_ptr<ChangedScene>>& others,
+                const techniques::Variant& variant, std::uint32_t seed, Record& record);
+
+} // namespace shadowbench
