@@ -6,6 +6,11 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace shadowbench::techniques {
+namespace {
+
+constexpr float rasterStep = 1.0F / 256; // shared/maps/caster_depth.glsl
+
+} // namespace
 
 Parameter mapParameter(int defaultSide) {
     return {"map", std::to_string(defaultSide), IntegerRange{16, 8192}, "texels per side of the shadow map",
@@ -62,10 +67,8 @@ CasterState::CasterState(Bias bias) {
     glDepthFunc(GL_LESS);
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_CLAMP);
-    if (bias.factor != 0) {
-        glEnable(GL_POLYGON_OFFSET_FILL);
-        glPolygonOffset(bias.factor, 0);
-    }
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(bias.factor + 2 * rasterStep, 0); // a step along x and one along y, by the greater slope
 }
 
 CasterState::~CasterState() {

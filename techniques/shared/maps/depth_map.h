@@ -98,7 +98,8 @@ private:
 glm::dmat4 mapFromClip();
 glm::mat4 mapFromWorld(const LightView& light);
 
-/// GL state of every pass that draws casters into a map: depth before the near plane is clamped; slope bias.
+/// GL state of every pass that draws casters into a map: depth before the near plane is clamped; slope bias, and the step of
+/// the rasteriser's grid without which a caster seen edge-on may lie anywhere (shared/maps/caster_depth.glsl).
 class CasterState {
 public:
     explicit CasterState(Bias bias);

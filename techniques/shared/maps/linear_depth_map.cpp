@@ -20,10 +20,12 @@ void LinearDepthMap::draw(const LightView& light, const Frame& frame) {
     target_.clearDepth(1);
     target_.bind();
     const double constant = bias_.units * depthStep * light.far;
-    program_.set("depthFromWorld", glm::vec4(light.depthFromWorld)).set("bias", glm::vec2(bias_.factor, constant));
+    program_.set("inverseRange", inverseRange(light)).set("bias", glm::vec2(bias_.factor, constant));
     const CasterPass casters(program_, light, Bias{});
     frame.scene.draw();
 }
+
+glm::vec2 inverseRange(const LightView& light) { return glm::vec2(1.0 / glm::dvec2(light.far, light.near)); }
 
 glm::dmat4 worldFromTexel(const LightView& light) {
     glm::dmat4 rows = glm::transpose(mapFromClip() * light.clipFromWorld);

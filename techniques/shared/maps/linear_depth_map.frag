@@ -1,4 +1,5 @@
-in float linearDepth;
+#include "shared/maps/caster_depth.glsl"
+
 flat in uint moving;
 #ifdef SURFACE
 flat in uint surface;
@@ -12,11 +13,10 @@ uniform sampler2D depthBefore; // of the layer that is peeled off, the same to t
 out vec4 stored;
 
 void main() {
-    float slope = max(abs(dFdx(linearDepth)), abs(dFdy(linearDepth)));
+    float depth = 1.0 / casterInverseDepth(bias.x) + bias.y;
 #ifdef PEEL
     if (gl_FragCoord.z <= texelFetch(depthBefore, ivec2(gl_FragCoord.xy), 0).r) discard;
 #endif
-    float depth = linearDepth + bias.x * slope + bias.y;
 #ifdef SURFACE
     stored = vec4(depth, float(surface), 0.0, 0.0);
 #else

@@ -1,5 +1,6 @@
-// Shadow map of linear depth in 32-bit floats (Scherzer 4.2): metres along the light's axis, `gl::nothingInTheWay` where
-// there is nothing.
+// Shadow map of linear depth in 32-bit floats (Scherzer 4.2), as a point sees it: metres along the light's axis,
+// `gl::nothingInTheWay` where there is nothing. No depth lies before the near plane or, but for the bias, before the nearest
+// corner of its triangle (shared/maps/caster_depth.glsl).
 #pragma once
 
 #include "techniques/shared/maps/depth_map.h"
@@ -24,6 +25,9 @@ private:
     gl::Program program_;
     Bias bias_;
 };
+
+/// 1 / depth at the far and at the near plane: what shared/maps/caster_depth.glsl reads.
+glm::vec2 inverseRange(const LightView& light);
 
 /// World from a texel of a map of linear depths that a perspective `light` has drawn: of (x · depth, y · depth, depth, 1),
 /// x and y in [0, 1] over the map.

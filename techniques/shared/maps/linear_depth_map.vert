@@ -2,9 +2,7 @@
 
 uniform mat4 clipFromWorld;
 uniform vec4 lightPlane;
-uniform vec4 depthFromWorld;
 
-out float linearDepth;
 flat out uint moving;
 #ifdef SURFACE
 flat out uint surface;
@@ -12,11 +10,10 @@ flat out uint surface;
 
 void main() {
     vec4 world = vec4(worldPosition(objectPosition), 1.0);
-    linearDepth = dot(depthFromWorld, world);
     moving = idAndMoving.y;
 #ifdef SURFACE
     surface = idAndMoving.x;
 #endif
     gl_ClipDistance[0] = dot(lightPlane, world);
-    gl_Position = clipFromWorld * world;
+    gl_Position = clipFromWorld * world;  // w is the depth
 }

@@ -1,6 +1,7 @@
 #include "techniques/shared/maps/peeled_map.h"
 
 #include "techniques/gl/api.h"
+#include "techniques/shared/maps/linear_depth_map.h"
 
 #include <cstddef>
 
@@ -30,7 +31,7 @@ void PeeledMap::drawLayer(gl::Program& program, int layer, const LightView& ligh
     target.clearDepth(1);
     target.bind();
     const double constant = bias_.units * depthStep * light.far;
-    program.set("depthFromWorld", glm::vec4(light.depthFromWorld)).set("bias", glm::vec2(bias_.factor, constant));
+    program.set("inverseRange", inverseRange(light)).set("bias", glm::vec2(bias_.factor, constant));
     const CasterPass casters(program, light, Bias{});
     if (layer > 0) glEnable(GL_CULL_FACE); // back faces
     const auto channel = [&](int number) { return static_cast<GLboolean>(layer == number ? GL_TRUE : GL_FALSE); };

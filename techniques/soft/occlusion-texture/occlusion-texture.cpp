@@ -12,7 +12,7 @@
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/filters/occluder_layers.h"
-#include "techniques/shared/maps/depth_map.h"
+#include "techniques/shared/maps/linear_depth_map.h"
 
 #include <algorithm>
 
@@ -29,8 +29,7 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         view_ = fitToScene(frame.snapshot.light, frame.snapshot);
         layers_.program()
-            .set("depthFromWorld", glm::vec4(view_.depthFromWorld))
-            .set("inverseNear", static_cast<float>(1 / view_.near))
+            .set("inverseRange", inverseRange(view_))
             .set("thickness", static_cast<float>(thickness()))
             .set("slices", slices_);
         layers_.draw(view_, frame, allShown(frame.snapshot), "slices");

@@ -1,11 +1,10 @@
-in float linearDepth;
+#include "shared/maps/caster_depth.glsl"
 
-uniform float inverseNear;  // 1 / depth where the first slice begins
 uniform float thickness;    // of a slice, in 1 / depth
 uniform int slices;
 
 out uint bits;
 
 void main() {
-    bits = 1u << uint(clamp(int((inverseNear - 1.0 / linearDepth) / thickness), 0, slices - 1));
+    bits = 1u << uint(clamp(int((inverseRange.y - casterInverseDepth(0.0)) / thickness), 0, slices - 1));
 }

@@ -1,6 +1,7 @@
 // Occlusion textures against their closed forms, their slices and their summed areas.
 #include "base/error.h"
 #include "techniques/shared/filters/occluder_layers.h"
+#include "techniques/shared/maps/linear_depth_map.h"
 #include "tests/support/plate_scenes.h"
 #include "tests/support/shader_function.h"
 
@@ -68,8 +69,7 @@ protected:
         layers_.emplace(side, gl::Program("shared/maps/linear_depth_map.vert", "soft/occlusion-texture/slices.frag"));
         thickness_ = (1 / view_.near - 1 / view_.far) / slices;
         layers_->program()
-            .set("depthFromWorld", glm::vec4(view_.depthFromWorld))
-            .set("inverseNear", static_cast<float>(1 / view_.near))
+            .set("inverseRange", techniques::inverseRange(view_))
             .set("thickness", static_cast<float>(thickness_))
             .set("slices", slices);
         layers_->draw(view_, frame, std::vector<bool>(4, true), "slices");
