@@ -4,7 +4,10 @@
 uniform sampler2D normals;
 uniform sampler2D linearDepth;  // negative: moving caster
 uniform sampler2D skirt;        // attenuation, 1 / depth
-uniform float skirtReach;       // where the attenuation reaches 0, in the units of texelReach
+uniform float edgeAttenuation;  // half a texel from the middle of an edge's own texel, where the edge lies
+uniform float fallOver;         // distance over which attenuation falls by 1, in the units of texelReach
+uniform float skirtReach;       // where it reaches 0
+uniform float depthReach;       // how far the least depth comes
 
 out float visibility;
 
@@ -12,15 +15,13 @@ bool blocks(vec4 stored, LightReceiver r, vec2 offset) {
     return abs(stored.r) < planeDepth(r, offset);
 }
 
-/// The edge's own texel has attenuation 1, the edge lies half a texel further. The least depth may come from anywhere within the skirt:
-/// an edge that may be one of the receiver's own plane casts no shadow.
+/// The least depth may come from anywhere within the skirt: an edge that may be one of the receiver's own plane casts no shadow.
 float outerPenumbra(LightReceiver r) {
     vec2 texels = vec2(textureSize(skirt, 0));
     float attenuation = texture(skirt, r.at).r;
     float before = texelFetch(skirt, ivec2(r.at * texels), 0).g - 1.0 / r.depth;
-    if (attenuation <= 0.0 || before <= dot(abs(r.inverseSlope), (skirtReach / texelReach + 1.0) / texels)) return 1.0;
-    float distance = (1.0 - attenuation) * skirtReach - 0.5 * min(texelReach.x, texelReach.y);
-    return 0.5 + 0.5 * clamp(distance / min(before, skirtReach), 0.0, 1.0);
+    if (attenuation <= 0.0 || before <= dot(abs(r.inverseSlope), (depthReach / texelReach + 1.0) / texels)) return 1.0;
+    return 0.5 + 0.5 * clamp((edgeAttenuation - attenuation) * fallOver / min(before, skirtReach), 0.0, 1.0);
 }
 
 float innerPenumbra(LightReceiver r, float blockerDepth) {

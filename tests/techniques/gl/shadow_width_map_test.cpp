@@ -1,12 +1,16 @@
 // Shadow width maps against their closed form: the inner half of the penumbra alone.
 #include "base/error.h"
+#include "techniques/shared/light_views/light_view.h"
 #include "techniques/soft/shadow-width-map/width_passes.h"
 #include "tests/support/plate_scenes.h"
+
+#include <cmath>
+#include <numbers>
 
 namespace shadowbench {
 namespace {
 
-const std::string widthMap = "shadow-width-map:map=1024";
+const std::string smoothed = "shadow-width-map:map=1024", widthMap = smoothed + ",spread=distance";
 
 std::vector<SlabPoint> pointsOf(const Scene& scene, const std::string& variant = widthMap) {
     Stage stage(scene);
@@ -21,10 +25,40 @@ TEST(ShadowWidthMap, TheInnerHalfOfThePenumbraIsARamp) {
     EXPECT_LE(visibilityAt(points, umbraFrom), 0.05);
 }
 
+TEST(ShadowWidthMap, SmoothingLeavesABellInsideAStraightEdge) {
+    const Scene scene = halfPlaneScene();
+    Stage stage(scene);
+    stage.show(0);
+    const double passes = figuresOf(stage, smoothed).at("passes");
+    const auto points = slabPoints(stage, rendered(stage, smoothed));
+    const techniques::LightView view = techniques::fitToScene(scene.light, stage.frame(0, 1).snapshot);
+    const auto texel = [&](const glm::dvec3& p) { return techniques::texelAt(view, p, glm::dvec2(1024))->x; };
+    const double lit = std::ceil(texel({0.3, 2, 0}) - 0.5) - 0.5; // the middle of the last texel beside the plate
+    const double penumbra = 0.375 / halfPlaneTexel(1024), reach = std::sqrt(std::numbers::pi * passes / 3);
+    ASSERT_LT(reach, penumbra); // no penumbra is wider
+    std::size_t inside = 0;
+    for (const SlabPoint& point : points) {
+        const double away = texel(point.at) - lit;
+        if (away < 1 || away > 12) continue;
+        // Sums of few passes are a bell only nearly, and texels are read linearly.
+        EXPECT_NEAR(point.visibility, 1 - std::erf(away / std::sqrt(4 * passes / 3)), 0.03) << away;
+        ++inside;
+    }
+    EXPECT_GT(inside, 500U);
+}
+
 TEST(ShadowWidthMap, TheRampIsAsWideAsItsOwnOccludersPenumbra) {
-    const auto points = pointsOf(withHigherPlate(halfPlaneScene()), "shadow-width-map:map=512");
     // A texel is a fifth of the ramp, and the edge may lie anywhere in one.
+    const auto points = pointsOf(withHigherPlate(halfPlaneScene()), "shadow-width-map:map=512,spread=distance");
     EXPECT_NEAR(visibilityAt(points, 0.5 * (hardEdge + umbraFrom)), 0.5, 0.13);
+
+    // Means, which go no farther, keep the ramp under a small light. They begin in the middle of the texel beside the
+    // outline.
+    Scene small = withHigherPlate(halfPlaneScene());
+    small.light.u *= 0.25;
+    small.light.v *= 0.25;
+    const double ramp = 0.375 / 4, half = 0.5 * halfPlaneTexel(2048) / ramp; // of a texel
+    EXPECT_NEAR(visibilityAt(pointsOf(small, "shadow-width-map:map=2048"), hardEdge + 0.5 * ramp), 0.5 - half, half + 0.02);
 }
 
 TEST(ShadowWidthMap, TheOuterHalfIsMissing) { // what the dissertation admits: shadows are too small
@@ -39,7 +73,8 @@ TEST(ShadowWidthMap, TheOuterHalfIsMissing) { // what the dissertation admits: s
 
 TEST(ShadowWidthMap, AStripIsNotWiderThanItself) {
     // From its middle to its edge is a fifth of the penumbra's half.
-    EXPECT_NEAR(visibilityAt(pointsOf(stripScene(), "shadow-width-map:map=512"), stripShadowMiddle), 0.8, 0.05);
+    EXPECT_NEAR(visibilityAt(pointsOf(stripScene(), "shadow-width-map:map=512,spread=distance"), stripShadowMiddle), 0.8,
+                0.05);
 }
 
 TEST(ShadowWidthMap, UmbraBeginsWhereTheLightsOwnShapeFits) {
