@@ -116,7 +116,7 @@ Entry layeredAttenuation() {
         .parameters = {{"n", "64", IntegerRange{1, 256},
                         "light samples, one depth map each where light or casters have moved", "Zápotocký 5.2 (64 and 100)"},
                        lightPatternParameter(),
-                       {"map", "512", IntegerRange{16, 2048}, "texels per side of the layered map", ""},
+                       {"map", "1024", IntegerRange{16, 2048}, "texels per side of the layered map", ""},
                        {"oversampling", "2", IntegerRange{1, 4},
                         "texels of a light sample's depth map for one of the layered map, along each side", ""},
                        {"thickness", "1", RealRange{0.01, 100}, "of a layer, in widths of a texel", ""}},

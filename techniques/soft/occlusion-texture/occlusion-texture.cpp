@@ -77,7 +77,7 @@ Entry occlusionTexture() {
             .title = "Occlusion textures",
             .source = {Document::Dissertation, "2.3.3"},
             .answer = Answer::Soft,
-            .parameters = {{"map", "512", IntegerRange{16, widestLayer}, "texels per side of the occlusion textures",
+            .parameters = {{"map", "1024", IntegerRange{16, widestLayer}, "texels per side of the occlusion textures",
                             "EGSR paper, 4"},
                            {"slices", "16", IntegerRange{1, mostLayers}, "slices of the scene, parallel to the light", ""}},
             .variants = {"", "slices=8"},

@@ -144,7 +144,7 @@ private:
 } // namespace
 
 Entry shadowWidthMap() {
-    std::vector<Parameter> parameters = depthMapParameters(256);
+    std::vector<Parameter> parameters = depthMapParameters();
     parameters.push_back(spreadParameter("smoothing", "dissertation, 2.3.1"));
     return {.id = "shadow-width-map",
             .title = "Shadow width map",

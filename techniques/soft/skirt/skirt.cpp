@@ -134,7 +134,7 @@ private:
 } // namespace
 
 Entry skirt() {
-    std::vector<Parameter> parameters = depthMapParameters(256);
+    std::vector<Parameter> parameters = depthMapParameters();
     parameters.push_back(
         {"passes", "16", IntegerRange{1, 256},
          "over the skirt buffer, for a light whose radius is a tenth of its distance from the nearest caster; "
