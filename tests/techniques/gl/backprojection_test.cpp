@@ -3,7 +3,7 @@
 #include "techniques/shared/maps/linear_depth_map.h"
 #include "techniques/shared/maps/min_max_pyramid.h"
 #include "tests/support/shader_function.h"
-#include "tests/support/soft_scenes.h"
+#include "tests/support/tilted_light.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -22,6 +22,18 @@ TEST(BackProjection, ThePenumbraUnderAHalfPlaneIsLinear) {
     EXPECT_NEAR(visibilityAt(points, hardEdge), 0.5, 0.03);
     EXPECT_GT(visibilityAt(points, litUntil - 0.1), 0.999);
     EXPECT_LT(visibilityAt(points, umbraFrom + 0.1), 0.001);
+}
+
+TEST(BackProjection, ASlantedReceiverIsLitButForThePenumbraOfTheEdge) {
+    const Scene scene = tiltedLightScene(30);
+    Stage stage(scene);
+    stage.show(0);
+    const auto points = tiltedLightPoints(stage, rendered(stage, "backprojection"));
+    EXPECT_LT(penumbraRmsError(points), 0.025); // as under a level light: the penumbra has as many texels
+    for (const SlabPoint& point : points) {
+        if (point.truth > 0 && point.truth < 1) continue;
+        EXPECT_NEAR(point.visibility, point.truth, 0.05) << point.at.x; // a column of texels at the edge
+    }
 }
 
 TEST(BackProjection, TexelsAreClippedToTheLight) {

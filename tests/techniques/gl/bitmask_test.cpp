@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "techniques/shared/sampling/light_samples.h"
 #include "tests/support/shader_function.h"
-#include "tests/support/soft_scenes.h"
+#include "tests/support/tilted_light.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -26,6 +26,18 @@ TEST(Bitmask, ThePenumbraUnderAHalfPlaneIsLinear) {
     // A microquad needs all four corners: of the penumbra's 21 texels, half a one is missing.
     EXPECT_LT(halfPlaneError(stage, all), 0.035);
     EXPECT_LT(halfPlaneError(stage, large), 0.06); // squares of two texels
+}
+
+TEST(Bitmask, ASlantedReceiverIsLitButForThePenumbraOfTheEdge) {
+    const Scene scene = tiltedLightScene(30);
+    Stage stage(scene);
+    stage.show(0);
+    const auto points = tiltedLightPoints(stage, rendered(stage, all));
+    EXPECT_LT(penumbraRmsError(points), 0.035); // as under a level light: the penumbra has as many texels
+    for (const SlabPoint& point : points) {
+        if (point.truth > 0 && point.truth < 1) continue;
+        EXPECT_NEAR(point.visibility, point.truth, 0.05) << point.at.x; // a column of texels at the edge
+    }
 }
 
 TEST(Bitmask, TheSmallWindowIsHalfASquareOffAtMost) {

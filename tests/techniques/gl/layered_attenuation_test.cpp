@@ -33,8 +33,9 @@ TEST(LayeredAttenuation, IsNearTheMapsThatItIsMadeFrom) {
     for (const Scene& scene : {halfPlaneScene(), overlapScene()}) {
         Stage stage(scene);
         stage.show(0);
+        // A sample more or less: the texels of the maps lie elsewhere.
         EXPECT_LE(differenceOnReceivers(stage, rendered(stage, "layered-attenuation"), rendered(stage, "sampled-maps")),
-                  0.05);
+                  1.0 / 64);
     }
 }
 

@@ -23,23 +23,6 @@ TEST(OcclusionTexture, ThePenumbraUnderAHalfPlaneIsARamp) {
     EXPECT_LT(penumbraRmsError(pointsOf(halfPlaneScene())), 0.05); // a slice's thickness, besides the texels
 }
 
-TEST(OcclusionTexture, ALargerLightCostsNoMore) {
-    const auto fragments = [](double size) {
-        Scene scene = halfPlaneScene();
-        scene.light.u = {size, 0, 0};
-        scene.light.v = {0, 0, size};
-        Stage stage(scene);
-        stage.show(0);
-        const techniques::Variant variant = techniques::parseVariant("occlusion-texture:map=256");
-        const auto technique = variant.entry->make(variant.parameters);
-        stage.render(*technique, 0, 1);
-        gl::WorkMeter meter;
-        stage.render(*technique, 0, 1);
-        return meter.finish().fragments;
-    };
-    EXPECT_EQ(fragments(1.5), fragments(6));
-}
-
 TEST(OcclusionTexture, PlatesWithOneEdgeDarkenTwice) { // the product takes slices for independent
     Scene scene = halfPlaneScene();
     scene.objects.push_back(plate(3, edgeFor(3, hardEdge)));
