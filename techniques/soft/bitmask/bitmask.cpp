@@ -34,7 +34,7 @@ Entry bitmask() {
             .parameters = withDepthMapParameters(microquadParameters()),
             .contradiction = moreSamplesThanBits,
             .figures = {{"quads", "microquads that a receiver's pixel projects onto the light, in the mean"}},
-            .variants = {"", "window=12,samples=256,bits=256"},
+            .variants = {"", "window=12,samples=256,bits=256", "window=all,samples=256,bits=256"},
             .make = [](const Parameters& p) {
                 return std::make_unique<MicroquadTechnique<LinearDepthMap>>(p, 1,
                                                                             LinearDepthMap(p.integer("map"), biasFrom(p)));
