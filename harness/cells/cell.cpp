@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "harness/cells/environment.h"
 #include "harness/cells/image_scores.h"
+#include "harness/measure/changed_cost.h"
 #include "harness/measure/frame_cost.h"
 #include "harness/metrics/frames.h"
 #include "techniques/contract/applicability.h"
@@ -18,12 +19,17 @@ namespace {
 using metrics::Mask;
 using techniques::Answer;
 
+/// The first frame that the variant draws.
+int firstFrame(const SceneFrames& frames, const techniques::Variant& variant) {
+    return variant.entry->temporal ? -frames.scene().timeline.approach : frames.scored();
+}
+
 /// Renders the last still frame from an empty history. Returns the number of frames that the technique has rendered.
 int renderScored(SceneFrames& frames, const techniques::Variant& variant, techniques::Technique& technique,
                  std::uint32_t seed) {
     int number = 0;
     const int first = -frames.scene().timeline.approach;
-    for (int frame = variant.entry->temporal ? first : frames.scored(); frame <= frames.scored(); ++frame) {
+    for (int frame = firstFrame(frames, variant); frame <= frames.scored(); ++frame) {
         if (frame <= 1 || frame == frames.scored()) frames.show(frame); // the still frames between are all the same
         frames.stage().render(technique, frame - first, seed);
         number = frame - first + 1;
@@ -117,19 +123,28 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     Stage& stage = frames.stage();
     const Truth kind = mainTruth(scene, variant);
     const int scored = frames.scored();
-    const bool temporal = variant.entry->temporal;
     // The scene's own buffers, made for the first cell, are not the technique's.
-    frames.show(temporal ? -scene.timeline.approach : scored);
-    const std::uint64_t bytesBefore = gl::Context::current().tally().bytes;
+    frames.show(firstFrame(frames, variant));
+    gl::Tally& tally = gl::Context::current().tally();
+    const std::uint64_t bytesBefore = tally.bytes;
     const auto technique = variant.entry->make(variant.parameters);
 
     ImageScores scores(
         frames, scoringRuleOf(scene, variant), [&](Truth truth) -> const Mask& { return frames.mask(truth); }, variant.name);
-    std::uint64_t bytes = 0;
+    Memory memory;
+    const Casters casters = castersUnder(*variant.entry, scene);
     const int first = -scene.timeline.approach;
-    for (int frame = temporal ? first : scored; frame < scene.timeline.frames(); ++frame) {
+    timing::Sequence sequence{*technique, firstFrame(frames, variant) - first, seed};
+    for (int frame = firstFrame(frames, variant); frame < scene.timeline.frames(); ++frame) {
         if (frame <= 1 || frame >= scored) frames.show(frame); // the still frames between are all the same
-        stage.render(*technique, frame - first, seed);
+        tally.watchPeak();
+        if (memory.peak)
+            stage.render(*technique, sequence.index++, seed);
+        else if (variant.entry->temporal)
+            timing::measureFirstWork(stage, sequence, record);
+        else
+            timing::measureFirstAndMotionWork(stage, casters, sequence, record);
+        memory.peak = std::max(memory.peak.value_or(0), tally.peak - bytesBefore);
         if (frame < 0) continue;
         Image<float> v = stage.visibility();
         scores.add(frame, v, record);
@@ -139,7 +154,7 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
                 techniques::declaredFigures(*variant.entry, technique->figures(stage.frame(frame - first, seed)));
             measureAliasing(*technique, frames, frames.mask(kind), record);
             images.reference = &frames.truth(gradedTruth(scene));
-            bytes = gl::Context::current().tally().bytes - bytesBefore;
+            memory.bytes = tally.bytes - bytesBefore;
         }
         images.frames.emplace(frame, std::move(v));
     }
@@ -147,10 +162,11 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     if (images.wantsFlicker) images.flicker = scores.flickerMaps();
 
     frames.show(scored);
-    const int next = scene.timeline.frames() - first; // of the technique's sequence
-    timing::Sequence sequence{*technique, next, seed};
     timing::settle(stage, sequence);
-    timing::measureWork(stage, sequence, bytes, record);
+    timing::measureWork(stage, sequence, record);
+    if (variant.entry->temporal) timing::measureMotionWork(stage, casters, sequence, record);
+    timing::keepChangedPasses(record);
+    setMemory(record, memory);
     record.status = Status::Scored;
 }
 
@@ -184,9 +200,17 @@ void splitErrorOverSeeds(SceneFrames& frames, const techniques::Variant& variant
 }
 
 void timeCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record) {
-    const auto technique = variant.entry->make(variant.parameters);
+    const int first = firstFrame(frames, variant);
+    frames.show(first);
+    const Casters casters = castersUnder(*variant.entry, frames.scene());
+    const int index = first + frames.scene().timeline.approach;
+    Stage& stage = frames.stage();
+    if (!variant.entry->temporal) stage.show(displaced(stage.shown(), casters)); // as where its work was counted
+    const auto technique = timing::measureFirstTime(stage, variant, index, seed, record);
+    if (variant.entry->temporal) technique->reset(); // its history is that of its own frames
     timing::Sequence sequence{*technique, renderScored(frames, variant, *technique, seed), seed};
-    timing::measureTimes(frames.stage(), variant, sequence, record);
+    timing::measureTimes(stage, variant, sequence, record);
+    timing::measureMotionTime(stage, casters, sequence, record);
 }
 
 } // namespace shadowbench

@@ -170,7 +170,7 @@ void scoreLodCell(LodScene& lodScene, const techniques::Variant& variant, Record
     metrics::Walk walk;
     WalkPictures pictures(reference, walk);
     Hasher128 shown;
-    Work busiest;
+    gl::WorkCount busiest;
     const bool isReference = variant.entry->id == "lod-full"; // drawn already, and the same whatever levels are selected
     for (int index = 0; index < frames; ++index) {
         progress(static_cast<double>(index) / frames, fmt::format("{}, frame {} of {}", variant.name, index + 1, frames));
@@ -180,8 +180,7 @@ void scoreLodCell(LodScene& lodScene, const techniques::Variant& variant, Record
         const ColourImage picture = isReference ? reference.pictures[frame] : stage.picture();
         pictures.add(frame, picture, static_cast<double>(work.primitives));
         shown.add(picture.data(), picture.size() * sizeof(*picture.data()));
-        if (frame == reference.busiest)
-            busiest = {work.fragments, work.vertices, work.primitives, work.draws, work.passes, 0};
+        if (frame == reference.busiest) busiest = work;
         if (keep) keep(index, picture);
     }
     if (isReference)
@@ -196,8 +195,8 @@ void scoreLodCell(LodScene& lodScene, const techniques::Variant& variant, Record
     stage.show(static_cast<int>(reference.busiest));
     record.passes = passesOf(stage, *technique, false);
     record.images = shown.digest().text();
-    busiest.bytes = bytesOf(std::move(technique));
-    setWork(record, busiest);
+    setWork(record, WorkOf::StandingFrame, busiest);
+    setMemory(record, {bytesOf(std::move(technique))});
     record.frames = frames;
     record.reference = describe(reference, lodScene.scene());
     record.status = Status::Scored;

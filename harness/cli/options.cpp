@@ -20,6 +20,12 @@ void addGlOption(CLI::App& verb) {
         ->check(CLI::IsMember({"auto", "osmesa", "egl"}));
 }
 
+void addStaticOption(CLI::App& verb, bool& standing) {
+    verb.add_flag("--static", standing,
+                  "Costs are of scenes where light and casters stand still: with what techniques keep from frame to frame "
+                  "(default: the dearer of standing and in motion)");
+}
+
 void addSeedOption(CLI::App& verb, std::uint32_t& seed) {
     verb.add_option("--seed", seed, "Seed of pseudo-random choices")->check(CLI::Range(1U, 100000U))->capture_default_str();
 }

@@ -110,6 +110,7 @@ void addRecommend(CLI::App& app, Action& action) {
                      "Folder of the records of cells that are run; those of this program that it holds are kept")
         ->excludes(records)
         ->capture_default_str();
+    addStaticOption(*verb, options.standing);
     addProfileOption(*verb, words->profile);
     addGlOption(*verb);
     verb->add_option("--cache", options.cache, "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");

@@ -1,5 +1,6 @@
 #include "base/temporary_folder.h"
 #include "harness/cli/command.h"
+#include "harness/cli/options.h"
 #include "harness/history/history_report.h"
 #include "harness/records/comparability.h"
 #include "harness/report/site/site.h"
@@ -18,6 +19,7 @@ struct ReportOptions {
     std::filesystem::path images; // empty: images/ beside the first records
     std::filesystem::path base, history, singleFile;
     std::string sequences = "fronts";
+    bool standing = false;
 };
 
 /// All records of the files, in order; a folder stands for its results.jsonl.
@@ -34,7 +36,8 @@ std::filesystem::path folderOf(const std::filesystem::path& records) {
 site::Sources sourcesOf(const ReportOptions& options, const std::filesystem::path& folder) {
     site::Sources sources{.records = recordsOf(options.records),
                           .images = options.images.empty() ? folder / "images" : options.images,
-                          .sequences = options.sequences == "all" ? site::Sequences::All : site::Sequences::Fronts};
+                          .sequences = options.sequences == "all" ? site::Sequences::All : site::Sequences::Fronts,
+                          .standing = options.standing};
     if (!options.base.empty()) {
         sources.base = recordsOf({options.base});
         sources.baseName = options.base.string();
@@ -86,6 +89,7 @@ void addReport(CLI::App& app, Action& action) {
                      "Whose moving frames are shown: fronts (the rows of each scene's Pareto front) or all")
         ->check(CLI::IsMember({"fronts", "all"}))
         ->capture_default_str();
+    addStaticOption(*verb, options->standing);
     verb->add_option("--single-file", options->singleFile, "Write everything into this one file instead")->excludes(out);
     verb->callback([&action, options] { action = [options] { return makeReport(*options); }; });
 }

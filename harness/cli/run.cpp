@@ -63,9 +63,9 @@ ExitCode runPart(const RunOptions& options, const PartOptions& part) {
     }
 }
 
-ExitCode runAndPrint(const RunOptions& options) {
+ExitCode runAndPrint(const RunOptions& options, bool standing) {
     const OutputLock alone(options.out); // the records of two runs at once would replace each other
-    return reportResult(run(options), options.out);
+    return reportResult(run(options), options.out, standing);
 }
 
 } // namespace
@@ -75,6 +75,7 @@ void addRun(CLI::App& app, Action& action) {
     const auto profile = std::make_shared<std::string>("gate");
     const auto cost = std::make_shared<std::vector<std::string>>(1, "time");
     const auto images = std::make_shared<bool>(false);
+    const auto standing = std::make_shared<bool>(false);
     const auto external = std::make_shared<std::vector<std::filesystem::path>>();
     const auto part = std::make_shared<PartOptions>();
     CLI::App* verb = app.add_subcommand("run", "Renders and scores cells: scenes × techniques");
@@ -123,6 +124,7 @@ void addRun(CLI::App& app, Action& action) {
         ->delimiter(',')
         ->check(CLI::IsMember({"time", "instructions", "screen", "none"}))
         ->capture_default_str();
+    addStaticOption(*verb, *standing);
     verb->add_option("--jobs", options->jobs,
                      "Processes that score cells at the same time (default: one a processor); times are taken one after the "
                      "other")
@@ -136,8 +138,8 @@ void addRun(CLI::App& app, Action& action) {
     shard->excludes(cell, manifest);
     cell->excludes(manifest);
     verb->add_flag("--quiet", options->quiet, "No progress");
-    verb->callback([&action, options, profile, cost, images, external, part] {
-        action = [options, profile, cost, images, external, part] {
+    verb->callback([&action, options, profile, cost, images, standing, external, part] {
+        action = [options, profile, cost, images, standing, external, part] {
             options->measure.external = foreign::renderersOf(*external);
             options->profile = profileNamed(*profile);
             options->measure.time = std::find(cost->begin(), cost->end(), "time") != cost->end();
@@ -145,7 +147,7 @@ void addRun(CLI::App& app, Action& action) {
             options->instructions = std::find(cost->begin(), cost->end(), "instructions") != cost->end();
             options->measure.images = options->out / "images";
             options->measure.pictures = *images;
-            return part->any() ? runPart(*options, *part) : runAndPrint(*options);
+            return part->any() ? runPart(*options, *part) : runAndPrint(*options, *standing);
         };
     });
 }

@@ -9,11 +9,13 @@
 
 namespace shadowbench {
 
-ExitCode reportResult(const RunResult& result, const std::filesystem::path& out) {
-    const std::filesystem::path page = site::writeSite({.records = result.records, .images = out / "images"}, out);
-    for (const std::string& scene : report::scenes(result.records)) {
-        for (const std::string& table : {report::terminalSummary(result.records, scene, page.string()),
-                                         report::lodTerminalTable(result.records, scene)})
+ExitCode reportResult(const RunResult& result, const std::filesystem::path& out, bool standing) {
+    const std::filesystem::path page =
+        site::writeSite({.records = result.records, .images = out / "images", .standing = standing}, out);
+    const std::vector<Record> shown = standing ? report::standing(result.records) : result.records;
+    for (const std::string& scene : report::scenes(shown)) {
+        for (const std::string& table :
+             {report::terminalSummary(shown, scene, page.string()), report::lodTerminalTable(shown, scene)})
             if (!table.empty()) fmt::print("{}\n", table);
     }
     for (const Record& record : result.records)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/records/record.h"
+#include "techniques/gl/counters.h"
 
 #include <cstdint>
 #include <optional>
@@ -20,8 +21,26 @@ struct Time {
     std::vector<double> samples;
 };
 
-struct Work {
-    std::uint64_t fragments = 0, vertices = 0, primitives = 0, draws = 0, passes = 0, bytes = 0;
+/// Of the frame in motion (harness/render/motion.h).
+struct MotionTime {
+    double median = 0; // ms a frame, G-buffer included
+    double ratio = 1;  // to sm-uniform in the same rounds
+    std::vector<double> samples;
+};
+
+/// Of the first frame, ms.
+struct ColdTime {
+    double frame = 0;   // shaders compiled before
+    double compile = 0; // what a new technique takes beyond that
+};
+
+/// Whose work it is.
+enum class WorkOf { StandingFrame, MovingFrame, FirstFrame };
+
+/// What a technique holds, bytes of textures and buffers.
+struct Memory {
+    std::uint64_t bytes = 0;
+    std::optional<std::uint64_t> peak = {}; // within a frame
 };
 
 /// Frames of a level-of-detail technique over the scene's walk, each timed beside lod-switch's, without the G-buffer; of a
@@ -32,8 +51,11 @@ struct LodTime {
     double spread = 0; // median change from one frame to the next, as a share of the former
 };
 
-void setWork(Record& record, const Work& work);
+void setWork(Record& record, WorkOf frame, const gl::WorkCount& work);
+void setMemory(Record& record, const Memory& memory);
 void setTime(Record& record, const Time& time);
+void setTime(Record& record, const MotionTime& time);
+void setTime(Record& record, const ColdTime& time);
 void setTime(Record& record, const LodTime& time);
 
 } // namespace shadowbench

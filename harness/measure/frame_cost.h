@@ -3,26 +3,17 @@
 
 #include "harness/measure/costs.h"
 #include "harness/measure/frame_passes.h"
+#include "harness/measure/rounds.h"
 #include "harness/render/stage.h"
 #include "techniques/contract/entry.h"
 
-#include <cstdint>
-
 namespace shadowbench::timing {
-
-/// How long a technique's frames are timed.
-struct TimingLimits {
-    int minimumRounds = 3;
-    int maximumRounds = 25;
-    double budgetSeconds = 0.3; // once the minimum is done
-};
 
 /// Renders the next frame of what the stage shows, so that the one that is measured after it follows one like it.
 void settle(Stage& stage, Sequence& frames);
 
-/// Fills in the work of the technique's next frame of what the stage shows, pass by pass: the same on every machine. `bytes`
-/// are those that the technique holds.
-void measureWork(Stage& stage, Sequence& frames, std::uint64_t bytes, Record& record);
+/// Fills in the work of the technique's next frame of what the stage shows, pass by pass: the same on every machine.
+void measureWork(Stage& stage, Sequence& frames, Record& record);
 
 /// Fills in the times of its next frames, of the frame and pass by pass.
 void measureTimes(Stage& stage, const techniques::Variant& variant, Sequence& frames, Record& record);

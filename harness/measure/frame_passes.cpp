@@ -12,13 +12,6 @@ namespace {
 constexpr int rounds = 5;
 constexpr double budgetMilliseconds = 100;
 
-RenderFrame framesOf(Stage& stage, Sequence& frames) {
-    return [&](techniques::PassListener& listener) {
-        stage.redraw(&listener);
-        stage.render(frames.technique, frames.index++, frames.seed, &listener);
-    };
-}
-
 RenderFrame bareFramesOf(Stage& stage, const std::vector<techniques::BarePass>& passes) {
     return [&](techniques::PassListener& listener) {
         stage.redraw(&listener);
@@ -50,6 +43,13 @@ PassRecord recordOf(const PassCost& pass, double frameTime, bool timed) {
 
 } // namespace
 
+RenderFrame framesOf(Stage& stage, Sequence& frames) {
+    return [&](techniques::PassListener& listener) {
+        stage.redraw(&listener);
+        stage.render(frames.technique, frames.index++, frames.seed, &listener);
+    };
+}
+
 std::vector<PassRecord> passRecords(const FramePasses& passes, bool timed) {
     const double all = passes.frame().milliseconds;
     std::vector<PassRecord> records;
@@ -59,6 +59,19 @@ std::vector<PassRecord> passRecords(const FramePasses& passes, bool timed) {
     between.runs = 1;
     records.push_back(recordOf(between, all, timed));
     return records;
+}
+
+void addTimes(const std::vector<PassRecord>& timed, std::vector<PassRecord>& passes) {
+    for (const PassRecord& pass : timed) {
+        const auto found = std::ranges::find(passes, pass.name, &PassRecord::name);
+        if (found == passes.end()) {
+            passes.push_back(pass);
+            continue;
+        }
+        found->milliseconds = pass.milliseconds;
+        found->share = pass.share;
+        if (found->bare && pass.bare) found->bare->milliseconds = pass.bare->milliseconds;
+    }
 }
 
 std::vector<PassRecord> ComparedPasses::records(bool timed) const {

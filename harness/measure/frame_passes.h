@@ -18,6 +18,9 @@ struct Sequence {
     std::uint32_t seed;
 };
 
+/// Renders the sequence's next frame of what the stage shows, G-buffer included.
+RenderFrame framesOf(Stage& stage, Sequence& frames);
+
 /// A frame's passes and what they are compared with. Both have the G-buffer.
 struct ComparedPasses {
     FramePasses own, bare;
@@ -35,6 +38,10 @@ void timePasses(ComparedPasses& counted, Stage& stage, Sequence& frames);
 
 /// Pass by pass as records have them, without anything to compare.
 std::vector<PassRecord> passRecords(const FramePasses& passes, bool timed);
+
+/// Sets the times in `passes` by those of `timed`. Work stays that of the frame that was counted: another frame's may
+/// differ, as of a map that is turned from frame to frame.
+void addTimes(const std::vector<PassRecord>& timed, std::vector<PassRecord>& passes);
 
 /// The variant's frame, still and warm, on an image of another size than the scene's: 1024 pixels on its longer side, 256
 /// where the scene's own has as many.

@@ -6,6 +6,7 @@
 #include "techniques/gl/context.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
 #include <optional>
 #include <string_view>
@@ -79,6 +80,17 @@ private:
     gl::WorkMeter meter_;
 };
 
+class WallSection {
+public:
+    void finish(PassCost& cost) {
+        gl::Context::current().finish();
+        cost.milliseconds += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 class TimeSection {
 public:
     void finish(PassCost& cost) { cost.milliseconds += timer_.milliseconds(); }
@@ -121,6 +133,8 @@ double FramePasses::processorShare() const {
 }
 
 FramePasses countPasses(const RenderFrame& render) { return measured<WorkSection>(render); }
+
+FramePasses timeOnce(const RenderFrame& render) { return measured<WallSection>(render); }
 
 void timePasses(FramePasses& counted, const RenderFrame& render, int rounds, double budgetMilliseconds) {
     std::vector<FramePasses> timed;

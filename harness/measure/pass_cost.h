@@ -44,6 +44,10 @@ FramePasses countPasses(const RenderFrame& render);
 void timePasses(FramePasses& counted, const RenderFrame& render, int rounds,
                 double budgetMilliseconds = std::numeric_limits<double>::infinity());
 
+/// Renders one frame to time its passes by wall time, those too whose work several threads of the processor share. Counts
+/// nothing.
+FramePasses timeOnce(const RenderFrame& render);
+
 /// Both.
 FramePasses measurePasses(const RenderFrame& render, int rounds);
 

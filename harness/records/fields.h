@@ -130,6 +130,8 @@ void costFields(auto& visit, Is<Record> auto& r) {
     visit.group(key.data(), r.values.any(metrics::linesOf(key)) || !r.passes.empty(), [&](auto& inner) {
         metricFields(inner, metrics::linesOf(key), key.size() + 1, r.values);
         inner.objects("by_pass", r.passes);
+        inner.objects("motion_by_pass", r.motionPasses);
+        inner.objects("cold_by_pass", r.coldPasses);
         inner("other_screen", r.otherScreen);
     });
 }

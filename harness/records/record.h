@@ -116,6 +116,8 @@ struct Record {
     std::optional<SweepStep> sweep;              // of `sweep` only
     metrics::Values values;                      // of every metric; a record has either "accuracy" or "lod"
     std::vector<PassRecord> passes;              // of the frame whose work was measured; empty in older records
+    std::vector<PassRecord> motionPasses;        // of the frame in motion; empty where their work is that of `passes`
+    std::vector<PassRecord> coldPasses;          // of the first frame, likewise
     std::optional<OtherScreen> otherScreen;      // where costs were measured on an image of another size, too
     std::map<std::string, double> figures;       // of the scored frame, by names that `list techniques` explains
     std::optional<ExternalInfo> external;        // of renderers that the program called

@@ -234,8 +234,10 @@ std::string recordSchema() {
         const metrics::Values values;
         records::metricFields(describer, metrics::linesOf(group), std::string_view(group).size() + 1, values);
     }
-    for (const char* costs : {"by_pass", "other_screen"})
-        schema["properties"]["cost"]["properties"][costs] = {{"$ref", std::string("#/definitions/") + costs}};
+    Json& costs = schema["properties"]["cost"]["properties"];
+    for (const char* passes : {"by_pass", "motion_by_pass", "cold_by_pass"})
+        costs[passes] = {{"$ref", "#/definitions/by_pass"}};
+    costs["other_screen"] = {{"$ref", "#/definitions/other_screen"}};
     return schema.dump(2) + "\n";
 }
 

@@ -20,8 +20,10 @@ Image<glm::vec3> firstThree(const Image<glm::vec4>& image) {
 Stage::Stage(const Scene& scene)
     : scene_(scene), gbuffer_(scene.size), visibility_(gl::Format::R32F, scene.size), target_{&visibility_} {}
 
-void Stage::show(int index) {
-    snapshot_ = snapshot(scene_, index);
+void Stage::show(int index) { show(snapshot(scene_, index)); }
+
+void Stage::show(const Snapshot& shown) {
+    snapshot_ = shown;
     hardLight_ = snapshot_.light.centreOnly();
     buffers_.update(snapshot_);
     redraw();

@@ -18,6 +18,9 @@ public:
 
     /// Uploads frame `index` of the scene and draws its G-buffer.
     void show(int index);
+
+    /// Uploads a snapshot of the scene and draws its G-buffer.
+    void show(const Snapshot& snapshot);
     [[nodiscard]] const Snapshot& shown() const { return snapshot_; }
 
     /// The shown frame as number `index` of a technique's sequence (which seeds its jitter), until another is shown.

@@ -13,6 +13,11 @@ std::string decimals(double value) {
     return fmt::format("{:.{}f}", value / factor, places);
 }
 
+std::optional<double> costOf(const Record& record) {
+    const std::optional<FrameCost> cost = frameCost(record);
+    return cost ? std::optional(cost->ratio) : std::nullopt;
+}
+
 } // namespace
 
 std::span<const Column> columns() {
@@ -44,10 +49,18 @@ std::span<const Column> columns() {
         {"noise", true, "stability.seeds.noise", decimals<4>},
         {"converged at", true, "stability.convergence", decimals<0>},
         {"MiB", true, "cost.work.bytes", decimals<1, 1 << 20>},
+        {"peak MiB", true, "cost.work.peak_bytes", decimals<1, 1 << 20>},
         {"ms", true, "cost.time.median", decimals<2>},
         {"processor", true, "cost.time.processor", percent},
         {"× bare", true, "cost.time.bare_ratio", decimals<2>},
-        {"cost", false, "cost.time.ratio", decimals<2>},
+        {"first frame ms", true, "cost.cold.time", decimals<2>},
+        {"compiling ms", true, "cost.cold.compile", decimals<0>},
+        {"standing", true, "cost.time.ratio", decimals<2>},
+        {"in motion", true, "cost.motion.time.ratio", decimals<2>},
+        {"moving / standing", true, "cost.motion.time.ratio", decimals<2>, cacheSaves, "cache",
+         "the frame in motion as a multiple of the standing one, where it draws more"},
+        {"cost", false, "cost.time.ratio", decimals<2>, costOf, "cost",
+         "time of a frame as a multiple of sm-uniform's: the dearer of the standing one and the one in motion"},
     };
     return all;
 }
@@ -55,7 +68,7 @@ std::span<const Column> columns() {
 std::vector<const Column*> columnsOf(const std::vector<Record>& records, const std::vector<std::size_t>& indices) {
     std::vector<const Column*> applying;
     for (const Column& column : columns())
-        if (std::ranges::any_of(indices, [&](std::size_t i) { return records[i].values[column.metric].has_value(); }))
+        if (std::ranges::any_of(indices, [&](std::size_t i) { return column.of(records[i]).has_value(); }))
             applying.push_back(&column);
     return applying;
 }

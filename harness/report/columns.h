@@ -3,6 +3,7 @@
 
 #include "harness/records/record.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,9 +12,15 @@ namespace shadowbench::report {
 
 struct Column {
     const char* title;
-    bool pageOnly; // the terminal has no room for it
-    metrics::MetricId metric;
+    bool pageOnly;            // the terminal has no room for it
+    metrics::MetricId metric; // whose value is shown …
     std::string (*format)(double);
+    std::optional<double> (*computed)(const Record&) = nullptr; // … unless it is one of several
+    const char *key = "", *hint = "";                           // of what is computed
+
+    [[nodiscard]] std::optional<double> of(const Record& record) const {
+        return computed == nullptr ? record.values[metric] : computed(record);
+    }
 };
 std::span<const Column> columns();
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace shadowbench::report {
 namespace {
@@ -64,17 +65,24 @@ public:
         table_.titles.insert(table_.titles.end(), {"fragments", "vertices", "draws"});
         if (other_ != nullptr) table_.titles.emplace_back("grows with");
         table_.titles.insert(table_.titles.end(), {"× bare", "the least"});
-        for (const Record* record : records)
-            for (const PassRecord& pass : record->passes) add(*record, pass);
+        for (const Record* record : records) addAll(*record);
     }
 
     [[nodiscard]] std::string text() const { return markdown(table_); }
 
 private:
-    void add(const Record& record, const PassRecord& pass) {
-        const bool first = &pass == &record.passes.front();
-        std::vector<std::string> row{first ? record.variant : "", pass.name, std::to_string(pass.runs),
-                                     milliseconds(pass.milliseconds), percent(pass.share.value_or(0))};
+    void addAll(const Record& record) {
+        for (const PassRecord& pass : record.passes)
+            add(record, pass, &pass == &record.passes.front() ? record.variant : "", "");
+        for (const PassRecord& pass : changedPasses(record.motionPasses, record.passes))
+            add(record, pass, "", ", in motion");
+        for (const PassRecord& pass : changedPasses(record.coldPasses, record.passes))
+            add(record, pass, "", ", first frame");
+    }
+
+    void add(const Record& record, const PassRecord& pass, const std::string& variant, const char* frame) {
+        std::vector<std::string> row{variant, pass.name + frame, std::to_string(pass.runs), milliseconds(pass.milliseconds),
+                                     percent(pass.share.value_or(0))};
         const PassRecord* other = record.otherScreen ? passNamed(record.otherScreen->passes, pass.name) : nullptr;
         if (other_ != nullptr) row.push_back(milliseconds(other != nullptr ? other->milliseconds : std::nullopt));
         for (const std::uint64_t count : {pass.fragments, pass.vertices, pass.draws}) row.push_back(std::to_string(count));
@@ -123,10 +131,10 @@ std::vector<std::string> excessRow(const Record& record) {
 
 std::string cellOf(const std::optional<double>& value) { return value ? written(*value) : ""; }
 
-std::string csvRow(const Record& record, int width, int height, const PassRecord& pass) {
+std::string csvRow(const Record& record, int width, int height, const char* frame, const PassRecord& pass) {
     const BareCost bare = pass.bare.value_or(BareCost{});
     const auto ofBare = [&](std::uint64_t value) { return pass.bare ? written(value) : std::string(); };
-    return csvLine({quoted(record.scene), quoted(record.variant), record.profile, written(width), written(height),
+    return csvLine({quoted(record.scene), quoted(record.variant), record.profile, written(width), written(height), frame,
                     quoted(pass.name), written(pass.runs), cellOf(pass.milliseconds), cellOf(pass.share),
                     written(pass.fragments), written(pass.vertices), written(pass.draws), cellOf(bare.milliseconds),
                     ofBare(bare.fragments), ofBare(bare.vertices), ofBare(bare.taps), quoted(bare.source)});
@@ -152,6 +160,16 @@ std::string rasteriserNote(const std::vector<Record>& records, const std::string
                        e.vectorBits / 32);
 }
 
+std::vector<PassRecord> changedPasses(const std::vector<PassRecord>& passes, const std::vector<PassRecord>& standing) {
+    std::vector<PassRecord> changed = passes;
+    std::erase_if(changed, [&](const PassRecord& pass) {
+        const PassRecord* same = passNamed(standing, pass.name);
+        return same != nullptr &&
+               std::tie(same->runs, same->vertices, same->draws) == std::tie(pass.runs, pass.vertices, pass.draws);
+    });
+    return changed;
+}
+
 std::string passTable(const std::vector<Record>& records, const std::string& scene) {
     const auto timed = timedRecords(records, scene);
     return timed.empty() ? "" : PassRows(timed).text();
@@ -172,13 +190,18 @@ std::string excessTable(const std::vector<Record>& records, const std::string& s
 std::string passCsv(const std::vector<Record>& records) {
     std::string rows;
     for (const Record& record : records) {
-        for (const PassRecord& pass : record.passes) rows += csvRow(record, record.width, record.height, pass);
+        const auto add = [&](const std::vector<PassRecord>& passes, int width, int height, const char* frame) {
+            for (const PassRecord& pass : passes) rows += csvRow(record, width, height, frame, pass);
+        };
+        add(record.passes, record.width, record.height, "standing");
+        add(record.motionPasses, record.width, record.height, "motion");
+        add(record.coldPasses, record.width, record.height, "first");
         if (!record.otherScreen) continue;
-        const OtherScreen& other = *record.otherScreen;
-        for (const PassRecord& pass : other.passes) rows += csvRow(record, other.width, other.height, pass);
+        add(record.otherScreen->passes, record.otherScreen->width, record.otherScreen->height, "standing");
     }
     if (rows.empty()) return "";
-    return "scene,variant,profile,width,height,pass,runs,milliseconds,share,fragments,vertices,draws,bare.milliseconds,"
+    return "scene,variant,profile,width,height,frame,pass,runs,milliseconds,share,fragments,vertices,draws,bare."
+           "milliseconds,"
            "bare.fragments,bare.vertices,bare.taps,bare.source\n" +
            rows;
 }

@@ -14,8 +14,13 @@ namespace shadowbench::report {
 std::string rasteriserNote(const std::vector<Record>& records, const std::string& scene);
 
 /// Markdown: the passes of every timed record of `scene` with their times, work, what they grow with and the least that
-/// they need. "" where no record has passes with times.
+/// they need; below them the changed ones of the frame in motion and of the first frame. "" where no record has passes with
+/// times.
 std::string passTable(const std::vector<Record>& records, const std::string& scene);
+
+/// Those of `passes`, of a frame in motion or the first one, that the standing frame lacks or runs and draws otherwise.
+/// Fragments alone do not count: a map that is turned from frame to frame covers a few more or less.
+std::vector<PassRecord> changedPasses(const std::vector<PassRecord>& passes, const std::vector<PassRecord>& standing);
 
 /// A row that costs at most so many times its bare passes is close to them.
 inline constexpr double closeToBare = 1.3;
@@ -24,8 +29,8 @@ inline constexpr double closeToBare = 1.3;
 /// is in. "" where there are none.
 std::string excessTable(const std::vector<Record>& records, const std::string& scene);
 
-/// One row a pass of a record, what is absent empty; passes on an image of another size (Record::otherScreen) have rows of
-/// their own. "" without passes.
+/// One row a pass of a record, what is absent empty; passes of the frame in motion and of the first one, and on an image of
+/// another size (Record::otherScreen), have rows of their own. "" without passes.
 std::string passCsv(const std::vector<Record>& records);
 
 /// Frame times, a bar a record, stacked by pass, as SVG; nothing where no record has passes with times.

@@ -34,11 +34,15 @@ constexpr const char* legend = R"(## The columns
 | ghost half-life | frames after which what a history still shows of shadows that came or went has halved |
 | seeds: bias, systematic, noise | of what depends on the seed, over several of them: mean error; rms of the error that all have in common; standard deviation of a pixel |
 | converged at | still frame, counted from 1, from which the error stays within 5 % of its final value |
-| MiB | textures and buffers |
+| MiB, peak MiB | textures and buffers; the most of them at once |
 | ms, processor | frame time, G-buffer included; of it, the share of passes that ask nothing of the GPU, such as finding edges |
 | × bare | frame time without the processor's share as a multiple of the least that the technique needs: its source's vertices, fragments and texture reads, drawn as passes that do nothing else, beside the same G-buffer |
-| cost | frame time, G-buffer included, as a multiple of `sm-uniform` in the same rounds |
+| first frame ms, compiling ms | time of the first frame, with precomputation and everything that later frames keep; what a new technique's first frame takes beyond that: compiling shaders, allocating |
+| standing, in motion | frame time, G-buffer included, as a multiple of `sm-uniform` in the same rounds: where nothing has moved since the frame before, and of the same frame after one in which light and casters were elsewhere |
+| moving / standing | the frame in motion as a multiple of the standing one, of techniques that draw less while nothing moves: what a cache saves |
+| cost | the dearer of standing and in motion; where motion was not measured, or is told not to be there (`--static`), standing |
 | front | ● no other technique has both less error and less cost, beyond the intervals of the times; ○ the same for a baseline or an error of more than 10 times the tolerance |
+| front, standing | the same for scenes where light and casters stand still |
 
 – does not apply. Pixels count where the rasteriser and the truth see the same receiver.
 )";
@@ -46,6 +50,7 @@ constexpr const char* legend = R"(## The columns
 const std::string costPageHead = R"(# Costs, pass by pass
 
 A frame is the G-buffer and the technique's passes; a pass that ran several times is one row. Between passes nothing is drawn.
+Below a technique's standing frame stand the passes that are others in motion and in the first frame (wall time).
 What grows with the screen has fragments in proportion to the pixels of the image; what grows with the map has as many on an
 image of any size. × bare: the pass' time as a multiple of the least that it needs, which its last column states with its
 source. A pass without a least of its own is work of the processor, or what an implementation adds.

@@ -48,6 +48,17 @@ std::vector<Point> points(const std::vector<Record>& records, const std::string&
     return result;
 }
 
+/// The front of a scene that stands still, by cost; empty where that is the only one known.
+std::vector<Place> standingFront(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<Place> front;
+    bool known = false;
+    for (const std::size_t i : ofScene(records, scene)) known = known || knowsMotion(records[i]);
+    if (known)
+        for (const std::size_t i : paretoFront(records, scene, standingCost))
+            front.push_back(*place(records[i], standingCost));
+    return front;
+}
+
 std::vector<External> externals(const std::vector<Record>& records, const std::string& scene) {
     const std::vector<Tolerance> limits = tolerances(records, scene);
     std::vector<External> result;
@@ -77,9 +88,10 @@ private:
     double right_;
 };
 
-Canvas canvas(const std::vector<Point>& all, const std::vector<External>& beside,
+Canvas canvas(const std::vector<Point>& all, const std::vector<Place>& standing, const std::vector<External>& beside,
               const std::optional<double>& toleranceLine) {
     std::vector<double> costs, errors;
+    for (const Place& place : standing) costs.push_back(place.cost);
     for (const External& row : beside) errors.push_back(row.error);
     for (const Point& point : all) {
         costs.push_back(point.place.cost);
@@ -89,12 +101,18 @@ Canvas canvas(const std::vector<Point>& all, const std::vector<External>& beside
     return {LogAxis(costs), LogAxis(errors), beside.empty() ? widest : besideStrip};
 }
 
-std::vector<Place> corners(const std::vector<Point>& all, const Canvas& canvas) {
+std::vector<Place> frontOf(const std::vector<Point>& all) {
+    std::vector<Place> front;
+    for (const Point& point : all)
+        if (point.onFront) front.push_back(point.place);
+    return front;
+}
+
+std::vector<Place> corners(const std::vector<Place>& front, const Canvas& canvas) {
     std::vector<Place> result;
-    for (const Point& point : all) {
-        if (!point.onFront) continue;
-        result.push_back({result.empty() ? canvas.error().high() : result.back().error, point.place.cost});
-        result.push_back(point.place);
+    for (const Place& place : front) {
+        result.push_back({result.empty() ? canvas.error().high() : result.back().error, place.cost});
+        result.push_back(place);
     }
     if (!result.empty()) result.push_back({result.back().error, canvas.cost().high()});
     return result;
@@ -122,13 +140,14 @@ std::string labelScript(const LabelledPoint& point, const PlacedLabel& placed, c
                                 Canvas::screen(box.closest(point.at)));
 }
 
-std::string labels(const std::vector<Point>& all, const Canvas& canvas, const std::optional<double>& toleranceLine) {
+std::string labels(const std::vector<Point>& all, const std::vector<Place>& standing, const Canvas& canvas,
+                   const std::optional<double>& toleranceLine) {
     std::vector<LabelledPoint> named;
     named.reserve(all.size());
     for (const Point& point : all) named.push_back({canvas.at(point.place), point.variant.substr(0, longestLabel)});
     std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;
-    const std::vector<Place> front = corners(all, canvas);
-    for (std::size_t i = 1; i < front.size(); ++i) lines.emplace_back(canvas.at(front[i - 1]), canvas.at(front[i]));
+    for (const std::vector<Place>& front : {corners(frontOf(all), canvas), corners(standing, canvas)})
+        for (std::size_t i = 1; i < front.size(); ++i) lines.emplace_back(canvas.at(front[i - 1]), canvas.at(front[i]));
     if (toleranceLine) {
         const double y = canvas.at({*toleranceLine, 1}).y;
         lines.emplace_back(glm::dvec2(left, y), glm::dvec2(canvas.right(), y));
@@ -173,9 +192,14 @@ std::vector<Place> chosen(const std::vector<Point>& all, bool onFront, bool adeq
     return result;
 }
 
-std::string plotCommand(const std::vector<Point>& all, const Canvas& canvas, const std::optional<double>& toleranceLine) {
-    std::string data = block("front", corners(all, canvas), canvas);
+std::string plotCommand(const std::vector<Point>& all, const std::vector<Place>& standing, const Canvas& canvas,
+                        const std::optional<double>& toleranceLine) {
+    std::string data = block("front", corners(frontOf(all), canvas), canvas);
     std::string plots = fmt::format("plot $front with lines lw 2 lc rgb '{}'", blue);
+    if (!standing.empty()) {
+        data += block("standing", corners(standing, canvas), canvas);
+        plots += fmt::format(", $standing with lines lw 1.5 dt 3 lc rgb '{}'", blue);
+    }
     if (toleranceLine) plots += fmt::format(", {} with lines lw 2 dt 2 lc rgb '{}'", *toleranceLine, vermilion);
     for (const bool onFront : {true, false}) {
         for (const bool adequate : {true, false}) {
@@ -188,6 +212,15 @@ std::string plotCommand(const std::vector<Point>& all, const Canvas& canvas, con
         }
     }
     return data + plots + "\n";
+}
+
+/// What the dotted line means, right of the title.
+std::string standingKey() {
+    const double y = 26;
+    return fmt::format("set arrow from {} to {} nohead lw 1.5 dt 3 lc rgb '{}'\n", Canvas::screen({widest - 300, y}),
+                       Canvas::screen({widest - 272, y}), blue) +
+           fmt::format("set label {} at {} left font ',12'\n", literal("front if light and casters stand still"),
+                       Canvas::screen({widest - 264, y}));
 }
 
 /// What line and points mean, in one row under the title.
@@ -221,7 +254,8 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
     const auto limit = std::ranges::find(limits, metric, &Tolerance::metric);
     const std::optional<double> toleranceLine = limit == limits.end() ? std::nullopt : std::optional(limit->value);
     const std::vector<External> beside = externals(records, scene);
-    const Canvas area = canvas(all, beside, toleranceLine);
+    const std::vector<Place> standing = standingFront(records, scene);
+    const Canvas area = canvas(all, standing, beside, toleranceLine);
     const bool share = isShare(metric);
 
     std::string script = plotArea(left / width, area.right() / width, top, bottom, height);
@@ -231,13 +265,14 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
         script += fmt::format("set label {} at {} right font ',12' textcolor rgb '{}'\n",
                               literal("tolerance " + formatBound(*limit)),
                               Canvas::screen(area.at({*toleranceLine, area.cost().high()}) - glm::dvec2(4, 9)), vermilion);
-    script += "set xlabel 'cost: frame time as a multiple of sm-uniform'\n";
+    if (!standing.empty()) script += standingKey();
+    script += fmt::format("set xlabel {}\n", literal("cost: " + costMeaning(records, scene)));
     script += fmt::format("set ylabel {}\n", literal("error: " + meaning(metric)));
     script += area.cost().script("x", 1, "×");
     script += area.error().script("y", share ? 100 : 1, share ? " %%" : "");
-    script += labels(all, area, toleranceLine);
+    script += labels(all, standing, area, toleranceLine);
     script += strip(beside, area);
-    script += plotCommand(all, area, toleranceLine);
+    script += plotCommand(all, standing, area, toleranceLine);
     return svgOf(script, width, height);
 }
 

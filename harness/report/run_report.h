@@ -3,6 +3,7 @@
 #pragma once
 
 #include "harness/records/record.h"
+#include "harness/report/summary.h"
 
 #include <filesystem>
 #include <optional>
@@ -25,7 +26,8 @@ std::string csv(const std::vector<Record>& records);
 
 /// Indices of the records of `scene` that no other one beats in headline error and cost ratio (`dominates` in
 /// harness/report/summary.h), by rising cost.
-std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene);
+std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene,
+                                     CostOf costOf = frameCost);
 
 /// Indices of the records of `scene` within its tolerance; none if it states none.
 std::vector<std::size_t> adequate(const std::vector<Record>& records, const std::string& scene);

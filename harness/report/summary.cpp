@@ -1,5 +1,6 @@
 #include "harness/report/summary.h"
 
+#include "harness/report/cost_report.h"
 #include "harness/report/run_report.h"
 
 #include <algorithm>
@@ -19,8 +20,9 @@ bool dominates(const Place& a, const Place& b) {
 
 bool isBaseline(const Record& record) { return record.technique == "none"; }
 
-double costSpread(const Record& record) {
-    std::vector<double> times = record.values.list("cost.time.samples");
+namespace {
+
+double spreadOf(std::vector<double> times) {
     constexpr std::size_t fewest = 6; // with fewer rounds no interval of order statistics holds 95 %
     if (times.size() < fewest) return 0;
     std::ranges::sort(times);
@@ -28,6 +30,48 @@ double costSpread(const Record& record) {
     const auto low = static_cast<std::size_t>(std::max(0.0, std::floor(0.5 * n - 0.98 * std::sqrt(n)))); // 1.96 / 2
     const double median = 0.5 * (times[(times.size() - 1) / 2] + times[times.size() / 2]);
     return 0.5 * (times[times.size() - 1 - low] - times[low]) / median;
+}
+
+std::optional<FrameCost> movingCost(const Record& record) {
+    const std::optional<double>& ratio = record.values["cost.motion.time.ratio"];
+    if (!ratio || isExternal(record)) return {};
+    return FrameCost{*ratio, spreadOf(record.values.list("cost.motion.time.samples"))};
+}
+
+} // namespace
+
+std::optional<FrameCost> standingCost(const Record& record) {
+    const std::optional<double>& ratio = record.values["cost.time.ratio"];
+    if (!ratio || isExternal(record)) return {};
+    return FrameCost{*ratio, spreadOf(record.values.list("cost.time.samples"))};
+}
+
+std::optional<FrameCost> frameCost(const Record& record) {
+    const std::optional<FrameCost> stands = standingCost(record), moves = movingCost(record);
+    const bool dearer = stands && moves && moves->ratio * (1 - moves->spread) > stands->ratio * (1 + stands->spread);
+    return dearer ? moves : stands;
+}
+
+bool knowsMotion(const Record& record) { return movingCost(record).has_value(); }
+
+std::optional<double> cacheSaves(const Record& record) {
+    const std::optional<FrameCost> stands = standingCost(record), moves = movingCost(record);
+    if (!stands || !moves || changedPasses(record.motionPasses, record.passes).empty()) return {};
+    return moves->ratio / stands->ratio;
+}
+
+std::vector<Record> standing(std::vector<Record> records) {
+    for (Record& record : records) {
+        for (const metrics::Metric& line : metrics::linesOf("cost.motion")) record.values.clear(line);
+        record.motionPasses.clear();
+    }
+    return records;
+}
+
+std::string costMeaning(const std::vector<Record>& records, const std::string& scene) {
+    const std::vector<std::size_t> all = ofScene(records, scene);
+    const bool moves = std::ranges::any_of(all, [&](std::size_t i) { return knowsMotion(records[i]); });
+    return moves ? "frames of sm-uniform, the dearer of standing and in motion" : "standing frames of sm-uniform";
 }
 
 std::vector<std::string> scenes(const std::vector<Record>& records) {
@@ -50,11 +94,11 @@ std::vector<std::size_t> scoredOf(const std::vector<Record>& records, const std:
     return scored;
 }
 
-std::optional<Place> place(const Record& record) {
+std::optional<Place> place(const Record& record, CostOf costOf) {
     const std::optional<Headline> error = headline(record);
-    const std::optional<double>& cost = record.values["cost.time.ratio"];
-    if (!error || !cost || isExternal(record)) return {};
-    return Place{error->value, *cost, costSpread(record)};
+    const std::optional<FrameCost> cost = costOf(record);
+    if (!error || !cost) return {};
+    return Place{error->value, cost->ratio, cost->spread};
 }
 
 std::vector<Tolerance> tolerances(const std::vector<Record>& records, const std::string& scene) {
@@ -164,10 +208,10 @@ std::string truth(const ReferenceInfo& reference) {
     return fmt::format("POV-Ray {} samples, σ {:.1g}", reference.samples, reference.sigma);
 }
 
-std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene) {
+std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene, CostOf costOf) {
     std::vector<std::pair<std::size_t, Place>> candidates;
     for (const std::size_t i : ofScene(records, scene))
-        if (const std::optional<Place> here = place(records[i])) candidates.emplace_back(i, *here);
+        if (const std::optional<Place> here = place(records[i], costOf)) candidates.emplace_back(i, *here);
     std::ranges::stable_sort(candidates, {}, [](const auto& candidate) { return candidate.second.cost; });
     std::vector<std::size_t> front;
     for (const auto& [i, here] : candidates)
@@ -176,8 +220,8 @@ std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const s
     return front;
 }
 
-std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index) {
-    const std::vector<std::size_t> front = paretoFront(records, scene);
+std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index, CostOf costOf) {
+    const std::vector<std::size_t> front = paretoFront(records, scene, costOf);
     if (std::ranges::find(front, index) == front.end()) return "";
     if (isBaseline(records[index])) return "○";
     const std::vector<Tolerance> limits = tolerances(records, scene);

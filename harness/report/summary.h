@@ -18,18 +18,42 @@ std::vector<std::size_t> ofScene(const std::vector<Record>& records, const std::
 /// Those of them that were scored by the scene's headline metric.
 std::vector<std::size_t> scoredOf(const std::vector<Record>& records, const std::string& scene);
 
-/// A record's place on the accuracy–cost plane; nothing unless it was scored and timed, and for other renderers, whose costs
-/// are not measured here.
+/// What a frame costs, in frames of sm-uniform. It lies within ratio · (1 ± spread): half the 95 % interval of the median of
+/// the rounds' times (by order statistics), as a share of the median; 0 where the record has no rounds.
+struct FrameCost {
+    double ratio;
+    double spread = 0;
+};
+
+/// That of the frame in motion where it is dearer by more than both intervals, else the standing frame's; the standing one's
+/// where that is all the record knows (it is older, or `standing` was asked of it). Nothing where it was not timed, and of
+/// other renderers, whose costs are not measured here.
+std::optional<FrameCost> frameCost(const Record& record);
+
+/// The standing frame's alone: with what is kept while light and casters stand still.
+std::optional<FrameCost> standingCost(const Record& record);
+
+using CostOf = std::optional<FrameCost> (*)(const Record& record);
+
+bool knowsMotion(const Record& record);
+
+/// The frame in motion as a multiple of the standing one, of a record whose technique keeps something while nothing moves:
+/// it draws more in motion, or has passes there that the standing frame lacks.
+std::optional<double> cacheSaves(const Record& record);
+
+/// The records as those of scenes that stand still: without what they know of motion.
+std::vector<Record> standing(std::vector<Record> records);
+
+/// What cost means in tables of these records: "frames of sm-uniform, the dearer of standing and in motion".
+std::string costMeaning(const std::vector<Record>& records, const std::string& scene);
+
+/// A record's place on the accuracy–cost plane; nothing unless it was scored and timed.
 struct Place {
     double error;          // headline
-    double cost;           // ratio to sm-uniform
-    double costSpread = 0; // the cost lies within cost · (1 ± costSpread): the interval of the rounds' median
+    double cost;           // FrameCost::ratio
+    double costSpread = 0; // FrameCost::spread
 };
-std::optional<Place> place(const Record& record);
-
-/// Half the 95 % interval of the median of the rounds' times (by order statistics), as a share of the median; 0 where the
-/// record has no rounds.
-double costSpread(const Record& record);
+std::optional<Place> place(const Record& record, CostOf costOf = frameCost);
 
 /// Whether `a` beats `b`: it is at most as wrong, and cheaper by more than both intervals; or less wrong, and not dearer by
 /// more than both intervals.
@@ -42,7 +66,8 @@ bool isBaseline(const Record& record);
 inline constexpr double markedWithin = 10;
 
 /// Of a table's row: ● on the Pareto front, ○ there for a baseline or an error beyond `markedWithin`, "" off it.
-std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index);
+std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index,
+                      CostOf costOf = frameCost);
 
 /// The worst error that a viewer of a scene accepts.
 struct Tolerance {

@@ -18,7 +18,7 @@ namespace {
 using Cell = std::optional<std::string>; // nothing: does not apply
 
 Cell cell(const Column& column, const Record& record) {
-    const std::optional<double>& value = record.values[column.metric];
+    const std::optional<double> value = column.of(record);
     return value ? Cell(column.format(*value)) : Cell();
 }
 
@@ -43,6 +43,10 @@ TextTable table(const std::vector<Record>& records, const std::string& scene, bo
     result.titles.emplace_back("front");
     for (std::size_t row = 0; row < scored.size(); ++row)
         result.rows[row].emplace_back(frontMark(records, scene, scored[row]));
+    if (!page || std::ranges::none_of(scored, [&](std::size_t i) { return knowsMotion(records[i]); })) return result;
+    result.titles.emplace_back("front, standing");
+    for (std::size_t row = 0; row < scored.size(); ++row)
+        result.rows[row].emplace_back(frontMark(records, scene, scored[row], standingCost));
     return result;
 }
 
@@ -70,6 +74,23 @@ std::string truthLine(const std::vector<Record>& records, const std::string& sce
     return truths.empty() ? "" : fmt::format("truth: {}", fmt::join(truths, "; "));
 }
 
+/// "saved while light and casters stand still: sm-adaptive 2.54 ×"; whose cost in motion is not known.
+std::vector<std::string> motionLines(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::string> kept, unknown;
+    bool known = false;
+    for (const std::size_t i : ofScene(records, scene)) {
+        if (const std::optional<double> saved = cacheSaves(records[i]))
+            kept.push_back(fmt::format("{} {:.2f} ×", records[i].variant, *saved));
+        known = known || knowsMotion(records[i]);
+        if (place(records[i]) && !knowsMotion(records[i])) unknown.push_back(records[i].variant);
+    }
+    std::vector<std::string> lines;
+    if (!kept.empty()) lines.push_back(fmt::format("saved while light and casters stand still: {}", fmt::join(kept, ", ")));
+    if (known && !unknown.empty())
+        lines.push_back(fmt::format("cost of the standing frame alone: {}", fmt::join(unknown, ", ")));
+    return lines;
+}
+
 std::vector<std::string> footnotes(const std::vector<Record>& records, const std::string& scene) {
     std::vector<std::string> lines;
     if (const std::string line = truthLine(records, scene); !line.empty()) lines.push_back(line);
@@ -84,6 +105,7 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
                             ? fmt::format("no technique is within tolerance ({})", bound)
                             : fmt::format("within tolerance ({}), none of them timed: {}", bound, fmt::join(within, ", ")));
     }
+    for (std::string& line : motionLines(records, scene)) lines.push_back(std::move(line));
     if (const std::string reported = reportedCosts(records, scene); !reported.empty())
         lines.push_back("time of a frame as the renderers themselves report it, not measured here: " + reported);
     std::vector<std::pair<std::string, std::string>> inapplicable; // reason → variants, in order of first occurrence
@@ -133,7 +155,7 @@ std::string heading(const std::vector<Record>& records, const std::string& scene
     const Record& first = records[ofScene(records, scene).front()];
     std::string line = fmt::format("scene: {} · {}", scene, imageSize(first));
     const std::string metric = headlineMetric(records, scene);
-    if (!metric.empty()) line += fmt::format(" · error = {} · cost = frames of sm-uniform", meaning(metric));
+    if (!metric.empty()) line += fmt::format(" · error = {} · cost = {}", meaning(metric), costMeaning(records, scene));
     return line;
 }
 

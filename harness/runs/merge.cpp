@@ -121,11 +121,12 @@ Record withoutTimings(Record record) {
     record.time.clear();
     for (const metrics::Metric& line : metrics::table)
         if (line.noisy) record.values.clear(line);
-    for (PassRecord& pass : record.passes) {
-        pass.milliseconds.reset();
-        pass.share.reset();
-        if (pass.bare) pass.bare->milliseconds.reset();
-    }
+    for (auto* passes : {&record.passes, &record.motionPasses, &record.coldPasses})
+        for (PassRecord& pass : *passes) {
+            pass.milliseconds.reset();
+            pass.share.reset();
+            if (pass.bare) pass.bare->milliseconds.reset();
+        }
     record.otherScreen.reset(); // measured for its times
     if (record.external) record.external->reported.reset();
     return record;

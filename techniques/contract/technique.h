@@ -56,7 +56,8 @@ public:
     /// surfaces that face away from the light are masked by the harness: any value will do there.
     virtual void render(const Frame& frame, const gl::Texture& visibility) = 0;
 
-    /// Forgets all history: the next frame is the first.
+    /// Forgets all history and whatever else is kept from frame to frame for a light or for casters: the next frame is the
+    /// first and does its work, with programs compiled before and what depends on meshes alone.
     virtual void reset() {}
 
     /// Numbers of `frame`, the one that was rendered last, that only the technique knows, by names that its entry declares.

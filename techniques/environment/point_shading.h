@@ -19,6 +19,9 @@ public:
     /// Takes the points of the snapshot.
     void begin(const Snapshot& snapshot, std::size_t budget);
 
+    /// The points are of no snapshot any more.
+    void forget() { batches_.clear(); }
+
     /// Whether the snapshot shows the surfaces that the points lie on.
     [[nodiscard]] bool isOf(const Snapshot& snapshot) const;
 

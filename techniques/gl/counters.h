@@ -1,6 +1,7 @@
 // Work counters: what a frame asks of the GPU, independent of how fast this machine is.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace shadowbench::gl {
@@ -10,6 +11,14 @@ struct Tally {
     std::uint64_t draws = 0;  // draw calls
     std::uint64_t passes = 0; // framebuffers bound for drawing
     std::uint64_t bytes = 0;  // texture and buffer bytes alive now
+    std::uint64_t peak = 0;   // the most of them since `watchPeak`
+
+    void allocate(std::uint64_t more) {
+        bytes += more;
+        peak = std::max(peak, bytes);
+    }
+    void release(std::uint64_t fewer) { bytes -= fewer; }
+    void watchPeak() { peak = bytes; }
 };
 
 struct WorkCount {

@@ -27,15 +27,15 @@ const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(byt
 Buffer::Buffer() { glGenBuffers(1, &id_); }
 
 Buffer::~Buffer() {
-    Context::current().tally().bytes -= bytes_;
+    Context::current().tally().release(bytes_);
     glDeleteBuffers(1, &id_);
 }
 
 void Buffer::upload(const void* data, std::size_t bytes) {
     glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
     glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_DYNAMIC_DRAW);
-    Context::current().tally().bytes += bytes;
-    Context::current().tally().bytes -= bytes_;
+    Context::current().tally().release(bytes_);
+    Context::current().tally().allocate(bytes);
     bytes_ = bytes;
 }
 

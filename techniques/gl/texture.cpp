@@ -116,7 +116,7 @@ Texture::Texture(Format format, glm::ivec2 size, Filter filter, Wrap wrap) : for
     const float far = isDepth(format) ? 1 : nothingInTheWay;
     const std::array<float, 4> border{far, far, far, far};
     glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, border.data());
-    Context::current().tally().bytes += bytes();
+    Context::current().tally().allocate(bytes());
     Context::current().check("allocating a texture of " + std::to_string(size.x) + "×" + std::to_string(size.y));
 }
 
@@ -125,7 +125,7 @@ Texture::~Texture() { release(); }
 void Texture::release() {
     if (id_ == 0) return;
     Context& context = Context::current();
-    context.tally().bytes -= bytes();
+    context.tally().release(bytes());
     context.framebuffers().forget(id_);
     glDeleteTextures(1, &id_);
     id_ = 0;
@@ -172,14 +172,14 @@ TextureArray::TextureArray(Format format, glm::ivec2 size, int layers) : size_(s
         const glm::ivec2 part = glm::max(size >> level, glm::ivec2(1));
         bytes_ += facts(format).bytes * static_cast<std::size_t>(part.x * part.y) * static_cast<std::size_t>(layers);
     }
-    Context::current().tally().bytes += bytes_;
+    Context::current().tally().allocate(bytes_);
     Context::current().check("allocating " + std::to_string(layers) + " layers of " + std::to_string(size.x) + "×" +
                              std::to_string(size.y));
 }
 
 TextureArray::~TextureArray() {
     Context& context = Context::current();
-    context.tally().bytes -= bytes_;
+    context.tally().release(bytes_);
     context.framebuffers().forget(id_);
     glDeleteTextures(1, &id_);
 }

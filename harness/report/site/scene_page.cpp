@@ -74,6 +74,7 @@ void setAnswer(Data& data, const std::vector<Record>& records, const Choice& cho
     data.set("errs", errorText(record));
     data.set("timed", place.has_value());
     data.set("cost", place ? fmt::format("{:.2f}", place->cost) : "");
+    data.set("frames", report::costMeaning(records, record.scene));
     data.set("weak", !weakness.empty());
     data.set("weakness", weakness);
     data.set("others", namesOf(records, choice.others));
@@ -103,7 +104,7 @@ public:
                                         shown(scene_)),
                     .kind = "scatter",
                     .table = "errors",
-                    .options = {{"x", "cost.time.ratio"}, {"y", "error"}}};
+                    .options = {{"x", "cost"}, {"y", "error"}}};
         for (const report::Tolerance& limit : report::tolerances(records_, scene_))
             if (limit.metric == report::headlineMetric(records_, scene_))
                 chart.options.emplace_back("tolerance", fmt::format("{}", limit.value));

@@ -2,6 +2,7 @@
 
 #include "harness/metrics/table.h"
 #include "harness/report/columns.h"
+#include "harness/report/cost_report.h"
 #include "harness/report/doubts.h"
 #include "harness/report/run_report.h"
 #include "harness/report/site/choice.h"
@@ -20,9 +21,10 @@ using report::Tolerance;
 
 Column columnOf(const report::Column& column) {
     const metrics::Metric& line = metrics::table[column.metric.index()];
+    const bool own = column.computed != nullptr;
     return {.title = column.title,
-            .hint = std::string(line.meaning),
-            .key = std::string(line.path),
+            .hint = own ? column.hint : std::string(line.meaning),
+            .key = own ? column.key : std::string(line.path),
             .unit = std::string(line.unit),
             .brief = !column.pageOnly};
 }
@@ -36,17 +38,20 @@ Cell shareCell(const Record& record, const std::vector<Tolerance>& limits) {
 std::vector<std::string> passNames(const std::vector<Record>& records, const std::string& scene) {
     std::vector<std::string> names;
     for (const std::size_t i : report::ofScene(records, scene))
-        for (const PassRecord& pass : records[i].passes)
-            if (pass.milliseconds && std::ranges::find(names, pass.name) == names.end()) names.push_back(pass.name);
+        for (const auto* passes : {&records[i].passes, &records[i].motionPasses, &records[i].coldPasses})
+            for (const PassRecord& pass : *passes)
+                if (pass.milliseconds && std::ranges::find(names, pass.name) == names.end()) names.push_back(pass.name);
     return names;
 }
 
-Row passRow(const Record& record, const std::vector<std::string>& names, const std::filesystem::path& images) {
+Row passRow(const Record& record, const std::vector<PassRecord>& passes, const char* frame,
+            const std::vector<std::string>& names, const std::filesystem::path& images) {
     Row row{{techniqueCell(record, images), {}}, {}};
+    row.cells[0].text += frame;
     double total = 0;
     for (const std::string& name : names) {
-        const auto pass = std::ranges::find(record.passes, name, &PassRecord::name);
-        const bool timed = pass != record.passes.end() && pass->milliseconds;
+        const auto pass = std::ranges::find(passes, name, &PassRecord::name);
+        const bool timed = pass != passes.end() && pass->milliseconds;
         row.cells.push_back(timed ? Cell{fmt::format("{:.2f}", *pass->milliseconds), *pass->milliseconds} : Cell{""});
         total += timed ? *pass->milliseconds : 0;
     }
@@ -72,7 +77,7 @@ std::vector<std::pair<std::string, std::string>> marksOf(const std::vector<Recor
             {"answer", facts.answer},
             {"within", report::isWithin(record, limits) ? "yes" : "no"},
             {"baseline", report::isBaseline(record) ? "yes" : "no"},
-            {"spread", fmt::format("{}", report::costSpread(record))}};
+            {"spread", fmt::format("{}", report::frameCost(record).value_or(report::FrameCost{}).spread)}};
 }
 
 Table errorTable(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images) {
@@ -80,6 +85,7 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
     const std::vector<Tolerance> limits = report::tolerances(records, scene);
     const std::string metric = report::headlineMetric(records, scene);
     const bool timed = !report::paretoFront(records, scene).empty();
+    const bool moves = std::ranges::any_of(scored, [&](std::size_t i) { return report::knowsMotion(records[i]); });
     Table table{.id = "errors",
                 .caption = "Every technique on " + scene,
                 .columns = {},
@@ -103,6 +109,10 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
             {.title = "front",
              .hint = "● nothing else has both less error and less cost; ○ the same for a baseline or a large error",
              .number = false});
+    if (moves)
+        table.columns.push_back({.title = "front, standing",
+                                 .hint = "The same for scenes where light and casters stand still",
+                                 .number = false});
 
     const Choice choice = choiceFor(records, scene);
     for (const std::size_t i : scored) {
@@ -114,10 +124,11 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
         if (choice.take == i) row.cells[0].kind = "take";
         if (!limits.empty()) row.cells.push_back(shareCell(record, limits));
         for (const report::Column* column : chosen) {
-            const std::optional<double>& value = record.values[column->metric];
+            const std::optional<double> value = column->of(record);
             row.cells.push_back(value ? Cell{column->format(*value), *value} : Cell{"–"});
         }
         if (timed) row.cells.push_back({report::frontMark(records, scene, i)});
+        if (moves) row.cells.push_back({report::frontMark(records, scene, i, report::standingCost)});
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -157,8 +168,14 @@ Table passTable(const std::vector<Record>& records, const std::string& scene, co
     for (const std::size_t i : report::ofScene(records, scene)) {
         if (std::ranges::none_of(records[i].passes, [](const PassRecord& pass) { return pass.milliseconds.has_value(); }))
             continue;
-        table.rows.push_back(passRow(records[i], names, images));
-        table.rows.back().marks = marksOf(records, i);
+        const Record& record = records[i];
+        const auto add = [&](const std::vector<PassRecord>& passes, const char* frame) {
+            table.rows.push_back(passRow(record, passes, frame, names, images));
+            table.rows.back().marks = marksOf(records, i);
+        };
+        add(record.passes, "");
+        if (!report::changedPasses(record.motionPasses, record.passes).empty()) add(record.motionPasses, ", in motion");
+        if (!report::changedPasses(record.coldPasses, record.passes).empty()) add(record.coldPasses, ", first frame");
     }
     return table;
 }

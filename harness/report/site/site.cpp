@@ -82,6 +82,7 @@ std::filesystem::path writeSite(const Sources& sources, const std::filesystem::p
     std::erase_if(measured, [](const Record& record) { return record.sweep.has_value(); });
     const std::string command = measured.empty() ? "" : report::runCommand(measured);
     measured = apart(std::move(measured));
+    if (sources.standing) measured = report::standing(std::move(measured));
     const std::vector<Sweep> sweeps = sweepsOf(shown);
     SiteWriter site(folder, navigationOf(sources, measured, sweeps));
 

@@ -21,6 +21,7 @@ struct Sources {
     std::filesystem::path baseImages = {};          // as `images`
     std::optional<history::Findings> findings = {}; // for history.html
     Sequences sequences = Sequences::Fronts;        // whose moving frames the pages of cells hold
+    bool standing = false;                          // costs are of scenes where light and casters stand still
 };
 
 /// Writes the report (writeReport in harness/report/run_report.h), index.html, all other pages and what they need; returns

@@ -58,6 +58,7 @@ public:
 
     std::vector<Record> of(Question question, const std::string& sceneIdOrFile, const Scene& scene) {
         std::vector<Record> records = given_ ? *given_ : computed(question, sceneIdOrFile);
+        if (options_.standing) records = report::standing(std::move(records));
         if (report::ofScene(records, scene.id).empty())
             throw BadInput(fmt::format("{} holds no record of scene {}", options_.records.string(), scene.id));
         if (options_.casters.tolerance.empty()) return records;
@@ -99,7 +100,7 @@ std::optional<Cheapest> cheapest(const std::vector<Record>& records, const std::
     if (!best) return {};
     const Record& record = records[*best];
     const std::optional<double> error = metrics::bounded(record.values, report::tolerance(records, scene)->metric);
-    return Cheapest{record.variant, error.value_or(0), *record.values["cost.time.ratio"]};
+    return Cheapest{record.variant, error.value_or(0), report::frameCost(record)->ratio, report::knowsMotion(record)};
 }
 
 void answerFromRecords(Question question, const std::vector<Record>& records, Recommendation& result) {

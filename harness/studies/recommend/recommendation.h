@@ -27,6 +27,7 @@ struct RecommendOptions {
     std::filesystem::path records;                   // of a run; empty: the cells that the questions need are run
     std::filesystem::path out = "results/recommend"; // of those cells' records
     std::filesystem::path cache;
+    bool standing = false; // light and casters stand still
     bool quiet = false;
 };
 
@@ -34,7 +35,8 @@ struct RecommendOptions {
 struct Cheapest {
     std::string variant;
     double error; // by the first tolerance's metric
-    double cost;  // frames of sm-uniform
+    double cost;  // frames of sm-uniform, the dearer of standing and in motion
+    bool moving;  // false: of the standing frame alone
 };
 
 /// Answers for one scene; what was not asked for is empty.

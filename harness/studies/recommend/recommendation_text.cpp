@@ -110,8 +110,9 @@ std::string leastTable(const std::string& what, const std::string& unit, const s
 std::string cheapestLine(const std::optional<Cheapest>& technique, const std::vector<report::Tolerance>& tolerances) {
     const std::string heading = fmt::format(" cheapest technique within {}", report::formatBounds(tolerances));
     if (!technique) return heading + ": none\n";
-    return fmt::format("{}: {}, at {} and {:.2f} frames of sm-uniform\n", heading, technique->variant,
-                       shown(tolerances.front().metric, technique->error), technique->cost);
+    return fmt::format("{}: {}, at {} and {:.2f} frames of sm-uniform, {}\n", heading, technique->variant,
+                       shown(tolerances.front().metric, technique->error), technique->cost,
+                       technique->moving ? "the dearer of standing and in motion" : "standing");
 }
 
 ordered_json toJson(const GroupLevel& group) {
@@ -157,8 +158,10 @@ ordered_json toJson(const Recommendation& r) {
     if (r.casters) result["casters"] = toJson(*r.casters);
     for (const report::Tolerance& limit : r.tolerances) result["tolerance"][limit.metric] = limit.value;
     if (r.technique)
-        result["technique"] = {
-            {"variant", r.technique->variant}, {"error", r.technique->error}, {"cost", r.technique->cost}};
+        result["technique"] = {{"variant", r.technique->variant},
+                               {"error", r.technique->error},
+                               {"cost", r.technique->cost},
+                               {"in_motion", r.technique->moving}};
     if (r.questions.contains(Question::Map)) result["map"] = toJson(r.maps, "texels");
     if (r.questions.contains(Question::Samples)) result["samples"] = toJson(r.samples, "samples");
     return result;

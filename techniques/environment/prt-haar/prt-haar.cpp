@@ -20,6 +20,8 @@ public:
         : budget_(static_cast<std::size_t>(p.integer("points"))), n_(static_cast<std::size_t>(p.integer("n"))),
           side_(std::stoi(p.text("resolution"))), directions_(cubeSamples(side_, p.integer("rays"))) {}
 
+    void reset() override { shading_.forget(); }
+
     void render(const Frame& frame, const gl::Texture& visibility) override {
         if (!shading_.isOf(frame.snapshot)) precompute(frame);
         if (light_.changesTo(frame.snapshot.light)) projectLight(frame);
@@ -98,7 +100,7 @@ Entry prtHaar() {
                     {"spacing", "of the points, metres at most"},
                     {"transfer_bytes", "of transfer that is kept: all coefficients of points and triangles"},
                     {"coefficients", "of the light that are used"},
-                    {"rays", "of the precomputation, which is in no frame's cost"}},
+                    {"rays", "of the precomputation, which is in the cost of the first frame alone"}},
         .variants = {""},
         .make = [](const Parameters& p) { return std::make_unique<PrtHaar>(p); }};
 }

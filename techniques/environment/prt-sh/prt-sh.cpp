@@ -30,6 +30,8 @@ public:
           clusters_(static_cast<std::size_t>(p.integer("clusters"))),
           components_(static_cast<std::size_t>(p.integer("components"))) {}
 
+    void reset() override { shading_.forget(); }
+
     void render(const Frame& frame, const gl::Texture& visibility) override {
         if (!shading_.isOf(frame.snapshot)) precompute(frame);
         if (light_.changesTo(frame.snapshot.light)) projectLight(frame);
@@ -148,7 +150,7 @@ Entry prtSh() {
                     {"spacing", "of the points, metres at most"},
                     {"transfer_bytes", "of transfer that is kept, with the unshadowed one of each triangle"},
                     {"compression_error", "root mean square of what compression changes of a coefficient"},
-                    {"rays", "of the precomputation, which is in no frame's cost"}},
+                    {"rays", "of the precomputation, which is in the cost of the first frame alone"}},
         .variants = {"", "compression=clustered"},
         .make = [](const Parameters& p) { return std::make_unique<PrtSh>(p); }};
 }

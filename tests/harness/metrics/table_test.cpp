@@ -47,7 +47,7 @@ TEST(MetricsTable, AGroupIsWhatItsPathBeginsWith) {
     EXPECT_EQ(linesOf("aliasing").size(), 3U);
     EXPECT_EQ(linesOf("accuracy.edge_error").size(), 7U);
     EXPECT_TRUE(linesOf("accuracy.edge").empty());
-    EXPECT_EQ(linesOf("cost").back().path, "cost.work.bytes") << "the end of the table";
+    EXPECT_EQ(linesOf("cost").back().path, "cost.cold.work.passes") << "the end of the table";
 }
 
 TEST(Allowance, IsDescribedInWords) {

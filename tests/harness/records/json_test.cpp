@@ -148,6 +148,27 @@ TEST(RecordJson, KeepsAStabilityThatHoldsTheErrorOfMovingFramesAlone) {
     EXPECT_EQ(parseRecord(toJson(record)).values["stability.disocclusion_error"], 0.5);
 }
 
+TEST(RecordJson, KeepsCostsInMotionAndOfTheFirstFrame) {
+    Record record = hardRecord();
+    for (const char* group : {"cost.motion", "cost.cold"})
+        for (const metrics::Metric& line : metrics::linesOf(group)) {
+            if (line.list)
+                record.values.list(metrics::MetricId(line)) = {3, 4};
+            else
+                record.values[line] = 7;
+        }
+    record.values["cost.work.peak_bytes"] = 4194305;
+    record.motionPasses = record.coldPasses = record.passes;
+    record.coldPasses[0].name = "precomputation";
+    const Json json = Json::parse(toJson(record));
+    EXPECT_EQ(json["cost"]["motion"]["work"]["vertices"], 7);
+    EXPECT_EQ(json["cost"]["cold"]["compile"], 7);
+    const Record read = parseRecord(toJson(record));
+    EXPECT_EQ(toJson(read), toJson(record));
+    EXPECT_EQ(read.coldPasses.at(0).name, "precomputation");
+    EXPECT_EQ(read.values.list("cost.motion.time.samples"), (std::vector<double>{3, 4}));
+}
+
 TEST(RecordJson, ReadsRecordsThatAreOlderThanCostsByPass) {
     Json json = Json::parse(toJson(hardRecord()));
     for (const char* later : {"by_pass", "other_screen"}) json["cost"].erase(later);

@@ -48,7 +48,7 @@ TEST(PassTable, IsAbsentWithoutTimes) {
     EXPECT_EQ(report::passTable(untimed(), "dueling-frusta"), "");
     EXPECT_EQ(report::rasteriserNote(untimed(), "dueling-frusta"), "");
     EXPECT_FALSE(report::passChart(untimed(), "dueling-frusta"));
-    EXPECT_TRUE(contains(report::passCsv(untimed()), "sm-uniform,gate,256,256,depth map,2,,,32768,70280,1,"))
+    EXPECT_TRUE(contains(report::passCsv(untimed()), "sm-uniform,gate,256,256,standing,depth map,2,,,32768,70280,1,"))
         << "work is there";
 }
 
@@ -86,10 +86,11 @@ TEST(PassCsv, HasOneRowAPassOnEachScreen) {
     const std::string text = report::passCsv(timed());
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 2 * (3 + 3));
     EXPECT_TRUE(contains(
-        text, "\ndueling-frusta,sm-uniform,gate,256,256,depth map,2,15.4,0.7,32768,70280,1,11,16384,35140,0,\"course, "
-              "Shadow Mapping\"\n"))
+        text,
+        "\ndueling-frusta,sm-uniform,gate,256,256,standing,depth map,2,15.4,0.7,32768,70280,1,11,16384,35140,0,\"course, "
+        "Shadow Mapping\"\n"))
         << text;
-    EXPECT_TRUE(contains(text, ",1024,1024,G-buffer,1,6.6,0.3,524288,210,2,,,,,\n")) << text;
+    EXPECT_TRUE(contains(text, ",1024,1024,standing,G-buffer,1,6.6,0.3,524288,210,2,,,,,\n")) << text;
     EXPECT_EQ(report::passCsv({unscored(Status::Error, "x")}), "");
 }
 

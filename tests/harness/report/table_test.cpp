@@ -19,7 +19,7 @@ std::vector<std::string> variants(const std::vector<Record>& records, const std:
 
 TEST(TerminalTable, ListsEveryTechniqueAndEndsWithTheCheapestWithinTolerance) {
     EXPECT_EQ(report::terminalTable(hardScene(), "dueling-frusta"),
-              " scene: dueling-frusta · 256² · error = mismatching pixels · cost = frames of sm-uniform\n"
+              " scene: dueling-frusta · 256² · error = mismatching pixels · cost = standing frames of sm-uniform\n"
               " technique                 error   false shadow     leak   edge error px   flicker   cost   front\n"
               " none                     31.2 %              –    100 %               –    0.1040   0.31       ○\n"
               " sm-uniform               4.87 %         0.05 %   0.04 %            0.40    0.0162   1.00       ●\n"
@@ -32,21 +32,22 @@ TEST(TerminalTable, ListsEveryTechniqueAndEndsWithTheCheapestWithinTolerance) {
 }
 
 TEST(TerminalTable, OfASoftSceneComparesOneMetricAndLeavesOutWhatNoRecordHas) {
-    EXPECT_EQ(report::terminalTable(softScene(), "overlapping-occluders"),
-              " scene: overlapping-occluders · 256² · error = rms error of visibility · cost = frames of sm-uniform\n"
-              " technique        error     leak   cost   front\n"
-              " sm-uniform      0.1900   1.00 %   1.00       ●\n"
-              " pcss            0.0312        –   2.94\n"
-              " temporal-soft   0.0210        –   2.20       ●\n"
-              " truth: exact (polygon); POV-Ray 1024 samples, σ 0.0006\n"
-              " cheapest within tolerance (penumbra_rmse 0.05): temporal-soft (Physically correct soft shadows over time; "
-              "its weakness: Shadows of a moving light lag)\n");
+    EXPECT_EQ(
+        report::terminalTable(softScene(), "overlapping-occluders"),
+        " scene: overlapping-occluders · 256² · error = rms error of visibility · cost = standing frames of sm-uniform\n"
+        " technique        error     leak   cost   front\n"
+        " sm-uniform      0.1900   1.00 %   1.00       ●\n"
+        " pcss            0.0312        –   2.94\n"
+        " temporal-soft   0.0210        –   2.20       ●\n"
+        " truth: exact (polygon); POV-Ray 1024 samples, σ 0.0006\n"
+        " cheapest within tolerance (penumbra_rmse 0.05): temporal-soft (Physically correct soft shadows over time; "
+        "its weakness: Shadows of a moving light lag)\n");
 }
 
 TEST(TerminalTable, SaysThatNothingIsWithinToleranceAndNamesErrors) {
     std::vector<Record> records = {hardCell("sm-uniform", 0.0487, 1), unscored(Status::Error, "primary hits differ")};
     EXPECT_EQ(report::terminalTable(records, "dueling-frusta"),
-              " scene: dueling-frusta · 256² · error = mismatching pixels · cost = frames of sm-uniform\n"
+              " scene: dueling-frusta · 256² · error = mismatching pixels · cost = standing frames of sm-uniform\n"
               " technique     error   false shadow     leak   edge error px   flicker   cost   front\n"
               " sm-uniform   4.87 %         0.05 %   0.04 %            0.40    0.0162   1.00       ●\n"
               " truth: exact (polygon)\n"

@@ -229,7 +229,7 @@ TEST(Bare, IsNotTimedInTheTechniquesPlaceNorChangesWhatItShows) {
     stage.render(*technique, frames.index++, 1);
     const Image<float> before = stage.visibility();
     Record record;
-    timing::measureWork(stage, frames, 0, record);
+    timing::measureWork(stage, frames, record);
     timing::measureTimes(stage, variant, frames, record);
     stage.redraw();
     stage.render(*technique, 0, 1);
@@ -259,7 +259,7 @@ TEST(Bare, IsAbsentWhereNoneIsDeclaredAndUntimedWhereNothingIs) {
         const auto technique = variant.entry->make(variant.parameters);
         Record record;
         timing::Sequence frames{*technique, 0, 1};
-        timing::measureWork(stage, frames, 0, record);
+        timing::measureWork(stage, frames, record);
         if (timed) timing::measureTimes(stage, variant, frames, record);
         return record;
     };

@@ -184,10 +184,10 @@
     function draw() {
       const x = columns[across.value], y = columns[up.value];
       const all = shownRows(entry).map((row) => ({ row, x: valueOf(row.cells[x.column]), y: valueOf(row.cells[y.column]),
-        spread: x.key === "cost.time.ratio" ? Number(row.dataset.spread) || 0 : 0 })).filter((p) => !Number.isNaN(p.y));
+        spread: x.key === "cost" ? Number(row.dataset.spread) || 0 : 0 })).filter((p) => !Number.isNaN(p.y));
       const points = all.filter((p) => !Number.isNaN(p.x));
       // Other renderers have no cost of ours: they stand beside the plot, at their errors, and are on no front.
-      const beside = x.key.startsWith("cost.") ? all.filter((p) => Number.isNaN(p.x) && p.row.dataset.family === "external") : [];
+      const beside = x.key.startsWith("cost") ? all.filter((p) => Number.isNaN(p.x) && p.row.dataset.family === "external") : [];
       const area = canvas(figure, 460);
       if (beside.length > 0) area.right += 84;
       const limit = y.key === figure.dataset.y && figure.dataset.tolerance ? Number(figure.dataset.tolerance) : NaN;
