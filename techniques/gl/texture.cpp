@@ -70,6 +70,12 @@ void requireComplete() {
         throw InternalError("a framebuffer is incomplete (status " + std::to_string(status) + ")");
 }
 
+/// On a unit that no sampler is given, the last of those that OpenGL 4.5 has at least: what programs have bound stays.
+void bindToChange(GLenum target, GLuint texture) {
+    glActiveTexture(GL_TEXTURE0 + 79);
+    glBindTexture(target, texture);
+}
+
 GLuint makeFramebuffer(std::span<const Texture* const> attachments) {
     GLuint id = 0;
     glGenFramebuffers(1, &id);
@@ -105,7 +111,7 @@ GLuint makeFramebuffer(const TextureArray& array, int layer) {
 
 Texture::Texture(Format format, glm::ivec2 size, Filter filter, Wrap wrap) : format_(format), size_(size) {
     glGenTextures(1, &id_);
-    glBindTexture(GL_TEXTURE_2D, id_);
+    bindToChange(GL_TEXTURE_2D, id_);
     glTexStorage2D(GL_TEXTURE_2D, 1, facts(format).internal, size.x, size.y);
     const GLint sampling = filter == Filter::Linear ? GL_LINEAR : GL_NEAREST;
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, sampling);
@@ -143,13 +149,13 @@ Texture& Texture::operator=(Texture&& other) noexcept {
 }
 
 void Texture::compareDepth() {
-    glBindTexture(GL_TEXTURE_2D, id_);
+    bindToChange(GL_TEXTURE_2D, id_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 }
 
 void Texture::upload(const Image<std::uint8_t>& texels) {
-    glBindTexture(GL_TEXTURE_2D, id_);
+    bindToChange(GL_TEXTURE_2D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texels.width(), texels.height(), GL_RED, GL_UNSIGNED_BYTE, texels.data());
     Context::current().check("uploading a texture");
@@ -162,7 +168,7 @@ std::size_t Texture::bytes() const {
 TextureArray::TextureArray(Format format, glm::ivec2 size, int layers) : size_(size), layers_(layers), bytes_(0) {
     const int levels = fullChain(size);
     glGenTextures(1, &id_);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, id_);
+    bindToChange(GL_TEXTURE_2D_ARRAY, id_);
     glTexStorage3D(GL_TEXTURE_2D_ARRAY, levels, facts(format).internal, size.x, size.y, layers);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -185,7 +191,7 @@ TextureArray::~TextureArray() {
 }
 
 void TextureArray::makeMipmaps() {
-    glBindTexture(GL_TEXTURE_2D_ARRAY, id_);
+    bindToChange(GL_TEXTURE_2D_ARRAY, id_);
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 

@@ -1,4 +1,5 @@
 // What holds for every shadow technique on every scene.
+#include "harness/render/motion.h"
 #include "scene/load/load.h"
 #include "scene/meshes/primitives.h"
 #include "scene/sky.h"
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <tuple>
 
 namespace shadowbench {
 namespace {
@@ -131,6 +133,47 @@ TEST_P(EveryCell, IsInRangeAndTheSameEveryTime) {
             ASSERT_LE(v, 1.0F);
         }
     EXPECT_EQ(shortRun(stage, GetParam().variant, Figures::Asked), images); // counting leaves no trace in the next frame
+}
+
+Image<float> drawnBy(Stage& stage, techniques::Technique& technique, const Snapshot& shown, int index) {
+    stage.show(shown);
+    stage.render(technique, index, 1);
+    return stage.visibility();
+}
+
+TEST_P(EveryCell, IsAfterAMoveWhatItIsFromTheBeginning) {
+    const techniques::Variant variant = techniques::parseVariant(GetParam().variant);
+    if (variant.entry->temporal) return; // its image is that of the frames before, too
+    CellScene& cells = smallCells(GetParam().scene);
+    const Snapshot standing = snapshot(cells.scene(), 1), home = returned(standing, Casters::Move);
+    Snapshot bothAway = displaced(standing, Casters::Move), castersAway = bothAway;
+    castersAway.light = standing.light;
+    const auto make = [&] { return variant.entry->make(variant.parameters); };
+    const auto technique = make();
+    int index = 0;
+    drawnBy(cells.stage(), *technique, standing, ++index);
+    for (const Snapshot& away : {castersAway, bothAway}) {
+        drawnBy(cells.stage(), *technique, away, ++index);
+        const Image<float> image = drawnBy(cells.stage(), *technique, home, ++index);
+        ASSERT_EQ(image, drawnBy(cells.stage(), *make(), home, index)) << "frame " << index;
+    }
+}
+
+TEST_P(EveryCell, IsAfterAResetWhatItIsNew) {
+    const techniques::Variant variant = techniques::parseVariant(GetParam().variant);
+    Stage& stage = smallCells(GetParam().scene).stage();
+    stage.show(1);
+    const auto technique = variant.entry->make(variant.parameters);
+    const auto firstFrame = [&] {
+        gl::WorkMeter meter;
+        stage.render(*technique, 0, 1);
+        const gl::WorkCount work = meter.finish();
+        return std::tuple(work.fragments, work.vertices, work.primitives, work.draws, work.passes, stage.visibility());
+    };
+    const auto made = firstFrame();
+    stage.render(*technique, 1, 1);
+    technique->reset();
+    EXPECT_EQ(firstFrame(), made);
 }
 
 std::string caseName(const testing::TestParamInfo<Case>& tested) {
