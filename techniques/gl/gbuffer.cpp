@@ -6,7 +6,7 @@
 
 namespace shadowbench::gl {
 
-GBuffer::GBuffer(glm::ivec2 size, int border)
+GBuffer::GBuffer(glm::ivec2 size, glm::ivec2 border)
     : border_(border), position_(Format::RGBA32F, size + 2 * border), normal_(Format::RGBA16F, size + 2 * border),
       id_(Format::R32UI, size + 2 * border), depthStencil_(Format::Depth32FStencil8, size + 2 * border),
       previousPosition_(Format::RGBA32F, size + 2 * border), target_{&position_, &normal_, &id_, &depthStencil_},
@@ -15,7 +15,7 @@ GBuffer::GBuffer(glm::ivec2 size, int border)
 
 glm::dmat4 GBuffer::widened(const glm::dmat4& clipFromWorld) const {
     const glm::dvec2 whole(size());
-    const glm::dvec2 inner = whole - 2.0 * border_;
+    const glm::dvec2 inner = whole - 2.0 * glm::dvec2(border_);
     return glm::scale(glm::dmat4(1), glm::dvec3(inner / whole, 1)) * clipFromWorld;
 }
 

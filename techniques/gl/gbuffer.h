@@ -13,8 +13,8 @@ namespace shadowbench::gl {
 /// (R32UI), depth-stencil (32-bit float + 8 bits), and, when something moves, each pixel's world position one frame earlier.
 class GBuffer {
 public:
-    /// `border` extra pixels on every side (overscan); pixel centres of the inner part stay where they are.
-    explicit GBuffer(glm::ivec2 size, int border = 0);
+    /// `border` extra pixels on both sides along x and y (overscan); pixel centres of the inner part stay where they are.
+    explicit GBuffer(glm::ivec2 size, glm::ivec2 border = {0, 0});
 
     /// Draws the scene; `clipFromWorld` is the camera's, without the border.
     void draw(const SceneBuffers& scene, const glm::dmat4& clipFromWorld);
@@ -25,7 +25,7 @@ public:
     [[nodiscard]] const Texture& depthStencil() const { return depthStencil_; }
     [[nodiscard]] const Texture& previousPosition() const { return moving_ ? previousPosition_ : position_; }
     [[nodiscard]] glm::ivec2 size() const { return position_.size(); } // border included
-    [[nodiscard]] int border() const { return border_; }
+    [[nodiscard]] glm::ivec2 border() const { return border_; }
 
     /// The projection that was drawn with: the camera's, widened by the border.
     [[nodiscard]] glm::dmat4 widened(const glm::dmat4& clipFromWorld) const;
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] Image<glm::vec4> readNormals() const { return target_.readVec4(1); }
 
 private:
-    int border_;
+    glm::ivec2 border_;
     Texture position_, normal_, id_, depthStencil_, previousPosition_;
     RenderTarget target_, movingTarget_;
     Program still_, withMotion_;

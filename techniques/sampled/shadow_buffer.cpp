@@ -5,7 +5,7 @@
 #include "techniques/shared/sampling/sampling.h"
 
 #include <algorithm>
-#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -26,7 +26,7 @@ void markInner(const gl::GBuffer& gbuffer) {
     target.clearStencil();
     const glm::ivec2 inner = gbuffer.size() - 2 * gbuffer.border();
     glEnable(GL_SCISSOR_TEST);
-    glScissor(gbuffer.border(), gbuffer.border(), inner.x, inner.y);
+    glScissor(gbuffer.border().x, gbuffer.border().y, inner.x, inner.y);
     constexpr GLint one = 1;
     glClearBufferiv(GL_STENCIL, 0, &one);
     glDisable(GL_SCISSOR_TEST);
@@ -47,7 +47,7 @@ std::vector<Parameter> shadowBufferParameters() {
         {"depth-test", "relative", OneOf{{"relative", "absolute"}},
          "of reprojection: tolerance relative to the depth, or in metres", "dissertation eq. 4.8 and 4.4"},
         {"epsilon", "0.01", RealRange{1e-5, 1}, "depth tolerance of reprojection", "dissertation eq. 4.8"},
-        {"overscan", "0.05", RealRange{0, 0.5}, "share by which the shadow buffer is larger than the image",
+        {"overscan", "0.05", RealRange{0, 0.5}, "share by which the shadow buffer is wider and higher than the image",
          "dissertation 4.2"},
     };
 }
@@ -67,7 +67,7 @@ LightView lightSampleView(const Frame& frame) {
     return fitFromSample(light, light.sample({halton(i, 2), halton(i, 3)}), boundingCorners(frame.snapshot));
 }
 
-ShadowBuffer::Images::Images(glm::ivec2 size, int border)
+ShadowBuffer::Images::Images(glm::ivec2 size, glm::ivec2 border)
     : inner(size), overscan(size, border), read(gl::Format::RGBA16F, overscan.size(), gl::Filter::Linear),
       write(gl::Format::RGBA16F, overscan.size(), gl::Filter::Linear), shown(gl::Format::R32F, overscan.size()) {
     markInner(overscan);
@@ -78,8 +78,8 @@ ShadowBuffer::ShadowBuffer(const Parameters& parameters)
 
 void ShadowBuffer::begin(const Frame& frame) {
     if (!images_ || images_->inner != frame.size)
-        images_.emplace(frame.size, static_cast<int>(std::ceil(0.5 * overscan_ * frame.size.x)));
-    if (images_->overscan.border() == 0) return;
+        images_.emplace(frame.size, glm::ivec2(glm::ceil(0.5 * overscan_ * glm::dvec2(frame.size))));
+    if (images_->overscan.border() == glm::ivec2(0)) return;
     const auto pass = frame.pass("overscan G-buffer");
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(GL_EQUAL, 0, 0xFF);
@@ -106,10 +106,9 @@ void ShadowBuffer::update(const Frame& frame, gl::Program& program, const gl::Te
 /// A copy of texels, without a shader.
 void ShadowBuffer::crop(const Frame& frame, const gl::Texture& visibility) const {
     const auto pass = frame.pass("crop");
-    const int border = images_->overscan.border();
-    const glm::ivec2 size = images_->inner;
-    glCopyImageSubData(images_->shown.id(), GL_TEXTURE_2D, 0, border, border, 0, visibility.id(), GL_TEXTURE_2D, 0, 0, 0, 0,
-                       size.x, size.y, 1);
+    const glm::ivec2 border = images_->overscan.border(), size = images_->inner;
+    glCopyImageSubData(images_->shown.id(), GL_TEXTURE_2D, 0, border.x, border.y, 0, visibility.id(), GL_TEXTURE_2D, 0, 0, 0,
+                       0, size.x, size.y, 1);
     ++gl::Context::current().tally().passes;
 }
 
@@ -151,21 +150,20 @@ void ShadowBuffer::setReprojection(const Frame& frame, gl::Program& program) con
 }
 
 void ShadowBuffer::drawInner(const Frame& frame, gl::Program& program) const {
-    const int border = images_->overscan.border();
-    const glm::ivec2 size = images_->inner;
-    setGBuffer(program, frame.gbuffer, glm::ivec2(border));
-    drawScissored(program, glm::ivec2(border), size);
+    const glm::ivec2 border = images_->overscan.border();
+    setGBuffer(program, frame.gbuffer, border);
+    drawScissored(program, border, images_->inner);
 }
 
 void ShadowBuffer::drawOverscan(gl::Program& program) const {
-    const int border = images_->overscan.border();
-    if (border == 0) return;
+    const glm::ivec2 border = images_->overscan.border();
+    if (border == glm::ivec2(0)) return;
     const glm::ivec2 wide = images_->overscan.size(), inner = images_->inner;
     setGBuffer(program, images_->overscan, glm::ivec2(0));
-    drawScissored(program, {0, 0}, {wide.x, border});
-    drawScissored(program, {0, wide.y - border}, {wide.x, border});
-    drawScissored(program, {0, border}, {border, inner.y});
-    drawScissored(program, {wide.x - border, border}, {border, inner.y});
+    drawScissored(program, {0, 0}, {wide.x, border.y});
+    drawScissored(program, {0, wide.y - border.y}, {wide.x, border.y});
+    drawScissored(program, {0, border.y}, {border.x, inner.y});
+    drawScissored(program, {wide.x - border.x, border.y}, {border.x, inner.y});
 }
 
 } // namespace shadowbench::techniques

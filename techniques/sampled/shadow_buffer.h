@@ -53,7 +53,7 @@ public:
 
 private:
     struct Images {
-        Images(glm::ivec2 size, int border);
+        Images(glm::ivec2 size, glm::ivec2 border);
         glm::ivec2 inner; // size of the image
         bool fresh = true;
         gl::GBuffer overscan; // its border alone is drawn, where the stencil is 0: the frame has the rest

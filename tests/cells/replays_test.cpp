@@ -10,6 +10,7 @@
 #include "tests/support/models/temporal_soft.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
@@ -199,7 +200,7 @@ public:
     /// `start`: samples that the start from PCSS counts for, 0: none. `filter`: the display filter is on.
     TemporalReplay(const Snapshot& frame, glm::ivec2 size, double start, bool filter)
         : frame_(frame), start_(start), filter_(filter), triangles_(worldTriangles(frame)), size_(size),
-          border_(static_cast<int>(std::ceil(0.025 * size.x))), wide_(size + 2 * border_) {
+          border_(glm::ceil(0.025 * glm::dvec2(size))), wide_(size + 2 * border_) {
         Snapshot wider = frame;
         const double half = std::tan(0.5 * glm::radians(frame.camera.fovy)) * wide_.y / size.y;
         wider.camera.fovy = glm::degrees(2 * std::atan(half));
@@ -231,7 +232,7 @@ public:
     }
 
     /// At a pixel of the image.
-    [[nodiscard]] double visibility(int x, int y) const { return at(x + border_, y + border_).shown; }
+    [[nodiscard]] double visibility(int x, int y) const { return at(x + border_.x, y + border_.y).shown; }
 
 private:
     static constexpr int side = 1024;
@@ -363,8 +364,7 @@ private:
     bool filter_;
     std::vector<WorldTriangle> triangles_;
     glm::ivec2 size_;
-    int border_;
-    glm::ivec2 wide_;
+    glm::ivec2 border_, wide_;
     std::vector<glm::dvec3> normals_;
     std::vector<Pixel> pixels_;
     int frames_ = 0;

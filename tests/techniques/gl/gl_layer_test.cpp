@@ -183,17 +183,19 @@ TEST(GBuffer, OverscanLeavesTheInnerPixelsWhereTheyAre) {
     gl::SceneBuffers buffers;
     buffers.update(shown);
     const glm::dmat4 clip = shown.camera.projection(1) * shown.camera.view();
-    gl::GBuffer plain(scene.size), wide(scene.size, 5);
+    constexpr glm::ivec2 border(5, 3);
+    gl::GBuffer plain(scene.size), wide(scene.size, border);
     plain.draw(buffers, clip);
     wide.draw(buffers, clip);
-    EXPECT_EQ(wide.size(), scene.size + 10);
+    EXPECT_EQ(wide.size(), scene.size + 2 * border);
     const auto a = plain.readPositions(), b = wide.readPositions();
     const auto ids = plain.readIds();
     const auto wideIds = wide.readIds();
     int moved = 0;
     for (int y = 0; y < scene.size.y; ++y)
         for (int x = 0; x < scene.size.x; ++x) {
-            const bool same = ids(x, y) == wideIds(x + 5, y + 5) && glm::distance(a(x, y), b(x + 5, y + 5)) <= 1e-3F;
+            const glm::ivec2 at = glm::ivec2(x, y) + border;
+            const bool same = ids(x, y) == wideIds(at.x, at.y) && glm::distance(a(x, y), b(at.x, at.y)) <= 1e-3F;
             moved += same ? 0 : 1;
         }
     EXPECT_LE(moved, 4); // edges within 1/256 px of a pixel centre may fall to the other side
