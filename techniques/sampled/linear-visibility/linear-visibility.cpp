@@ -6,7 +6,8 @@
 // Where only the middle of a light is seen, both ends see nothing.
 // Departures: a discontinuity is where the planes on both sides do not continue, by more than a penumbra of one texel,
 // where the paper takes the Laplacian of a Gaussian; receivers are compared on their own plane, instead of a bias in the
-// maps; all work is the GPU's (compute, an indirect draw).
+// maps; of skins that overlap, the least visibility is kept, as each hides the light from its own edge on (the course says
+// nothing of overlaps); all work is the GPU's (compute, an indirect draw).
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
