@@ -8,11 +8,11 @@
 // neither does the pixel.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
-#include "techniques/filtered/pcf/pcf.h"
 #include "techniques/gl/counters.h"
 #include "techniques/shared/filters/jitter_table.h"
 #include "techniques/shared/maps/normal_offset.h"
 #include "techniques/shared/maps/single_map.h"
+#include "techniques/shared/maps/stored_depth.h"
 
 #include <cstdint>
 #include <memory>

@@ -8,9 +8,9 @@
 
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
-#include "techniques/shared/maps/midpoint_map.h"
 #include "techniques/shared/maps/normal_offset.h"
 #include "techniques/shared/maps/single_map.h"
+#include "techniques/shared/maps/stored_depth.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -64,17 +64,6 @@ private:
 };
 
 } // namespace
-
-Parameter storedDepthParameter() {
-    return {"depth", "basic", OneOf{{"basic", "midpoint"}}, "nearest depth, or the mean of first and second surface",
-            "Zápotocký 4.4.2"};
-}
-
-std::unique_ptr<ShadowMap> storedDepthMap(const Parameters& parameters, Lookup lookup) {
-    const int side = parameters.integer("map");
-    if (parameters.text("depth") == "midpoint") return std::make_unique<MidpointMap>(side, lookup);
-    return std::make_unique<DepthMap>(side, biasFrom(parameters), lookup);
-}
 
 std::vector<Parameter> pcfParameters() {
     return withNormalOffset(withDepthMapParameters({

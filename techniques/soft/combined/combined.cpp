@@ -2,7 +2,8 @@
 // 1. blocker search with 16 jittered taps  2. penumbra width from similar triangles (eq. 3.3)  3. the share of 32 jittered
 // taps over that width that pass: the 8 of the outermost ring first, and where they disagree all others.
 // A rectangular light stretches the disk that the taps fill by its own width along each side (4.4.1, which interpolates
-// between the two by an angle; here map and light are parallel). Departures: as for `pcss`, the search window is the light's
+// between the two by an angle; here map and light are parallel). With `depth=midpoint` (his /m/) the map holds the mean of
+// first and second surface, drawn without a bias. Departures: as for `pcss`, the search window is the light's
 // own projection on the map's near plane, where the thesis scales an empirical offset; hence the search has taps of its own
 // over all of the window, where the thesis takes the innermost 16 of the filter's; with bias=slope every tap is compared
 // with the receiver's plane. As the source admits for `pcss`, blockers of different depths are fused into one of their mean;
@@ -11,6 +12,7 @@
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/filters/jitter_table.h"
 #include "techniques/shared/filters/pcss_program.h"
+#include "techniques/shared/maps/stored_depth.h"
 
 #include <cstdint>
 #include <memory>
@@ -34,7 +36,7 @@ class Combined final : public Technique {
 public:
     explicit Combined(const Parameters& p)
         : followPlane_(p.text("bias") == "slope"), filter_(filterGrid), search_(searchGrid, jitterBlock * jitterBlock),
-          map_(p.integer("map"), biasFrom(p)), resolve_(gl::Program::screen("soft/combined/combined.frag", tapDefines())) {}
+          map_(storedLinearisedMap(p)), resolve_(gl::Program::screen("soft/combined/combined.frag", tapDefines())) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         view_ = fitToScene(frame.snapshot.light, frame.snapshot);
@@ -50,7 +52,7 @@ public:
         };
         std::vector<Taps> all = taps(search_, searchGrid.taps());
         for (const Taps& first : taps(filter_, filterGrid.sectors)) all.push_back(first);
-        std::vector<BarePass> passes{bareDepthMap("course, Shadow Mapping", map_.side(), view_.clipFromWorld)};
+        std::vector<BarePass> passes = map_.bare(view_);
         append(passes,
                bareLookup("resolve",
                           "Zápotocký 4.4.3: blocker search, the taps that are tried first, and the others where these "
@@ -96,8 +98,8 @@ Entry combined() {
             .title = "Percentage-closer soft shadows with jittered taps",
             .source = {Document::Zapotocky, "4.4.3, 4.4.1"},
             .answer = Answer::Soft,
-            .parameters = depthMapParameters(),
-            .variants = {""},
+            .parameters = withDepthMapParameters({storedDepthParameter()}),
+            .variants = {"", "depth=midpoint"},
             .make = [](const Parameters& p) { return std::make_unique<Combined>(p); }};
 }
 

@@ -1,4 +1,5 @@
 // The combined shadow map method under a half-plane: PCSS's widths, without its bands.
+#include "scene/meshes/primitives.h"
 #include "tests/support/filtered_scenes.h"
 #include "tests/support/soft_scenes.h"
 
@@ -148,6 +149,56 @@ TEST(Combined, ASmallCasterThatTheOutermostRingMissesHasNoShadow) {
     stage.show(0);
     EXPECT_EQ(leastBelowThePlate(stage, "combined"), 1);
     EXPECT_NEAR(leastBelowThePlate(stage, "sampled-maps:n=256"), 0.75, 0.05);
+}
+
+/// Share of the ball's lit pixels that are darkened, where the map is coarse.
+double falseShadow(const std::string& variant) {
+    Scene scene = halfPlaneScene();
+    scene.objects.resize(1);
+    scene.objects.push_back(object(sphere(0.5, 1280), {0.2, 0.7, 0.1}));
+    Stage stage(scene);
+    stage.show(0);
+    const metrics::Drawn drawn = stage.drawn();
+    const Image<glm::vec3> normals = stage.normals();
+    const Image<float> v = rendered(stage, variant);
+    double dark = 0, seen = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        const glm::dvec3 toLight = glm::normalize(scene.light.centre - glm::dvec3(drawn.position[i]));
+        if (drawn.id[i] != 2 || glm::dot(glm::dvec3(normals[i]), toLight) < 0.5) continue; // all of the light is above
+        ++seen;
+        dark += v[i] < 1 ? 1 : 0;
+    }
+    EXPECT_GT(seen, 150);
+    return dark / seen;
+}
+
+TEST(Combined, MidpointsNeedNoBias) { // Zápotocký 4.4.2: his /m/
+    EXPECT_GT(falseShadow("combined:map=256,bias=none"), 0.2);
+    EXPECT_EQ(falseShadow("combined:map=256,bias=none,depth=midpoint"), 0);
+    // Under a thin plate the mean of its two sides is the plate.
+    const Scene scene = halfPlaneScene();
+    Stage stage(scene);
+    stage.show(0);
+    EXPECT_LT(rmsError(pointsOf(stage, "combined:depth=midpoint,bias=none")), 0.06);
+}
+
+TEST(Combined, AMidpointOfAnOpenMeshLiesBelowIt) { // what the source admits
+    Scene scene = halfPlaneScene();
+    const Mesh sheet{{{-10, 0, -20}, {-10, 0, 20}, {10, 0, 20}, {10, 0, -20}}, {{0, 1, 2}, {0, 2, 3}}, false};
+    scene.objects[1] = object(sheet, {10.3, 2, 0});
+    Stage stage(scene);
+    stage.show(0);
+    const auto penumbra = [&](const std::string& variant) {
+        std::vector<SlabPoint> points = pointsOf(stage, variant);
+        std::erase_if(points, [](const SlabPoint& point) { // where the slab ends, the map holds no second surface
+            return std::abs(point.at.x - hardEdge) > 0.6 || std::abs(point.at.z) > 3;
+        });
+        return widthBetween(points, 0.02, 0.98);
+    };
+    const double truth = umbraFrom - litUntil;
+    EXPECT_NEAR(penumbra("combined"), truth, 0.15 * truth);
+    // Halfway in 1 / depth between the sheet at depth 4 and the slab at 6: at 4.8, where (6 − b) / b is half as much.
+    EXPECT_NEAR(penumbra("combined:depth=midpoint"), 0.5 * truth, 0.1 * truth);
 }
 
 TEST(Combined, ASeedIsAnImage) {
