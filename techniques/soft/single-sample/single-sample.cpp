@@ -3,10 +3,12 @@
 // 2. a receiver that the centre lights searches the map for the nearest texel in which another surface is nearer to the
 //    light, one in hard shadow for the nearest texel in which there is none;
 // 3. r_max is the penumbra's reach to each side of the hard edge by similar triangles, from the depths of receiver and
-//    occluder; visibility is ½ (1 + r / r_max) outside and ½ (1 − r / r_max) inside the hard shadow.
-// A surface's own id never blocks it beside its texel: what it casts on itself stays hard. Departures: distances are shares
-// of a rectangle's own width and height (the paper's light is a sphere); whether another surface is nearer is decided
-// against the receiver's plane; tiles of the map that hold the receiver's surface alone end the search before it begins.
+//    occluder, but never more than the search's radius; visibility is ½ (1 + r / r_max) outside and ½ (1 − r / r_max)
+//    inside the hard shadow.
+// As the source has it, texels of the receiver's own id hide nothing: a surface never shades itself wrongly, and what it
+// casts on itself is lost. Departures: distances are shares of a rectangle's own width and height (the paper's light is a
+// sphere); whether another surface is nearer is decided against the receiver's plane; tiles of the map that hold the
+// receiver's surface alone end the search before it begins.
 #include "techniques/contract/applicability.h"
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
@@ -61,8 +63,9 @@ private:
 } // namespace
 
 Entry singleSample() {
-    std::vector<Parameter> parameters = depthMapParameters(512);
-    parameters.push_back({"radius", "64", IntegerRange{1, widestSearch}, "texels after which a search ends", ""});
+    std::vector<Parameter> parameters = depthMapParameters();
+    parameters.push_back({"radius", std::to_string(widestSearch), IntegerRange{1, widestSearch},
+                          "texels after which a search ends, and the greatest reach of a penumbra", ""});
     return {.id = "single-sample",
             .title = "Single sample soft shadows",
             .source = {Document::Dissertation, "2.3.1, eq. 2.1"},

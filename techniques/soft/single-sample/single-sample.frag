@@ -30,9 +30,10 @@ float nearestOther(LightReceiver r) {
     return depth;
 }
 
-/// 1 / blocker depth − 1 / receiver depth: how far a penumbra reaches to each side of its hard edge.
+/// r_max: how far a penumbra reaches to each side of its hard edge, 1 / blocker depth − 1 / receiver depth by similar triangles, or what
+/// the search is sure to have seen.
 float penumbraReach(float blockerDepth, float depth) {
-    return max(1.0 / blockerDepth - 1.0 / depth, 0.0);
+    return clamp(1.0 / blockerDepth - 1.0 / depth, 0.0, float(searchRadius) * min(texelReach.x, texelReach.y));
 }
 
 float outerPenumbra(LightReceiver r) {
@@ -56,8 +57,5 @@ void main() {
     LightReceiver r = lightReceiver(receiver.position, normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz));
     if (r.behind) return;
     vec2 stored = texture(idMap, r.at).rg;
-    if (stored.r >= r.depth)
-        visibility = outerPenumbra(r);
-    else
-        visibility = stored.g == ownId ? 0.0 : innerPenumbra(r, stored.r);
+    visibility = stored.g == ownId || stored.r >= r.depth ? outerPenumbra(r) : innerPenumbra(r, stored.r);
 }
