@@ -2,6 +2,10 @@
 // GL.
 #pragma once
 
+#include "scene/snapshot.h"
+#include "techniques/shared/light_views/light_view.h"
+
+#include <cstdint>
 #include <vector>
 
 namespace shadowbench::techniques {
@@ -17,13 +21,28 @@ struct BlockerDepths {
     [[nodiscard]] double middle() const { return 2 / (1 / near + 1 / far); }
 };
 
-struct Clusters {
-    std::vector<int> of;               // the cluster of each blocker
-    std::vector<BlockerDepths> ranges; // of each cluster
+/// A triangle that blocks light, with the id of its surface.
+struct BlockerPolygon {
+    BlockerDepths depths;
+    std::uint32_t surface;
+    std::uint32_t number; // in its mesh
 };
 
-/// Begins with one cluster and splits the one with the widest spread at the widest gap between its blockers' middles, until
-/// none that holds several spreads more than `tolerance` (1/m) or there are `most`. None without blockers.
-Clusters clustered(const std::vector<BlockerDepths>& blockers, double tolerance, int most);
+/// The triangles of the placements that are `shown` (counted through the snapshot's batches) as `view` sees them. Of a
+/// closed mesh, those that face the light's centre: the others have the same image.
+std::vector<BlockerPolygon> blockerPolygons(const Snapshot& snapshot, const LightView& view, const std::vector<bool>& shown);
+
+/// Triangles of like depth. Clusters of one group share a range of depth and lie next to each other in the list.
+struct Cluster {
+    std::vector<std::size_t> members; // numbers in the list of polygons
+    BlockerDepths range;
+    std::size_t group;
+};
+
+/// Begins with one cluster and splits the one with the widest spread until none that can be split spreads more than
+/// `tolerance` (1/m) or there are `most`. A group whose surfaces leave a gap in depth becomes two at its widest gap.
+/// Otherwise a cluster is split in the middle of its depths, each triangle going where its own middle lies; it cannot be
+/// where they all lie on one side. None without polygons.
+std::vector<Cluster> clustered(const std::vector<BlockerPolygon>& polygons, double tolerance, std::size_t most);
 
 } // namespace shadowbench::techniques

@@ -1,15 +1,18 @@
 // Convolution of occluders with the light's image (Soler and Sillion 1998), after Scherzer 2.3.3, Fig. 2.20:
-// 1. blockers are put into clusters of like depth, which are split until each may be taken for a plane parallel to the
-// light,
-//    or there are too many;
+// 1. the polygons of all blockers are put into clusters of like depth, which are split until each may be taken for a plane
+//    parallel to the light, or there are too many;
 // 2. every cluster is projected from the light's centre into a binary image;
 // 3. the image is convolved with that of the light, which is as large as the light appears from the receiver through the
-//    blocker's plane; what is left of the light after all clusters is their product.
-// Exact where light, blockers and receivers lie in parallel planes. What spreads in depth, such as a slanted plate, has the
-// penumbra of its middle all along, and no shadow falls within a cluster. Departures: the light's image is a box, so that
-// summed areas convolve with one of any size (the paper takes Fourier transforms); the receiver's plane is the one through
-// the receiver's own point, as a size of its own costs nothing then (the paper has one for each receiver); the paper's
-// blockers and receivers are told apart by hand, here by their bounding boxes (shared/casters/blockers.h).
+//    cluster's plane; what is left of the light is combined from all clusters.
+// Exact where light, blockers and receivers lie in parallel planes. As the source admits, a polygon that is elongated in the
+// light's direction cannot be broken down: it has the penumbra of its middle all along. No shadow falls within a cluster;
+// one that holds any part of a surface casts none on it, so that no surface shades itself. How clusters are combined the
+// dissertation does not say. Here those of one range of depth, parts of a surface mostly, hide different parts of the light,
+// so that what they hide is added; ranges that lie one behind the other are independent, and visibility is the product of
+// theirs. Where they are neither, the shadow of the union is not theirs: too dark. Departures: the light's image is a box,
+// so that summed areas convolve with one of any size (the paper takes Fourier transforms); the receiver's plane is the one
+// through the receiver's own point, as a size of its own costs nothing then (the paper has one for each receiver); the
+// paper's blockers and receivers are told apart by hand, here by their bounding boxes (shared/casters/blockers.h).
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/casters/blockers.h"
@@ -24,45 +27,46 @@
 namespace shadowbench::techniques {
 namespace {
 
-constexpr unsigned layersBinding = 4; // soft/convolution/layer_of.glsl
-constexpr std::uint32_t noLayer = mostLayers;
+constexpr unsigned surfacesBinding = 4, polygonsBinding = 5; // soft/convolution/layers_of.glsl
+
+/// Of a surface: where its polygons begin among those of all blockers, and the layers that hold any of them.
+struct GpuSurface {
+    std::uint32_t firstPolygon = 0, layers = 0;
+};
 
 class Convolution final : public Technique {
 public:
     explicit Convolution(const Parameters& p)
-        : most_(p.integer("clusters")), tolerance_(p.real("tolerance")),
+        : most_(static_cast<std::size_t>(p.integer("clusters"))), tolerance_(p.real("tolerance")),
           layers_(p.integer("map"), gl::Program("soft/convolution/occluders.vert", "soft/convolution/occluders.frag")),
           resolve_(gl::Program::screen("soft/convolution/convolution.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         view_ = fitToScene(frame.snapshot.light, frame.snapshot);
         const std::vector<bool> shown = blockers(frame.snapshot);
-        cluster(frame.snapshot, view_, shown);
+        cluster(frame.snapshot, shown);
         layers_.draw(view_, frame, shown, "blocker images");
-        layers_.sum(frame, std::max<int>(1, static_cast<int>(clusters_.ranges.size())));
+        layers_.sum(frame, std::max(1, static_cast<int>(clusters_.size())));
 
-        std::vector<glm::vec4> inverseDepths;
-        for (const BlockerDepths& range : clusters_.ranges) inverseDepths.emplace_back(1 / range.middle(), 0, 0, 0);
-        inverseDepths.resize(mostLayers);
         layers_.bindTo(resolve_, frame.snapshot.light, view_);
-        layerOf_.bindStorage(layersBinding);
+        gpuSurfaces_.bindStorage(surfacesBinding);
         resolve_.set("positions", frame.gbuffer.position())
             .set("mapFromWorld", mapFromWorld(view_))
             .set("depthFromWorld", glm::vec4(view_.depthFromWorld))
             .set("ids", frame.gbuffer.id())
-            .set("layers", static_cast<int>(clusters_.ranges.size()))
-            .set("inverseDepths", inverseDepths);
+            .set("layers", static_cast<int>(clusters_.size()))
+            .set("clusters", uniformClusters());
         resolve(frame, {&visibility}, resolve_, "convolution");
     }
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame&) const override {
-        return {{"clusters", static_cast<double>(clusters_.ranges.size())}};
+        return {{"clusters", static_cast<double>(clusters_.size())}};
     }
 
     [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
         std::vector<BarePass> passes =
             layers_.bare(view_, blockers(frame.snapshot), "blocker images", "dissertation 2.3.3: an image of each cluster",
-                         static_cast<int>(clusters_.ranges.size()));
+                         static_cast<int>(clusters_.size()));
         const int reads = meanReads(frame, view_, [this](double depth, unsigned id) { return clustersBefore(depth, id); });
         passes.push_back(bareLookup("convolution", "an image convolved with the light for each cluster before a pixel",
                                     frame.size, {{gl::Format::R32F, layers_.bits().size(), Read::Linear, reads}}));
@@ -70,51 +74,61 @@ public:
     }
 
 private:
-    /// Those that may hide light from a surface at this depth: not its own.
+    /// Those that may hide light from a surface at this depth: none that holds a part of it.
     [[nodiscard]] int clustersBefore(double depth, unsigned id) const {
         int before = 0;
-        for (std::size_t layer = 0; layer < clusters_.ranges.size(); ++layer)
-            before += layer != layerOfId_.at(id) && clusters_.ranges[layer].middle() < depth ? 1 : 0;
+        for (std::size_t layer = 0; layer < clusters_.size(); ++layer) {
+            const bool isOwn = (surfaces_.at(id).layers >> layer & 1U) != 0;
+            before += !isOwn && clusters_[layer].range.middle() < depth ? 1 : 0;
+        }
         return before;
     }
 
-    /// Puts the blockers into clusters and uploads the layer of each surface id.
-    void cluster(const Snapshot& snapshot, const LightView& view, const std::vector<bool>& shown) {
-        std::vector<BlockerDepths> ranges;
-        const std::vector<glm::dvec3> corners = boundingCorners(snapshot);
-        for (std::size_t i = 0; i < shown.size(); ++i)
-            if (shown[i]) ranges.push_back(depthsOf(corners, 8 * i, view));
-        clusters_ = clustered(ranges, tolerance_ * (1 / view.near - 1 / view.far), most_);
+    /// Of each cluster: 1 / depth of its plane, and whether it is the last one of its group.
+    [[nodiscard]] std::vector<glm::vec4> uniformClusters() const {
+        std::vector<glm::vec4> result;
+        for (std::size_t i = 0; i < clusters_.size(); ++i) {
+            const bool isLast = i + 1 == clusters_.size() || clusters_[i + 1].group != clusters_[i].group;
+            result.emplace_back(1 / clusters_[i].range.middle(), isLast ? 1 : 0, 0, 0);
+        }
+        result.resize(mostLayers);
+        return result;
+    }
 
-        layerOfId_.clear();
-        std::size_t placement = 0, blocker = 0;
+    /// Puts the blockers' polygons into clusters and uploads the layers of each surface and polygon.
+    void cluster(const Snapshot& snapshot, const std::vector<bool>& shown) {
+        const std::vector<BlockerPolygon> polygons = blockerPolygons(snapshot, view_, shown);
+        clusters_ = clustered(polygons, tolerance_ * (1 / view_.near - 1 / view_.far), most_);
+
+        surfaces_.clear();
+        std::uint32_t count = 0;
+        std::size_t number = 0;
         for (const Batch& batch : snapshot.batches)
             for (const Placement& placed : batch.placements) {
-                if (placed.id >= layerOfId_.size()) layerOfId_.resize(placed.id + std::size_t{1}, noLayer);
-                if (shown[placement++]) layerOfId_[placed.id] = static_cast<std::uint32_t>(clusters_.of[blocker++]);
+                if (placed.id >= surfaces_.size()) surfaces_.resize(placed.id + std::size_t{1});
+                surfaces_[placed.id].firstPolygon = count;
+                if (shown[number++]) count += static_cast<std::uint32_t>(batch.mesh->triangles.size());
             }
-        layerOf_.upload(layerOfId_.data(), layerOfId_.size() * sizeof(std::uint32_t));
-        layerOf_.bindStorage(layersBinding);
+        std::vector<std::uint32_t> layersOf(std::max(count, 1U));
+        for (std::size_t layer = 0; layer < clusters_.size(); ++layer)
+            for (const std::size_t i : clusters_[layer].members) {
+                GpuSurface& surface = surfaces_[polygons[i].surface];
+                layersOf[surface.firstPolygon + polygons[i].number] = 1U << layer;
+                surface.layers |= 1U << layer;
+            }
+        gpuSurfaces_.upload(surfaces_.data(), surfaces_.size() * sizeof(GpuSurface));
+        gpuPolygons_.upload(layersOf.data(), layersOf.size() * sizeof(std::uint32_t));
+        gpuSurfaces_.bindStorage(surfacesBinding);
+        gpuPolygons_.bindStorage(polygonsBinding);
     }
 
-    /// Of the eight corners from `first` on, held in front of the view's near plane.
-    static BlockerDepths depthsOf(const std::vector<glm::dvec3>& corners, std::size_t first, const LightView& view) {
-        BlockerDepths range{view.far, view.near};
-        for (std::size_t i = first; i < first + 8; ++i) {
-            const double depth = std::max(glm::dot(view.depthFromWorld, glm::dvec4(corners[i], 1)), view.near);
-            range.near = std::min(range.near, depth);
-            range.far = std::max(range.far, depth);
-        }
-        return range;
-    }
-
-    int most_;
+    std::size_t most_;
     double tolerance_;
     LightView view_; // of the frame rendered last, as are the next two
-    Clusters clusters_;
-    std::vector<std::uint32_t> layerOfId_;
+    std::vector<Cluster> clusters_;
+    std::vector<GpuSurface> surfaces_; // by id
     OccluderLayers layers_;
-    gl::Buffer layerOf_;
+    gl::Buffer gpuSurfaces_, gpuPolygons_;
     gl::Program resolve_;
 };
 
@@ -126,9 +140,9 @@ Entry convolution() {
         .title = "Convolution of occluders with the light",
         .source = {Document::Dissertation, "2.3.3, Fig. 2.20"},
         .answer = Answer::Soft,
-        .parameters = {{"map", "512", IntegerRange{16, widestLayer}, "texels per side of the blockers' images",
+        .parameters = {{"map", "1024", IntegerRange{16, widestLayer}, "texels per side of the blockers' images",
                         "EGSR paper, 4"},
-                       {"clusters", "8", IntegerRange{1, mostLayers}, "clusters of blockers, at most", ""},
+                       {"clusters", "8", IntegerRange{1, mostLayers}, "clusters of the blockers' polygons, at most", ""},
                        {"tolerance", "0.05", RealRange{0, 1},
                         "of the scene's widest penumbra: by how much those of one cluster may differ, as long as it can be "
                         "split",

@@ -1,11 +1,11 @@
 #include "gl/receiver.glsl"
 #include "shared/filters/occluder_layers.glsl"
 #include "shared/maps/light_space.glsl"
-#include "soft/convolution/layer_of.glsl"
+#include "soft/convolution/layers_of.glsl"
 
 uniform usampler2D ids;
 uniform int layers;
-uniform vec4 inverseDepths[32];  // x: of each cluster's plane
+uniform vec4 clusters[32];  // x: 1 / depth of its plane; y: 1 for the last one of a group
 uniform vec4 depthFromWorld;
 
 out float visibility;
@@ -17,10 +17,15 @@ void main() {
     MapPoint point = mapPoint(receiver.position);
     if (point.behind) return;
     float depth = dot(depthFromWorld, vec4(receiver.position, 1.0));
-    int ownLayer = int(layerOf[texelFetch(ids, ivec2(gl_FragCoord.xy), 0).r]);
+    uint ownLayers = surfaces[texelFetch(ids, ivec2(gl_FragCoord.xy), 0).r].layers;
+    float hidden = 0.0;  // by the group
     for (int layer = 0; layer < layers; ++layer) {
-        float reach = inverseDepths[layer].x - 1.0 / depth;
-        if (layer == ownLayer || reach <= 0.0) continue;
-        visibility *= 1.0 - occlusion(layer, point.at.xy, reach);
+        float reach = clusters[layer].x - 1.0 / depth;
+        bool isOwn = (ownLayers >> uint(layer) & 1u) != 0u;
+        if (!isOwn && reach > 0.0) hidden += occlusion(layer, point.at.xy, reach);
+        if (clusters[layer].y > 0.0) {
+            visibility *= max(1.0 - hidden, 0.0);
+            hidden = 0.0;
+        }
     }
 }

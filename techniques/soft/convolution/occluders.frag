@@ -1,9 +1,9 @@
-#include "soft/convolution/layer_of.glsl"
+#include "soft/convolution/layers_of.glsl"
 
 flat in uint surface;
 
 out uint bits;
 
 void main() {
-    bits = 1u << layerOf[surface];
+    bits = layersOfPolygon[surfaces[surface].firstPolygon + uint(gl_PrimitiveID)];
 }

@@ -2,12 +2,13 @@
 #include "base/error.h"
 #include "tests/support/plate_scenes.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 namespace shadowbench {
 namespace {
 
-const std::string convolution = "convolution:map=1024";
+const std::string convolution = "convolution";
 
 std::vector<SlabPoint> pointsOf(const Scene& scene, const std::string& variant = convolution) {
     Stage stage(scene);
@@ -53,11 +54,20 @@ TEST(Convolution, ALineIsConvolvedAlongItself) {
     EXPECT_LT(penumbraRmsError(pointsOf(scene)), 0.05);
 }
 
+/// A mesh of `strips` plates side by side, which together are as large as `size`.
+Mesh inStrips(const glm::dvec3& size, int strips) {
+    const double width = size.x / strips;
+    Mesh mesh;
+    for (int i = 0; i < strips; ++i)
+        mesh = joined(mesh, box({width, size.y, size.z}), glm::vec3((i + 0.5) * width - 0.5 * size.x, 0, 0));
+    return mesh;
+}
+
 /// A plate of 4 × 4 m whose lower end, the line x = 0.3 at height 1.5 m, is parallel to the light's sides and which rises
 /// from there at 45°.
-Scene slantedScene() {
+Scene slantedScene(int strips = 1) {
     Scene scene = halfPlaneScene();
-    Object plate = object(box({4, 0.002, 4}), {0, 0, 0});
+    Object plate = object(inStrips({4, 0.002, 4}, strips), {0, 0, 0});
     const double middle = 2 * std::sqrt(0.5);
     const glm::dmat4 place = glm::translate(glm::dmat4(1), glm::dvec3(0.3 + middle, 1.5 + middle, 0.2));
     plate.instances[0].place = glm::rotate(place, glm::quarter_pi<double>(), glm::dvec3(0, 0, 1));
@@ -82,17 +92,56 @@ double truthUnderSlanted(const glm::dvec3& p, const Light& light) {
     return static_cast<double>(visible) / (side * side);
 }
 
-TEST(Convolution, ASlantedPlateHasThePenumbraOfItsMiddleAllAlong) { // what the dissertation admits
-    const Scene scene = slantedScene();
-    double squares = 0, count = 0;
-    for (const SlabPoint& point : pointsOf(scene)) {
+/// Root mean square over the penumbra of a slanted plate, and over its umbra.
+struct SlantedError {
+    double penumbra, umbra;
+};
+
+SlantedError slantedError(int strips, const std::string& variant) {
+    const Scene scene = slantedScene(strips);
+    double inPenumbra = 0, penumbra = 0, inUmbra = 0, umbra = 0;
+    for (const SlabPoint& point : pointsOf(scene, variant)) {
         const double truth = truthUnderSlanted(point.at, scene.light);
-        if (truth <= 0 || truth >= 1) continue;
-        squares += (point.visibility - truth) * (point.visibility - truth);
-        ++count;
+        const double square = (point.visibility - truth) * (point.visibility - truth);
+        (truth > 0 ? inPenumbra : inUmbra) += truth < 1 ? square : 0;
+        (truth > 0 ? penumbra : umbra) += truth < 1 ? 1 : 0;
     }
-    EXPECT_GT(count, 300);
-    EXPECT_GT(std::sqrt(squares / count), 0.05);
+    EXPECT_GT(penumbra, 300);
+    EXPECT_GT(umbra, 300);
+    return {std::sqrt(inPenumbra / penumbra), std::sqrt(inUmbra / umbra)};
+}
+
+TEST(Convolution, ASlantedPlateHasThePenumbraOfItsMiddleAllAlong) { // what the dissertation admits
+    for (const std::string clusters : {"1", "32"})                  // of two triangles, neither of which can be broken down
+        EXPECT_GT(slantedError(1, "convolution:tolerance=0,clusters=" + clusters).penumbra, 0.05);
+}
+
+TEST(Convolution, ASlantedPlateOfManyPolygonsIsAsGoodAsItsClustersAreMany) {
+    const auto error = [](int clusters) {
+        return slantedError(32, fmt::format("convolution:tolerance=0,clusters={}", clusters));
+    };
+    const SlantedError one = error(1), four = error(4), sixteen = error(16);
+    // The lower end's penumbra is 4.4, 1.8 and 1.2 times as wide as it should be: (1/m − 1/6) / (1/4.5 − 1/6) of a cluster's
+    // middle depth m.
+    EXPECT_GT(one.penumbra, 0.2);
+    EXPECT_LT(four.penumbra, 0.6 * one.penumbra);
+    EXPECT_LT(sixteen.penumbra, 0.5 * four.penumbra);
+    EXPECT_LT(sixteen.umbra, 0.03); // hardly any light between what hides different parts of it
+}
+
+TEST(Convolution, TheUnionOfClustersIsNotTheirs) {
+    // Two plates one above the other with one hard edge, where each hides the same half of the light.
+    Scene apart = halfPlaneScene();
+    apart.objects.push_back(plate(1, edgeFor(1, hardEdge)));
+    Scene together = apart;
+    together.objects.pop_back();
+    const Mesh mesh = *apart.objects[1].levels[0].mesh;
+    together.objects[1] =
+        object(joined(joined({}, mesh, {edgeFor(2, hardEdge) + 10, 2.001, 0}), mesh, {edgeFor(1, hardEdge) + 10, 1.001, 0}),
+               {0, 0, 0});
+    EXPECT_NEAR(visibilityAt(pointsOf(apart), hardEdge), 0.25, 0.02); // as though independent
+    EXPECT_LT(visibilityAt(pointsOf(together), hardEdge), 0.1);       // as though beside each other: 0, but for texels
+    EXPECT_NEAR(visibilityAt(pointsOf(halfPlaneScene()), hardEdge), 0.5, 0.02); // the truth
 }
 
 TEST(Convolution, BlockersOfOneDepthAreOneImage) {
