@@ -51,6 +51,7 @@ Json techniquesAsJson() {
                        {"source", fmt::format("{}, {}", techniques::title(entry.source.document), entry.source.where)},
                        {"answer", meaning(entry)},
                        {"history", entry.temporal},
+                       {"computed", entry.computed},
                        {"parameters", parameters},
                        {"figures", figures},
                        {"variants", entry.variants}});

@@ -53,7 +53,8 @@ struct Entry {
     std::string title;
     Source source;
     Answer answer = Answer::Hard;
-    bool temporal = false; // keeps history: its frames must be rendered in order
+    bool temporal = false;     // keeps history: its frames must be rendered in order
+    std::string computed = {}; // what is computed when, where a frame does not compute all anew
     EnvironmentAnswer environment = EnvironmentAnswer::None;
     /// Why the technique does not apply to a scene; nothing if it does. Empty: it applies to every scene whose light it has
     /// an answer for.

@@ -6,12 +6,11 @@ layout(std430, binding = 1) readonly buffer LightCoefficients { float light[]; }
 layout(std430, binding = 2) writeonly buffer Irradiance { float irradiance[]; };
 
 uniform int vectors, coefficients;
-uniform int first;  // where the results begin
 
 void main() {
     uint number = invocation();
     if (number >= uint(vectors)) return;
     float sum = 0.0;
     for (int i = 0; i < coefficients; ++i) sum += transfer[uint(i) * uint(vectors) + number] * light[i];
-    irradiance[uint(first) + number] = sum;
+    irradiance[number] = sum;
 }

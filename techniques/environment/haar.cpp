@@ -3,37 +3,59 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 
 namespace shadowbench::techniques {
 namespace {
 
-/// Means (times 2) and differences of the 2 × 2 blocks of the first size × size texels of a face: the former go to its first
-/// quarter, the latter to the other three.
-void transformOnce(std::span<double> face, int side, int size, std::vector<double>& before) {
-    before.assign(face.begin(), face.end());
-    const auto at = [side](int x, int y) {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x);
-    };
-    const int half = size / 2;
-    for (int y = 0; y < half; ++y)
-        for (int x = 0; x < half; ++x) {
-            const double a = before[at(2 * x, 2 * y)], b = before[at(2 * x + 1, 2 * y)];
-            const double c = before[at(2 * x, 2 * y + 1)], d = before[at(2 * x + 1, 2 * y + 1)];
-            face[at(x, y)] = 0.5 * (a + b + c + d);
-            face[at(half + x, y)] = 0.5 * (a - b + c - d);
-            face[at(x, half + y)] = 0.5 * (a + b - c - d);
-            face[at(half + x, half + y)] = 0.5 * (a - b - c + d);
+/// Where the four numbers of the 2 × 2 block (x, y) are: the first at column `stride` x and row `stride` y, the others
+/// `step` beside and below it.
+struct Layout {
+    std::size_t stride, step;
+};
+
+/// Replaces the four numbers of each block among the first size × size of a face, from one layout to another, by their sums
+/// (mean and differences, times 2), which are orthonormal and their own inverse.
+void exchange(std::span<double> face, std::size_t side, std::size_t size, Layout from, Layout to) {
+    thread_local std::vector<double> before;
+    before.assign(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(side * size));
+    for (std::size_t y = 0; y < size / 2; ++y)
+        for (std::size_t x = 0; x < size / 2; ++x) {
+            const double* in = &before[from.stride * (y * side + x)];
+            const double a = in[0], b = in[from.step], c = in[from.step * side], d = in[from.step * (side + 1)];
+            double* out = &face[to.stride * (y * side + x)];
+            out[0] = 0.5 * (a + b + c + d);
+            out[to.step] = 0.5 * (a - b + c - d);
+            out[to.step * side] = 0.5 * (a + b - c - d);
+            out[to.step * (side + 1)] = 0.5 * (a - b - c + d);
         }
+}
+
+constexpr Layout blocks{2, 1};
+
+/// Each quarter holds one number of every block.
+Layout quarters(std::size_t size) { return {1, size / 2}; }
+
+std::span<double> faceOf(std::span<double> cubeMap, std::size_t face) {
+    const std::size_t texels = cubeMap.size() / 6;
+    return cubeMap.subspan(face * texels, texels);
 }
 
 } // namespace
 
 void haarTransform(std::span<double> cubeMap, int side) {
-    const std::size_t texels = cubeMap.size() / 6;
-    std::vector<double> before;
+    const auto whole = static_cast<std::size_t>(side);
     for (std::size_t face = 0; face < 6; ++face)
-        for (int size = side; size > 1; size /= 2) transformOnce(cubeMap.subspan(face * texels, texels), side, size, before);
+        for (std::size_t size = whole; size > 1; size /= 2)
+            exchange(faceOf(cubeMap, face), whole, size, blocks, quarters(size));
+}
+
+void inverseHaarTransform(std::span<double> cubeMap, int side) {
+    const auto whole = static_cast<std::size_t>(side);
+    for (std::size_t face = 0; face < 6; ++face)
+        for (std::size_t size = 2; size <= whole; size *= 2)
+            exchange(faceOf(cubeMap, face), whole, size, quarters(size), blocks);
 }
 
 std::size_t haarSupport(std::size_t index, int side) {

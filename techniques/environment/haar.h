@@ -12,6 +12,9 @@ namespace shadowbench::techniques {
 /// its scale and place. `side`: a power of two.
 void haarTransform(std::span<double> cubeMap, int side);
 
+/// Replaces the coefficients by the texels that they are of.
+void inverseHaarTransform(std::span<double> cubeMap, int side);
+
 /// Texels that the basis function of coefficient `index` spans.
 std::size_t haarSupport(std::size_t index, int side);
 

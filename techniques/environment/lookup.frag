@@ -7,11 +7,11 @@ struct Patch {
     vec3 along;
     uint steps;
     vec3 up;
-    uint unshadowed;
 };
 layout(std430, binding = 1) readonly buffer Patches { Patch patches[]; };
 layout(std430, binding = 2) readonly buffer Rows { uvec2 rows[]; };  // first point, steps
-layout(std430, binding = 3) readonly buffer Irradiance { float irradiance[]; };
+layout(std430, binding = 3) readonly buffer Irradiance { float irradiance[]; };  // of each point
+layout(std430, binding = 4) readonly buffer Unshadowed { float unshadowed[]; };  // of each patch
 
 in vec3 world;
 flat in uint surfaceId;
@@ -41,7 +41,7 @@ void main() {
     uint side = (gl_FrontFacing ? 0u : 1u) ^ surfaces[3u * surfaceId + 2u];
     visibility = 0.0;
     if (side >= sides) return;  // the inner side of a closed body
-    Patch patch_ = patches[surfaces[3u * surfaceId] + sides * uint(gl_PrimitiveID) + side];
-    float unshadowed = irradiance[patch_.unshadowed];
-    if (unshadowed > 0.0) visibility = clamp(irradianceAt(patch_, world - patch_.origin) / unshadowed, 0.0, 1.0);
+    uint number = surfaces[3u * surfaceId] + sides * uint(gl_PrimitiveID) + side;
+    Patch patch_ = patches[number];
+    if (unshadowed[number] > 0.0) visibility = clamp(irradianceAt(patch_, world - patch_.origin) / unshadowed[number], 0.0, 1.0);
 }

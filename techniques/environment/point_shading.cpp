@@ -16,7 +16,7 @@ struct GpuPatch {
     glm::vec3 along;
     std::uint32_t steps;
     glm::vec3 up;
-    std::uint32_t unshadowed; // number of its E₀
+    float padding = 0;
 };
 
 template <typename T>
@@ -45,29 +45,28 @@ bool PointShading::isOf(const Snapshot& snapshot) const {
 void PointShading::uploadPoints() {
     std::vector<GpuPatch> patches;
     for (const PointPatch& patch : points_.patches)
-        patches.push_back({glm::vec3(patch.origin), patch.firstRow, glm::vec3(patch.along), patch.steps, glm::vec3(patch.up),
-                           static_cast<std::uint32_t>(points_.points.size() + patches.size())});
+        patches.push_back(
+            {glm::vec3(patch.origin), patch.firstRow, glm::vec3(patch.along), patch.steps, glm::vec3(patch.up)});
     uploadAll(surfaces_, points_.surfaces);
     uploadAll(patches_, patches);
     uploadAll(rows_, points_.rows);
-    irradiance_.clear(vectors() * sizeof(float));
+    irradiance_.clear(pointCount() * sizeof(float));
+    unshadowed_.clear(patchCount() * sizeof(float));
 }
 
-void PointShading::setDotProducts(const gl::Buffer& transfer, std::size_t vectors, const gl::Buffer& light,
-                                  std::size_t coefficients, std::size_t first) {
+void PointShading::setDotProducts(const gl::Buffer& results, std::size_t count, const gl::Buffer& transfer,
+                                  const gl::Buffer& light, std::size_t coefficients) {
     transfer.bindStorage(0);
     light.bindStorage(1);
-    irradiance_.bindStorage(2);
-    dotProducts_.set("vectors", static_cast<int>(vectors))
-        .set("coefficients", static_cast<int>(coefficients))
-        .set("first", static_cast<int>(first));
-    dotProducts_.dispatch(vectors);
+    results.bindStorage(2);
+    dotProducts_.set("vectors", static_cast<int>(count)).set("coefficients", static_cast<int>(coefficients));
+    dotProducts_.dispatch(count);
 }
 
-std::vector<BarePass> PointShading::bare(const Frame& frame, std::size_t terms) const {
+std::vector<BarePass> PointShading::bare(const Frame& frame, std::size_t numbers, std::size_t terms) {
     constexpr int width = 256; // any will do
-    const int rows = std::max(1, static_cast<int>(vectors()) / width), side = static_cast<int>(std::sqrt(terms));
-    const Taps transfer{gl::Format::R32F, glm::ivec2(side), Read::Nearest, static_cast<int>(terms / vectors())};
+    const int rows = std::max(1, static_cast<int>(numbers) / width), side = static_cast<int>(std::sqrt(terms));
+    const Taps transfer{gl::Format::R32F, glm::ivec2(side), Read::Nearest, static_cast<int>(terms / numbers)};
     return {{.pass = "dot products",
              .source = "course, Precomputed Radiance Transfer: light and transfer vectors",
              .size = {width, rows},
@@ -80,7 +79,8 @@ std::vector<BarePass> PointShading::bare(const Frame& frame, std::size_t terms) 
 void PointShading::lookUp(const Frame& frame, const gl::Texture& visibility) {
     const auto pass = frame.pass("lookup");
     unsigned binding = 0;
-    for (const gl::Buffer* buffer : {&surfaces_, &patches_, &rows_, &irradiance_}) buffer->bindStorage(binding++);
+    for (const gl::Buffer* buffer : {&surfaces_, &patches_, &rows_, &irradiance_, &unshadowed_})
+        buffer->bindStorage(binding++);
     const gl::RenderTarget target({&visibility, &frame.gbuffer.depthStencil()});
     target.clearColour(0, glm::vec4(1));
     target.bind();

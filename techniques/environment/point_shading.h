@@ -13,7 +13,7 @@
 namespace shadowbench::techniques {
 
 /// Every surface point of a snapshot has a number, the irradiance E that reaches it; every patch another one, E₀, which
-/// would reach it without shadows. Vectors are numbered likewise: those of the points first, then those of the patches.
+/// would reach it without shadows.
 class PointShading {
 public:
     /// Takes the points of the snapshot.
@@ -26,18 +26,20 @@ public:
     [[nodiscard]] bool isOf(const Snapshot& snapshot) const;
 
     [[nodiscard]] const SurfacePoints& points() const { return points_; }
-    [[nodiscard]] std::size_t vectors() const { return points_.points.size() + points_.patches.size(); }
+    [[nodiscard]] std::size_t pointCount() const { return points_.points.size(); }
+    [[nodiscard]] std::size_t patchCount() const { return points_.patches.size(); }
 
-    /// Sets the numbers from `first` on: dot products of the vectors in `transfer`, coefficient by coefficient, with
-    /// `light`.
-    void setDotProducts(const gl::Buffer& transfer, std::size_t vectors, const gl::Buffer& light, std::size_t coefficients,
-                        std::size_t first = 0);
+    /// E of the points and E₀ of the patches, to be set: 32-bit floats.
+    [[nodiscard]] gl::Buffer& irradiance() { return irradiance_; }
+    [[nodiscard]] gl::Buffer& unshadowed() { return unshadowed_; }
 
-    /// Where the numbers are, as a storage block of 32-bit floats, for other programs that set them.
-    [[nodiscard]] const gl::Buffer& irradiance() const { return irradiance_; }
+    /// Sets the first `count` numbers of `results`: dot products of the vectors in `transfer`, coefficient by coefficient,
+    /// with `light`.
+    void setDotProducts(const gl::Buffer& results, std::size_t count, const gl::Buffer& transfer, const gl::Buffer& light,
+                        std::size_t coefficients);
 
-    /// The least of a frame: as the pass "dot products" all numbers, from `terms` terms in all, and the pass "lookup".
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame, std::size_t terms) const;
+    /// The least of a frame: as the pass "dot products" `numbers` numbers, from `terms` terms in all, and the pass "lookup".
+    [[nodiscard]] static std::vector<BarePass> bare(const Frame& frame, std::size_t numbers, std::size_t terms);
 
     /// Writes E / E₀, clamped to [0, 1], at every pixel of the G-buffer, as the pass "lookup".
     void lookUp(const Frame& frame, const gl::Texture& visibility);
@@ -47,7 +49,7 @@ private:
 
     std::vector<Batch> batches_; // of the snapshot that the points are of
     SurfacePoints points_;
-    gl::Buffer surfaces_, patches_, rows_, irradiance_;
+    gl::Buffer surfaces_, patches_, rows_, irradiance_, unshadowed_;
     gl::Program dotProducts_ = gl::Program::compute("environment/dot_product.comp");
     gl::Program lookUp_{"gl/gbuffer.vert", "environment/lookup.frag"};
 };

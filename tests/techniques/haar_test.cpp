@@ -77,6 +77,15 @@ TEST(Haar, KeepsDotProducts) {
     }
 }
 
+TEST(Haar, IsUndoneByItsInverse) {
+    for (const int side : {2, 16, 64}) {
+        const std::vector<double> map = randomMap(side, 1);
+        std::vector<double> back = transformed(map, side);
+        inverseHaarTransform(back, side);
+        for (std::size_t i = 0; i < map.size(); ++i) EXPECT_NEAR(back[i], map[i], 1e-12);
+    }
+}
+
 TEST(Haar, OfAConstantIsTheMeanOfEachFace) {
     const std::vector<double> haar = transformed(std::vector<double>(cubeTexels(8), 0.5), 8);
     for (std::size_t i = 0; i < haar.size(); ++i) EXPECT_NEAR(haar[i], i % 64 == 0 ? 0.5 * 8 : 0, 1e-12) << i;

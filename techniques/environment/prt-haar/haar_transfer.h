@@ -5,18 +5,33 @@
 #include "techniques/environment/surface_points.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace shadowbench::techniques {
 
-/// All coefficients of each point's transfer, ∫ V(s) max(n · s, 0) ds over each texel of a cube map of side × side,
-/// transformed (techniques/environment/haar.h); then the same without V of all patches. cubeTexels(side) numbers each, one
-/// vector after the other. `directions` are those of cubeSamples(side, …).
-std::vector<float> haarTransfer(const SurfacePoints& points, const Snapshot& snapshot,
-                                std::span<const DirectionSample> directions, int side);
+/// The coefficients of a transfer vector that are stored, by ascending number; the others are taken for zero.
+struct StoredTransfer {
+    std::vector<std::uint16_t> numbers;
+    std::vector<float> values;
 
-/// The `chosen` coefficients of vectors of `size` numbers, one coefficient of all vectors after the other.
-std::vector<float> chosenCoefficients(std::span<const float> vectors, std::size_t size, std::span<const std::size_t> chosen);
+    [[nodiscard]] std::size_t bytes() const {
+        return numbers.size() * sizeof numbers.front() + values.size() * sizeof values.front();
+    }
+};
+
+/// Each point's transfer, ∫ V(s) max(n · s, 0) ds over each texel of a cube map of side × side, transformed
+/// (techniques/environment/haar.h): its coefficients of `least` and more in size. `directions` are those of
+/// cubeSamples(side, …).
+std::vector<StoredTransfer> haarTransfer(const SurfacePoints& points, const Snapshot& snapshot,
+                                         std::span<const DirectionSample> directions, int side, double least);
+
+/// The `chosen` coefficients of all vectors, one coefficient of all vectors after the other.
+std::vector<float> chosenCoefficients(std::span<const StoredTransfer> vectors, std::span<const std::size_t> chosen);
+
+/// The irradiance of each patch that sees all of the sky, from a light given by its `texels`.
+std::vector<float> unshadowedIrradiance(std::span<const PointPatch> patches, std::span<const DirectionSample> directions,
+                                        std::span<const double> texels);
 
 } // namespace shadowbench::techniques

@@ -13,7 +13,7 @@
 #include "techniques/environment/point_shading.h"
 #include "techniques/environment/prt-sh/clustered_pca.h"
 #include "techniques/environment/prt-sh/harmonic_transfer.h"
-#include "techniques/environment/static_scene.h"
+#include "techniques/environment/transfer_entry.h"
 
 #include <numeric>
 #include <optional>
@@ -40,21 +40,19 @@ public:
     }
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame&) const override {
-        const std::size_t unshadowed = shading_.points().patches.size() * coefficients_ * sizeof(float);
+        const std::size_t unshadowed = shading_.patchCount() * coefficients_ * sizeof(float);
         const std::size_t shadowed =
-            compressed_ ? compressed_->bytes() : shading_.points().points.size() * coefficients_ * sizeof(float);
-        return {{"points", static_cast<double>(shading_.points().points.size())},
-                {"spacing", shading_.points().spacing},
-                {"transfer_bytes", static_cast<double>(unshadowed + shadowed)},
-                {"compression_error", compressed_ ? compressed_->rmsError : 0},
-                {"rays", static_cast<double>(shading_.points().points.size() * directions_.size())}};
+            compressed_ ? compressed_->bytes() : shading_.pointCount() * coefficients_ * sizeof(float);
+        return withTransferFigures({{"transfer_bytes", static_cast<double>(unshadowed + shadowed)},
+                                    {"compression_error", compressed_ ? compressed_->rmsError : 0}},
+                                   shading_.points(), directions_.size());
     }
 
     /// Of a compressed vector its cluster and its weights: the clusters' own dot products are the processor's.
     [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const std::size_t points = shading_.points().points.size(), patches = shading_.points().patches.size();
+        const std::size_t points = shading_.pointCount(), patches = shading_.patchCount();
         const std::size_t terms = compressed_ ? 1 + compressed_->components : coefficients_; // of a point
-        return shading_.bare(frame, points * terms + patches * coefficients_);
+        return PointShading::bare(frame, points + patches, points * terms + patches * coefficients_);
     }
 
 private:
@@ -68,7 +66,7 @@ private:
 
     /// Splits the vectors into those of the points, which may be compressed, and those of the patches.
     void uploadTransfer(std::span<const float> vectors) {
-        const std::size_t ofPoints = shading_.points().points.size() * coefficients_;
+        const std::size_t ofPoints = shading_.pointCount() * coefficients_;
         uploadByCoefficient(vectors.subspan(ofPoints), unshadowed_);
         if (!isCompressed_) return uploadByCoefficient(vectors.first(ofPoints), transfer_);
         compressed_ = clusteredPca(vectors.first(ofPoints), coefficients_, clusters_, components_);
@@ -101,9 +99,11 @@ private:
 
     void computeIrradiance(const Frame& frame) {
         const auto pass = frame.pass("dot products");
-        const std::size_t points = shading_.points().points.size(), patches = shading_.points().patches.size();
-        shading_.setDotProducts(unshadowed_, patches, lightCoefficients_, coefficients_, points);
-        if (!compressed_) return shading_.setDotProducts(transfer_, points, lightCoefficients_, coefficients_);
+        const std::size_t points = shading_.pointCount();
+        shading_.setDotProducts(shading_.unshadowed(), shading_.patchCount(), unshadowed_, lightCoefficients_,
+                                coefficients_);
+        if (!compressed_)
+            return shading_.setDotProducts(shading_.irradiance(), points, transfer_, lightCoefficients_, coefficients_);
         clusterNumbers_.bindStorage(0);
         weights_.bindStorage(1);
         shading_.irradiance().bindStorage(2);
@@ -132,25 +132,24 @@ Entry prtSh() {
         .title = "Precomputed radiance transfer, spherical harmonics",
         .source = {Document::Course, "Radiance Transfer"},
         .answer = Answer::Soft,
+        .computed = "once for a scene, rays and transfer vectors; when the light changes, its coefficients; each frame, dot "
+                    "products and interpolation",
         .environment = EnvironmentAnswer::Only,
         .notApplicable = movingSurfaces,
-        .parameters = {{"coefficients", "25", OneOf{{"4", "9", "16", "25"}}, "basis functions: those of 2 to 5 bands",
-                        "course, Background – Spherical Harmonics"},
-                       {"points", "16384", IntegerRange{64, 4194304},
-                        "with a transfer vector on the surfaces, at most, beside one a triangle smaller than their spacing",
-                        ""},
-                       {"directions", "1024", IntegerRange{64, 65536}, "of rays from each point, over the whole sphere", ""},
-                       {"compression", "none", OneOf{{"none", "clustered"}}, "of transfer vectors: VQ + PCA",
-                        "course, Reducing Storage Cost"},
-                       {"clusters", "64", IntegerRange{1, 4096}, "of transfer vectors, if compressed",
-                        "course, Compression – Comparison"},
-                       {"components", "3", IntegerRange{1, 25},
-                        "principal components beside a cluster's mean, if compressed", "course, Compression – Comparison"}},
-        .figures = {{"points", "points of the surfaces with a transfer vector"},
-                    {"spacing", "of the points, metres at most"},
-                    {"transfer_bytes", "of transfer that is kept, with the unshadowed one of each triangle"},
-                    {"compression_error", "root mean square of what compression changes of a coefficient"},
-                    {"rays", "of the precomputation, which is in the cost of the first frame alone"}},
+        .parameters = withPoints(
+            {{"coefficients", "25", OneOf{{"4", "9", "16", "25"}}, "basis functions: those of 2 to 5 bands",
+              "course, Background – Spherical Harmonics"},
+             {"directions", "1024", IntegerRange{64, 65536}, "of rays from each point, over the whole sphere", ""},
+             {"compression", "none", OneOf{{"none", "clustered"}}, "of transfer vectors: VQ + PCA",
+              "course, Reducing Storage Cost"},
+             {"clusters", "64", IntegerRange{1, 4096}, "of transfer vectors, if compressed",
+              "course, Compression – Comparison"},
+             {"components", "3", IntegerRange{1, 25}, "principal components beside a cluster's mean, if compressed",
+              "course, Compression – Comparison"}},
+            16384),
+        .figures =
+            withTransferFigures({{"transfer_bytes", "of transfer that is kept, with the unshadowed one of each triangle"},
+                                 {"compression_error", "root mean square of what compression changes of a coefficient"}}),
         .variants = {"", "compression=clustered"},
         .make = [](const Parameters& p) { return std::make_unique<PrtSh>(p); }};
 }

@@ -136,7 +136,7 @@ std::vector<std::string> computingVariants() {
             "convolution:map=128",
             "prt-sh",
             "prt-sh:compression=clustered",
-            "prt-haar"};
+            "prt-haar:resolution=16"};
 }
 
 void expectPassesOfTheTechnique(const ComparedPasses& passes) {

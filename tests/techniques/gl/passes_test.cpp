@@ -142,7 +142,7 @@ TEST(Passes, UnderASkyHaveTheNamesOfTheField) {
     const Scene scene = skyScene();
     Stage stage(scene);
     stage.show(0);
-    for (const std::string variant : {"prt-sh", "prt-sh:compression=clustered", "prt-haar"})
+    for (const std::string variant : {"prt-sh", "prt-sh:compression=clustered", "prt-haar:resolution=16"})
         EXPECT_EQ(namesOf(passesOf(stage, variant)), (std::vector<std::string>{"G-buffer", "dot products", "lookup"}));
 }
 
