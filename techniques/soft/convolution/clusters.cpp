@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace shadowbench::techniques {
@@ -50,17 +52,26 @@ std::optional<double> behindWidestGap(const Cluster& cluster, const Polygons& po
     return behind;
 }
 
-/// Takes the members for which `isBehind` holds out of the cluster; nothing if they are all or none.
-template <typename IsBehind>
-std::optional<Cluster> splitOff(Cluster& cluster, const Polygons& polygons, const IsBehind& isBehind) {
+/// Surfaces with a polygon that spreads more than half as much as the cluster.
+std::set<std::uint32_t> elongatedSurfaces(const Cluster& cluster, const Polygons& polygons) {
+    std::set<std::uint32_t> surfaces;
+    for (const std::size_t i : cluster.members)
+        if (polygons[i].depths.spread() > 0.5 * cluster.range.spread()) surfaces.insert(polygons[i].surface);
+    return surfaces;
+}
+
+/// Takes the members for which `isApart` holds out of the cluster; nothing if they are all or none, or if either part would
+/// spread more than `most`.
+template <typename IsApart>
+std::optional<Cluster> splitOff(Cluster& cluster, const Polygons& polygons, double most, const IsApart& isApart) {
     Members& members = cluster.members;
-    const auto cut = std::ranges::stable_partition(members, [&](std::size_t i) { return !isBehind(polygons[i].depths); });
+    const auto cut = std::ranges::stable_partition(members, [&](std::size_t i) { return !isApart(polygons[i]); });
     if (cut.begin() == members.begin() || cut.empty()) return {};
-    Cluster behind{Members(cut.begin(), cut.end()), {}, cluster.group};
-    members.erase(cut.begin(), cut.end());
-    cluster.range = rangeOf(members, polygons);
-    behind.range = rangeOf(behind.members, polygons);
-    return behind;
+    const Members left(members.begin(), cut.begin()), taken(cut.begin(), cut.end());
+    const BlockerDepths leftRange = rangeOf(left, polygons), takenRange = rangeOf(taken, polygons);
+    if (std::max(leftRange.spread(), takenRange.spread()) > most) return {};
+    cluster = {left, leftRange, cluster.group};
+    return Cluster{taken, takenRange, cluster.group};
 }
 
 /// The clusters as they are split.
@@ -100,26 +111,41 @@ private:
     [[nodiscard]] double spreadToSplit(std::size_t i) const { return isWhole_[i] ? 0 : clusters_[i].range.spread(); }
 
     bool split(std::size_t i) {
-        std::optional<Cluster> behind = splitGroup(clusters_[i]);
-        if (!behind) {
-            const double middle = clusters_[i].range.middle();
-            behind =
-                splitOff(clusters_[i], polygons_, [&](const BlockerDepths& depths) { return depths.middle() > middle; });
-        }
-        if (behind) add(std::move(*behind));
-        return behind.has_value();
+        Cluster& cluster = clusters_[i];
+        const bool isGroup = std::ranges::count(clusters_, cluster.group, &Cluster::group) == 1;
+        std::optional<Cluster> apart;
+        if (isGroup) apart = ofNewGroup(splitAtGap(cluster));
+        if (!apart) apart = splitInMiddle(cluster);
+        if (!apart && isGroup) apart = ofNewGroup(splitElongated(cluster));
+        if (apart) add(std::move(*apart));
+        return apart.has_value();
     }
 
-    /// What lies behind a gap becomes a group of its own, as long as the group is one cluster.
-    std::optional<Cluster> splitGroup(Cluster& cluster) {
-        if (std::ranges::count(clusters_, cluster.group, &Cluster::group) > 1) return {};
+    std::optional<Cluster> ofNewGroup(std::optional<Cluster> cluster) {
+        if (cluster) cluster->group = groups_++;
+        return cluster;
+    }
+
+    [[nodiscard]] std::optional<Cluster> splitAtGap(Cluster& cluster) const {
         const std::optional<double> from = behindWidestGap(cluster, polygons_);
         if (!from) return {};
-        std::optional<Cluster> behind =
-            splitOff(cluster, polygons_, [&](const BlockerDepths& depths) { return depths.near >= *from; });
-        behind->group = groups_++;
-        return behind;
+        return splitOff(cluster, polygons_, anySpread, [&](const BlockerPolygon& p) { return p.depths.near >= *from; });
     }
+
+    /// Halves that spread nearly as much as the whole gain nothing, and light leaks between them.
+    [[nodiscard]] std::optional<Cluster> splitInMiddle(Cluster& cluster) const {
+        const double middle = cluster.range.middle();
+        return splitOff(cluster, polygons_, 0.75 * cluster.range.spread(),
+                        [&](const BlockerPolygon& p) { return p.depths.middle() > middle; });
+    }
+
+    [[nodiscard]] std::optional<Cluster> splitElongated(Cluster& cluster) const {
+        const std::set<std::uint32_t> elongated = elongatedSurfaces(cluster, polygons_);
+        return splitOff(cluster, polygons_, anySpread,
+                        [&](const BlockerPolygon& p) { return elongated.contains(p.surface); });
+    }
+
+    static constexpr double anySpread = std::numeric_limits<double>::infinity();
 
     const Polygons& polygons_;
     std::vector<Cluster> clusters_;
