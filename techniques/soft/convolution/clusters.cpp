@@ -30,13 +30,18 @@ BlockerDepths rangeOf(const Members& members, const Polygons& polygons) {
     return range;
 }
 
-/// The depth behind the widest gap that the cluster's surfaces leave, each with all its polygons.
-std::optional<double> behindWidestGap(const Cluster& cluster, const Polygons& polygons) {
-    std::map<std::uint32_t, BlockerDepths> ofSurface;
+/// Of the cluster's surfaces, each with all its polygons.
+std::map<std::uint32_t, BlockerDepths> surfaceRanges(const Cluster& cluster, const Polygons& polygons) {
+    std::map<std::uint32_t, BlockerDepths> ranges;
     for (const std::size_t i : cluster.members)
-        extend(ofSurface.try_emplace(polygons[i].surface, polygons[i].depths).first->second, polygons[i].depths);
+        extend(ranges.try_emplace(polygons[i].surface, polygons[i].depths).first->second, polygons[i].depths);
+    return ranges;
+}
+
+/// The depth behind the widest gap that the cluster's surfaces leave.
+std::optional<double> behindWidestGap(const Cluster& cluster, const Polygons& polygons) {
     std::vector<BlockerDepths> ranges;
-    for (const auto& [surface, range] : ofSurface) ranges.push_back(range);
+    for (const auto& [surface, range] : surfaceRanges(cluster, polygons)) ranges.push_back(range);
     std::ranges::sort(ranges, {}, &BlockerDepths::near);
 
     std::optional<double> behind;
@@ -115,7 +120,8 @@ private:
         const bool isGroup = std::ranges::count(clusters_, cluster.group, &Cluster::group) == 1;
         std::optional<Cluster> apart;
         if (isGroup) apart = ofNewGroup(splitAtGap(cluster));
-        if (!apart) apart = splitInMiddle(cluster);
+        if (!apart && isGroup) apart = ofNewGroup(splitSurfaces(cluster));
+        if (!apart) apart = splitPolygons(cluster);
         if (!apart && isGroup) apart = ofNewGroup(splitElongated(cluster));
         if (apart) add(std::move(*apart));
         return apart.has_value();
@@ -132,10 +138,17 @@ private:
         return splitOff(cluster, polygons_, anySpread, [&](const BlockerPolygon& p) { return p.depths.near >= *from; });
     }
 
-    /// Halves that spread nearly as much as the whole gain nothing, and light leaks between them.
-    [[nodiscard]] std::optional<Cluster> splitInMiddle(Cluster& cluster) const {
+    /// In the middle of the depths, whole surfaces.
+    [[nodiscard]] std::optional<Cluster> splitSurfaces(Cluster& cluster) const {
         const double middle = cluster.range.middle();
-        return splitOff(cluster, polygons_, 0.75 * cluster.range.spread(),
+        const std::map<std::uint32_t, BlockerDepths> ranges = surfaceRanges(cluster, polygons_);
+        return splitOff(cluster, polygons_, gain * cluster.range.spread(),
+                        [&](const BlockerPolygon& p) { return ranges.at(p.surface).middle() > middle; });
+    }
+
+    [[nodiscard]] std::optional<Cluster> splitPolygons(Cluster& cluster) const {
+        const double middle = cluster.range.middle();
+        return splitOff(cluster, polygons_, gain * cluster.range.spread(),
                         [&](const BlockerPolygon& p) { return p.depths.middle() > middle; });
     }
 
@@ -146,6 +159,8 @@ private:
     }
 
     static constexpr double anySpread = std::numeric_limits<double>::infinity();
+    /// Halves that spread nearly as much as the whole gain nothing, and light leaks between them.
+    static constexpr double gain = 0.75;
 
     const Polygons& polygons_;
     std::vector<Cluster> clusters_;
