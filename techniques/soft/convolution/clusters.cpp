@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -65,16 +64,20 @@ std::set<std::uint32_t> elongatedSurfaces(const Cluster& cluster, const Polygons
     return surfaces;
 }
 
-/// Takes the members for which `isApart` holds out of the cluster; nothing if they are all or none, or if either part would
-/// spread more than `most`.
+/// What a split has to gain: nothing, a part that spreads clearly less than the whole, or two such parts.
+enum class Gain { None, OnePart, BothParts };
+
+/// Takes the members for which `isApart` holds out of the cluster; nothing if they are all or none, or without the gain.
 template <typename IsApart>
-std::optional<Cluster> splitOff(Cluster& cluster, const Polygons& polygons, double most, const IsApart& isApart) {
+std::optional<Cluster> splitOff(Cluster& cluster, const Polygons& polygons, Gain gain, const IsApart& isApart) {
     Members& members = cluster.members;
     const auto cut = std::ranges::stable_partition(members, [&](std::size_t i) { return !isApart(polygons[i]); });
     if (cut.begin() == members.begin() || cut.empty()) return {};
     const Members left(members.begin(), cut.begin()), taken(cut.begin(), cut.end());
     const BlockerDepths leftRange = rangeOf(left, polygons), takenRange = rangeOf(taken, polygons);
-    if (std::max(leftRange.spread(), takenRange.spread()) > most) return {};
+    const auto [less, more] = std::minmax({leftRange.spread(), takenRange.spread()});
+    const double clearlyLess = 0.75 * cluster.range.spread();
+    if (gain != Gain::None && (gain == Gain::OnePart ? less : more) > clearlyLess) return {};
     cluster = {left, leftRange, cluster.group};
     return Cluster{taken, takenRange, cluster.group};
 }
@@ -135,32 +138,29 @@ private:
     [[nodiscard]] std::optional<Cluster> splitAtGap(Cluster& cluster) const {
         const std::optional<double> from = behindWidestGap(cluster, polygons_);
         if (!from) return {};
-        return splitOff(cluster, polygons_, anySpread, [&](const BlockerPolygon& p) { return p.depths.near >= *from; });
+        return splitOff(cluster, polygons_, Gain::None, [&](const BlockerPolygon& p) { return p.depths.near >= *from; });
     }
 
     /// In the middle of the depths, whole surfaces.
     [[nodiscard]] std::optional<Cluster> splitSurfaces(Cluster& cluster) const {
         const double middle = cluster.range.middle();
         const std::map<std::uint32_t, BlockerDepths> ranges = surfaceRanges(cluster, polygons_);
-        return splitOff(cluster, polygons_, gain * cluster.range.spread(),
+        return splitOff(cluster, polygons_, Gain::OnePart,
                         [&](const BlockerPolygon& p) { return ranges.at(p.surface).middle() > middle; });
     }
 
+    /// Light leaks between parts of a surface whose planes lie far apart, so both have to gain.
     [[nodiscard]] std::optional<Cluster> splitPolygons(Cluster& cluster) const {
         const double middle = cluster.range.middle();
-        return splitOff(cluster, polygons_, gain * cluster.range.spread(),
+        return splitOff(cluster, polygons_, Gain::BothParts,
                         [&](const BlockerPolygon& p) { return p.depths.middle() > middle; });
     }
 
     [[nodiscard]] std::optional<Cluster> splitElongated(Cluster& cluster) const {
         const std::set<std::uint32_t> elongated = elongatedSurfaces(cluster, polygons_);
-        return splitOff(cluster, polygons_, anySpread,
+        return splitOff(cluster, polygons_, Gain::None,
                         [&](const BlockerPolygon& p) { return elongated.contains(p.surface); });
     }
-
-    static constexpr double anySpread = std::numeric_limits<double>::infinity();
-    /// Halves that spread nearly as much as the whole gain nothing, and light leaks between them.
-    static constexpr double gain = 0.75;
 
     const Polygons& polygons_;
     std::vector<Cluster> clusters_;

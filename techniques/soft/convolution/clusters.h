@@ -41,9 +41,9 @@ struct Cluster {
 
 /// Begins with one cluster and splits the one with the widest spread until none that can be split spreads more than
 /// `tolerance` (1/m) or there are `most`. A group whose surfaces leave a gap in depth becomes two at its widest gap.
-/// Otherwise it is split in the middle of its depths, if both parts spread clearly less then: the group into two, each
-/// surface going where its own middle lies; or the cluster, each triangle going where its own lies. Where triangles are too
-/// elongated for that, their surfaces become a group of their own, beside others of their depths. None without polygons.
+/// Otherwise it is split in the middle of its depths: the group into two, each surface going where its own middle lies, if
+/// either spreads clearly less then; or the cluster, each triangle going where its own lies, if both do. Where triangles are
+/// too elongated for that, their surfaces become a group of their own, beside others of their depths. None without polygons.
 std::vector<Cluster> clustered(const std::vector<BlockerPolygon>& polygons, double tolerance, std::size_t most);
 
 } // namespace shadowbench::techniques
