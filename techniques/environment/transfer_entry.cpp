@@ -20,7 +20,7 @@ std::vector<Parameter> withPoints(std::vector<Parameter> own, int defaultPoints)
 std::vector<Figure> withTransferFigures(std::vector<Figure> own) {
     own.push_back({"points", "points of the surfaces with a transfer vector"});
     own.push_back({"spacing", "of the points, metres at most"});
-    own.push_back({"rays", "of the precomputation, which is in no frame's cost"});
+    own.push_back({"rays", "of the precomputation, which is in the cost of the first frame alone"});
     return own;
 }
 
