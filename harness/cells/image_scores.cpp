@@ -74,10 +74,16 @@ void scoreStillFrame(SceneFrames& frames, const ScoringRule& rule, const Receive
     const Scene& scene = frames.scene();
     const int frame = frames.scored();
     const auto described = [&](Truth truth) { return describe(frames.truth(truth), frames.truths().content(truth, frame)); };
+    const auto scorePicture = [&](Truth truth) {
+        const metrics::ScoredFrame scored{v, frames.truth(truth), receivers(truth)};
+        metrics::compute<metrics::OfPicture>(metrics::ShadedFrame{scored, frames.shading(), frames.truePicture(truth)},
+                                             record.values);
+    };
     const auto scoreSoft = [&](Truth truth, std::optional<ReferenceInfo>& reference) {
         reference = described(truth);
         if (truth == Truth::Soft && scene.light.isArea()) reference->area = besideArea(frames, receivers, v);
         score<metrics::OfVisibility>({v, frames.truth(truth), alignedMask(receivers, truth, frame)}, record);
+        scorePicture(truth);
     };
     record.values["sanity.times_none"] =
         timesNone(rule.truth, {v, frames.truth(rule.truth), alignedMask(receivers, rule.truth, frame)});
@@ -87,8 +93,9 @@ void scoreStillFrame(SceneFrames& frames, const ScoringRule& rule, const Receive
     score<metrics::OfLabels>(labels, record);
     if (scene.light.isArea())
         scoreSoft(Truth::Soft, record.softReference);
-    else if (rule.graded)
-        score<metrics::OfVisibility>(labels, record);
+    else
+        scorePicture(Truth::Hard);
+    if (rule.graded && !scene.light.isArea()) score<metrics::OfVisibility>(labels, record);
     if (!rule.pixelAreas) return;
     record.pixelReference = described(Truth::PixelArea);
     if (!scene.light.isArea())
@@ -135,6 +142,7 @@ public:
         if (kept_.size() == 1) return;
         const Kept& before = kept_[kept_.size() - 2];
         frames_.pairs.push_back({{now.v, now.truth, now.mask}, {before.v, before.truth, before.mask}, frames.warp(truth_)});
+        frames_.motion += frames.motion(truth_);
     }
 
     template <class Kind>

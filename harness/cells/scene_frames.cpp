@@ -28,4 +28,22 @@ const Image<glm::vec2>& SceneFrames::warp(Truth kind) {
     return warps_.emplace(key, metrics::warp(stage_.shown(), scene_.size, truth(kind), before)).first->second;
 }
 
+double SceneFrames::motion(Truth kind) {
+    const std::pair key(kind, shown_);
+    if (const auto found = motions_.find(key); found != motions_.end()) return found->second;
+    const Light before = snapshot(scene_, shown_ - 1).light;
+    return motions_.emplace(key, metrics::motion(stage_.shown(), before, truth(kind), warp(kind))).first->second;
+}
+
+const metrics::Shading& SceneFrames::shading() {
+    if (!shading_) shading_ = metrics::shading(stage_.shown(), drawn(), stage_.normals());
+    return *shading_;
+}
+
+const metrics::FlipPicture& SceneFrames::truePicture(Truth kind) {
+    if (const auto found = pictures_.find(kind); found != pictures_.end()) return found->second;
+    const Image<glm::vec3> picture = metrics::shaded(shading(), truths_.at(kind, scored_).visibility);
+    return pictures_.emplace(kind, metrics::flipPicture(picture)).first->second;
+}
+
 } // namespace shadowbench

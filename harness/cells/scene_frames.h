@@ -42,6 +42,13 @@ public:
     /// From the frame that is shown, one of the moving ones, to the one before; valid as long as this object.
     const Image<glm::vec2>& warp(Truth truth);
 
+    /// metrics::motion along that warp.
+    double motion(Truth truth);
+
+    /// The picture of the scored frame, which is shown when this is first asked for; and with its true shadows.
+    const metrics::Shading& shading();
+    const metrics::FlipPicture& truePicture(Truth truth);
+
 private:
     const Scene& scene_;
     Truths& truths_;
@@ -51,6 +58,9 @@ private:
     std::optional<metrics::Drawn> drawn_; // of `shown_`
     std::map<std::pair<Truth, int>, metrics::Mask> masks_;
     std::map<std::pair<Truth, int>, Image<glm::vec2>> warps_;
+    std::map<std::pair<Truth, int>, double> motions_;
+    std::optional<metrics::Shading> shading_;
+    std::map<Truth, metrics::FlipPicture> pictures_;
 };
 
 } // namespace shadowbench

@@ -4,6 +4,7 @@
 
 #include "base/image.h"
 #include "groundtruth/contract/reference.h"
+#include "harness/metrics/flip.h"
 #include "scene/snapshot.h"
 
 #include <cstddef>
@@ -42,6 +43,25 @@ struct ScoredFrame {
     const Mask& mask;
 };
 
+/// The linear light that a picture has at each pixel: what is there without the scene's light, and what that adds where V is
+/// 1. The object's flat colour reflects diffusely; of the light on a white plane that faces the scene's, a fifth comes from
+/// all around, as beside the sun a clear sky gives, and both together are 1. An area light shines from its centre, an
+/// environment from its mean direction; nothing fades with distance. Background is black.
+struct Shading {
+    Image<glm::vec3> ambient, direct;
+};
+Shading shading(const Snapshot& snapshot, const Drawn& drawn, const Image<glm::vec3>& normals);
+
+/// The picture with visibility `v`.
+Image<glm::vec3> shaded(const Shading& shading, const Image<float>& v);
+
+/// A rendered frame as a picture, and the one with V* in place of V.
+struct ShadedFrame {
+    ScoredFrame frame;
+    const Shading& shading;
+    const FlipPicture& truth;
+};
+
 /// Where a world point lies in a technique's map, in texels; nothing if it lies in none.
 using MapPoint = std::function<std::optional<glm::dvec2>(const glm::dvec3&)>;
 
@@ -72,6 +92,7 @@ struct FramePair {
 struct MovingFrames {
     std::vector<FramePair> pairs;
     bool remembers = false; // the technique keeps a history
+    double motion = 0;      // degrees, summed over the pairs
 };
 
 /// The last still frame, drawn from an empty history with one seed after the other. M is the same for all.
@@ -86,6 +107,12 @@ struct SeedFrames {
 /// 2 × 2 pixels of `before` around it shows the same surface at the same distance from the eye within 0.5 %.
 Image<glm::vec2> warp(const Snapshot& now, glm::ivec2 size, const groundtruth::Reference& truth,
                       const groundtruth::Reference& before);
+
+/// How far the scene moves from the frame before, in degrees: the mean angle that the view of a surface point turns in the
+/// camera (by the camera's path or the object's), over the pixels that `warp` follows, and, seen from the middle of these
+/// points, the angle that the light's centre turns and the largest one that a corner of a moving mesh's bounds does. 0
+/// where nothing moves, or no pixel is followed.
+double motion(const Snapshot& now, const Light& before, const groundtruth::Reference& truth, const Image<glm::vec2>& warp);
 
 /// What was seen of a level-of-detail technique, frame by frame; never empty. Colours are in [0, 1].
 struct Walk {

@@ -104,6 +104,7 @@ std::optional<double> part(Results<Frame>& results) {
 
 // What metrics are computed from; frames.h says what each holds.
 struct ScoredFrame;
+struct ShadedFrame;
 struct MappedFrame;
 struct StillFrames;
 struct MovingFrames;
@@ -128,6 +129,11 @@ struct OfVisibility {
 /// Of the last still frame against the truth of pixel areas, under point and directional lights.
 struct OfPixelAreas {
     Value<ScoredFrame> value;
+};
+
+/// Of the last still frame as a shaded picture, beside the same with the true shadows.
+struct OfPicture {
+    Value<ShadedFrame> value;
 };
 
 /// Of the last still frame and the technique's map.
@@ -175,8 +181,9 @@ struct ByStillFrame {
     std::vector<double> (*values)(const StillFrames&);
 };
 
-using Computation = std::variant<Measured, OfLabels, OfVisibility, OfPixelAreas, OfMap, OfStillFrames, OfMovingFrames,
-                                 OfMovingAreas, OfSeeds, OfWalk, LabelsByFrame, VisibilityByFrame, ByStillFrame>;
+using Computation =
+    std::variant<Measured, OfLabels, OfVisibility, OfPixelAreas, OfPicture, OfMap, OfStillFrames, OfMovingFrames,
+                 OfMovingAreas, OfSeeds, OfWalk, LabelsByFrame, VisibilityByFrame, ByStillFrame>;
 
 /// A line of the table.
 struct Metric {

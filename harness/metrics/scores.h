@@ -70,8 +70,11 @@ std::optional<double> bad8(const ScoredFrame& frame);
 /// outside M have weight 0 in every window and the other weights are scaled to sum to 1.
 std::optional<double> ssim(const ScoredFrame& frame);
 
-/// rmse over the penumbra {0 < V* < 1} dilated by 2 pixels (5 × 5 squares); absent for a hard truth.
-std::optional<double> penumbraRmse(const ScoredFrame& frame);
+/// rmse over the penumbra {0 < V* < 1}, and over the same dilated by 2 pixels (5 × 5 squares); absent for a hard truth.
+struct PenumbraErrors {
+    std::optional<double> within, dilated;
+};
+PenumbraErrors penumbraErrors(const ScoredFrame& frame);
 
 /// Mean of |w − w*| / w* over the points where V* crosses ½ (found as for edgeError). w is the length, along the line
 /// through the point in the direction of V*'s image gradient, on which 0.1 < V < 0.9, in bilinear samples ¼ px apart. The
@@ -82,7 +85,7 @@ std::optional<double> penumbraWidthError(const ScoredFrame& frame);
 /// Mean V over the umbra {V* = 0} eroded by 2 pixels, from the image's border too.
 std::optional<double> umbraLeak(const ScoredFrame& frame);
 
-/// How many pixels rmse, penumbraRmse and umbraLeak are over.
+/// How many pixels rmse, penumbraErrors (within) and umbraLeak are over.
 struct GradedPixels {
     double all = 0, penumbra = 0, umbra = 0;
 };
@@ -115,6 +118,9 @@ struct PictureCorrectness {
 
 /// Absent where there is no penumbra, as in a hard truth.
 std::optional<PictureCorrectness> pictureCorrectness(const ScoredFrame& frame);
+
+/// FLIP between the shaded picture and the one with V*, mean over all pixels. Pixels outside M have V*.
+std::optional<double> pictureFlip(const ShadedFrame& frame);
 
 /// Pixels that one texel of the technique's map covers where it is stretched most.
 struct Aliasing {
@@ -161,6 +167,7 @@ std::vector<double> changedByFrame(const StillFrames& frames);
 /// is, else the pixel is left out. `floor` is the mean for an image that is lit throughout and never changes.
 struct Flicker {
     double mean = 0, p95 = 0, floor = 0;
+    std::optional<double> perDegree; // mean over that of the motion (`motion` in frames.h); absent where nothing moves
 };
 std::optional<Flicker> flicker(const MovingFrames& frames);
 

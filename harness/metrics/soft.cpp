@@ -32,6 +32,13 @@ std::size_t count(const Image<std::uint8_t>& pixels) {
     return sum;
 }
 
+/// Absent where there is no pixel.
+std::optional<double> rmseOver(const ScoredFrame& frame, const Image<std::uint8_t>& pixels) {
+    const std::size_t n = count(pixels);
+    if (n == 0) return {};
+    return std::sqrt(errors(frame, pixels).squares / static_cast<double>(n));
+}
+
 template <typename Predicate>
 Image<std::uint8_t> select(const groundtruth::Reference& truth, const Mask& mask, const Predicate& wanted) {
     Image<std::uint8_t> result(mask.scored.width(), mask.scored.height());
@@ -114,12 +121,10 @@ std::optional<double> rmse(const ScoredFrame& frame) {
 std::optional<double> bad30(const ScoredFrame& frame) { return shareAbove(frame, 30.0 / 255.0); }
 std::optional<double> bad8(const ScoredFrame& frame) { return shareAbove(frame, 8.0 / 255.0); }
 
-std::optional<double> penumbraRmse(const ScoredFrame& frame) {
+PenumbraErrors penumbraErrors(const ScoredFrame& frame) {
     requireComparable(frame);
-    const Image<std::uint8_t> pixels = dilated(penumbraOf(frame), frame.mask);
-    const std::size_t n = count(pixels);
-    if (n == 0) return {};
-    return std::sqrt(errors(frame, pixels).squares / static_cast<double>(n));
+    const Image<std::uint8_t> penumbra = penumbraOf(frame);
+    return {rmseOver(frame, penumbra), rmseOver(frame, dilated(penumbra, frame.mask))};
 }
 
 std::optional<double> umbraLeak(const ScoredFrame& frame) {
@@ -135,7 +140,7 @@ std::optional<double> umbraLeak(const ScoredFrame& frame) {
 
 GradedPixels gradedPixels(const ScoredFrame& frame) {
     requireComparable(frame);
-    return {static_cast<double>(frame.mask.count), static_cast<double>(count(dilated(penumbraOf(frame), frame.mask))),
+    return {static_cast<double>(frame.mask.count), static_cast<double>(count(penumbraOf(frame))),
             static_cast<double>(count(umbraOf(frame)))};
 }
 

@@ -14,6 +14,7 @@ namespace shadowbench::metrics {
 namespace {
 
 constexpr double sameDistance = 5e-3; // relative difference of eye distances of one surface point in two frames
+constexpr double leastMotion = 1e-3;  // degrees a frame: below this, positions in 32 bits seem to move
 const glm::vec2 nowhere(std::numeric_limits<float>::quiet_NaN());
 
 /// World position in the previous frame from the one in this frame, for every surface that moved.
@@ -158,6 +159,8 @@ std::optional<Flicker> flicker(const MovingFrames& frames) {
     result.mean = mean(values);
     result.p95 = quantile(values, 0.95);
     result.floor = exact / static_cast<double>(values.size());
+    const double aFrame = frames.motion / static_cast<double>(frames.pairs.size());
+    if (aFrame > leastMotion) result.perDegree = result.mean / aFrame;
     return result;
 }
 

@@ -20,6 +20,7 @@ constexpr const char* legend = R"(## The columns
 | column | meaning |
 |:---|:---|
 | error | share of receiver pixels with the wrong label (per cent), or, on scenes lit by an area light, root mean square error of visibility |
+| exact | on scenes lit by an area light: the error against the exact visible share of the light, which the error samples. Two rows that the two put in another order cannot be told apart |
 | false shadow, leak | share of lit pixels called shadowed, share of shadowed pixels called lit |
 | edge error px, median | mean and median displacement in pixels of the technique's shadow edge from the exact one, both ways |
 | missing edges, islands | share of the exact edge that the technique has nothing near; regions of wrong labels away from it (acne, holes), which the displacement leaves out |
@@ -27,9 +28,10 @@ constexpr const char* legend = R"(## The columns
 | bad30 | share of pixels off by more than 30/255 |
 | SSIM | structural similarity with the truth |
 | area rmse, bad30, SSIM | against the mean of exact visibility over each pixel's square: how well an image is antialiased |
-| penumbra rmse, penumbra width | error in and around the penumbra; relative error of its width |
+| penumbra rmse, dilated, penumbra width | error within the penumbra; the same with 2 pixels around it; relative error of its width |
 | umbra leak | mean visibility where the light is fully hidden |
-| flicker, floor, flips | mean change between moving frames beyond that of the true pixel areas; the same for an image without shadows; share of pixels whose label changes while the truth's does not |
+| FLIP | difference that an eye sees between the shaded picture and the one with the true shadows (Andersson et al. 2020), mean |
+| flicker, floor, flicker/°, flips | mean change between moving frames beyond that of the true pixel areas; the same for an image without shadows; the first for each degree that view, light and casters turn in a frame; share of pixels whose label changes while the truth's does not |
 | moving rmse | error over the moving frames: a steady trail does not flicker |
 | ghost half-life | frames after which what a history still shows of shadows that came or went has halved |
 | seeds: bias, systematic, noise | of what depends on the seed, over several of them: mean error; rms of the error that all have in common; standard deviation of a pixel |

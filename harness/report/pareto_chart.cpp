@@ -27,7 +27,7 @@ struct External {
 };
 
 struct Point {
-    std::string variant;
+    std::string name; // the variant, and those that it cannot be told from
     Place place;
     bool onFront;
     bool adequate;
@@ -41,9 +41,12 @@ std::vector<Point> points(const std::vector<Record>& records, const std::string&
     for (const std::size_t i : ofScene(records, scene))
         if (place(records[i]) && std::find(front.begin(), front.end(), i) == front.end()) order.push_back(i);
 
+    const auto equals = inseparable(records, scene);
     std::vector<Point> result;
     for (const std::size_t i : order)
-        result.push_back({records[i].variant, *place(records[i]), result.size() < front.size(),
+        result.push_back({records[i].variant.substr(0, longestLabel) +
+                              (equals.contains(i) ? " ≈ " + variantsOf(records, equals.at(i)) : ""),
+                          *place(records[i]), result.size() < front.size(),
                           isWithin(records[i], limits) && !isBaseline(records[i])});
     return result;
 }
@@ -144,7 +147,7 @@ std::string labels(const std::vector<Point>& all, const std::vector<Place>& stan
                    const std::optional<double>& toleranceLine) {
     std::vector<LabelledPoint> named;
     named.reserve(all.size());
-    for (const Point& point : all) named.push_back({canvas.at(point.place), point.variant.substr(0, longestLabel)});
+    for (const Point& point : all) named.push_back({canvas.at(point.place), point.name});
     std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;
     for (const std::vector<Place>& front : {corners(frontOf(all), canvas), corners(standing, canvas)})
         for (std::size_t i = 1; i < front.size(); ++i) lines.emplace_back(canvas.at(front[i - 1]), canvas.at(front[i]));

@@ -94,6 +94,33 @@ std::vector<std::size_t> scoredOf(const std::vector<Record>& records, const std:
     return scored;
 }
 
+std::optional<double> exactError(const Record& record) {
+    const std::optional<Headline> error = headline(record);
+    if (!error || error->metric != "rmse") return {};
+    for (const auto* truth : {&record.reference, &record.softReference})
+        if (*truth && (*truth)->area) return (*truth)->area->rmse;
+    return {};
+}
+
+std::map<std::size_t, std::vector<std::size_t>> inseparable(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::size_t> known = scoredOf(records, scene);
+    std::erase_if(known, [&](std::size_t i) { return !exactError(records[i]); });
+    std::map<std::size_t, std::vector<std::size_t>> result;
+    for (const std::size_t i : known)
+        for (const std::size_t j : known) {
+            const double sampled = *records[i].values["accuracy.rmse"] - *records[j].values["accuracy.rmse"];
+            const double exact = *exactError(records[i]) - *exactError(records[j]);
+            if (sampled * exact < 0) result[i].push_back(j);
+        }
+    return result;
+}
+
+std::string variantsOf(const std::vector<Record>& records, const std::vector<std::size_t>& indices) {
+    std::vector<std::string_view> variants;
+    for (const std::size_t i : indices) variants.push_back(records[i].variant);
+    return fmt::format("{}", fmt::join(variants, ", "));
+}
+
 std::optional<Place> place(const Record& record, CostOf costOf) {
     const std::optional<Headline> error = headline(record);
     const std::optional<FrameCost> cost = costOf(record);

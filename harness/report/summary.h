@@ -3,6 +3,7 @@
 
 #include "harness/records/record.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,17 @@ std::vector<std::size_t> ofScene(const std::vector<Record>& records, const std::
 
 /// Those of them that were scored by the scene's headline metric.
 std::vector<std::size_t> scoredOf(const std::vector<Record>& records, const std::string& scene);
+
+/// The headline error against the exact visible share, of a record whose headline is against samples of it; nothing where
+/// that share is not known at every pixel.
+std::optional<double> exactError(const Record& record);
+
+/// For each of the scene's records those that it cannot be told from: by the samples one of the two is better, by the exact
+/// share the other. Records that can be told from all others have no entry.
+std::map<std::size_t, std::vector<std::size_t>> inseparable(const std::vector<Record>& records, const std::string& scene);
+
+/// "pcss, temporal-soft": the variants of the records at `indices`.
+std::string variantsOf(const std::vector<Record>& records, const std::vector<std::size_t>& indices);
 
 /// What a frame costs, in frames of sm-uniform. It lies within ratio · (1 ± spread): half the 95 % interval of the median of
 /// the rounds' times (by order statistics), as a share of the median; 0 where the record has no rounds.

@@ -17,6 +17,12 @@ namespace {
 
 using Cell = std::optional<std::string>; // nothing: does not apply
 
+/// The error against the exact visible share.
+Cell exact(const Record& record) {
+    const std::optional<double> value = exactError(record);
+    return value ? Cell(formatValue(headline(record)->metric, *value)) : Cell();
+}
+
 Cell cell(const Column& column, const Record& record) {
     const std::optional<double> value = column.of(record);
     return value ? Cell(column.format(*value)) : Cell();
@@ -33,6 +39,11 @@ TextTable table(const std::vector<Record>& records, const std::string& scene, bo
     TextTable result{{"technique"}, {}};
     if (!scored.empty()) result.titles.emplace_back("error");
     for (const std::size_t i : scored) result.rows.push_back({rowName(records[i]), errorText(records[i])});
+    if (std::ranges::any_of(scored, [&](std::size_t i) { return exactError(records[i]).has_value(); })) {
+        result.titles.emplace_back("exact");
+        for (std::size_t row = 0; row < scored.size(); ++row)
+            result.rows[row].push_back(exact(records[scored[row]]).value_or("–"));
+    }
     for (const Column* column : columnsOf(records, scored)) {
         if (column->pageOnly && !page) continue;
         result.titles.emplace_back(column->title);
@@ -98,14 +109,18 @@ std::vector<std::string> footnotes(const std::vector<Record>& records, const std
         const std::optional<std::size_t> best = cheapestAdequate(records, scene);
         const bool ofError = limits.size() == 1 && limits.front().metric == headlineMetric(records, scene);
         const std::string bound = ofError ? formatBound(limits.front()) : formatBounds(limits);
-        std::vector<std::string_view> within;
-        for (const std::size_t i : adequate(records, scene)) within.push_back(records[i].variant);
+        const std::string within = variantsOf(records, adequate(records, scene));
         lines.push_back(best ? fmt::format("cheapest within tolerance ({}): {}", bound, withTitle(records[*best]))
-                        : within.empty()
-                            ? fmt::format("no technique is within tolerance ({})", bound)
-                            : fmt::format("within tolerance ({}), none of them timed: {}", bound, fmt::join(within, ", ")));
+                        : within.empty() ? fmt::format("no technique is within tolerance ({})", bound)
+                                         : fmt::format("within tolerance ({}), none of them timed: {}", bound, within));
     }
     for (std::string& line : motionLines(records, scene)) lines.push_back(std::move(line));
+    for (const auto& [row, others] : inseparable(records, scene))
+        for (const std::size_t other : others)
+            if (row < other)
+                lines.push_back(fmt::format("cannot be told apart: {} and {} (samples of the light order them one way, the "
+                                            "exact share the other)",
+                                            records[row].variant, records[other].variant));
     if (const std::string reported = reportedCosts(records, scene); !reported.empty())
         lines.push_back("time of a frame as the renderers themselves report it, not measured here: " + reported);
     std::vector<std::pair<std::string, std::string>> inapplicable; // reason → variants, in order of first occurrence

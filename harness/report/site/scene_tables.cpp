@@ -97,6 +97,11 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
                       .hint = report::meaning(metric),
                       .key = "error",
                       .unit = report::isShare(metric) ? "share" : "1"}};
+    const bool sampled =
+        std::ranges::any_of(scored, [&](std::size_t i) { return report::exactError(records[i]).has_value(); });
+    if (sampled)
+        table.columns.push_back(
+            {.title = "exact", .hint = "The same against the exact visible share of the light", .key = "exact"});
     if (!limits.empty())
         table.columns.push_back(
             {.title = "× tolerance",
@@ -115,13 +120,19 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
                                  .number = false});
 
     const Choice choice = choiceFor(records, scene);
+    const auto equals = report::inseparable(records, scene);
     for (const std::size_t i : scored) {
         const Record& record = records[i];
         Row row{{techniqueCell(record, images), {errorText(record), headline(record)->value}}, marksOf(records, i)};
         if (record.status == Status::ExpectedFailure) row.cells[0].note += "; fails as the scene expects: " + record.reason;
         if (const std::string doubt = report::unexplainedDoubts(record); !doubt.empty())
             row.cells[0].note += "; doubtful: " + doubt;
+        if (equals.contains(i)) row.cells[1].note = "cannot be told from " + report::variantsOf(records, equals.at(i));
         if (choice.take == i) row.cells[0].kind = "take";
+        if (sampled) {
+            const std::optional<double> exact = report::exactError(record);
+            row.cells.push_back(exact ? Cell{report::formatValue(metric, *exact), *exact} : Cell{"–"});
+        }
         if (!limits.empty()) row.cells.push_back(shareCell(record, limits));
         for (const report::Column* column : chosen) {
             const std::optional<double> value = column->of(record);

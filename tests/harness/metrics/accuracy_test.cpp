@@ -345,15 +345,37 @@ TEST(Ssim, OfConstantImagesIsTheTermOfTheMeansAndTurnsWithTheImage) {
     EXPECT_NEAR(along, down, 1e-9);
 }
 
-TEST(PenumbraRmse, IsMeasuredOnThePenumbraDilatedByTwoPixels) {
+TEST(PenumbraRmse, IsOfThePenumbraAloneAndTheDilatedOneOfTwoPixelsMore) {
     // Penumbra: the columns 14 … 17 (V* = 1/8, 3/8, 5/8, 7/8); with two more on each side 8 columns.
     const Reference truth = truthOf(size, size, [](glm::dvec2 p) { return vertical.ramp(p, 4); });
-    Image<float> v = truth.visibility;
-    for (int y = 0; y < size; ++y) {
-        v(12, y) += 0.5F; // inside
-        v(11, y) += 0.5F; // outside
-    }
-    EXPECT_NEAR(*visibilityOf({v, truth, everything(truth)})["accuracy.penumbra_rmse"], std::sqrt(0.25 / 8), 1e-7);
+    const auto errorsOf = [&](int column) {
+        Image<float> v = truth.visibility;
+        for (int y = 0; y < size; ++y) v(column, y) += 0.5F;
+        return visibilityOf({v, truth, everything(truth)});
+    };
+    EXPECT_NEAR(*errorsOf(14)["accuracy.penumbra_rmse"], std::sqrt(0.25 / 4), 1e-7);
+    EXPECT_NEAR(*errorsOf(14)["accuracy.penumbra_rmse_dilated"], std::sqrt(0.25 / 8), 1e-7);
+    EXPECT_EQ(*errorsOf(12)["accuracy.penumbra_rmse"], 0);
+    EXPECT_NEAR(*errorsOf(12)["accuracy.penumbra_rmse_dilated"], std::sqrt(0.25 / 8), 1e-7);
+    EXPECT_EQ(*errorsOf(11)["accuracy.penumbra_rmse_dilated"], 0);
+    EXPECT_EQ(*errorsOf(11)["accuracy.pixels.penumbra"], 4 * size);
+}
+
+// The same picture with twice the pixels: a penumbra of w pixels is w of w + 4 when dilated and all of itself otherwise.
+TEST(PenumbraRmse, OfAPictureWithTwiceThePixelsIsTheSame) {
+    const auto errorsOf = [](int pixels) {
+        const HalfPlane edge{{1, 0}, pixels / 2.0};
+        const Reference truth = truthOf(pixels, pixels, [&](glm::dvec2 p) { return edge.ramp(p, pixels / 8.0); });
+        Image<float> v = truth.visibility;
+        for (float& value : v)
+            if (value > 0 && value < 1) value = 0.5F;
+        return visibilityOf({v, truth, everything(truth)});
+    };
+    const double exact = std::sqrt(1.0 / 12);                                  // rms of a ramp about its middle
+    EXPECT_NEAR(*errorsOf(64)["accuracy.penumbra_rmse"], exact, 0.01 * exact); // sampled at 8 points
+    EXPECT_NEAR(*errorsOf(128)["accuracy.penumbra_rmse"], exact, 0.01 * exact);
+    EXPECT_NEAR(*errorsOf(64)["accuracy.penumbra_rmse_dilated"], exact * std::sqrt(8.0 / 12), 0.01 * exact);
+    EXPECT_NEAR(*errorsOf(128)["accuracy.penumbra_rmse_dilated"], exact * std::sqrt(16.0 / 20), 0.01 * exact);
 }
 
 TEST(PenumbraRmse, IsAbsentForAHardTruth) {

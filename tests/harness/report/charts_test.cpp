@@ -98,6 +98,14 @@ TEST(Charts, OfTheSameRecordsAreTheSameBytes) {
               report::convergenceChart(hardScene(), "dueling-frusta"));
 }
 
+TEST(Charts, NameBesideARowThoseThatItCannotBeToldFrom) {
+    std::vector<Record> records = softScene();
+    records[1].reference->area = AreaInfo{"a", "b", 0.004, 0.0206};
+    EXPECT_FALSE(contains(*report::paretoChart(records, "overlapping-occluders"), "≈"));
+    records[2].reference->area = AreaInfo{"a", "b", 0.004, 0.0209};
+    EXPECT_TRUE(contains(*report::paretoChart(records, "overlapping-occluders"), "pcss ≈ temporal-soft"));
+}
+
 TEST(Charts, AreAbsentWithoutCostsOrCurves) {
     std::vector<Record> records = {hardCell("a", 0.1, 1)};
     clear(records[0], "cost.time");
