@@ -61,9 +61,9 @@ TEST(Flip, RefusesPicturesOfDifferentSizes) {
 constexpr glm::dvec3 white(0.950428545, 1, 1.088900371);
 
 glm::dvec3 relativeOf(const glm::dvec3& rgb) {
-    return glm::dvec3(0.412386564 * rgb.r + 0.357591122 * rgb.g + 0.180450859 * rgb.b,
-                      0.212636793 * rgb.r + 0.715182244 * rgb.g + 0.072180963 * rgb.b,
-                      0.019330610 * rgb.r + 0.119197041 * rgb.g + 0.950372720 * rgb.b) /
+    return glm::dvec3(0.412386564 * rgb.x + 0.357591122 * rgb.y + 0.180450859 * rgb.z,
+                      0.212636793 * rgb.x + 0.715182244 * rgb.y + 0.072180963 * rgb.z,
+                      0.019330610 * rgb.x + 0.119197041 * rgb.y + 0.950372720 * rgb.z) /
            white;
 }
 
