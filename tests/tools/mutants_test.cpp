@@ -85,7 +85,7 @@ TEST(Mutants, ThereAreAsManyAsTheGateHasToBeShownTo) {
     EXPECT_GE(benign, 15);
     EXPECT_GE(techniques.size(), 10U);
     EXPECT_GE(slowdowns, 8);
-    EXPECT_EQ(classes.size(), 9U); // all but the status of a cell
+    EXPECT_EQ(classes.size(), 10U); // all but the status of a cell
 }
 
 TEST(Mutants, ATextThatIsMissingOrAmbiguousIsAnErrorThatNamesTheMutant) {

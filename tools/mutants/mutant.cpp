@@ -17,8 +17,9 @@ namespace {
 
 using gate::Class;
 
-constexpr std::array classes{Class::Labels, Class::FalseShadow, Class::Leak,       Class::Edge,         Class::Penumbra,
-                             Class::Colour, Class::Flicker,     Class::BreakPoint, Class::Instructions, Class::Status};
+constexpr std::array classes{Class::Labels,   Class::FalseShadow,  Class::Leak,    Class::Edge,
+                             Class::Penumbra, Class::Colour,       Class::Flicker, Class::BreakPoint,
+                             Class::Work,     Class::Instructions, Class::Status};
 
 Class classNamed(const TomlValue& value) {
     std::vector<std::string> names;
