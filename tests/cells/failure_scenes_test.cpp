@@ -55,7 +55,8 @@ protected:
         }
         Record record = cells_.scored(expectation.technique);
         if (expectation.metric == "map_step" || expectation.metric == "image_step") {
-            ChangedScene larger(withNeighbourImage(cells_.scene()), testCache());
+            const groundtruth::Cache cache = testCache();
+            ChangedScene larger(withNeighbourImage(cells_.scene()), cache);
             scoreNeighbours(cells_.frames(), larger.frames(), techniques::parseVariant(expectation.technique), 1, record);
         }
         const std::optional<double> value = metrics::bounded(record.values, expectation.metric);

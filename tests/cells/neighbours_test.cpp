@@ -16,7 +16,7 @@ TEST(Neighbours, AreAFortiethLarger) {
 TEST(Neighbours, OfAVariantHaveALargerMapAndNothingElse) {
     const auto neighbour = withNeighbourMap(techniques::parseVariant("pcss:taps=25+49,map=512"));
     ASSERT_TRUE(neighbour.has_value());
-    EXPECT_EQ(neighbour->name, "pcss:map=525,taps=25+49");
+    EXPECT_EQ(neighbour->name, "pcss:taps=25+49,map=525");
     EXPECT_FALSE(withNeighbourMap(techniques::parseVariant("volume-zfail")).has_value());
 }
 
@@ -37,7 +37,8 @@ TEST(SanityOfACell, IsAMultipleOfTheErrorOfAnImageWithoutShadows) {
 
 TEST(SanityOfACell, StepsLittleWhereAMethodIsSound) {
     CellScene& cells = stillScene("contact", 1);
-    ChangedScene larger(withNeighbourImage(cells.scene()), testCache());
+    const groundtruth::Cache cache = testCache();
+    ChangedScene larger(withNeighbourImage(cells.scene()), cache);
     Record record;
     scoreNeighbours(cells.frames(), larger.frames(), techniques::parseVariant("sm-uniform"), 1, record);
     EXPECT_LT(record.values["sanity.map_step"].value(), 2);
