@@ -148,7 +148,7 @@ struct SeedErrors {
 /// it does not count as systematic. Absent with fewer than two seeds.
 std::optional<SeedErrors> seedErrors(const SeedFrames& frames);
 
-/// The mean of samples, at least two, and half its 95 % interval by Student's t.
+/// The mean of one sample or more, and half its 95 % interval by Student's t: 0 of one sample and of equal ones.
 struct MeanInterval {
     double mean, half;
 };

@@ -35,6 +35,8 @@ std::optional<SeedErrors> seedErrors(const SeedFrames& frames) {
 }
 
 MeanInterval meanInterval(const std::vector<double>& samples) {
+    if (std::ranges::all_of(samples, [&](double sample) { return sample == samples.front(); }))
+        return {samples.front(), 0}; // not what rounding leaves of it
     const auto count = static_cast<double>(samples.size());
     double sum = 0, around = 0;
     for (const double sample : samples) sum += sample;

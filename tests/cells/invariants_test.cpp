@@ -37,7 +37,7 @@ CellScene& smallCells(const std::string& id) {
     return scenes.try_emplace(id, smallScene(id)).first->second;
 }
 
-/// 64 maps of 1024² take a minute, and their size decides nothing here.
+/// Layered maps are many; their size decides nothing here.
 std::vector<std::string> shadowVariants() {
     std::vector<std::string> names;
     for (const techniques::Variant& variant : techniques::matchVariants("*"))

@@ -1,8 +1,8 @@
 // Verdicts on claims, from records.
 #include "harness/studies/claims/claims.h"
 
+#include "harness/metrics/scores.h"
 #include "harness/report/summary.h"
-#include "harness/studies/claims/mean_interval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -243,7 +243,7 @@ Outcome outcomeOf(const std::vector<Sample>& samples) {
         const auto held = std::ranges::count_if(samples, [](const Sample& sample) { return *sample.holds; });
         return held == 0 ? Outcome::No : held == std::ssize(samples) ? Outcome::Yes : Outcome::NotToldApart;
     }
-    const auto [mean, halfWidth] = meanInterval(margins);
+    const auto [mean, halfWidth] = metrics::meanInterval(margins);
     return mean - halfWidth >= 0 ? Outcome::Yes : mean + halfWidth < 0 ? Outcome::No : Outcome::NotToldApart;
 }
 

@@ -1,6 +1,6 @@
 #include "harness/studies/claims/figure_text.h"
 
-#include "harness/studies/claims/mean_interval.h"
+#include "harness/metrics/scores.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +67,7 @@ std::string spread(const std::vector<Sample>& samples, Side side) {
     const std::vector<double> numbers = numbersOf(samples, side);
     if (numbers.empty()) return "missing";
     if (std::isinf(numbers.back())) return range(numbers);
-    const auto [mean, halfWidth] = meanInterval(numbers);
+    const auto [mean, halfWidth] = metrics::meanInterval(numbers);
     return halfWidth == 0 ? shown(mean) : fmt::format("{} ± {:.2g}", shown(mean), halfWidth);
 }
 
@@ -76,7 +76,7 @@ std::string placeOf(const std::vector<Sample>& samples, std::size_t place) {
     std::vector<double> numbers;
     for (const Sample& sample : samples)
         if (sample.places[place]) numbers.push_back(*sample.places[place]);
-    return numbers.empty() ? "missing" : shown(meanInterval(numbers).mean);
+    return numbers.empty() ? "missing" : shown(metrics::meanInterval(numbers).mean);
 }
 
 std::string sign(const Check& check) { return check.atMost ? "≤" : "≥"; }

@@ -33,7 +33,8 @@ TEST(MeanInterval, IsStudentsOverTheSamples) {
     const auto [mean, half] = metrics::meanInterval({2, 4, 4, 6}); // deviation 1.63299, t of 3 degrees 3.18245
     EXPECT_DOUBLE_EQ(mean, 4);
     EXPECT_NEAR(half, 3.18245 * 1.63299 / 2, 1e-4);
-    EXPECT_EQ(metrics::meanInterval({3, 3}).half, 0);
+    EXPECT_EQ(metrics::meanInterval({0.1, 0.1, 0.1}).half, 0);
+    EXPECT_EQ(metrics::meanInterval({3}).half, 0);
 }
 
 TEST(SeedErrors, AreThoseThatTheImagesWereMadeWith) {
