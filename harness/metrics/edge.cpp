@@ -1,5 +1,6 @@
 // Displacement of shadow edges; the estimator is described at edgeError() in table.h.
 #include "harness/metrics/pixels.h"
+#include "harness/metrics/thresholds.h"
 
 #include <algorithm>
 #include <boost/geometry.hpp>
@@ -90,8 +91,8 @@ double displacement(const EdgePoint& p, const EdgePoint& q, const groundtruth::R
 /// The islands of an image: regions of wrong labels away from every exact edge.
 class Islands {
 public:
-    Islands(const ScoredFrame& frame, const std::vector<EdgePoint>& exact)
-        : frame_(frame), exact_(exact), nearest_(exact), seen_(frame.v.width(), frame.v.height()),
+    Islands(const ScoredFrame& frame, const std::vector<EdgePoint>& exact, double reach)
+        : frame_(frame), exact_(exact), reach_(reach), nearest_(exact), seen_(frame.v.width(), frame.v.height()),
           islands_(frame.v.width(), frame.v.height()) {
         for (int y = 0; y < frame.v.height(); ++y)
             for (int x = 0; x < frame.v.width(); ++x) {
@@ -109,15 +110,13 @@ public:
     }
 
 private:
-    static constexpr double reach = 2; // pixels between a region and an exact edge that it belongs to
-
     [[nodiscard]] bool isWrong(glm::ivec2 p) const {
         return frame_.mask.scored(p.x, p.y) != 0 && isLit(frame_.v(p.x, p.y)) != isLit(frame_.truth.visibility(p.x, p.y));
     }
 
     [[nodiscard]] bool isNearEdge(glm::ivec2 pixel) const {
         const glm::dvec2 centre = glm::dvec2(pixel) + 0.5;
-        return glm::distance(exact_[nearest_.to(centre)].position(), centre) <= reach;
+        return glm::distance(exact_[nearest_.to(centre)].position(), centre) <= reach_;
     }
 
     std::vector<glm::ivec2> regionFrom(glm::ivec2 first) {
@@ -138,6 +137,7 @@ private:
 
     const ScoredFrame& frame_;
     const std::vector<EdgePoint>& exact_;
+    double reach_; // pixels between a region and an exact edge that it belongs to
     NearestPoint nearest_;
     Image<std::uint8_t> seen_, islands_;
     std::size_t count_ = 0;
@@ -151,8 +151,7 @@ struct Displacements {
 };
 
 Displacements displacements(const std::vector<EdgePoint>& technique, const std::vector<EdgePoint>& exact,
-                            const groundtruth::Reference& truth) {
-    constexpr double farthest = 8; // pixels from an exact edge to the technique's; beyond, the edge is missing
+                            const groundtruth::Reference& truth, double farthest) {
     const NearestPoint nearestExact(exact), nearestTechnique(technique);
     Displacements result;
     const auto add = [&](double moved) {
@@ -178,12 +177,14 @@ Displacements displacements(const std::vector<EdgePoint>& technique, const std::
 
 } // namespace
 
-std::optional<EdgeError> edgeError(const ScoredFrame& frame) {
+std::optional<EdgeError> edgeError(const ScoredFrame& frame) { return edgeErrorBy({}, frame); }
+
+std::optional<EdgeError> edgeErrorBy(const Thresholds& near, const ScoredFrame& frame) {
     requireComparable(frame);
     const auto& [v, truth, mask] = frame;
     const std::vector<EdgePoint> exact = exactEdge(truth, mask, isHard(v, mask));
     if (exact.empty()) return {};
-    const Islands islands(frame, exact);
+    const Islands islands(frame, exact, near.island);
     EdgeError result;
     result.islands = static_cast<double>(islands.count());
     std::vector<EdgePoint> technique = techniqueEdge(v, truth, mask);
@@ -192,7 +193,7 @@ std::optional<EdgeError> edgeError(const ScoredFrame& frame) {
         result.missing = 1;
         return result;
     }
-    Displacements found = displacements(technique, exact, truth);
+    Displacements found = displacements(technique, exact, truth, near.missingEdge);
     result.missing = static_cast<double>(found.missing) / static_cast<double>(exact.size());
     result.mean = mean(found.absolute);
     result.median = quantile(found.absolute, 0.5);

@@ -1,5 +1,6 @@
 // Scores of hard labels.
 #include "harness/metrics/pixels.h"
+#include "harness/metrics/thresholds.h"
 
 #include <cmath>
 
@@ -24,8 +25,7 @@ struct HardTally {
     double distance = 0; // of V from the label, summed up
 };
 
-HardTally tally(const ScoredFrame& frame) {
-    constexpr float edgePixel = 0.5F; // this near the exact edge, in pixels
+HardTally tally(const ScoredFrame& frame, const Thresholds& near = {}) {
     const auto& [v, truth, mask] = frame;
     HardTally result;
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -35,16 +35,18 @@ HardTally tally(const ScoredFrame& frame) {
         result.all.add(wrong);
         result.distance += std::abs(static_cast<double>(v[i]) - truth.visibility[i]);
         (lit ? result.lit : result.shadowed).add(wrong);
-        if (truth.edgeDistance[i] > edgePixel) result.offEdge.add(wrong);
+        if (truth.edgeDistance[i] > near.edgePixel) result.offEdge.add(wrong);
     }
     return result;
 }
 
 } // namespace
 
-LabelErrors labelErrors(const ScoredFrame& frame) {
+LabelErrors labelErrors(const ScoredFrame& frame) { return labelErrorsBy({}, frame); }
+
+LabelErrors labelErrorsBy(const Thresholds& near, const ScoredFrame& frame) {
     requireComparable(frame);
-    const HardTally counts = tally(frame);
+    const HardTally counts = tally(frame, near);
     LabelErrors errors{counts.all.share(), {}, counts.offEdge.share(), counts.lit.share(), counts.shadowed.share()};
     if (counts.all.all > 0) errors.unrounded = counts.distance / static_cast<double>(counts.all.all);
     return errors;

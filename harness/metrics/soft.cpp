@@ -1,5 +1,6 @@
 // Scores of graded visibility.
 #include "harness/metrics/pixels.h"
+#include "harness/metrics/thresholds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +8,6 @@
 
 namespace shadowbench::metrics {
 namespace {
-
-constexpr int neighbourhood = 2; // pixels by which the penumbra is dilated and the umbra eroded
 
 struct Errors {
     double squares = 0, absolutes = 0;
@@ -48,17 +47,17 @@ Image<std::uint8_t> select(const groundtruth::Reference& truth, const Mask& mask
 
 /// Calls `visit` with each pixel of the (2r+1)² square around (x, y), inside the image or not.
 template <typename Visit>
-void forNeighbours(int x, int y, const Visit& visit) {
-    for (int dy = -neighbourhood; dy <= neighbourhood; ++dy)
-        for (int dx = -neighbourhood; dx <= neighbourhood; ++dx) visit(x + dx, y + dy);
+void forNeighbours(int x, int y, int r, const Visit& visit) {
+    for (int dy = -r; dy <= r; ++dy)
+        for (int dx = -r; dx <= r; ++dx) visit(x + dx, y + dy);
 }
 
-Image<std::uint8_t> dilated(const Image<std::uint8_t>& set, const Mask& within) {
+Image<std::uint8_t> dilated(const Image<std::uint8_t>& set, int r, const Mask& within) {
     Image<std::uint8_t> result(set.width(), set.height());
     for (int y = 0; y < set.height(); ++y) {
         for (int x = 0; x < set.width(); ++x) {
             if (!set(x, y)) continue;
-            forNeighbours(x, y, [&](int nx, int ny) {
+            forNeighbours(x, y, r, [&](int nx, int ny) {
                 if (result.contains(nx, ny) && within.scored(nx, ny)) result(nx, ny) = 1;
             });
         }
@@ -66,11 +65,11 @@ Image<std::uint8_t> dilated(const Image<std::uint8_t>& set, const Mask& within) 
     return result;
 }
 
-Image<std::uint8_t> eroded(const Image<std::uint8_t>& set) {
+Image<std::uint8_t> eroded(const Image<std::uint8_t>& set, int r) {
     Image<std::uint8_t> result = set;
     for (int y = 0; y < set.height(); ++y) {
         for (int x = 0; x < set.width(); ++x) {
-            forNeighbours(x, y, [&](int nx, int ny) {
+            forNeighbours(x, y, r, [&](int nx, int ny) {
                 if (!set.contains(nx, ny) || !set(nx, ny)) result(x, y) = 0;
             });
         }
@@ -94,8 +93,8 @@ Image<std::uint8_t> penumbraOf(const ScoredFrame& frame) {
 }
 
 /// Dark pixels away from any that is not.
-Image<std::uint8_t> umbraOf(const ScoredFrame& frame) {
-    return eroded(select(frame.truth, frame.mask, [](float exact) { return exact == 0; }));
+Image<std::uint8_t> umbraOf(const ScoredFrame& frame, const Thresholds& near = {}) {
+    return eroded(select(frame.truth, frame.mask, [](float exact) { return exact == 0; }), near.neighbourhood);
 }
 
 /// The grey of a picture in which 0.3 of full light is ambient.
@@ -121,15 +120,19 @@ std::optional<double> rmse(const ScoredFrame& frame) {
 std::optional<double> bad30(const ScoredFrame& frame) { return shareAbove(frame, 30.0 / 255.0); }
 std::optional<double> bad8(const ScoredFrame& frame) { return shareAbove(frame, 8.0 / 255.0); }
 
-PenumbraErrors penumbraErrors(const ScoredFrame& frame) {
+PenumbraErrors penumbraErrors(const ScoredFrame& frame) { return penumbraErrorsBy({}, frame); }
+
+PenumbraErrors penumbraErrorsBy(const Thresholds& near, const ScoredFrame& frame) {
     requireComparable(frame);
     const Image<std::uint8_t> penumbra = penumbraOf(frame);
-    return {rmseOver(frame, penumbra), rmseOver(frame, dilated(penumbra, frame.mask))};
+    return {rmseOver(frame, penumbra), rmseOver(frame, dilated(penumbra, near.neighbourhood, frame.mask))};
 }
 
-std::optional<double> umbraLeak(const ScoredFrame& frame) {
+std::optional<double> umbraLeak(const ScoredFrame& frame) { return umbraLeakBy({}, frame); }
+
+std::optional<double> umbraLeakBy(const Thresholds& near, const ScoredFrame& frame) {
     requireComparable(frame);
-    const Image<std::uint8_t> pixels = umbraOf(frame);
+    const Image<std::uint8_t> pixels = umbraOf(frame, near);
     const std::size_t n = count(pixels);
     if (n == 0) return {};
     double sum = 0;

@@ -1,5 +1,6 @@
 // Accuracy on images with known answers.
 #include "base/error.h"
+#include "harness/metrics/thresholds.h"
 #include "tests/support/metrics_images.h"
 
 #include <gtest/gtest.h>
@@ -253,6 +254,39 @@ TEST(EdgeError, IsMeasuredFromTheExactEdgeToo) {
     const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
     ASSERT_TRUE(error);
     EXPECT_NEAR(error->missing, 0.25, 0.05); // 8 of the 16 rows lie more than 8 pixels away
+}
+
+TEST(Thresholds, MoveWhatIsMissingAnIslandOnAnEdgeAndNearAPenumbra) {
+    const Reference truth = vertical.truth(size, size);
+    const Image<float> half = imageOf(size, size, [](glm::dvec2 p) { return p.y < 16 ? vertical.hard(p) : 1; });
+    const auto missing = [&](double pixels) {
+        return metrics::edgeErrorBy({.missingEdge = pixels}, {half, truth, everything(truth)})->missing;
+    };
+    EXPECT_EQ(missing(8), metrics::edgeError({half, truth, everything(truth)})->missing);
+    EXPECT_NEAR(missing(4), 12.0 / 32, 1e-12); // of the 16 rows without an edge
+    EXPECT_EQ(missing(16), 0);
+
+    Image<float> acne = truth.visibility;
+    acne(19, 5) = 0; // its centre lies 3.5 pixels from the edge
+    const auto islands = [&](double pixels) {
+        return metrics::edgeErrorBy({.island = pixels}, {acne, truth, everything(truth)})->islands;
+    };
+    EXPECT_EQ(islands(2), 1);
+    EXPECT_EQ(islands(4), 0);
+    const auto offEdge = [&](double pixels) {
+        return *metrics::labelErrorsBy({.edgePixel = pixels}, {acne, truth, everything(truth)}).mismatchOffEdge;
+    };
+    EXPECT_GT(offEdge(3), 0);
+    EXPECT_EQ(offEdge(4), 0);
+
+    const Reference soft = truthOf(size, size, [](glm::dvec2 p) { return vertical.ramp(p, 4); });
+    Image<float> beside = soft.visibility;
+    for (int y = 0; y < size; ++y) beside(10, y) += 0.5F; // 4 columns from the penumbra's first
+    const metrics::ScoredFrame frame{beside, soft, everything(soft)};
+    EXPECT_EQ(metrics::penumbraErrorsBy({.neighbourhood = 3}, frame).dilated, 0);
+    EXPECT_GT(*metrics::penumbraErrorsBy({.neighbourhood = 4}, frame).dilated, 0);
+    EXPECT_GT(*metrics::umbraLeakBy({.neighbourhood = 3}, frame), 0);
+    EXPECT_EQ(metrics::umbraLeakBy({.neighbourhood = 4}, frame), 0);
 }
 
 TEST(EdgeError, IgnoresBordersBetweenSurfaces) {
