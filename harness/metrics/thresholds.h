@@ -1,4 +1,4 @@
-// What scores take for near, so that a benchmark can ask what rankings owe to it (benchmarks/rankings).
+// What scores take for near, so that a benchmark can ask what rankings owe to it (benchmarks/rankings.cpp).
 #pragma once
 
 #include "harness/metrics/scores.h"

@@ -5,15 +5,15 @@
 // 3. the image is convolved with that of the light, which is as large as the light appears from the receiver through the
 //    cluster's plane; what is left of the light is combined from all clusters.
 // Exact where light, blockers and receivers lie in parallel planes. As the source admits, a polygon that is elongated in the
-// light's direction cannot be broken down: it has the penumbra of its middle all along, and where it goes on below the ground
-// that it stands on, the ground has a dark line along its foot. No shadow falls within a cluster;
-// one that holds any part of a surface casts none on it, so that no surface shades itself. How clusters are combined the
-// dissertation does not say. Here those of one range of depth, parts of a surface mostly, hide different parts of the light,
-// so that what they hide is added; ranges that lie one behind the other are independent, and visibility is the product of
-// theirs. Where they are neither, the shadow of the union is not theirs: too dark. Departures: the light's image is a box,
-// so that summed areas convolve with one of any size (the paper takes Fourier transforms); the receiver's plane is the one
-// through the receiver's own point, as a size of its own costs nothing then (the paper has one for each receiver); the
-// paper's blockers and receivers are told apart by hand, here by their bounding boxes (shared/casters/blockers.h).
+// light's direction cannot be broken down: it has the penumbra of its middle all along, and where it goes on below the
+// ground that it stands on, the ground has a dark line along its foot. No shadow falls within a cluster; one that holds any
+// part of a surface casts none on it, so that no surface shades itself. How clusters are combined the dissertation does not
+// say. Here those of one range of depth, parts of a surface mostly, hide different parts of the light, so that what they
+// hide is added; ranges that lie one behind the other are independent, and visibility is the product of theirs. Where they
+// are neither, the shadow of the union is not theirs: too dark. Departures: the light's image is a box, so that summed areas
+// convolve with one of any size (the paper takes Fourier transforms); the receiver's plane is the one through the receiver's
+// own point, as a size of its own costs nothing then (the paper has one for each receiver); the paper's blockers and
+// receivers are told apart by hand, here by their bounding boxes (shared/casters/blockers.h).
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/casters/blockers.h"
