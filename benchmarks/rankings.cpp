@@ -170,7 +170,8 @@ class Rankings {
 public:
     Rankings(const std::string& id, const groundtruth::Cache& cache)
         : scene_(loadScene(id, Profile::Gate)), graded_(gradedTruth(scene_)), here_(scene_, cache),
-          large_(still(loadScene(id, Profile::Standard)), cache), questions_(questionsOf(graded_)) {
+          double_(twiceTheSize(scene_), cache), standard_(still(loadScene(id, Profile::Standard)), cache),
+          questions_(questionsOf(graded_)) {
         for (Scene& view : otherViews(scene_, views))
             views_.push_back(std::make_unique<ChangedScene>(std::move(view), cache));
         for (const Question& question : questions_) byThreshold_.push_back({question.metric, question.change});
@@ -185,14 +186,15 @@ public:
             const ScoredFrame frame{v, frames.truth(questions_[i].truth), frames.mask(questions_[i].truth)};
             byThreshold_[i].add(variant.name, questions_[i].published(frame), questions_[i].changed(frame));
         }
-        bySize_.add(variant.name, own, scoredError(large_.frames(), variant, firstSeed, graded_));
+        bySize_.add(variant.name, own, scoredError(double_.frames(), variant, firstSeed, graded_));
+        byProfile_.add(variant.name, own, scoredError(standard_.frames(), variant, firstSeed, graded_));
         bySeed_.add(variant.name, own, overSeeds(variant, own, v));
         if (!variant.entry->temporal) byView_.add(variant.name, own, overViews(variant, own));
     }
 
     void print() const {
         for (const Ranking& ranking : byThreshold_) shadowbench::print(scene_.id, ranking);
-        for (const Ranking* ranking : {&bySize_, &bySeed_, &byView_}) {
+        for (const Ranking* ranking : {&bySize_, &byProfile_, &bySeed_, &byView_}) {
             Ranking named = *ranking;
             named.metric = graded_ == Truth::Hard ? "mismatch" : "rmse";
             shadowbench::print(scene_.id, named);
@@ -203,6 +205,11 @@ private:
     static Scene still(Scene scene) {
         scene.timeline.moving = 0;
         return scene;
+    }
+
+    static Scene twiceTheSize(Scene scene) {
+        scene.size *= 2;
+        return still(std::move(scene));
     }
 
     std::optional<double> overSeeds(const techniques::Variant& variant, std::optional<double> own, const Image<float>& v) {
@@ -226,11 +233,12 @@ private:
 
     Scene scene_;
     Truth graded_;
-    ChangedScene here_, large_;
+    ChangedScene here_, double_, standard_;
     std::vector<std::unique_ptr<ChangedScene>> views_ = {};
     std::vector<Question> questions_;
     std::vector<Ranking> byThreshold_ = {};
-    Ranking bySize_{"", "256² → 512²"}, bySeed_{"", "one seed → 8"}, byView_{"", "one view → 5"};
+    Ranking bySize_{"", "256² → 512²"}, byProfile_{"", "gate → standard profile"}, bySeed_{"", "one seed → 8"},
+        byView_{"", "one view → 5"};
 };
 
 struct Options {
