@@ -162,7 +162,7 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     if (images.wantsFlicker) images.flicker = scores.flickerMaps();
 
     frames.show(scored);
-    timing::settle(stage, sequence);
+    if (scene.timeline.moving > 0) timing::settle(stage, sequence); // else the last frame showed the same
     timing::measureWork(stage, sequence, record);
     if (variant.entry->temporal) timing::measureMotionWork(stage, casters, sequence, record);
     timing::keepChangedPasses(record);
