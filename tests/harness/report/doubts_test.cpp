@@ -54,8 +54,12 @@ TEST(Doubts, HasNoRowThatWasNotScored) {
 TEST(PublishedRecords, HaveNoUnexplainedDoubt) {
     for (const char* set : {"published", "failures"}) {
         const auto file = std::filesystem::path(SOURCE_FOLDER) / "results" / set / "results.jsonl";
-        for (const Record& record : readRecords(file))
+        for (const Record& record : readRecords(file)) {
             EXPECT_EQ(unexplainedDoubts(record), "") << record.variant << " on " << record.scene << " in " << file;
+            if (!wasScored(record.status) || isLevelOfDetail(record)) continue;
+            for (const char* path : {"sanity.times_none", "sanity.image_step"})
+                EXPECT_TRUE(record.values[path]) << path << " of " << record.variant << " on " << record.scene;
+        }
     }
 }
 
