@@ -58,7 +58,8 @@ TEST(PublishedRecords, HaveNoUnexplainedDoubt) {
             EXPECT_EQ(unexplainedDoubts(record), "") << record.variant << " on " << record.scene << " in " << file;
             if (!wasScored(record.status) || isLevelOfDetail(record)) continue;
             for (const char* path : {"sanity.times_none", "sanity.image_step"})
-                EXPECT_TRUE(record.values[*metrics::metricAt(path)]) << path << " of " << record.variant << " on " << record.scene;
+                EXPECT_TRUE(record.values[*metrics::metricAt(path)])
+                    << path << " of " << record.variant << " on " << record.scene;
         }
     }
 }
