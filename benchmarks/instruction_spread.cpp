@@ -36,7 +36,7 @@ Alarms alarmsBetween(const std::vector<std::vector<Record>>& runs) {
     Alarms total;
     for (std::size_t head = 1; head < runs.size(); ++head)
         for (std::size_t base = 0; base < head; ++base)
-            for (const gate::Change& change : gate::compare(runs[base], runs[head])) {
+            for (const gate::Change& change : gate::compare(runs[base], runs[head]).changes) {
                 if (change.changeClass != gate::Class::Instructions) continue;
                 ++total.evaluations;
                 if (change.direction != gate::Direction::Same) ++total.alarms;

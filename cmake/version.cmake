@@ -38,7 +38,7 @@ foreach(file CMakeLists.txt results/reference/lock.json)
   endif()
 endforeach()
 digest_of(program "${COMPILER}${beside}" base scene techniques groundtruth harness cmake)
-digest_of(metric_code "" harness/cells harness/metrics harness/render)
+digest_of(metric_code "" harness/cells harness/measure harness/metrics harness/records harness/render)
 
 file(WRITE ${OUT}/embedded_commit.h.new "#pragma once\n\nnamespace shadowbench::embedded {\n\n"
      "inline constexpr const char* version = \"${VERSION}\";\n"

@@ -24,13 +24,13 @@ std::vector<Record> recordsAt(const std::filesystem::path& place) {
 ExitCode compareAndPrint(const CompareOptions& options) {
     const std::vector<Record> base = recordsAt(options.base), head = recordsAt(options.head);
     if (const auto why = gate::whyMeaningless(base, head, options.aa)) throw Inconclusive(*why);
-    const std::vector<gate::Change> changes = gate::compare(base, head);
-    fmt::print("{}", gate::changesReport(changes, options.format));
+    const gate::Comparison compared = gate::compare(base, head);
+    fmt::print("{}", gate::changesReport(compared, options.format));
     if (!options.aa && gate::sameProgram(base, head)) fmt::print("both commits make the same program\n");
-    if (options.annotations) fmt::print("{}", gate::annotations(changes));
-    if (!options.junit.empty()) writeFile(options.junit, gate::junit(changes));
-    if (!options.summary.empty()) writeFile(options.summary, gate::changesReport(changes, "md"));
-    return gate::verdictOf(changes);
+    if (options.annotations) fmt::print("{}", gate::annotations(compared.changes));
+    if (!options.junit.empty()) writeFile(options.junit, gate::junit(compared.changes));
+    if (!options.summary.empty()) writeFile(options.summary, gate::changesReport(compared, "md"));
+    return gate::verdictOf(compared.changes);
 }
 
 } // namespace
@@ -40,8 +40,8 @@ void addCompare(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("compare", "Compares two sets of records: what changed, with a verdict");
     verb->footer(
         "Example:\n  shadowbench compare results/published results/latest --summary changes.md\n"
-        "Exits with 4 when accuracy or stability is worse, with 3 when only cost is, and with 5 when something could "
-        "not be\ncompared, nothing is in both, or both are of one program.");
+        "Exits with 5 when something could not be compared, such as a result that one side lacks or that failed, or when "
+        "both are\nof one program; else with 4 when accuracy or stability is worse, and with 3 when only cost is.");
     verb->add_option("base", options->base, "Records to compare with: a file, or the folder of a run")->required();
     verb->add_option("head", options->head, "Records to judge")->required();
     verb->add_option("--format", options->format, "text or md")->check(CLI::IsMember({"text", "md"}))->capture_default_str();

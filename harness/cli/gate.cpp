@@ -28,7 +28,7 @@ ExitCode gateAndPrint(const gate::GateOptions& options, const GateFiles& files) 
     const gate::GateResult result = gate::gate(options);
     const std::filesystem::path page = options.out / "gate.md";
     writeFile(page, gate::gateReport(result, options, "md"));
-    if (!files.summary.empty()) writeFile(files.summary, gate::gateReport(result, options, "md"));
+    if (!files.summary.empty()) writeFile(files.summary, gate::gateComment(result, options));
     if (!files.junit.empty()) writeFile(files.junit, gate::junit(result.changes, result.unjudged));
     fmt::print("{}page: {}\n", gate::gateReport(result, options, "text"), page.string());
     fmt::print("for browsers: {}\n", site::writeGateSite(result, options).string());
@@ -62,11 +62,11 @@ void addGate(CLI::App& app, Action& action) {
         "  shadowbench gate --base ../main/build/release --technique 'sm-*' --scene windmills --cost none\n"
         "  shadowbench gate --base results/published/results.jsonl\n"
         "  shadowbench gate --base engine-before/results.jsonl --technique 'external:*' --external engine.toml --cost none\n"
-        "Exits with 0 when nothing is worse, 3 when only cost is, 4 when accuracy or stability is, and 5 when "
-        "something could\n"
-        "not be judged, or base and head are one program. The stricter of both sides' policies judges. A killed gate "
-        "goes on\n"
-        "where it was; what was measured of a build is not measured again.");
+        "Exits with 5 when something could not be judged or base and head are one program, else with 4 when accuracy or "
+        "stability\nis worse, 3 when only cost is, and 0 when nothing is. The stricter of both sides' policies judges. "
+        "A killed gate goes on\nwhere it was; what was measured of a build is not measured again. The head's records are "
+        "left "
+        "in --out: as the --base of\nlater gates they accept what this one found.");
     verb->add_option("--base", options->base,
                      "A build folder or program, a git revision (built once and kept), or records (then no time is judged)");
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
@@ -87,7 +87,8 @@ void addGate(CLI::App& app, Action& action) {
     addSeedOption(*verb, options->seed);
     addGlOption(*verb);
     verb->add_option("--junit", files->junit, "Write the verdicts as JUnit XML");
-    verb->add_option("--summary", files->summary, "Write the page there, too (a CI host's summary file)");
+    verb->add_option("--summary", files->summary,
+                     "Write the verdict and the worst there, in 40 lines of Markdown at most (a comment)");
     verb->add_flag("--annotations", files->annotations, "Print what is worse as CI annotations, too");
     verb->add_flag("--aa", options->aa, "Base and head are one program, on purpose: does the gate stay silent?");
     verb->add_flag("--quiet", options->quiet, "No progress");

@@ -106,15 +106,22 @@ Baseline findBaseline(const std::string& text, const fs::path& cache, const Prog
     if (text.empty())
         throw Inconclusive(
             "the gate has nothing to compare with; name a build folder, a git revision or records with --base");
-    if (const auto base = baselineAt(text, text)) return *base;
     const fs::path here = fs::current_path();
     const std::string repository = firstLine(git(here, {"rev-parse", "--show-toplevel"}));
     const std::string commit = firstLine(git(here, {"rev-parse", "--verify", "--quiet", text + "^{commit}"}));
-    if (repository.empty() || commit.empty())
+    const bool isRevision = !repository.empty() && !commit.empty();
+    if (const auto base = baselineAt(text, text)) {
+        if (isRevision)
+            throw BadInput(fmt::format("the base \"{0}\" is a git revision and a path here; for the path say ./{0}", text));
+        return *base;
+    }
+    if (!isRevision) {
+        const bool shallow = firstLine(git(here, {"rev-parse", "--is-shallow-repository"})) == "true";
         throw Inconclusive(
-            fmt::format("the base \"{}\" is no build folder, no records and no git revision here; name one of "
-                        "them with --base",
-                        text));
+            fmt::format("the base \"{}\" is no build folder, no records and no git revision here; {}", text,
+                        shallow ? "this clone is shallow: fetch the whole history (git fetch --unshallow, fetch-depth: 0)"
+                                : "name one of them with --base"));
+    }
     const fs::path program = fs::absolute(cache) / "programs" / (commit + "-" + compilerHash()) / "shadowbench";
     if (!isProgram(program)) {
         const FolderLock alone(program.parent_path(), [&] { progress(0, "waiting for another gate that builds it"); });

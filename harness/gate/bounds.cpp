@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace shadowbench::gate {
 namespace {
@@ -20,8 +21,24 @@ Change judged(const Record& record, const Bound& bound) {
         bound.value,
         value,
         0,
-        kept ? Direction::Same : Direction::Worse,
+        !value ? Direction::Unjudged
+        : kept ? Direction::Same
+               : Direction::Worse,
         fmt::format("{} on {}: {} {} and {}: {}", record.variant, record.scene, bound.metric, is, what, bound.cells.reason)};
+}
+
+/// A bound that no scored record of its scene is of.
+Change vacuous(const Bound& bound) {
+    const std::string techniques = fmt::format("{}", fmt::join(bound.cells.techniques, ", "));
+    return {bound.cells.scene,
+            techniques,
+            "bound." + bound.metric,
+            *metrics::boundedMetric(bound.metric)->about,
+            bound.value,
+            {},
+            0,
+            Direction::Unjudged,
+            fmt::format("{} on {}: the bound on {} met no result", techniques, bound.cells.scene, bound.metric)};
 }
 
 /// The gate measures nothing that is measured on demand alone.
@@ -41,14 +58,19 @@ std::vector<Bound> boundsOf(const Scene& scene) {
     return bounds;
 }
 
-std::vector<Change> judgeBounds(const std::vector<Record>& records, const std::vector<Bound>& bounds) {
+std::vector<Change> judgeBounds(const std::vector<Record>& records, const std::vector<Bound>& bounds, bool all) {
     std::vector<Change> changes;
+    std::vector<bool> met(bounds.size(), false);
     for (const Record& record : records) {
         if (!wasScored(record.status) || record.sweep) continue;
-        for (const Bound& bound : bounds)
-            if (bound.cells.scene == record.scene && bound.cells.covers(record.variant))
-                changes.push_back(judged(record, bound));
+        for (std::size_t i = 0; i < bounds.size(); ++i) {
+            if (bounds[i].cells.scene != record.scene || !bounds[i].cells.covers(record.variant)) continue;
+            met[i] = true;
+            changes.push_back(judged(record, bounds[i]));
+        }
     }
+    for (std::size_t i = 0; all && i < bounds.size(); ++i)
+        if (!met[i]) changes.push_back(vacuous(bounds[i]));
     return changes;
 }
 

@@ -11,8 +11,9 @@ namespace shadowbench::gate {
 /// A scene's `[expect]` as bounds.
 std::vector<Bound> boundsOf(const Scene& scene);
 
-/// One change for every bound and record that it covers: Worse when the bound is broken. An expected failure that has
-/// stopped failing is broken, too; a metric that the record lacks as well.
-std::vector<Change> judgeBounds(const std::vector<Record>& records, const std::vector<Bound>& bounds);
+/// One change for every bound and record that it covers, whatever its seed: Worse when the bound is broken. An expected
+/// failure that has stopped failing is broken, too. Unjudged is a metric that the record lacks and, where `all` cells were
+/// measured, a bound that covers none.
+std::vector<Change> judgeBounds(const std::vector<Record>& records, const std::vector<Bound>& bounds, bool all = false);
 
 } // namespace shadowbench::gate

@@ -3,19 +3,21 @@
 #include "base/progress_line.h"
 #include "groundtruth/store/cache.h"
 #include "harness/cells/environment.h"
-#include "harness/gate/anchor.h"
 #include "harness/gate/baseline.h"
 #include "harness/gate/bounds.h"
 #include "harness/gate/failure_pictures.h"
 #include "harness/gate/judged_cells.h"
 #include "harness/gate/verdict.h"
+#include "harness/gate/waivers.h"
 #include "harness/measure/callgrind.h"
 #include "scene/load/load.h"
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <set>
+#include <fmt/ranges.h>
 
 namespace shadowbench::gate {
 namespace {
@@ -76,12 +78,11 @@ private:
         if (options_.time) result_.notes.emplace_back("time is not judged: the base is a file of records, not a program");
         if (options_.instructions && !counted)
             result_.notes.emplace_back("instructions are not judged: the base's records hold none");
-        const bool instructions = options_.instructions && counted;
-        std::vector<Record> now = measure(head, "head", instructions);
+        leaveOutWhatNoRecordIsOf(before);
+        std::vector<Record> now = measure(head, "head", options_.instructions && counted, &before);
         std::ranges::move(measureSteps(head, "head", cells_.externalSteps()), std::back_inserter(now));
-        judgeRecords(before, now, cells_.steps(head, instructions));
+        judgeRecords(before, now, nullptr);
         if (const auto why = whyMeaningless(before, now, options_.aa)) result_.unjudged.push_back(*why);
-        judgeAgainstAnchors(now);
         addPictures(nullptr, head);
     }
 
@@ -91,11 +92,27 @@ private:
         noteUnknownScenes();
         const std::vector<Record> before = measure(base, "base", options_.instructions);
         const std::vector<Record> now = measure(head, "head", options_.instructions);
-        judgeRecords(before, now, cells_.steps(head, options_.instructions));
+        judgeRecords(before, now, &base);
         if (const auto why = whyMeaningless(before, now, true)) result_.unjudged.push_back(*why);
-        judgeAgainstAnchors(now);
         if (options_.time) judgeTimes(base, head);
         addPictures(&base, head);
+    }
+
+    /// Of what is judged beside the standard scenes, records as a base may hold nothing: a run makes none of it.
+    void leaveOutWhatNoRecordIsOf(const std::vector<Record>& before) {
+        std::vector<std::string> left;
+        std::erase_if(cells_.scenes, [&](const JudgedScene& scene) {
+            const bool out =
+                scene.isBeside && std::ranges::none_of(before, [&](const Record& r) { return r.scene == scene.id; });
+            if (out) left.push_back(scene.id);
+            return out;
+        });
+        if (std::ranges::none_of(before, [](const Record& r) { return r.sweep.has_value(); }) &&
+            !cells_.policy.watchlist.sweeps.empty())
+            left.emplace_back("break points");
+        if (!left.empty())
+            result_.notes.push_back(
+                fmt::format("not judged, for the base's records hold nothing of them: {}", fmt::join(left, ", ")));
     }
 
     /// One program is never worse than itself: of one commit that is a mistake, of two it is all there is to say.
@@ -110,8 +127,7 @@ private:
                             "or say --aa if that is meant",
                             result_.head));
         const Policy judged = readPolicy(options_.bounds, Profile::Gate);
-        if (!sentencesOf(loosened(before->policy, judged)).empty() || !sentencesOf(loosened(judged, before->policy)).empty())
-            return false;
+        if (!loosened(before->policy, judged).empty() || !loosened(judged, before->policy).empty()) return false;
         result_.notes.push_back(
             fmt::format("commits {} and {} make the same program with the same policy: nothing was measured",
                         before->commit.substr(0, 12), now->commit.substr(0, 12)));
@@ -126,12 +142,21 @@ private:
             result_.notes.emplace_back("the base was built before programs said what they judge: this build's policy alone "
                                        "judges");
         cells_ = JudgedCells(options_, policy, base.variants());
-        std::ranges::copy(cells_.loosened, std::back_inserter(result_.notes));
-        std::ranges::copy(cells_.gone, std::back_inserter(result_.unjudged));
+        result_.loosened = cells_.loosened;
+        result_.changes = cells_.gone;
     }
 
-    std::vector<Record> measure(const MeasuredProgram& program, const char* who, bool instructions) {
-        return measureSteps(program, who, cells_.steps(program, instructions));
+    /// `only`: what these records are of, by scene, seed and whether it is a sweep.
+    std::vector<Record> measure(const MeasuredProgram& program, const char* who, bool instructions,
+                                const std::vector<Record>* only = nullptr) {
+        std::vector<Step> steps = cells_.steps(program, instructions);
+        if (only != nullptr)
+            std::erase_if(steps, [&](const Step& step) {
+                return (step.isSweep() || step.seed != options_.seed) && std::ranges::none_of(*only, [&](const Record& r) {
+                           return r.scene == step.scene && r.seed == step.seed && r.sweep.has_value() == step.isSweep();
+                       });
+            });
+        return measureSteps(program, who, steps);
     }
 
     std::vector<Record> measureSteps(const MeasuredProgram& program, const char* who, const std::vector<Step>& steps) {
@@ -142,62 +167,26 @@ private:
         return std::move(measured.records);
     }
 
-    void judgeRecords(const std::vector<Record>& before, const std::vector<Record>& now, const std::vector<Step>& steps) {
-        result_.changes = compare(before, now);
-        std::vector<Bound> bounds = cells_.watchlist.bounds;
+    void judgeRecords(const std::vector<Record>& before, const std::vector<Record>& now, const MeasuredProgram* base) {
+        Comparison compared = compare(before, now, cells_.policy.rules, cells_.expected(base));
+        result_.presence = std::move(compared.presence);
+        std::ranges::move(compared.changes, std::back_inserter(result_.changes));
+        std::vector<Bound> bounds = cells_.policy.watchlist.bounds;
         if (options_.profile == Profile::Gate) // what scenes expect, they expect of this profile; those of others are known
             for (const JudgedScene& scene : cells_.scenes)
                 if (!scene.content.empty())
                     std::ranges::move(boundsOf(loadScene(scene.argument, options_.profile)), std::back_inserter(bounds));
-        std::vector<Record> ofSeed = now;
-        std::erase_if(ofSeed, [&](const Record& r) { return r.seed != options_.seed; });
-        for (Change& change : judgeBounds(ofSeed, bounds)) result_.changes.push_back(std::move(change));
-        requireEveryCell(before, now, steps);
-    }
-
-    /// Every cell that was to be measured has a record that can be judged, and the base holds some of them.
-    void requireEveryCell(const std::vector<Record>& before, const std::vector<Record>& now,
-                          const std::vector<Step>& steps) {
-        for (const Record& record : now)
-            if (record.status == Status::Error)
-                result_.unjudged.push_back(fmt::format("{} on {}: {}", record.variant, record.scene, record.reason));
-        std::set<std::pair<std::string, std::string>> there;
-        for (const Record& record : now)
-            if (!record.sweep) there.emplace(record.scene, record.variant);
-        for (const JudgedScene& scene : cells_.scenes)
-            for (const std::string& variant : scene.variants)
-                if (!there.contains({scene.id, variant}))
-                    result_.unjudged.push_back(fmt::format("{} on {} was not measured", variant, scene.id));
-        if (std::ranges::any_of(steps, [](const Step& s) { return s.records == "sweep.jsonl"; }) &&
-            std::ranges::none_of(before, [](const Record& r) { return r.sweep.has_value(); }))
-            result_.notes.emplace_back("break points are not judged: the base's records hold no sweep");
-    }
-
-    /// The drift since each anchor, in units of what one commit may change.
-    void judgeAgainstAnchors(const std::vector<Record>& now) {
-        if (std::ranges::all_of(now, isExternal)) return; // of which an anchor knows nothing
-        for (const Anchor& anchor : cells_.watchlist.anchors) {
-            StageLine line("anchor", options_.quiet);
-            const Baseline found =
-                timed("building the anchor", [&] { return findBaseline(anchor.commit, cache_, line.progress()); });
-            const std::vector<Record> before =
-                found.kind == Baseline::Kind::Records
-                    ? readRecords(found.file)
-                    : measure(MeasuredProgram(found.file, cache_), "anchor", options_.instructions);
-            AnchorJudgement judgement = judgeDrift(anchor, before, now);
-            std::ranges::move(judgement.changes, std::back_inserter(result_.changes));
-            std::ranges::move(judgement.notes, std::back_inserter(result_.notes));
-            if (judgement.compared == 0)
-                result_.unjudged.push_back(
-                    fmt::format("nothing can be compared with the anchor {}: name a younger commit in {}", anchor.commit,
-                                options_.bounds.string()));
-        }
+        std::erase_if(bounds, [&](const Bound& bound) { // of scenes that this gate does not measure
+            return std::ranges::find(cells_.scenes, bound.cells.scene, &JudgedScene::id) == cells_.scenes.end();
+        });
+        std::ranges::move(judgeBounds(now, bounds, options_.techniques.empty()), std::back_inserter(result_.changes));
+        writeRecords(options_.out / "results.jsonl", now); // the base of a later gate, once this build is accepted
     }
 
     void noteUnknownScenes() {
         std::vector<std::string> known;
         for (const JudgedScene& scene : cells_.scenes) known.push_back(scene.id);
-        for (const std::string& scene : cells_.watchlist.unknownScenes(known))
+        for (const std::string& scene : cells_.policy.watchlist.unknownScenes(known))
             result_.notes.push_back(
                 fmt::format("{} names a scene \"{}\" that is not among the chosen ones", options_.bounds.string(), scene));
     }
@@ -211,6 +200,7 @@ private:
         StageLine line("time", options_.quiet);
         PairedOptions paired;
         paired.profile = options_.profile;
+        paired.rule = cells_.policy.time;
         const std::vector<TimeJudgement> judgements = timed(
             "time in pairs", [&] { return judgePairedTime(base.file(), head.file(), cells, paired, line.progress()); });
         for (const TimeJudgement& judgement : judgements) addTime(judgement, paired.rule);
@@ -220,24 +210,20 @@ private:
         const std::string scene = sceneId(judgement.cell.scene), variant = judgement.cell.variant;
         const std::string figures =
             fmt::format("{} on {}: a frame takes {:.3f} of the base's CPU time", variant, scene, judgement.ratio);
-        Change change{scene,
-                      variant,
-                      "time.ratio",
-                      Class::Time,
-                      1,
-                      judgement.ratio,
-                      rule.floor,
-                      Direction::Same,
-                      fmt::format("{}, surely more than {:.3f}", figures, judgement.lowerBound)};
+        const std::string told = fmt::format("; {:.1f} % or more would have been told", 100 * judgement.smallestTold);
+        Change change{scene,           variant,    "time.ratio",    Class::Time,   1,
+                      judgement.ratio, rule.floor, Direction::Same, figures + told};
         if (judgement.controlAlarm) {
             change.direction = Direction::Unjudged;
             change.sentence =
                 fmt::format("{}, but the base against itself differs, too: the machine is not steady enough", figures);
         } else if (judgement.verdict == TimeVerdict::Slower) {
             change.direction = Direction::Worse;
+            change.sentence = fmt::format("{}, surely more than {:.3f}", figures, judgement.lowerBound);
         } else if (judgement.verdict == TimeVerdict::Unclear) {
-            change.direction = Direction::Unclear;
-            change.sentence = fmt::format("{}, which {} rounds leave uncertain", figures, judgement.rounds);
+            const bool tells = judgement.smallestTold < rule.mustTell;
+            change.direction = tells ? Direction::Unclear : Direction::Unjudged;
+            change.sentence = fmt::format("{}, which {} rounds leave uncertain{}", figures, judgement.rounds, told);
         }
         result_.changes.push_back(std::move(change));
         if (!judgement.waits) return;
@@ -249,6 +235,8 @@ private:
     }
 
     void addPictures(const MeasuredProgram* base, const MeasuredProgram& head) {
+        const std::string today = fmt::format("{:%F}", fmt::gmtime(std::time(nullptr)));
+        std::ranges::move(waive(result_.changes, cells_.policy.watchlist.waivers, today), std::back_inserter(result_.notes));
         StageLine line("pictures of what is worse", options_.quiet);
         result_.pictures = timed("pictures of what is worse", [&] {
             return drawFailures(result_.changes, cells_, base, head, options_.out, line.progress());
@@ -266,7 +254,8 @@ private:
     /// Of a base's records: what this build measures, and what it no longer has of a scene that it judges with all
     /// techniques.
     [[nodiscard]] bool isJudged(const Record& r) const {
-        if (r.profile != name(options_.profile) || r.seed != options_.seed) return false;
+        if (r.profile != name(options_.profile) || r.seed < options_.seed || r.seed >= options_.seed + seedsOfChance)
+            return false;
         if (cells_.chooses(r.scene, r.sweep ? r.sweep->curve : r.variant)) return true;
         const std::vector<std::string> standard = standardScenes();
         return options_.techniques.empty() && options_.scenes.empty() && !r.sweep &&
@@ -285,11 +274,7 @@ private:
 
 } // namespace
 
-ExitCode GateResult::code() const {
-    const ExitCode verdict = verdictOf(changes);
-    if (verdict == ExitCode::Pass && !unjudged.empty()) return ExitCode::Inconclusive;
-    return verdict;
-}
+ExitCode GateResult::code() const { return unjudged.empty() ? verdictOf(changes) : ExitCode::Inconclusive; }
 
 GateResult gate(const GateOptions& options) {
     const auto start = Clock::now();

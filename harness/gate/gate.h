@@ -42,16 +42,16 @@ struct FailurePictures {
     std::optional<Record> headRecord, baseRecord; // of the drawing
 };
 
-struct GateResult {
-    std::string base, head; // as reports name them
-    std::vector<Change> changes;
+struct GateResult : Comparison {
+    std::string base, head;            // as reports name them
+    std::vector<std::string> loosened; // sentences: what the base judges more strictly, and what only the head waives
     std::vector<std::string> unjudged; // sentences: what could not be judged, and why
     std::vector<std::string> notes;    // sentences: what was left out on purpose, or is uncertain
     std::vector<FailurePictures> pictures;
     std::vector<StepTime> times; // of the parts, some of which ran side by side
     double seconds = 0;          // of all
 
-    /// A regression is one whatever else could not be judged; without one, anything unjudged is inconclusive.
+    /// Anything that could not be judged is inconclusive, whatever else is worse.
     [[nodiscard]] ExitCode code() const;
 };
 

@@ -1,5 +1,6 @@
 #include "harness/gate/gate_report.h"
 
+#include "base/one_line.h"
 #include "harness/gate/verdict.h"
 
 #include <algorithm>
@@ -10,19 +11,6 @@ namespace shadowbench::gate {
 namespace {
 
 constexpr std::size_t mostTimes = 5;
-
-std::string verdictText(ExitCode code) {
-    switch (code) {
-    case ExitCode::Pass:
-        return "pass";
-    case ExitCode::CostRegression:
-        return "cost regression";
-    case ExitCode::AccuracyRegression:
-        return "accuracy or stability regression";
-    default:
-        return "inconclusive";
-    }
-}
 
 /// A list under a heading; nothing when it is empty.
 std::string section(const std::string& heading, const std::vector<std::string>& lines, const std::string& format) {
@@ -95,7 +83,8 @@ std::string gateReport(const GateResult& result, const GateOptions& options, con
     std::string text =
         md ? fmt::format("## shadowbench: {}\n\nHead {}, base {}. ", verdictText(result.code()), result.head, result.base)
            : "";
-    text += changesReport(result.changes, format);
+    text += section("looser than the base", result.loosened, format);
+    text += changesReport(result, format);
     text += section("to see it again", commands(result, options, md), format);
     text += section("pictures", pictureLines(result, md), format);
     text += section("not judged", result.unjudged, format);
@@ -103,6 +92,31 @@ std::string gateReport(const GateResult& result, const GateOptions& options, con
     text +=
         section(fmt::format("slowest parts of {:.0f} s, some side by side", result.seconds), slowest(result.times), format);
     if (!md) text += fmt::format("gate: {} (head {}, base {})\n", verdictText(result.code()), result.head, result.base);
+    return text;
+}
+
+std::string gateComment(const GateResult& result, const GateOptions& options) {
+    constexpr std::size_t mostWorst = 10, mostUnjudged = 4, mostOthers = 3, mostCommands = 2; // 40 lines in all
+    std::string text = fmt::format("## shadowbench: {}\n\nHead {}, base {}. {}.\n", verdictText(result.code()), result.head,
+                                   result.base, gate::text(result.presence));
+    const auto list = [&](std::string_view heading, const std::vector<std::string>& lines, std::size_t most) {
+        if (lines.empty()) return;
+        text += fmt::format("\n{}:\n", heading);
+        for (std::size_t i = 0; i < std::min(lines.size(), most); ++i) text += fmt::format("* {}\n", onOneLine(lines[i]));
+        if (lines.size() > most) text += fmt::format("* … and {} more\n", lines.size() - most);
+    };
+    std::vector<std::string> worse, unjudged = result.unjudged, others;
+    for (const Change& change : oneACause(worstFirst(result.changes))) {
+        std::vector<std::string>& lines = change.direction == Direction::Worse      ? worse
+                                          : change.direction == Direction::Unjudged ? unjudged
+                                                                                    : others;
+        lines.push_back(fmt::format("{}: {}", name(change.direction), change.sentence));
+    }
+    list("Looser than the base", result.loosened, mostOthers);
+    list("Not judged", unjudged, mostUnjudged);
+    list("Worse", worse, mostWorst);
+    list("Unclear, waived or better", others, mostOthers);
+    list("To see it again", commands(result, options, true), mostCommands);
     return text;
 }
 

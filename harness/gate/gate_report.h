@@ -11,4 +11,7 @@ namespace shadowbench::gate {
 /// slowest parts.
 std::string gateReport(const GateResult& result, const GateOptions& options, const std::string& format);
 
+/// The same in 40 lines of Markdown at most, for a comment on a request: what is looser and the worst first.
+std::string gateComment(const GateResult& result, const GateOptions& options);
+
 } // namespace shadowbench::gate

@@ -11,7 +11,9 @@
 #include "techniques/catalog.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <set>
 
 namespace shadowbench::gate {
 namespace {
@@ -34,8 +36,12 @@ std::string truthKeys(const Scene& scene) {
 JudgedScene loadJudged(const std::string& idOrFile, Profile profile) {
     const Scene scene = loadScene(idOrFile, profile, metrics::boundedMetrics()); // to refuse it now
     const std::vector<std::string> builtin = builtinScenes();
-    if (std::ranges::find(builtin, idOrFile) != builtin.end()) return {scene.id, idOrFile, "", truthKeys(scene), {}};
-    return {scene.id, fs::absolute(idOrFile).string(), readFile(idOrFile), truthKeys(scene), {}};
+    const bool isFile = std::ranges::find(builtin, idOrFile) == builtin.end();
+    return {.id = scene.id,
+            .argument = isFile ? fs::absolute(idOrFile).string() : idOrFile,
+            .content = isFile ? readFile(idOrFile) : "",
+            .truths = truthKeys(scene),
+            .variants = {}};
 }
 
 std::vector<std::string> namesOf(const GateOptions& options) {
@@ -104,6 +110,12 @@ std::vector<std::string> arguments(const char* verb, const JudgedScene& scene, P
     return words;
 }
 
+/// What the base judges and this build cannot.
+Change goneOf(const std::string& scene, const std::string& variant, const std::string& why) {
+    const std::string what = variant == "*" ? "the scene " + scene : variant;
+    return {scene, variant, "status", Class::Status, {}, {}, 0, Direction::Unjudged, fmt::format("{}, {}", what, why)};
+}
+
 /// Whether choices are tried there: on an area light those of soft techniques only, for others do the same as elsewhere.
 bool belongsTo(const Scene& scene, const std::string& name) {
     const techniques::Variant variant = techniques::parseVariant(name);
@@ -116,33 +128,39 @@ bool belongsTo(const Scene& scene, const std::string& name) {
 JudgedCells::JudgedCells(const GateOptions& options, const std::optional<Policy>& base,
                          const std::vector<std::string>& baseVariants)
     : profile(options.profile), seed(options.seed), externalFiles_(options.externalFiles) {
-    Policy policy = policyOf(options);
+    policy = policyOf(options);
     if (base) {
-        const Policy more = gate::loosened(*base, policy);
-        loosened = sentencesOf(more);
-        add(more, policy);
+        Union both = unite(*base, policy);
+        policy = std::move(both.policy);
+        loosened = std::move(both.loosened);
     }
-    watchlist = std::move(policy.watchlist);
     const std::vector<std::string> chosen = chosenVariants(options, baseVariants);
-    const auto addScene = [&](const std::string& scene, const Watch* only) {
-        if (options.scenes.empty() && !isBuiltin(scene)) {
-            gone.push_back(fmt::format("the scene {}, which the base judges, no longer exists", scene));
-            return;
-        }
-        JudgedScene judged = loadJudged(scene, profile);
-        judged.variants = those(chosen, [&](const std::string& v) { return only == nullptr || only->covers(v); });
-        if (!judged.variants.empty()) scenes.push_back(std::move(judged));
+    const auto addCovered = [&](const std::string& scene, const Watch* only) {
+        if (options.scenes.empty() && !isBuiltin(scene))
+            return gone.push_back(goneOf(scene, "*", "which the base judges, no longer exists"));
+        addScene(scene, those(chosen, [&](const std::string& v) { return only == nullptr || only->covers(v); }),
+                 only != nullptr);
     };
-    for (const std::string& scene : options.scenes.empty() ? policy.standard : options.scenes) addScene(scene, nullptr);
+    for (const std::string& scene : options.scenes.empty() ? policy.standard : options.scenes) addCovered(scene, nullptr);
     if (options.scenes.empty()) {
-        for (const Watch& watch : watchlist.scenes) addScene(watch.scene, &watch);
+        for (const Watch& watch : policy.watchlist.scenes) addCovered(watch.scene, &watch);
         addChoices(options, chosen);
     }
     addCounted(chosen);
 }
 
+void JudgedCells::addScene(const std::string& argument, std::vector<std::string> variants, bool isBeside) {
+    if (variants.empty()) return;
+    JudgedScene judged = loadJudged(argument, profile);
+    const auto known = std::ranges::find(scenes, judged.id, &JudgedScene::id);
+    JudgedScene& scene = known == scenes.end() ? scenes.emplace_back(std::move(judged)) : *known;
+    if (known == scenes.end()) scene.isBeside = isBeside;
+    for (std::string& variant : variants)
+        if (std::ranges::find(scene.variants, variant) == scene.variants.end()) scene.variants.push_back(std::move(variant));
+}
+
 void JudgedCells::addCounted(const std::vector<std::string>& chosen) {
-    for (const Watch& watch : watchlist.counted) {
+    for (const Watch& watch : policy.watchlist.counted) {
         const auto scene = std::ranges::find(scenes, watch.scene, &JudgedScene::id);
         if (scene == scenes.end()) continue;
         for (const std::string& variant : watch.named()) {
@@ -161,7 +179,7 @@ std::vector<std::string> JudgedCells::chosenVariants(const GateOptions& options,
     for (const std::string& variant : baseVariants) {
         const std::optional<std::string> name = ownName(variant);
         if (!name) {
-            gone.push_back(fmt::format("{}, which the base shows, no longer exists, so it is not judged", variant));
+            gone.push_back(goneOf("*", variant, "which the base shows, no longer exists"));
         } else if (std::ranges::find(chosen, *name) == chosen.end()) {
             chosen.push_back(*name);
             loosened.push_back(fmt::format("{}, which the base shows, is shown no longer", *name));
@@ -171,10 +189,14 @@ std::vector<std::string> JudgedCells::chosenVariants(const GateOptions& options,
 }
 
 void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::string>& chosen) {
-    for (const Watch& watch : watchlist.choices) {
+    for (const Watch& watch : policy.watchlist.choices) {
         const std::string file = (options.bounds.parent_path() / watch.scene).string();
-        JudgedScene judged = loadJudged(file, profile);
+        if (!fs::exists(file)) {
+            gone.push_back(goneOf(watch.scene, "*", "on which the base judges choices, no longer exists"));
+            continue;
+        }
         const Scene scene = loadScene(file, profile);
+        std::vector<std::string> variants;
         const auto isChosen = [&](const std::string& id) {
             return watch.covers(id) &&
                    std::ranges::any_of(chosen, [&](const std::string& v) { return techniqueOf(v) == id; });
@@ -182,24 +204,26 @@ void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::
         for (const techniques::Entry& entry : techniques::catalog())
             if (isChosen(entry.id))
                 for (std::string& variant : pairwiseVariants(entry))
-                    if (!watch.excludes(variant) && belongsTo(scene, variant)) judged.variants.push_back(std::move(variant));
-        if (!judged.variants.empty()) scenes.push_back(std::move(judged));
+                    if (!watch.excludes(variant) && belongsTo(scene, variant)) variants.push_back(std::move(variant));
+        addScene(file, std::move(variants), true);
     }
 }
 
 void JudgedCells::addSteps(const MeasuredProgram& program, const JudgedScene& scene, bool instructions,
                            std::vector<Step>& steps) const {
     const std::vector<std::string> known = those(scene.variants, [&](const auto& v) { return program.knowsVariant(v); });
-    const auto counted = instructions ? coveredOf(watchlist.counted, scenes, scene.id, known) : std::vector<std::string>{};
+    const auto counted =
+        instructions ? coveredOf(policy.watchlist.counted, scenes, scene.id, known) : std::vector<std::string>{};
     const auto add = [&](const std::string& name, std::uint32_t with, const char* cost,
                          const std::vector<std::string>& variants) {
         if (!variants.empty())
             steps.push_back({name, arguments("run", scene, profile, with, {"--cost", cost}), variants, "results.jsonl",
-                             scene.content + scene.truths});
+                             scene.content + scene.truths, false, scene.id, with});
     };
     add(scene.id, seed, "none", those(known, [&](const auto& v) { return std::ranges::find(counted, v) == counted.end(); }));
     add(scene.id + ", instructions", seed, "instructions", counted);
-    const std::vector<std::string> byChance = those(known, [&](const auto& v) { return watchlist.isByChance(scene.id, v); });
+    const std::vector<std::string> byChance =
+        those(known, [&](const auto& v) { return policy.watchlist.isByChance(scene.id, v); });
     for (std::uint32_t other = seed + 1; other < seed + seedsOfChance; ++other)
         add(fmt::format("{}, seed {}", scene.id, other), other, "none", byChance);
 }
@@ -208,17 +232,19 @@ std::vector<Step> JudgedCells::steps(const MeasuredProgram& program, bool instru
     std::vector<Step> steps;
     for (const JudgedScene& scene : scenes)
         if (has(program, scene)) addSteps(program, scene, instructions, steps);
-    for (const WatchedSweep& sweep : watchlist.sweeps) {
+    std::set<std::array<std::string, 3>> known; // a sweep by two entries is the first's
+    for (const WatchedSweep& sweep : policy.watchlist.sweeps) {
         const auto scene = std::ranges::find(scenes, sweep.cells.scene, &JudgedScene::id);
         if (scene == scenes.end() || !has(program, *scene)) continue;
         std::vector<std::string> more{"--axis", sweep.axis};
         for (const double value : sweep.values) more.insert(more.end(), {"--values", fmt::format("{}", value)});
-        const std::vector<std::string> swept =
-            those(scene->variants, [&](const auto& v) { return program.knowsVariant(v) && sweep.cells.covers(v); });
+        const std::vector<std::string> swept = those(scene->variants, [&](const auto& v) {
+            return program.knowsVariant(v) && sweep.cells.covers(v) && known.insert({scene->id, sweep.axis, v}).second;
+        });
         if (!swept.empty())
             steps.push_back({fmt::format("{} over {}", scene->id, sweep.axis),
                              arguments("sweep", *scene, profile, seed, more), swept, "sweep.jsonl",
-                             scene->content + scene->truths});
+                             scene->content + scene->truths, false, scene->id, seed});
     }
     return steps;
 }
@@ -234,7 +260,9 @@ std::vector<Step> JudgedCells::externalSteps() const {
                              .arguments = arguments("run", scene, profile, seed, more),
                              .techniques = variants,
                              .records = "results.jsonl",
-                             .isAlwaysRun = true});
+                             .isAlwaysRun = true,
+                             .scene = scene.id,
+                             .seed = seed});
     }
     return steps;
 }
@@ -248,7 +276,7 @@ std::vector<TimedCell> JudgedCells::timedCells(const MeasuredProgram& base, cons
             return !isExternal(variant) && !techniques::parseVariant(variant).isLod() && base.knowsVariant(variant) &&
                    head.knowsVariant(variant);
         });
-        for (const std::string& variant : coveredOf(watchlist.timed, scenes, scene.id, known))
+        for (const std::string& variant : coveredOf(policy.watchlist.timed, scenes, scene.id, known))
             if (!notApplicable(loadScene(scene.argument, profile), techniques::parseVariant(variant)))
                 cells.push_back({scene.argument, variant});
     }
@@ -259,6 +287,14 @@ bool JudgedCells::chooses(const std::string& scene, const std::string& variant) 
     return std::ranges::any_of(scenes, [&](const JudgedScene& judged) {
         return judged.id == scene && std::ranges::find(judged.variants, variant) != judged.variants.end();
     });
+}
+
+std::vector<Expected> JudgedCells::expected(const MeasuredProgram* base) const {
+    std::vector<Expected> all;
+    for (const JudgedScene& scene : scenes)
+        for (const std::string& variant : scene.variants)
+            all.push_back({scene.id, variant, base != nullptr && (!has(*base, scene) || !base->knowsVariant(variant))});
+    return all;
 }
 
 } // namespace shadowbench::gate

@@ -17,14 +17,15 @@ struct JudgedScene {
     std::string content;  // of the file; empty for a built-in scene
     std::string truths;   // their keys: what a kept record was scored against must be what is scored against now
     std::vector<std::string> variants; // that are judged there, by their canonical names
+    bool isBeside = false;             // judged beside the scenes that are named or standard
 };
 
 struct JudgedCells {
-    Watchlist watchlist;
+    Policy policy;
     std::vector<JudgedScene> scenes;
     std::vector<std::string>
-        loosened;                  // sentences: what the base judges more strictly, and the base's policy now judges here
-    std::vector<std::string> gone; // sentences: what the base judges and this build cannot
+        loosened;             // sentences: what the base judges more strictly, and the base's policy now judges here
+    std::vector<Change> gone; // what the base judges and this build cannot
     Profile profile = Profile::Gate;
     std::uint32_t seed = 1;
 
@@ -47,11 +48,16 @@ struct JudgedCells {
 
     [[nodiscard]] bool chooses(const std::string& scene, const std::string& variant) const;
 
+    /// What the head must have; new is what `base` does not know. Without one, a file of records is the base.
+    [[nodiscard]] std::vector<Expected> expected(const MeasuredProgram* base) const;
+
 private:
     std::vector<std::filesystem::path> externalFiles_;
 
     [[nodiscard]] std::vector<std::string> chosenVariants(const GateOptions& options,
                                                           const std::vector<std::string>& baseVariants);
+    /// Judges these variants, too; `argument` as --scene takes it.
+    void addScene(const std::string& argument, std::vector<std::string> variants, bool isBeside);
     void addChoices(const GateOptions& options, const std::vector<std::string>& chosen);
     /// Variants that are named to be counted and shown by nobody: cheaper ones that run the code of those that are.
     void addCounted(const std::vector<std::string>& chosen);

@@ -110,6 +110,11 @@ std::string text(const Step& step) {
     return fmt::format("{}\n{}\n{}", fmt::join(step.arguments, "\n"), fmt::join(step.techniques, "\n"), step.inputs);
 }
 
+/// Whether kept records are still those whose hash was written beside them.
+bool isAsLeft(const fs::path& records, const fs::path& hash) {
+    return fs::exists(records) && hash128(readFile(records)).text() == readFile(hash);
+}
+
 } // namespace
 
 MeasuredProgram::MeasuredProgram(const fs::path& file, const fs::path& cache)
@@ -173,7 +178,7 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
         const auto i = static_cast<std::size_t>(index);
         Step step = steps[i];
         const fs::path out = records_ / hash128(text(step)).text(), done = out / "done";
-        if (step.isAlwaysRun) fs::remove_all(out);
+        if (step.isAlwaysRun || (fs::exists(done) && !isAsLeft(out / step.records, done))) fs::remove_all(out);
         if (!fs::exists(done)) {
             const auto start = Clock::now();
             if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");
@@ -181,7 +186,7 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
                 const std::scoped_lock lock(mutex);
                 progress(static_cast<double>(ended) / static_cast<double>(steps.size()), line);
             });
-            if (code == 0) writeFile(done, text(steps[i])); // one with errors is tried again
+            if (code == 0) writeFile(done, hash128(readFile(out / step.records)).text()); // one with errors is tried again
             times[i] = {step.name, std::chrono::duration<double>(Clock::now() - start).count()};
         }
         records[i] = readRecords(out / step.records);

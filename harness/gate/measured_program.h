@@ -21,6 +21,10 @@ struct Step {
     std::string records;                 // the file that it leaves in --out
     std::string inputs = {};             // content of the files that `arguments` name, and keys of truths
     bool isAlwaysRun = false;            // it depends on programs that nobody can hash: nothing of it is kept
+    std::string scene = {};              // id …
+    std::uint32_t seed = 1;              // … and seed of its records
+
+    [[nodiscard]] bool isSweep() const { return records == "sweep.jsonl"; }
 };
 
 struct StepTime {
@@ -55,8 +59,9 @@ public:
     /// The variants that it shows, in the order of its catalogue, as it lists them.
     [[nodiscard]] std::vector<std::string> variants() const;
 
-    /// Runs the steps that no earlier call has finished, on all cores, and reads the records of all steps. A
-    /// step that was killed is resumed. Throws Inconclusive when a step fails otherwise than in some of its cells.
+    /// Runs the steps that no earlier call has finished, or whose records somebody has changed since, on all cores, and
+    /// reads the records of all steps. A step that was killed is resumed. Throws Inconclusive when a step fails otherwise
+    /// than in some of its cells.
     Measured measure(const std::vector<Step>& steps, const Progress& progress) const;
 
     /// Runs one step in `out`, whatever was run before, and returns its exit code: not 0 when some of its cells failed,

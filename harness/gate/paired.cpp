@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -125,6 +126,21 @@ double slowdownLowerBound(const std::vector<RestartTimes>& restarts, double alph
         (quadeTail(restarts, middle) <= alpha ? refused : open) = middle;
     }
     return refused;
+}
+
+double smallestTold(const std::vector<RestartTimes>& restarts, const TimeRule& rule, double alpha, int most) {
+    constexpr double missed = 0.05;
+    std::vector<double> slowdowns;
+    for (const RestartTimes& times : restarts) slowdowns.push_back(times.head - (times.base + times.control) / 2);
+    const double mean = std::accumulate(slowdowns.begin(), slowdowns.end(), 0.0) / static_cast<double>(slowdowns.size());
+    double squares = 0;
+    for (const double slowdown : slowdowns) squares += (slowdown - mean) * (slowdown - mean);
+    const double deviation = std::sqrt(squares / static_cast<double>(slowdowns.size() - 1));
+    const boost::math::normal normal;
+    const auto quantile = [&](double share) { return boost::math::quantile(boost::math::complement(normal, share)); };
+    const double notPassed = quantile(missed) * deviation / std::sqrt(static_cast<double>(restarts.size()));
+    const double alarmed = (quantile(alpha) + quantile(missed)) * deviation / std::sqrt(most);
+    return std::expm1(logFloor(rule) + std::max(notPassed, alarmed));
 }
 
 TimeVerdict judgeTime(const std::vector<RestartTimes>& restarts, const TimeRule& rule, int cells, int looks) {

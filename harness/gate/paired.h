@@ -12,7 +12,8 @@ double medianLowerBound(std::vector<double> samples, double alpha);
 struct TimeRule {
     double floor = 0.01; // slowdowns up to this are never a regression: machines differ by as much from one hour to the next
     double wallFloor = 0.05; // the same of wall time, in which other processes count, too
-    double alpha = 0.01;     // of a false alarm in the whole gate, shared by all cells
+    double mustTell = 0.05;  // a cell that stays unclear is one only if a slowdown by this would have been told
+    double alpha = 0.01;     // of a false alarm in the whole gate, shared by both clocks of all cells
 };
 
 enum class TimeVerdict { Pass, Slower, Unclear };
@@ -37,6 +38,11 @@ double quadeTail(const std::vector<RestartTimes>& restarts, double logSlowdown);
 
 /// The largest logarithm of a slowdown that `quadeTail` refuses at `alpha`; −infinity when there are too few restarts.
 double slowdownLowerBound(const std::vector<RestartTimes>& restarts, double alpha);
+
+/// The least slowdown that restarts which scatter like these would have been called slower for in 95 of 100 gates: one that
+/// neither passes by chance at the looks so far nor stays unclear at the last of them, after `most` restarts, by a test at
+/// `alpha`. Times are taken as normally distributed. At least two restarts.
+double smallestTold(const std::vector<RestartTimes>& restarts, const TimeRule& rule, double alpha, int most);
 
 /// Pass: the estimate lies at or under the floor. Slower: it does not, and a slowdown by the floor alone is refused at
 /// `alpha` / `cells` / `looks`. Unclear: it is not refused. `looks`: how often the cell may be judged slower, as one

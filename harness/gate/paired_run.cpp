@@ -107,8 +107,15 @@ TimeRule ofWallTime(TimeRule rule) {
     return rule;
 }
 
+/// CPU time and wall time of each cell: α is split between them.
+int testsOf(int cells) { return 2 * cells; }
+
+TimeVerdict cpuVerdict(const std::vector<RestartTimes>& restarts, const TimeRule& rule, int cells) {
+    return judgeTime(restarts, rule, testsOf(cells), lookCount);
+}
+
 TimeVerdict wallVerdict(const PairedSamples& samples, const TimeRule& rule, int cells) {
-    return judgeTime(restartTimes(samples, &timing::FrameTime::wall), ofWallTime(rule), cells, lookCount);
+    return judgeTime(restartTimes(samples, &timing::FrameTime::wall), ofWallTime(rule), testsOf(cells), lookCount);
 }
 
 void judgeWallTime(const PairedSamples& samples, const TimeRule& rule, int cells, TimeJudgement& judgement) {
@@ -156,7 +163,7 @@ bool enough(const PairedSamples& samples, const PairedOptions& options, int cell
     const auto decided = [&](TimeVerdict verdict) {
         return verdict == TimeVerdict::Pass || (look && verdict == TimeVerdict::Slower);
     };
-    const TimeVerdict verdict = judgeTime(restartTimes(samples), options.rule, cells, lookCount);
+    const TimeVerdict verdict = cpuVerdict(restartTimes(samples), options.rule, cells);
     return decided(verdict) && (verdict == TimeVerdict::Slower || decided(wallVerdict(samples, options.rule, cells)));
 }
 
@@ -164,10 +171,11 @@ TimeJudgement judgeSamples(const TimedCell& cell, PairedSamples samples, const P
     const std::vector<RestartTimes> restarts = restartTimes(samples);
     TimeJudgement judgement;
     judgement.cell = cell;
-    judgement.verdict = judgeTime(restarts, options.rule, cells, lookCount);
+    const double alpha = options.rule.alpha / testsOf(cells) / lookCount;
+    judgement.verdict = cpuVerdict(restarts, options.rule, cells);
     judgement.ratio = std::exp(logSlowdown(restarts));
-    if (judgement.verdict == TimeVerdict::Slower)
-        judgement.lowerBound = std::exp(slowdownLowerBound(restarts, options.rule.alpha / cells / lookCount));
+    if (judgement.verdict == TimeVerdict::Slower) judgement.lowerBound = std::exp(slowdownLowerBound(restarts, alpha));
+    judgement.smallestTold = smallestTold(restarts, options.rule, alpha, looks.back() * options.restarts);
     for (const auto& rounds : samples.restarts) judgement.rounds += static_cast<int>(rounds.size());
     judgement.controlAlarm = controlAlarms(logRatios(samples, &PairedRound::control), options.rule, cells);
     judgeWallTime(samples, options.rule, cells, judgement);

@@ -50,6 +50,7 @@ struct TimeJudgement {
     double ratio = 1;                           // head's CPU time over that of base and control, estimated
     double lowerBound = 0;                      // one-sided, of `ratio`'s true value, where the head is slower
     int rounds = 0;                             // in all
+    double smallestTold = 0;                    // least slowdown, as a share, that restarts like these would have told
     bool controlAlarm = false;                  // two equal programs were measured as different: inconclusive
     double wallRatio = 1;                       // the same as `ratio`, of wall time
     bool waits = false;                         // slower by wall time, for which equal programs show no difference

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // The shape of each entry, once.
-void fields(auto&& visit, auto& watch) requires requires { watch.techniques; }
+void fields(auto&& visit, auto& watch) requires requires { watch.except; }
 {
     visit("scene", watch.scene);
     visit("techniques", watch.techniques);
@@ -40,11 +40,31 @@ void fields(auto&& visit, auto& sweep) requires requires { sweep.axis; }
     visit("axis", sweep.axis);
     visit("values", sweep.values);
 }
-void fields(auto&& visit, auto& anchor) requires requires { anchor.limit; }
+
+void fields(auto&& visit, auto& waiver) requires requires { waiver.expires; }
 {
-    visit("commit", anchor.commit);
-    visit("limit", anchor.limit);
-    visit("reason", anchor.reason);
+    visit("scene", waiver.scene);
+    visit("techniques", waiver.techniques);
+    visit("class", waiver.what);
+    visit("reason", waiver.reason);
+    visit("expires", waiver.expires);
+}
+void fields(auto&& visit, auto& limit) requires requires { limit.isNone; }
+{
+    numbers(visit, limit);
+    visit("truth", limit.truth);
+    visit("of", limit.of);
+    visit("magnitude", limit.magnitude);
+    visit("best", limit.best);
+    visit("none_is_best", limit.isNone);
+}
+// Of a time rule, larger is looser but for α.
+void fields(auto&& visit, auto& rule) requires requires { rule.wallFloor; }
+{
+    visit("floor", rule.floor);
+    visit("wall_floor", rule.wallFloor);
+    visit("must_tell", rule.mustTell);
+    visit("alpha", rule.alpha);
 }
 
 /// The lists of a watchlist, once.
@@ -56,7 +76,7 @@ void lists(auto&& visit, auto& watchlist) {
     visit("time", watchlist.timed);
     visit("seeds", watchlist.seeds);
     visit("choices", watchlist.choices);
-    visit("anchor", watchlist.anchors);
+    visit("waiver", watchlist.waivers);
 }
 
 Json policyJson(const Policy& policy) {
@@ -70,6 +90,14 @@ Json policyJson(const Policy& policy) {
             }
         },
         policy.watchlist);
+    const auto into = [](Json& object) {
+        return [&object](const char* name, const auto& member) { object[name] = member; };
+    };
+    Json& rules = json["rules"] = Json::object();
+    auto number = into(rules);
+    numbers(number, policy.rules);
+    for (const auto& [path, limit] : policy.rules.limits) fields(into(rules["limits"][path]), limit);
+    fields(into(json["time_rule"]), policy.time);
     return json;
 }
 
@@ -83,11 +111,24 @@ Policy policyFrom(const Json& json) {
                 fields([&](const char* name, auto& member) { entry.at(name).get_to(member); }, list.emplace_back());
         },
         policy.watchlist);
+    const auto from = [](const Json& object) {
+        return [&object](const char* name, auto& member) {
+            if (object.contains(name)) object.at(name).get_to(member);
+        };
+    };
+    if (json.contains("rules")) {
+        policy.rules = {};
+        auto number = from(json.at("rules"));
+        numbers(number, policy.rules);
+        for (const auto& [path, limit] : json.at("rules").at("limits").items())
+            fields(from(limit), policy.rules.limits[path]);
+    }
+    if (json.contains("time_rule")) fields(from(json.at("time_rule")), policy.time);
     return policy;
 }
 
 Policy withScenes(Watchlist watchlist, Profile profile) {
-    Policy policy{standardScenes(), std::move(watchlist)};
+    Policy policy{standardScenes(), std::move(watchlist), ownRules(), {}};
     if (profile != Profile::Gate) return policy; // what scenes expect, they expect of this profile
     for (const std::string& id : builtinScenes())
         for (Bound& bound : boundsOf(loadScene(id, profile, metrics::boundedMetrics())))
@@ -110,7 +151,6 @@ bool asStrict(const Bound& head, const Bound& base) {
 bool asStrict(const WatchedSweep& head, const WatchedSweep& base) {
     return asStrict(head.cells, base.cells) && head.axis == base.axis && head.values == base.values;
 }
-bool asStrict(const Anchor& head, const Anchor& base) { return head.commit == base.commit && head.limit <= base.limit; }
 
 template <class Entry>
 void keepLoosened(std::vector<Entry>& base, const std::vector<Entry>& head) {
@@ -124,7 +164,32 @@ std::string text(const Bound& bound) {
     return fmt::format("{}: {} {} {}", text(bound.cells), bound.metric, bound.below ? "below" : "above", bound.value);
 }
 std::string text(const WatchedSweep& sweep) { return fmt::format("{} over {}", text(sweep.cells), sweep.axis); }
-std::string text(const Anchor& anchor) { return anchor.commit; }
+std::string text(const Waiver& waiver) {
+    return fmt::format("{} of {} on {} until {}: {}", waiver.what, fmt::join(waiver.techniques, ", "), waiver.scene,
+                       waiver.expires, waiver.reason);
+}
+
+/// Entries of `base` that `head` does not have at least as strict. A waiver makes nothing stricter.
+Watchlist looserEntries(const Policy& base, const Policy& head) {
+    Watchlist before = base.watchlist;
+    const Watchlist& now = head.watchlist;
+    keepLoosened(before.scenes, now.scenes);
+    keepLoosened(before.bounds, now.bounds);
+    keepLoosened(before.sweeps, now.sweeps);
+    keepLoosened(before.counted, now.counted);
+    keepLoosened(before.timed, now.timed);
+    keepLoosened(before.seeds, now.seeds);
+    keepLoosened(before.choices, now.choices);
+    before.waivers.clear();
+    return before;
+}
+
+/// Standard scenes of the base that the head does not judge.
+std::vector<std::string> lostScenes(const Policy& base, const Policy& head) {
+    std::vector<std::string> lost = base.standard;
+    std::erase_if(lost, [&](const auto& scene) { return holdsAll(head.standard, {scene}); });
+    return lost;
+}
 
 } // namespace
 
@@ -158,47 +223,47 @@ Identity identityFrom(const std::string& text) {
     }
 }
 
-Policy loosened(const Policy& base, const Policy& head) {
-    Policy result = base;
-    std::erase_if(result.standard, [&](const auto& scene) { return holdsAll(head.standard, {scene}); });
-    const Watchlist& now = head.watchlist;
-    Watchlist& before = result.watchlist;
-    keepLoosened(before.scenes, now.scenes);
-    keepLoosened(before.bounds, now.bounds);
-    keepLoosened(before.sweeps, now.sweeps);
-    keepLoosened(before.counted, now.counted);
-    keepLoosened(before.timed, now.timed);
-    keepLoosened(before.seeds, now.seeds);
-    keepLoosened(before.choices, now.choices);
-    keepLoosened(before.anchors, now.anchors);
-    return result;
-}
-
-std::vector<std::string> sentencesOf(const Policy& loosened) {
+std::vector<std::string> loosened(const Policy& base, const Policy& head) {
     std::vector<std::string> sentences;
-    for (const std::string& scene : loosened.standard)
+    for (const std::string& scene : lostScenes(base, head))
         sentences.push_back(fmt::format("the base's standard scene {} is none of this build's", scene));
+    const Watchlist looser = looserEntries(base, head);
     lists(
         [&](const char* key, const auto& list) {
             for (const auto& entry : list)
                 sentences.push_back(fmt::format("the base's [{}] {} is gone or looser here", key, text(entry)));
         },
-        loosened.watchlist);
+        looser);
+    for (std::string& sentence : loosened(base.rules, head.rules)) sentences.push_back(std::move(sentence));
+    const TimeRule &was = base.time, &is = head.time;
+    if (is.floor > was.floor || is.wallFloor > was.wallFloor || is.mustTell > was.mustTell || is.alpha < was.alpha)
+        sentences.emplace_back("the rule of times is looser than the base's");
+    for (const Waiver& waiver : head.watchlist.waivers)
+        if (std::ranges::find(base.watchlist.waivers, text(waiver), [](const Waiver& w) { return text(w); }) ==
+            base.watchlist.waivers.end())
+            sentences.push_back("this build accepts, and its base does not, " + text(waiver));
     return sentences;
 }
 
-void add(const Policy& more, Policy& policy) {
+Union unite(const Policy& base, const Policy& head) {
+    Union result{head, loosened(base, head)};
     const auto join = [](auto& all, const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
-    join(policy.standard, more.standard);
-    Watchlist& all = policy.watchlist;
-    const Watchlist& some = more.watchlist;
+    join(result.policy.standard, lostScenes(base, head));
+    Watchlist& all = result.policy.watchlist;
+    const Watchlist some = looserEntries(base, head);
     join(all.scenes, some.scenes);
-    for (const Bound& bound : some.bounds)
-        if (metrics::boundedMetric(bound.metric) != nullptr) all.bounds.push_back(bound);
-    join(all.sweeps, some.sweeps);
+    all.sweeps.insert(all.sweeps.begin(), some.sweeps.begin(), some.sweeps.end()); // the first of an axis decides its values
     join(all.counted, some.counted);
     join(all.timed, some.timed);
     join(all.seeds, some.seeds);
+    join(all.choices, some.choices);
+    for (const Bound& bound : some.bounds)
+        if (metrics::boundedMetric(bound.metric) != nullptr) all.bounds.push_back(bound);
+    result.policy.rules = stricter(base.rules, head.rules);
+    const TimeRule &was = base.time, &is = head.time;
+    result.policy.time = {std::min(was.floor, is.floor), std::min(was.wallFloor, is.wallFloor),
+                          std::min(was.mustTell, is.mustTell), std::max(was.alpha, is.alpha)};
+    return result;
 }
 
 } // namespace shadowbench::gate

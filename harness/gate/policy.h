@@ -1,7 +1,9 @@
 // What a program judges, as it says so itself: a gate judges by the stricter of its base's policy and its own.
 #pragma once
 
+#include "harness/gate/paired.h"
 #include "harness/gate/watchlist.h"
+#include "harness/records/rules.h"
 
 #include <filesystem>
 #include <string>
@@ -12,6 +14,8 @@ namespace shadowbench::gate {
 struct Policy {
     std::vector<std::string> standard; // scenes that are judged with all techniques
     Watchlist watchlist;               // with what the built-in scenes expect among its bounds, for the gate's profile
+    Rules rules = ownRules();          // those of older programs, which do not state them, are this build's
+    TimeRule time = {};
 };
 
 /// The policy of a file of bounds, with this build's scenes. Throws what reading it throws.
@@ -33,14 +37,17 @@ Identity ownIdentity();
 std::string toJson(const Identity& identity);
 Identity identityFrom(const std::string& json);
 
-/// Entries of `base` that `head` does not have at least as strict: with the same scene, at least the same techniques, and,
-/// for a bound, the same metric with a value that is as hard to keep.
-Policy loosened(const Policy& base, const Policy& head);
+/// What makes `head` judge at least as strictly as `base`: entries of the base that the head does not have with the same
+/// scene, at least the same techniques and, for a bound, the same metric with a value that is as hard to keep; and the
+/// stricter of each number.
+struct Union {
+    Policy policy;
+    std::vector<std::string> loosened; // a sentence for each entry or number of the base that is gone or looser in the head,
+                                       // and for each waiver that the head alone has
+};
+Union unite(const Policy& base, const Policy& head);
 
-/// One sentence for each entry of such a policy.
-std::vector<std::string> sentencesOf(const Policy& loosened);
-
-/// Adds the entries of `more` whose metrics this build has to `policy`.
-void add(const Policy& more, Policy& policy);
+/// The sentences alone: none where `head` is as strict as `base`.
+std::vector<std::string> loosened(const Policy& base, const Policy& head);
 
 } // namespace shadowbench::gate

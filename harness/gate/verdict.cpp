@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace shadowbench::gate {
@@ -14,42 +18,73 @@ bool isCost(const Change& change) {
            change.changeClass == Class::Time;
 }
 
+/// In the order of reports; the rest is the same.
+constexpr std::array directions{Direction::Worse, Direction::Unjudged, Direction::Unclear, Direction::Waived,
+                                Direction::Better};
+
 bool isWorse(const Change& change) { return change.direction == Direction::Worse; }
 
 std::ptrdiff_t count(const std::vector<Change>& changes, Direction direction) {
     return std::ranges::count(changes, direction, &Change::direction);
 }
 
-std::string totals(const std::vector<Change>& changes) {
-    std::string text = fmt::format("{} worse, {} better, {} the same", count(changes, Direction::Worse),
-                                   count(changes, Direction::Better), count(changes, Direction::Same));
-    if (const auto unclear = count(changes, Direction::Unclear)) text += fmt::format(", {} unclear", unclear);
-    if (const auto unjudged = count(changes, Direction::Unjudged)) text += fmt::format(", {} not judged", unjudged);
-    return text;
+std::string totals(const Comparison& comparison) {
+    std::vector<std::string> parts;
+    const auto add = [&](Direction direction, std::ptrdiff_t least) {
+        const std::ptrdiff_t number = count(comparison.changes, direction);
+        if (number >= least) parts.push_back(fmt::format("{} {}", number, name(direction)));
+    };
+    for (const Direction direction : {Direction::Worse, Direction::Better, Direction::Same}) add(direction, 0);
+    for (const Direction direction : {Direction::Unclear, Direction::Waived, Direction::Unjudged}) add(direction, 1);
+    return fmt::format("{}; {}", fmt::join(parts, ", "), text(comparison.presence));
 }
 
-constexpr std::array headings{std::pair{Direction::Worse, "worse"}, std::pair{Direction::Unjudged, "not judged"},
-                              std::pair{Direction::Unclear, "unclear"}, std::pair{Direction::Better, "better"}};
-
-std::string asText(const std::vector<Change>& changes) {
+std::string asText(const Comparison& comparison) {
     std::string text;
-    for (const auto& [direction, heading] : headings)
-        for (const Change& change : changes)
-            if (change.direction == direction)
-                text += fmt::format("{:<10} {:<13} {}\n", heading, name(change.changeClass), change.sentence);
-    return text + totals(changes) + "\n";
+    for (const Change& change : worstFirst(comparison.changes))
+        text += fmt::format("{:<10} {:<13} {}\n", name(change.direction), name(change.changeClass), change.sentence);
+    return text + totals(comparison) + "\n";
 }
 
-std::string asMarkdown(const std::vector<Change>& changes) {
-    std::string text = fmt::format("**{}**\n", totals(changes));
-    for (const auto& [direction, heading] : headings) {
-        if (count(changes, direction) == 0) continue;
-        text += fmt::format("\n| {} | class |\n|---|---|\n", heading);
-        for (const Change& change : changes)
-            if (change.direction == direction)
-                text += fmt::format("| {} | {} |\n", change.sentence, name(change.changeClass));
-    }
+/// A sentence in a cell of a Markdown table.
+std::string inTable(std::string sentence) {
+    for (std::size_t at = 0; (at = sentence.find_first_of("|\n\r", at)) != std::string::npos; ++at) sentence[at] = '/';
+    return sentence;
+}
+
+std::string changeTable(const std::vector<Change>& changes) {
+    std::string text = "| is | class | what |\n|---|---|---|\n";
+    for (const Change& change : changes)
+        text +=
+            fmt::format("| {} | {} | {} |\n", name(change.direction), name(change.changeClass), inTable(change.sentence));
     return text;
+}
+
+std::string classTable(const std::vector<Change>& changes) {
+    std::map<Class, std::map<Direction, int>> counts;
+    for (const Change& change : changes) ++counts[change.changeClass][change.direction];
+    std::string text = "| class |";
+    for (const Direction direction : directions) text += fmt::format(" {} |", name(direction));
+    text += "\n|---|";
+    for (std::size_t i = 0; i < directions.size(); ++i) text += "--:|";
+    for (auto& [changeClass, byDirection] : counts) {
+        text += fmt::format("\n| {} |", name(changeClass));
+        for (const Direction direction : directions) text += fmt::format(" {} |", byDirection[direction]);
+    }
+    return text + "\n";
+}
+
+std::string asMarkdown(const Comparison& comparison) {
+    constexpr std::size_t most = 10;
+    const std::vector<Change> all = worstFirst(comparison.changes);
+    std::string text = fmt::format("**{}**\n", totals(comparison));
+    if (all.empty()) return text;
+    std::vector<Change> worst = oneACause(all);
+    std::erase_if(worst, [](const Change& change) { return change.direction == Direction::Better; });
+    worst.resize(std::min(worst.size(), most));
+    if (!worst.empty()) text += fmt::format("\n{}", changeTable(worst));
+    text += fmt::format("\n{}", classTable(all));
+    return text + fmt::format("\n<details><summary>all {}</summary>\n\n{}\n</details>\n", all.size(), changeTable(all));
 }
 
 std::string escaped(const std::string& text) {
@@ -73,9 +108,21 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
+/// As the text of a workflow command, in which a line break would begin the next one.
+std::string asData(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '%' || c == '\n' || c == '\r')
+            result += fmt::format("%{:02X}", static_cast<int>(c));
+        else
+            result += c;
+    }
+    return result;
+}
+
 /// What became of one test case: the worst of its changes, with their sentences.
 struct Outcome {
-    std::string worse, unjudged, unclear;
+    std::string worse, unjudged, unclear, output;
 
     /// JUnit's element for it; nothing for one that passed.
     [[nodiscard]] std::string_view element() const {
@@ -91,14 +138,17 @@ using Cases = std::map<Case, Outcome>;
 void add(const Change& change, Outcome& outcome) {
     if (change.direction == Direction::Worse) outcome.worse += change.sentence + "\n";
     if (change.direction == Direction::Unjudged) outcome.unjudged += change.sentence + "\n";
-    if (change.direction == Direction::Unclear) outcome.unclear += change.sentence + "\n";
+    if (change.direction == Direction::Unclear || change.direction == Direction::Waived)
+        outcome.unclear += change.sentence + "\n";
+    if (change.changeClass == Class::Time && change.direction == Direction::Same) outcome.output += change.sentence + "\n";
 }
 
 std::string testCase(const std::string& scene, const Case& id, const Outcome& outcome) {
     const std::string_view element = outcome.element();
     const std::string name = id.first.empty() ? id.second : id.first + ": " + id.second;
     const std::string begin = fmt::format("    <testcase classname=\"{}\" name=\"{}\"", escaped(scene), escaped(name));
-    if (element.empty()) return begin + "/>\n";
+    if (element.empty() && outcome.output.empty()) return begin + "/>\n";
+    if (element.empty()) return fmt::format("{}><system-out>{}</system-out></testcase>\n", begin, escaped(outcome.output));
     const std::string_view is = element == "failure" ? "is worse" : element == "error" ? "is not judged" : "is unclear";
     return fmt::format("{}><{} message=\"{} {}\">{}</{}></testcase>\n", begin, element, escaped(id.second), is,
                        escaped(outcome.worse + outcome.unjudged + outcome.unclear), element);
@@ -117,14 +167,74 @@ std::string suite(const std::string& scene, const Cases& cases) {
 } // namespace
 
 ExitCode verdictOf(const std::vector<Change>& changes) {
+    if (count(changes, Direction::Unjudged) > 0) return ExitCode::Inconclusive;
     if (std::ranges::any_of(changes, [](const Change& c) { return isWorse(c) && !isCost(c); }))
         return ExitCode::AccuracyRegression;
-    if (std::ranges::any_of(changes, isWorse)) return ExitCode::CostRegression;
-    return count(changes, Direction::Unjudged) > 0 ? ExitCode::Inconclusive : ExitCode::Pass;
+    return std::ranges::any_of(changes, isWorse) ? ExitCode::CostRegression : ExitCode::Pass;
 }
 
-std::string changesReport(const std::vector<Change>& changes, const std::string& format) {
-    return format == "md" ? asMarkdown(changes) : asText(changes);
+std::string_view verdictText(ExitCode code) {
+    switch (code) {
+    case ExitCode::Pass:
+        return "pass";
+    case ExitCode::CostRegression:
+        return "cost regression";
+    case ExitCode::AccuracyRegression:
+        return "accuracy or stability regression";
+    default:
+        return "inconclusive";
+    }
+}
+
+std::string_view name(Direction direction) {
+    switch (direction) {
+    case Direction::Better:
+        return "better";
+    case Direction::Same:
+        return "the same";
+    case Direction::Worse:
+        return "worse";
+    case Direction::Unclear:
+        return "unclear";
+    case Direction::Unjudged:
+        return "not judged";
+    case Direction::Waived:
+        return "waived";
+    }
+    return "";
+}
+
+double excess(const Change& change) {
+    if (!change.base || !change.head) return std::numeric_limits<double>::infinity();
+    const double moved = std::abs(*change.head - *change.base);
+    return change.allowance > 0 ? moved / change.allowance : moved > 0 ? 1e12 * moved : 0;
+}
+
+std::vector<Change> worstFirst(const std::vector<Change>& changes) {
+    std::vector<Change> sorted = changes;
+    std::erase_if(sorted, [](const Change& change) { return change.direction == Direction::Same; });
+    std::ranges::stable_sort(sorted, [](const Change& a, const Change& b) {
+        const auto rank = [](const Change& c) { return std::ranges::find(directions, c.direction) - directions.begin(); };
+        return rank(a) != rank(b) ? rank(a) < rank(b) : excess(a) > excess(b);
+    });
+    return sorted;
+}
+
+std::vector<Change> oneACause(const std::vector<Change>& worstFirst) {
+    using Cause = std::tuple<std::string, std::string, Class, Direction>;
+    const auto causeOf = [](const Change& c) { return Cause{c.scene, c.variant, c.changeClass, c.direction}; };
+    std::map<Cause, int> counts;
+    std::vector<Change> worst;
+    for (const Change& change : worstFirst)
+        if (counts[causeOf(change)]++ == 0) worst.push_back(change);
+    for (Change& change : worst)
+        if (const int more = counts[causeOf(change)] - 1; more > 0)
+            change.sentence += fmt::format(", and {} more of {}", more, name(change.changeClass));
+    return worst;
+}
+
+std::string changesReport(const Comparison& comparison, const std::string& format) {
+    return format == "md" ? asMarkdown(comparison) : asText(comparison);
 }
 
 std::string junit(const std::vector<Change>& changes, const std::vector<std::string>& unjudged) {
@@ -139,11 +249,11 @@ std::string junit(const std::vector<Change>& changes, const std::vector<std::str
 
 std::string annotations(const std::vector<Change>& changes) {
     std::string lines;
-    for (const Change& change : changes)
-        if (isWorse(change))
-            lines += fmt::format("::error title={} is worse::{}\n", name(change.changeClass), change.sentence);
-        else if (change.direction == Direction::Unjudged || change.direction == Direction::Unclear)
-            lines += fmt::format("::warning title={} is not judged::{}\n", name(change.changeClass), change.sentence);
+    for (const Change& change : oneACause(worstFirst(changes)))
+        if (change.direction == Direction::Worse || change.direction == Direction::Unjudged ||
+            change.direction == Direction::Unclear)
+            lines += fmt::format("::{} title={} is {}::{}\n", isWorse(change) ? "error" : "warning",
+                                 name(change.changeClass), name(change.direction), asData(change.sentence));
     return lines;
 }
 

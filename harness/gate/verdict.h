@@ -5,24 +5,38 @@
 #include "harness/records/compare.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shadowbench::gate {
 
-/// AccuracyRegression if anything but cost is Worse, CostRegression if only cost is; without either, Inconclusive if
-/// anything is Unjudged, else Pass.
+/// Inconclusive if anything is Unjudged, else AccuracyRegression if anything but cost is Worse, CostRegression if only cost
+/// is, else Pass.
 ExitCode verdictOf(const std::vector<Change>& changes);
 
-/// "text" for a terminal or "md": what is worse, not judged, unclear or better, and how much is the same.
-std::string changesReport(const std::vector<Change>& changes, const std::string& format);
+/// "cost regression", for a verdict.
+std::string_view verdictText(ExitCode code);
+std::string_view name(Direction direction);
+
+/// How far the change exceeds what means nothing; what was lost exceeds everything.
+double excess(const Change& change);
+
+/// All that is not the same: Worse, Unjudged, Unclear, Waived, Better, each by its excess.
+std::vector<Change> worstFirst(const std::vector<Change>& changes);
+
+/// One change a result, class and direction, the worst of them; how many more there are stands at the end of its sentence.
+std::vector<Change> oneACause(const std::vector<Change>& worstFirst);
+
+/// "text" for a terminal, all of it, or "md": the ten worst, what is worse by class, then everything.
+std::string changesReport(const Comparison& comparison, const std::string& format);
 
 /// JUnit XML: a test suite a scene, a test case a technique and class. What is Worse is a failure, what is Unjudged an
-/// error, what is Unclear is skipped; their texts are the changes' sentences. `unjudged`, sentences on no cell, are errors
-/// of a suite "gate".
+/// error, what is Unclear or Waived is skipped; their texts are the changes' sentences. What a time would have shown is the
+/// case's output. `unjudged`, sentences on no cell, are errors of a suite "gate".
 std::string junit(const std::vector<Change>& changes, const std::vector<std::string>& unjudged = {});
 
-/// One `::error` line for each Worse change and one `::warning` for what could not be told, which CI hosts show beside the
-/// commit.
+/// One `::error` line for each result and cause that is Worse and one `::warning` for what could not be told, which CI hosts
+/// show beside the commit. Of their text nothing is taken for a command.
 std::string annotations(const std::vector<Change>& changes);
 
 } // namespace shadowbench::gate

@@ -63,9 +63,21 @@ Watch readPlainWatch(const TomlValue& entry) {
     return readWatch(entry);
 }
 
-Anchor readAnchor(const TomlValue& entry) {
-    entry.only({"commit", "limit", "reason"});
-    return {entry.get("commit").text(), entry.get("limit").positive(), entry.get("reason").text()};
+Waiver readWaiver(const TomlValue& entry) {
+    entry.only({"scene", "techniques", "class", "reason", "expires"});
+    std::vector<std::string> classes;
+    for (int c = 0; c <= static_cast<int>(metrics::Class::Status); ++c)
+        classes.emplace_back(metrics::name(static_cast<metrics::Class>(c)));
+    Waiver waiver{entry.get("scene").text(),
+                  {},
+                  entry.get("class").oneOf(classes),
+                  entry.get("reason").text(),
+                  entry.get("expires").text()};
+    for (const TomlValue& technique : entry.get("techniques").list()) waiver.techniques.push_back(technique.text());
+    if (waiver.reason.empty()) entry.get("reason").fail("is empty; say it in a few words");
+    if (fnmatch("[0-9][0-9][0-9][0-9]-[01][0-9]-[0-3][0-9]", waiver.expires.c_str(), 0) != 0)
+        entry.get("expires").fail("is no day; write it as \"2026-12-31\"");
+    return waiver;
 }
 
 template <class Read>
@@ -110,6 +122,13 @@ std::vector<std::string> Watch::named() const {
     return names;
 }
 
+bool Waiver::covers(const std::string& id, const std::string& variant) const {
+    const auto names = [&](const std::string& pattern) { // a technique that is gone has no canonical name
+        return pattern == variant || matches(pattern, variant);
+    };
+    return fnmatch(scene.c_str(), id.c_str(), 0) == 0 && std::ranges::any_of(techniques, names);
+}
+
 bool Watchlist::isByChance(const std::string& scene, const std::string& variant) const {
     return std::ranges::any_of(seeds, [&](const Watch& w) { return w.scene == scene && w.covers(variant); });
 }
@@ -138,11 +157,11 @@ Watchlist parseWatchlist(const std::string& text, const std::string& file, Profi
     const TomlSource source{file, profileNames(), std::string(name(profile))};
     const toml::table table = parseToml(text, source.file);
     const TomlValue root(source, "", table);
-    root.only({"scene", "bound", "sweep", "count", "time", "seeds", "choices", "anchor"});
+    root.only({"scene", "bound", "sweep", "count", "time", "seeds", "choices", "waiver"});
     return {readList(root, "scene", readPlainWatch),   readList(root, "bound", readBound),
             readList(root, "sweep", readSweep),        readList(root, "count", readPlainWatch),
             readList(root, "time", readPlainWatch),    readList(root, "seeds", readPlainWatch),
-            readList(root, "choices", readPlainWatch), readList(root, "anchor", readAnchor)};
+            readList(root, "choices", readPlainWatch), readList(root, "waiver", readWaiver)};
 }
 
 } // namespace shadowbench::gate

@@ -42,11 +42,14 @@ struct WatchedSweep {
     std::vector<double> values; // empty: the axis' own
 };
 
-/// A commit that the build is compared with beside its base, so that small changes cannot add up unseen.
-struct Anchor {
-    std::string commit; // as `--base` takes it
-    double limit = 1;   // of the drift since, in multiples of what one commit may change
-    std::string reason;
+/// A change for the worse, or a result that is gone, that is accepted until a day.
+struct Waiver {
+    std::string scene;                   // id, or a glob over ids
+    std::vector<std::string> techniques; // as Watch has them, also of techniques that no longer exist
+    std::string what;                    // the class of change: "leak", "status" of what is not compared …
+    std::string reason, expires;         // "2026-12-31": the last day on which it holds
+
+    [[nodiscard]] bool covers(const std::string& scene, const std::string& variant) const;
 };
 
 /// Seeds that a cell is measured with where chance plays a part: as many as the allowance for it counts on
@@ -61,7 +64,7 @@ struct Watchlist {
     std::vector<Watch> timed;   // in pairs
     std::vector<Watch> seeds;   // measured with several seeds, for what chance does to them
     std::vector<Watch> choices; // every two choices of their parameters together; the scene is a file beside the bounds
-    std::vector<Anchor> anchors;
+    std::vector<Waiver> waivers;
 
     /// Whether chance plays a part in a variant, by its canonical name, on a scene.
     [[nodiscard]] bool isByChance(const std::string& scene, const std::string& variant) const;

@@ -288,7 +288,7 @@ inline constexpr auto table = std::to_array<Metric>({
      .computed = OfMovingFrames{part<movingErrors, &MovingErrors::disoccluded>},
      .meaning = "the same over the pixels in their first frame"},
     {.path = "stability.ghost_half_life", .unit = "frames", .range = range::size, .optional = true, .about = Class::Flicker,
-     .bound = "ghost_half_life", .allowance = Allowance{.relative = 0.05, .absolute = 0.05},
+     .bound = "ghost_half_life", .allowance = Allowance{.relative = 0.05, .absolute = 0.05, .noneIsBest = true},
      .computed = OfMovingFrames{of<ghostHalfLife>},
      .meaning = "frames after which what a history still shows of shadows that came or went has halved"},
     {.path = "stability.seeds.rmse", .unit = "1", .range = range::size, .optional = true, .unjudged = onDemand,

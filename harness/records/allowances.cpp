@@ -16,47 +16,52 @@ const std::optional<ReferenceInfo>& truthThatJudged(const metrics::Metric& metri
 }
 
 /// Pixels of the class that the metric is of; of the whole image where the record does not say, as older ones do not.
-double pixelsOf(const metrics::Allowance& allowance, const Record& record) {
-    const metrics::Metric* size = allowance.of.empty() ? nullptr : metrics::metricAt(allowance.of);
+double pixelsOf(const Limit& limit, const Record& record) {
+    const metrics::Metric* size = limit.of.empty() ? nullptr : metrics::metricAt(limit.of);
     const double image = static_cast<double>(record.width) * record.height;
     return std::max(1.0, size == nullptr ? image : record.values[*size].value_or(image));
 }
 
 /// σ* is of the penumbra: over more pixels than that it counts for less.
-double sigmaOver(const metrics::Metric& metric, const Record& record, double pixels) {
+double sigmaOver(const metrics::Metric& metric, const Limit& limit, const Record& record, double pixels) {
     const std::optional<ReferenceInfo>& truth = truthThatJudged(metric, record);
     const std::optional<double>& penumbra = record.values["accuracy.pixels.penumbra"];
     const double sigma = truth ? truth->sigma : 0;
-    const bool whole = metric.allowance->of == "accuracy.pixels.graded" && penumbra;
+    const bool whole = limit.of == "accuracy.pixels.graded" && penumbra;
     return whole ? sigma * std::sqrt(std::min(1.0, *penumbra / pixels)) : sigma;
 }
 
-/// An error e measured against a truth that is off by σ reads √(e² + σ²). An exact truth is off by two stray pixels, whose
-/// centres lie on an edge: their labels are arbitrary.
-double truthsOwn(const metrics::Metric& metric, const Record& record, double value, double pixels) {
-    constexpr double strayPixels = 2;
-    const TruthError kind = metric.allowance->truth;
-    if (kind == TruthError::None) return 0;
-    const double sigma = sigmaOver(metric, record, pixels), stray = strayPixels / pixels;
-    if (sigma == 0 && kind == TruthError::Mean) return stray;
+/// An error e measured against a truth that is off by σ reads √(e² + σ²). An exact truth is off by the stray pixels.
+double truthsOwn(const metrics::Metric& metric, const Limit& limit, const Record& record, double value, double stray) {
+    if (limit.truth == TruthError::None) return 0;
+    const double sigma = sigmaOver(metric, limit, record, pixelsOf(limit, record));
+    if (sigma == 0 && limit.truth == TruthError::Mean) return stray;
     const double off = sigma > 0 ? sigma : std::sqrt(stray);
     return std::hypot(value, off) - value;
 }
 
+/// The group of metrics that a metric belongs to: "stability" of "stability.flicker.mean".
+std::string_view groupOf(const metrics::Metric& metric) { return metric.path.substr(0, metric.path.find('.')); }
+
 } // namespace
 
-std::optional<double> comparedValue(const metrics::Metric& metric, const Record& record) {
+std::optional<double> comparedValue(const metrics::Metric& metric, const Record& record, const Rules& rules) {
+    const auto limit = rules.limits.find(metric.path);
+    if (limit == rules.limits.end()) return {};
     const std::optional<double>& value = record.values[metric];
-    if (!metric.allowance || !value) return {};
-    const metrics::Allowance& allowance = *metric.allowance;
-    return allowance.magnitude || allowance.best != 0 ? std::abs(*value - allowance.best) : *value;
+    if (!value) {
+        const bool measured = limit->second.isNone && record.values.any(metrics::linesOf(groupOf(metric)));
+        return measured ? std::optional(0.0) : std::nullopt;
+    }
+    const auto& [truth, pixels, of, relative, absolute, magnitude, best, isNone] = limit->second;
+    return magnitude || best != 0 ? std::abs(*value - best) : *value;
 }
 
-double allowanceOf(const metrics::Metric& metric, const Record& base, double value) {
-    const metrics::Allowance& allowance = *metric.allowance;
-    const double pixels = pixelsOf(allowance, base);
-    return std::max({allowance.pixels / pixels, truthsOwn(metric, base, value, pixels), allowance.absolute}) +
-           allowance.relative * std::abs(value);
+double allowanceOf(const metrics::Metric& metric, const Record& base, double value, const Rules& rules) {
+    const Limit& limit = rules.limits.find(metric.path)->second;
+    const double pixels = pixelsOf(limit, base);
+    const double own = truthsOwn(metric, limit, base, value, rules.strayPixels / pixels);
+    return std::max({limit.pixels / pixels, own, limit.absolute}) + limit.relative * std::abs(value);
 }
 
 } // namespace shadowbench::gate

@@ -10,52 +10,32 @@
 namespace shadowbench::gate {
 namespace {
 
-/// A cell on both sides, once a seed; in the order of seeds.
-struct Cell {
-    std::vector<const Record*> base, head;
-
-    /// Whether it holds for every seed.
-    [[nodiscard]] bool is(bool (*predicate)(const Record&, const Record&)) const {
-        return std::equal(base.begin(), base.end(), head.begin(),
-                          [&](const Record* before, const Record* now) { return predicate(*before, *now); });
-    }
-};
-
 bool scored(const Record& record) { return wasScored(record.status); }
+
+/// What is computed of the map is not: it may change behind equal images.
+bool dependsOnImages(const metrics::Metric& metric) { return !std::holds_alternative<metrics::OfMap>(metric.computed); }
 
 bool isScore(const metrics::Metric& metric) {
     return metric.about != Class::Work && metric.about != Class::Instructions && metric.about != Class::Time;
 }
 
-Change statusChange(const Record& record, Direction direction, const std::string& what) {
-    return {record.scene,
-            record.variant,
-            "status",
-            Class::Status,
-            {},
-            {},
-            0,
-            direction,
-            fmt::format("{} on {} {}", record.variant, record.scene, what)};
+Change statusChange(const std::string& scene, const std::string& variant, Direction direction, const std::string& what) {
+    return {scene, variant, "status", Class::Status, {}, {}, 0, direction, fmt::format("{} on {} {}", variant, scene, what)};
 }
 
 double mean(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double squaresAround(const std::vector<double>& values, double centre) {
+double squaresAroundMean(const std::vector<double>& values) {
+    const double centre = mean(values);
     double sum = 0;
     for (const double value : values) sum += (value - centre) * (value - centre);
     return sum;
 }
 
-/// By how much the means of two sets of seeds of one program may differ. Five standard errors: with eight seeds a side, one
-/// comparison in ten thousand of equal programs exceeds it.
-double spreadOf(const std::vector<double>& base, const std::vector<double>& head) {
-    const auto n = static_cast<double>(base.size());
-    if (n < 2) return 0;
-    const double variance = (squaresAround(base, mean(base)) + squaresAround(head, mean(head))) / (2 * (n - 1));
-    return 5 * std::sqrt(2 * variance / n);
+double deviation(const std::vector<double>& values) {
+    return std::sqrt(squaresAroundMean(values) / static_cast<double>(values.size() - 1));
 }
 
 /// One number of a cell, on both sides.
@@ -64,34 +44,63 @@ struct Compared {
 
     [[nodiscard]] double before() const { return mean(base); }
     [[nodiscard]] double now() const { return mean(head); }
+
+    /// By how much the means of two sets of seeds of one program may differ.
+    [[nodiscard]] double meansMayDiffer(const Rules& rules) const {
+        const auto n = static_cast<double>(base.size());
+        if (n < 2) return 0;
+        const double variance = (squaresAroundMean(base) + squaresAroundMean(head)) / (2 * (n - 1));
+        return rules.seedErrors * std::sqrt(2 * variance / n);
+    }
+
+    /// Whether the head's seeds scatter far more than the base's: then its mean says little.
+    [[nodiscard]] bool scatters(const Rules& rules, double allowance) const {
+        return base.size() > 1 && deviation(head) > rules.seedSpread * deviation(base) + std::abs(before()) + allowance;
+    }
 };
+
+/// Two numbers in as many digits as show that they differ, three at least.
+std::pair<std::string, std::string> digits(double a, double b) {
+    for (int count = 3;; ++count) {
+        const std::string first = fmt::format("{:.{}g}", a, count), second = fmt::format("{:.{}g}", b, count);
+        if (a == b || first != second || count == 17) return {first, second};
+    }
+}
 
 std::string sentenceOf(const Record& record, std::string_view what, const Compared& values) {
     const double before = values.before(), now = values.now();
-    return fmt::format("{} on {}: {} {} → {}{}{}", record.variant, record.scene, what, before, now,
-                       before > 0 ? fmt::format(" ({:+.2f} %)", 100 * (now / before - 1)) : "",
+    const auto [first, second] = digits(before, now);
+    return fmt::format("{} on {}: {} {} → {}{}{}", record.variant, record.scene, what, first, second,
+                       before > 0 ? fmt::format(" ({:+.3g} %)", 100 * (now / before - 1)) : "",
                        values.base.size() > 1 ? fmt::format(", means of {} seeds", values.base.size()) : "");
 }
 
+/// The metric itself, not what is compared of it; a seed that lacks it counts as 0.
+double meanOf(const metrics::Metric& metric, const std::vector<const Record*>& records) {
+    std::vector<double> values;
+    for (const Record* record : records) values.push_back(record->values[metric].value_or(0));
+    return mean(values);
+}
+
 /// A sign that has turned is no improvement unless the number comes nearer to 0.
-bool turned(const metrics::Metric& metric, const Cell& cell, const Change& change) {
-    if (!metric.allowance->magnitude) return false;
-    const double before = *cell.base.front()->values[metric], now = *cell.head.front()->values[metric];
+bool turned(const metrics::Metric& metric, const MatchedCell& cell, const Change& change) {
+    const double before = meanOf(metric, cell.base), now = meanOf(metric, cell.head);
     return before * now < 0 && std::abs(now) > change.allowance && std::abs(now) > std::abs(before) - change.allowance;
 }
 
-/// What the cells that both sides show alike say of metrics' code that differs.
+/// What the cells that both sides show alike say of code that measures and scores, where it differs.
 class MetricCode {
 public:
-    explicit MetricCode(const std::vector<Cell>& cells) {
-        for (const Cell& cell : cells)
+    explicit MetricCode(const std::vector<MatchedCell>& cells) {
+        for (const MatchedCell& cell : cells)
             if (!cell.is(sameMetricCode) && cell.is(sameImages) && !whyIncomparable(*cell.base.front(), *cell.head.front()))
                 take(*cell.base.front(), *cell.head.front());
     }
 
     [[nodiscard]] bool scoresAlike(const metrics::Metric& metric) const {
-        return alike_.contains(metric.path) && !unlike_.contains(metric.path);
+        return countsAlikeSomewhere(metric) && !unlike_.contains(metric.path);
     }
+    [[nodiscard]] bool countsAlikeSomewhere(const metrics::Metric& metric) const { return alike_.contains(metric.path); }
 
 private:
     void take(const Record& base, const Record& head) {
@@ -103,89 +112,97 @@ private:
     std::set<std::string_view> alike_, unlike_;
 };
 
-class Comparison {
+class CellComparison {
 public:
-    Comparison(const std::vector<Cell>& cells, std::vector<Change>& changes) : code_(cells), changes_(changes) {}
+    CellComparison(const std::vector<MatchedCell>& cells, const Rules& rules, std::vector<Change>& changes)
+        : code_(cells), rules_(rules), changes_(changes) {}
 
-    void compareCell(const Cell& cell) {
+    void compareCell(const MatchedCell& cell) {
         const Record &base = *cell.base.front(), &head = *cell.head.front();
-        compareStatus(base, head);
-        if (!scored(base) || !scored(head)) return;
-        if (const auto why = whyIncomparable(base, head)) return unjudged(head, *why);
+        if (const auto why = whyIncomparable(base, head)) {
+            changes_.push_back(statusChange(head.scene, head.variant, Direction::Unjudged, "cannot be compared: " + *why));
+            return;
+        }
         for (const metrics::Metric& metric : metrics::table)
-            if (metric.allowance) compareMetric(cell, metric);
+            if (metric.about && rules_.limits.contains(metric.path)) compareMetric(cell, metric);
         compareFigures(cell);
     }
 
 private:
-    void compareStatus(const Record& base, const Record& head) {
-        if (scored(base) == scored(head)) return;
-        const std::string what = fmt::format("was {} and is {}{}{}", name(base.status), name(head.status),
-                                             head.reason.empty() ? "" : ": ", head.reason);
-        changes_.push_back(statusChange(head, scored(base) ? Direction::Worse : Direction::Better, what));
+    [[nodiscard]] std::vector<double> valuesOf(const metrics::Metric& metric,
+                                               const std::vector<const Record*>& records) const {
+        std::vector<double> values;
+        for (const Record* record : records)
+            if (const auto value = comparedValue(metric, *record, rules_)) values.push_back(*value);
+        return values;
     }
 
-    void unjudged(const Record& record, const std::string& why) {
-        changes_.push_back(statusChange(record, Direction::Unjudged, "cannot be compared: " + why));
-    }
-
-    void compareMetric(const Cell& cell, const metrics::Metric& metric) {
-        Compared values;
-        for (const Record* record : cell.base)
-            if (const auto value = comparedValue(metric, *record)) values.base.push_back(*value);
-        for (const Record* record : cell.head)
-            if (const auto value = comparedValue(metric, *record)) values.head.push_back(*value);
-        if (values.base.size() < cell.base.size()) return; // new to this cell
+    void compareMetric(const MatchedCell& cell, const metrics::Metric& metric) {
+        const Compared values{valuesOf(metric, cell.base), valuesOf(metric, cell.head)};
+        const auto has = [&](const Record* record) { return record->values[metric].has_value(); };
+        if (values.base.size() < cell.base.size()) return;                                        // new to this cell
+        if (std::ranges::none_of(cell.base, has) && std::ranges::none_of(cell.head, has)) return; // best on both sides
         const Record& head = *cell.head.front();
         Change change{head.scene, head.variant, std::string(metric.path), *metric.about, values.before(), {}, 0, {}, {}};
         if (values.head.size() < cell.head.size()) {
-            change.direction = Direction::Worse;
-            change.sentence = fmt::format("{} on {}: {} is no longer measured", head.variant, head.scene, metric.path);
-            changes_.push_back(std::move(change));
-            return;
-        }
-        change.head = values.now();
-        change.allowance = allowanceOf(metric, *cell.base.front(), values.before()) + spreadOf(values.base, values.head);
-        change.direction =
-            turned(metric, cell, change) ? Direction::Worse : directionOf(values.before(), values.now(), change.allowance);
-        change.sentence = sentenceOf(head, metric.path, values);
-        if (const auto why = whyUnjudged(cell, metric, values)) {
             change.direction = Direction::Unjudged;
-            change.sentence += ", which is not judged: " + *why;
+            change.sentence = fmt::format("{} on {}: {} is no longer measured", head.variant, head.scene, metric.path);
+        } else {
+            judge(cell, metric, values, change);
         }
         changes_.push_back(std::move(change));
     }
 
-    [[nodiscard]] std::optional<std::string> whyUnjudged(const Cell& cell, const metrics::Metric& metric,
-                                                         const Compared& values) const {
+    void judge(const MatchedCell& cell, const metrics::Metric& metric, const Compared& values, Change& change) const {
+        const double own = allowanceOf(metric, *cell.base.front(), values.before(), rules_);
+        change.head = values.now();
+        change.allowance = own + values.meansMayDiffer(rules_);
+        change.sentence = sentenceOf(*cell.head.front(), metric.path, values);
+        change.direction = directionOf(values.before(), values.now(), change.allowance);
+        if (rules_.limits.find(metric.path)->second.magnitude && turned(metric, cell, change))
+            change.direction = Direction::Worse;
+        if (values.scatters(rules_, own)) {
+            change.direction = Direction::Worse;
+            change.sentence += fmt::format(", by seeds {:.3g} around their mean, before {:.3g}", deviation(values.head),
+                                           deviation(values.base));
+        }
+        if (const auto why = whyUnjudged(cell, metric, values, change.direction)) {
+            change.direction = Direction::Unjudged;
+            change.sentence += ", which is not judged: " + *why;
+        }
+    }
+
+    [[nodiscard]] std::optional<std::string> whyUnjudged(const MatchedCell& cell, const metrics::Metric& metric,
+                                                         const Compared& values, Direction direction) const {
         const Record &base = *cell.base.front(), &head = *cell.head.front();
         if (metric.about == Class::Instructions)
             if (const auto differs = difference(base.environment, head.environment, Surroundings::OfCounts))
                 return "counted in different environments, " + *differs + "; count both on one machine";
+        if (metric.about == Class::Work && direction != Direction::Same && !cell.is(sameMetricCode) &&
+            !code_.countsAlikeSomewhere(metric))
+            return "the code that measures differs, and no cell whose images are the same shows that it counts alike";
         if (!isScore(metric)) return {};
         if (auto why = whyIncomparable(metric, base, head)) return why;
-        if (cell.is(sameMetricCode)) return {};
-        if (cell.is(sameImages)) {
+        if (cell.is(sameImages) && dependsOnImages(metric)) {
             if (values.base == values.head) return {};
-            return "the images are the same, so the code of the metrics changed";
+            return "images and truth are the same, so what measures, scores or records them changed";
         }
-        if (code_.scoresAlike(metric)) return {};
+        if (cell.is(sameMetricCode) || code_.scoresAlike(metric)) return {};
         return "the code of the metrics differs, and cells whose images are the same do not show that it scores alike";
     }
 
-    /// Figures have no better direction. They explain a technique, so what changes them by more than a quarter is named.
-    void compareFigures(const Cell& cell) {
-        constexpr double relative = 0.25, absolute = 0.01;
+    void compareFigures(const MatchedCell& cell) {
         const Record &base = *cell.base.front(), &head = *cell.head.front();
         for (const auto& [name, first] : base.figures) {
             const std::string path = "figures." + name;
             Change change{head.scene, head.variant, path, Class::Figure, first, {}, 0, Direction::Worse, {}};
             const auto now = head.figures.find(name);
             if (now == head.figures.end()) {
+                change.direction = Direction::Unjudged;
                 change.sentence = fmt::format("{} on {}: {} is no longer reported", head.variant, head.scene, path);
             } else {
                 change.head = now->second;
-                change.allowance = relative * std::max(std::abs(first), std::abs(now->second)) + absolute;
+                change.allowance = rules_.figureShare * std::max(std::abs(first), std::abs(now->second)) + rules_.figureStep;
                 if (std::abs(now->second - first) <= change.allowance) change.direction = Direction::Same;
                 change.sentence = sentenceOf(head, path, {{first}, {now->second}});
             }
@@ -194,6 +211,7 @@ private:
     }
 
     MetricCode code_;
+    const Rules& rules_;
     std::vector<Change>& changes_;
 };
 
@@ -260,38 +278,6 @@ void compareBreakPoints(const Curves& base, const Curves& head, std::vector<Chan
     }
 }
 
-/// Without the seed.
-using SeedlessKey = std::tuple<std::string, std::string, std::string, int, int, std::string, std::string, double>;
-SeedlessKey withoutSeed(const CellKey& key) {
-    const auto& [scene, variant, profile, width, height, seed, axis, curve, value] = key;
-    return {scene, variant, profile, width, height, axis, curve, value};
-}
-
-/// The cells that both have, in the order of `head`; what only one has is a change of status.
-std::vector<Cell> matched(const std::vector<Record>& base, const std::vector<Record>& head, std::vector<Change>& isNew,
-                          std::vector<Change>& isGone) {
-    std::map<CellKey, const Record*> before;
-    for (const Record& record : base) before[cellOf(record)] = &record;
-    std::vector<Cell> cells;
-    std::map<SeedlessKey, std::size_t> places;
-    for (const Record& record : head) {
-        const auto found = before.find(cellOf(record));
-        if (found == before.end()) {
-            isNew.push_back(statusChange(record, Direction::Same, "is new"));
-            continue;
-        }
-        const auto [place, first] = places.try_emplace(withoutSeed(found->first), cells.size());
-        if (first) cells.emplace_back();
-        cells[place->second].base.push_back(found->second);
-        cells[place->second].head.push_back(&record);
-        before.erase(found);
-    }
-    for (const Record& record : base)
-        if (before.contains(cellOf(record)))
-            isGone.push_back(statusChange(record, Direction::Worse, "is no longer measured"));
-    return cells;
-}
-
 /// Commit, whether it had changes, and program, of all records; more than one where they were joined.
 std::set<std::tuple<std::string, bool, std::string>> programsOf(const std::vector<Record>& records) {
     std::set<std::tuple<std::string, bool, std::string>> programs;
@@ -306,19 +292,17 @@ Direction directionOf(double base, double head, double allowance) {
     return head < base - allowance ? Direction::Better : Direction::Same;
 }
 
-CellKey cellOf(const Record& r) {
-    const SweepStep step = r.sweep.value_or(SweepStep{});
-    return {r.scene, r.variant, r.profile, r.width, r.height, r.seed, step.axis, step.curve, step.value};
-}
-
-std::vector<Change> compare(const std::vector<Record>& base, const std::vector<Record>& head) {
-    std::vector<Change> changes, isGone;
-    const std::vector<Cell> cells = matched(base, head, changes, isGone);
-    Comparison comparison(cells, changes);
-    for (const Cell& cell : cells) comparison.compareCell(cell);
-    std::ranges::move(isGone, std::back_inserter(changes));
-    compareBreakPoints(curvesOf(base), curvesOf(head), changes);
-    return changes;
+Comparison compare(const std::vector<Record>& base, const std::vector<Record>& head, const Rules& rules,
+                   const std::optional<std::vector<Expected>>& expected) {
+    Matched matched = match(base, head, expected);
+    Comparison comparison{{}, std::move(matched.presence)};
+    for (const Absence& absence : matched.absences)
+        comparison.changes.push_back(statusChange(absence.scene, absence.variant,
+                                                  absence.isNew ? Direction::Same : Direction::Unjudged, absence.what));
+    CellComparison cells(matched.cells, rules, comparison.changes);
+    for (const MatchedCell& cell : matched.cells) cells.compareCell(cell);
+    compareBreakPoints(curvesOf(base), curvesOf(head), comparison.changes);
+    return comparison;
 }
 
 std::optional<std::string> whyMeaningless(const std::vector<Record>& base, const std::vector<Record>& head,

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "harness/records/comparability.h"
+#include "harness/records/presence.h"
 #include "harness/records/record.h"
+#include "harness/records/rules.h"
 
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace shadowbench::gate {
@@ -20,21 +21,18 @@ enum class Direction {
     Worse,
     Unclear,  // measured, but not certain enough to call it worse
     Unjudged, // could not be compared: inconclusive
+    Waived,   // worse or not compared, which a waiver of the policy accepts
 };
 
-/// What is compared of a metric that has an allowance; nothing where the record lacks it.
-std::optional<double> comparedValue(const metrics::Metric& metric, const Record& record);
+/// What is compared of a metric by `rules`; nothing where they do not judge it or the record lacks it.
+std::optional<double> comparedValue(const metrics::Metric& metric, const Record& record, const Rules& rules = ownRules());
 
-/// How much of a change in `metric` from `value` may be the truth's own error, a stray pixel or noise. Of `base` only image
-/// size, the sizes of its classes of pixels and the truth that judged the metric count.
-double allowanceOf(const metrics::Metric& metric, const Record& base, double value);
+/// How much of a change in `metric`, which `rules` judge, from `value` may be the truth's own error, a stray pixel or noise.
+/// Of `base` only image size, the sizes of its classes of pixels and the truth that judged the metric count.
+double allowanceOf(const metrics::Metric& metric, const Record& base, double value, const Rules& rules = ownRules());
 
 /// Same up to the allowance.
 Direction directionOf(double base, double head, double allowance);
-
-/// What makes two records of different commits records of the same cell.
-using CellKey = std::tuple<std::string, std::string, std::string, int, int, std::uint32_t, std::string, std::string, double>;
-CellKey cellOf(const Record& record);
 
 struct Change {
     std::string scene, variant;
@@ -47,17 +45,23 @@ struct Change {
     std::string axis = {}; // of the sweep, for a break point
 };
 
-/// Every metric with an allowance and every figure of every cell of either set, in the order of `head`, then what only
+struct Comparison {
+    std::vector<Change> changes;
+    Presence presence;
+};
+
+/// Every metric that `rules` judge and every figure of every cell of either set, in the order of `head`, then what only
 /// `base` holds, then the break points of sweeps: one that comes earlier along its axis is Worse. Cells are matched by
 /// scene, variant, profile, size, seed and place in a sweep; one that was measured with several seeds on both sides is
-/// compared by its means, and what its seeds differ by is allowed. A metric or cell that only one side has is Worse when the
-/// head lost it and Same when it is new.
+/// compared by its means and by how much its seeds scatter.
 ///
-/// Unjudged are the scores of cells that cannot be compared (harness/records/comparability.h), and instructions counted in
-/// different surroundings. Where the metrics' code differs, both sides have scored the same images wherever a technique
-/// shows what it showed: there every difference is the code's, and Unjudged; elsewhere a metric is compared if all such
-/// cells score it alike, and Unjudged if one does not or there is none.
-std::vector<Change> compare(const std::vector<Record>& base, const std::vector<Record>& head);
+/// Unjudged is what is not there on both sides (harness/records/presence.h), the scores of cells that cannot be compared
+/// (harness/records/comparability.h), instructions counted in different surroundings, and a score that is another one
+/// though images and truth are the same: what draws has not changed it. Where the code that measures and scores differs, a
+/// metric of other images is compared if all cells with equal images score it alike, and Unjudged if one does not or there
+/// is none; of work, one that counts alike is enough, for a technique may do with less and show the same.
+Comparison compare(const std::vector<Record>& base, const std::vector<Record>& head, const Rules& rules = ownRules(),
+                   const std::optional<std::vector<Expected>>& expected = {});
 
 /// Why comparing the two decides nothing, as a sentence: they are of one program (which `sameProgramIsMeant` allows, and
 /// which may have scored two versions of another renderer), or no cell is scored in both. Nothing where it decides

@@ -188,6 +188,12 @@ inline Record unscored(Status status, const std::string& reason) {
     return r;
 }
 
+/// Of a build that draws something else.
+inline Record drawnAnew(Record record) {
+    record.images = "2222";
+    return record;
+}
+
 inline Record expectedFailure() {
     Record r = hardRecord();
     r.status = Status::ExpectedFailure;

@@ -153,7 +153,7 @@ std::string verdict(const Outcome& outcome) {
 Outcome outcomeOf(const Mutant& mutant, const Trial& base, const Trial& head) {
     Outcome outcome{mutant, {}, {}, head.refused};
     if (!mutant.makesRecords() || !head.refused.empty()) return outcome;
-    for (Change& change : gate::compare(base.records, head.records)) {
+    for (Change& change : gate::compare(base.records, head.records).changes) {
         // Other truths, environments or metrics' code: never a silent pass.
         if (change.direction == gate::Direction::Unjudged && outcome.refused.empty()) outcome.refused = change.sentence;
         if (change.changeClass == Class::Instructions && change.base && change.head) {

@@ -33,41 +33,6 @@ std::string verdictText(ExitCode code) {
     }
 }
 
-std::string directionText(Direction direction) {
-    switch (direction) {
-    case Direction::Better:
-        return "better";
-    case Direction::Worse:
-        return "worse";
-    case Direction::Unclear:
-        return "unclear";
-    case Direction::Unjudged:
-        return "not judged";
-    case Direction::Same:
-        return "same";
-    }
-    return "";
-}
-
-/// How far the change exceeds what means nothing; a metric that was lost exceeds everything.
-double excess(const Change& change) {
-    if (!change.base || !change.head) return std::numeric_limits<double>::infinity();
-    const double moved = std::abs(*change.head - *change.base);
-    return change.allowance > 0 ? moved / change.allowance : moved > 0 ? 1e12 * moved : 0;
-}
-
-std::vector<Change> shownChanges(const std::vector<Change>& changes) {
-    constexpr Direction order[] = {Direction::Worse, Direction::Unjudged, Direction::Unclear, Direction::Better};
-    std::vector<Change> sorted = changes;
-    std::erase_if(sorted, [](const Change& change) { return change.direction == Direction::Same; });
-    std::ranges::stable_sort(sorted, [&](const Change& a, const Change& b) {
-        const auto *const rankA = std::ranges::find(order, a.direction), *const rankB =
-                                                                             std::ranges::find(order, b.direction);
-        return rankA != rankB ? rankA < rankB : excess(a) > excess(b);
-    });
-    return sorted;
-}
-
 Cell valueCell(const Change& change, const std::optional<double>& value) {
     if (!value) return {"none"};
     const metrics::Metric* line = metrics::metricAt(change.metric);
@@ -87,11 +52,11 @@ Table changeTable(const std::vector<Change>& changes, const gate::GateOptions& o
         {.title = "allowed", .hint = "So much of a change may be the truth's own error, a stray pixel or noise"},
         {.title = "× allowed", .hint = "The change as a multiple of what is allowed"},
         {.title = "to see it again", .number = false, .brief = false, .prose = true}};
-    for (const Change& change : shownChanges(changes)) {
+    for (const Change& change : gate::worstFirst(changes)) {
         const TechniqueFacts facts = factsOf(change.variant.substr(0, change.variant.find(':')));
-        const double times = excess(change);
+        const double times = gate::excess(change);
         Row row{{Cell{.text = change.variant, .note = change.sentence},
-                 Cell{.text = directionText(change.direction),
+                 Cell{.text = std::string(gate::name(change.direction)),
                       .kind = change.direction == Direction::Worse    ? "refuted"
                               : change.direction == Direction::Better ? "reproduced"
                                                                       : "unmeasured"},
@@ -196,11 +161,13 @@ void addGatePage(const gate::GateResult& result, const gate::GateOptions& option
                                                                : "refuted");
     data.set("head", shown(result.head));
     data.set("base", shown(result.base));
-    data.set("counts", fmt::format("{} figures are worse, {} not judged, {} unclear, {} better, {} the same.",
+    data.set("counts", fmt::format("{} figures are worse, {} not judged, {} unclear, {} waived, {} better, {} the same; {}.",
                                    count(Direction::Worse), count(Direction::Unjudged), count(Direction::Unclear),
-                                   count(Direction::Better), count(Direction::Same)));
+                                   count(Direction::Waived), count(Direction::Better), count(Direction::Same),
+                                   shown(gate::text(result.presence), sentenceRoom)));
     data.set("table", site.table(address, changeTable(result.changes, options)));
     data.set("cells", cellsOf(cells, site));
+    data.set("loosened", sentences(result.loosened));
     data.set("unjudged", sentences(result.unjudged));
     data.set("notes", sentences(result.notes));
     site.add({address, verdictText(result.code()), render("gate.html", data)});
@@ -213,7 +180,7 @@ gate::GateResult comparedWith(const std::vector<Record>& base, const std::vector
     };
     result.base = nameOf(base);
     result.head = nameOf(head);
-    result.changes = gate::compare(base, head);
+    static_cast<gate::Comparison&>(result) = gate::compare(base, head);
     if (const auto why = gate::whyMeaningless(base, head, false)) result.unjudged.push_back(*why);
     return result;
 }
@@ -226,7 +193,7 @@ std::vector<ComparedCell> worseCells(const std::vector<Change>& changes, const R
         });
     };
     std::vector<ComparedCell> cells;
-    for (const Change& change : shownChanges(changes)) {
+    for (const Change& change : gate::worstFirst(changes)) {
         const auto now = find(head, change), before = find(base, change);
         const bool known = std::ranges::any_of(cells, [&](const ComparedCell& cell) {
             return cell.head.record.scene == change.scene && cell.head.record.variant == change.variant;

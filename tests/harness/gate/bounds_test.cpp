@@ -37,10 +37,10 @@ TEST(Bounds, AreBrokenOnTheWrongSideOnly) {
     EXPECT_EQ(direction(bound("sm-*", "leak", 0.03, false)), Direction::Worse) << "one that has stopped failing";
 }
 
-TEST(Bounds, AMissingMetricBreaksThem) {
+TEST(Bounds, OnAMetricThatIsMissingAreNotJudged) {
     const std::vector<Change> changes = judgeBounds({scoredRecord()}, {bound("sm-uniform", "penumbra_rmse", 1, true)});
     ASSERT_EQ(changes.size(), 1U);
-    EXPECT_EQ(changes[0].direction, Direction::Worse);
+    EXPECT_EQ(changes[0].direction, Direction::Unjudged);
     EXPECT_EQ(changes[0].changeClass, Class::Penumbra);
 }
 
@@ -61,6 +61,27 @@ TEST(Bounds, ConcernTheirCellsOnly) {
     EXPECT_TRUE(judgeBounds({elsewhere}, {bound("sm-uniform", "leak", 0.01, true)}).empty());
     EXPECT_TRUE(judgeBounds({scoredRecord()}, {excepted}).empty());
     EXPECT_TRUE(judgeBounds({scoredRecord()}, {bound("still-to-come", "leak", 0.01, true)}).empty());
+}
+
+TEST(Bounds, HoldForEverySeed) {
+    Record second = scoredRecord();
+    second.seed = 2;
+    second.values["accuracy.leak"] = 0.5;
+    const std::vector<Change> changes = judgeBounds({scoredRecord(), second}, {bound("sm-uniform", "leak", 0.03, true)});
+    ASSERT_EQ(changes.size(), 2U);
+    EXPECT_EQ(changes[0].direction, Direction::Same);
+    EXPECT_EQ(changes[1].direction, Direction::Worse);
+}
+
+TEST(Bounds, ThatMeetNothingAreNotJudgedWhereAllWasMeasured) {
+    const Bound other = bound("still-to-come", "leak", 0.01, true);
+    EXPECT_TRUE(judgeBounds({scoredRecord()}, {other}).empty());
+    const std::vector<Change> changes =
+        judgeBounds({scoredRecord()}, {other, bound("sm-uniform", "leak", 0.03, true)}, true);
+    ASSERT_EQ(changes.size(), 2U);
+    EXPECT_EQ(changes[0].direction, Direction::Same);
+    EXPECT_EQ(changes[1].sentence, "still-to-come on dueling-frusta: the bound on leak met no result");
+    EXPECT_EQ(changes[1].direction, Direction::Unjudged);
 }
 
 class WatchlistFile : public testing::Test {
@@ -119,8 +140,6 @@ TEST_F(WatchlistFile, NamesWhatNoListMayHold) {
         {"[[sweep]]\n" + watch + "axis = \"near-plane\"\nvalues = [\"a\"]\n", "values"},
         {"[[bound]]\n" + watch + "metric = \"leek\"\nbelow = 1\n", "leak"},
         {"[[bound]]\n" + watch + "metric = \"leak\"\nbelow = -1\n", "below"},
-        {"[[anchor]]\ncommit = \"v1\"\nreason = \"r\"\n", "limit"},
-        {"[[anchor]]\ncommit = \"v1\"\nlimit = 0\nreason = \"r\"\n", "limit"},
         {"[[time]\n", "bounds.toml"}};
     for (const auto& [text, part] : faults) {
         EXPECT_NE(complaint(text).find(part), std::string::npos) << text << complaint(text);
@@ -203,17 +222,21 @@ TEST(BuiltinScenes, PutBoundsOnMetricsOfTheTable) {
         EXPECT_NO_THROW(loadScene(id, Profile::Gate, metrics::boundedMetrics())) << id;
 }
 
-TEST(GateCode, ARegressionCountsWhateverElseCouldNotBeJudged) {
+TEST(GateCode, WhatCouldNotBeJudgedComesBeforeAccuracyAndThatBeforeCost) {
     GateResult result;
     EXPECT_EQ(result.code(), ExitCode::Pass);
+    Change change{"trees", "pcf", "time.ratio", Class::Time, 1, 1.1, 0.01, Direction::Worse, "slower"};
+    result.changes.push_back(change);
+    EXPECT_EQ(result.code(), ExitCode::CostRegression);
+    change.changeClass = Class::Leak;
+    result.changes.push_back(change);
+    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
     result.unjudged.emplace_back("something");
     EXPECT_EQ(result.code(), ExitCode::Inconclusive);
-    Change slower{"trees", "pcf", "time.ratio", Class::Time, 1, 1.1, 0.01, Direction::Worse, "slower"};
-    result.changes.push_back(slower);
-    EXPECT_EQ(result.code(), ExitCode::CostRegression);
-    slower.changeClass = Class::Leak;
-    result.changes.push_back(slower);
-    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
+    result.unjudged.clear();
+    change.direction = Direction::Unjudged;
+    result.changes.push_back(change);
+    EXPECT_EQ(result.code(), ExitCode::Inconclusive);
 }
 
 TEST(GateReproduction, IsACommandForEachKindOfChange) {

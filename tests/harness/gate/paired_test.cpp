@@ -71,6 +71,22 @@ TEST(SlowdownLowerBound, IsWhereTheTailRefusesNoMore) {
     EXPECT_EQ(slowdownLowerBound({}, 0.5), -std::numeric_limits<double>::infinity());
 }
 
+TEST(SmallestTold, IsWhatNeitherPassesByChanceNorStaysUnclear) {
+    const TimeRule rule;
+    // Slowdowns −0.01 and 0.01 in turns: their deviation is 0.01 √(4/3) of four, 0.01 √(n/(n − 1)) of n.
+    const auto inTurns = [](int count) {
+        std::vector<RestartTimes> restarts;
+        for (int i = 0; i < count; ++i) restarts.push_back({0, i % 2 == 0 ? -0.01 : 0.01, 0});
+        return restarts;
+    };
+    const double afterFour = 1.644854 * 0.01 * std::sqrt(4.0 / 3) / 2; // passing at the first chance
+    EXPECT_NEAR(smallestTold(inTurns(4), rule, 0.01, 96), std::expm1(std::log(1.01) + afterFour), 1e-6);
+    const double atLast = (2.326348 + 1.644854) * 0.01 * std::sqrt(96.0 / 95) / std::sqrt(96); // α and 95 %
+    EXPECT_NEAR(smallestTold(inTurns(96), rule, 0.01, 96), std::expm1(std::log(1.01) + atLast), 1e-6);
+    EXPECT_GT(smallestTold(inTurns(96), rule, 1e-5, 96), smallestTold(inTurns(96), rule, 0.01, 96));
+    EXPECT_NEAR(smallestTold(constant(0, 4), rule, 0.01, 96), rule.floor, 1e-9) << "without noise, the floor";
+}
+
 TEST(TimeRule, AConstantSlowdownIsJudgedByTheFloor) {
     const TimeRule rule;
     const auto judge = [&](double ratio, std::size_t restarts) {

@@ -1,11 +1,11 @@
-// Whose policy judges, what drifts since an anchor, and which choices are tried.
+// Whose policy judges, and which choices are tried.
 #include "base/error.h"
 #include "base/files.h"
 #include "base/temporary_folder.h"
-#include "harness/gate/anchor.h"
 #include "harness/gate/choices.h"
 #include "harness/gate/judged_cells.h"
 #include "harness/gate/policy.h"
+#include "harness/gate/waivers.h"
 #include "techniques/catalog.h"
 #include "tests/support/records_examples.h"
 
@@ -27,35 +27,26 @@ Policy policyWith(const Bound& bound) {
 
 TEST(GatePolicy, ALooserBoundIsListedAndAStricterOneIsNot) {
     const Policy base = policyWith(leakBelow(0.1));
-    EXPECT_TRUE(sentencesOf(loosened(base, base)).empty());
-    EXPECT_TRUE(sentencesOf(loosened(base, policyWith(leakBelow(0.05)))).empty());
-    const std::vector<std::string> sentences = sentencesOf(loosened(base, policyWith(leakBelow(0.2))));
+    EXPECT_TRUE(loosened(base, base).empty());
+    EXPECT_TRUE(loosened(base, policyWith(leakBelow(0.05))).empty());
+    const std::vector<std::string> sentences = loosened(base, policyWith(leakBelow(0.2)));
     ASSERT_EQ(sentences.size(), 1U);
     EXPECT_NE(sentences[0].find("pcf, sm-uniform on trees: leak below 0.1"), std::string::npos) << sentences[0];
     Bound above = leakBelow(0.1), lower = leakBelow(0.05);
     above.below = lower.below = false;
-    EXPECT_EQ(sentencesOf(loosened(policyWith(above), policyWith(lower))).size(), 1U) << "an expected failure";
+    EXPECT_EQ(loosened(policyWith(above), policyWith(lower)).size(), 1U) << "an expected failure";
     Bound fewer = leakBelow(0.1), except = leakBelow(0.1);
     fewer.cells.techniques = {"pcf"};
     except.cells.except = {"pcf"};
-    EXPECT_EQ(sentencesOf(loosened(base, policyWith(fewer))).size(), 1U);
-    EXPECT_EQ(sentencesOf(loosened(base, policyWith(except))).size(), 1U);
+    EXPECT_EQ(loosened(base, policyWith(fewer)).size(), 1U);
+    EXPECT_EQ(loosened(base, policyWith(except)).size(), 1U);
 }
 
-TEST(GatePolicy, ASweepOrAnAnchorThatAsksForLessIsListed) {
+TEST(GatePolicy, ASweepThatAsksForLessIsListed) {
     const Watch watch{"trees", {"pcf"}, {}, "a test"};
     Policy base, head;
     base.watchlist.sweeps = {{watch, "map", {512, 256}}};
-    base.watchlist.anchors = {{"v1", 2, "a test"}};
-    const auto listed = [&] { return sentencesOf(loosened(base, head)); };
-    head.watchlist = base.watchlist;
-    EXPECT_TRUE(listed().empty());
-    head.watchlist.anchors[0].limit = 1.5;
-    EXPECT_TRUE(listed().empty()) << "a stricter one";
-    head.watchlist.anchors[0].limit = 3;
-    EXPECT_EQ(listed(), std::vector<std::string>{"the base's [anchor] v1 is gone or looser here"});
-    head.watchlist.anchors = {{"v2", 1, "a test"}};
-    EXPECT_EQ(listed().size(), 1U) << "another commit";
+    const auto listed = [&] { return loosened(base, head); };
     head.watchlist = base.watchlist;
     head.watchlist.sweeps[0].values = {512};
     EXPECT_EQ(listed(), std::vector<std::string>{"the base's [sweep] pcf on trees over map is gone or looser here"});
@@ -69,10 +60,10 @@ TEST(GatePolicy, ABoundOnAnotherMetricOrSideKeepsNothing) {
     const Policy base = policyWith(leakBelow(0.1));
     Bound other = leakBelow(0.05);
     other.metric = "mismatch";
-    EXPECT_EQ(sentencesOf(loosened(base, policyWith(other))).size(), 1U);
+    EXPECT_EQ(loosened(base, policyWith(other)).size(), 1U);
     other = leakBelow(0.05);
     other.below = false;
-    EXPECT_EQ(sentencesOf(loosened(base, policyWith(other))).size(), 1U);
+    EXPECT_EQ(loosened(base, policyWith(other)).size(), 1U);
 }
 
 TEST(GatePolicy, OfAnotherProfileLeavesOutWhatScenesExpectOfTheGates) {
@@ -83,8 +74,8 @@ TEST(GatePolicy, OfAnotherProfileLeavesOutWhatScenesExpectOfTheGates) {
 
 TEST(GatePolicy, OfAProgramThatIsOlderThanAKindOfEntryHasNone) {
     std::string json = toJson(Identity{"c0ffee", false, "9a55", policyWith(leakBelow(0.1))});
-    json.replace(json.find("\"anchor\""), 8, "\"a kind to come\"");
-    EXPECT_TRUE(identityFrom(json).policy.watchlist.anchors.empty());
+    json.replace(json.find("\"waiver\""), 8, "\"a kind to come\"");
+    EXPECT_TRUE(identityFrom(json).policy.watchlist.waivers.empty());
     EXPECT_EQ(identityFrom(json).policy.watchlist.bounds.size(), 1U);
     EXPECT_THROW(identityFrom("no JSON"), BadInput);
 }
@@ -94,35 +85,35 @@ TEST(GatePolicy, EveryKindOfEntryThatIsGoneIsListedAndJudgesOn) {
     const Watch watch{"trees", {"*"}, {}, "a test"};
     base.watchlist.scenes = base.watchlist.counted = base.watchlist.timed = base.watchlist.seeds = {watch};
     base.watchlist.sweeps = {{watch, "map", {}}};
-    base.watchlist.anchors = {{"v1", 2, "a test"}};
-    Policy head;
-    const Policy more = loosened(base, head);
-    EXPECT_EQ(sentencesOf(more).size(), 8U) << "and the standard scene";
-    add(more, head);
-    EXPECT_EQ(head.standard, base.standard);
-    EXPECT_EQ(head.watchlist.bounds.size(), 1U);
-    EXPECT_EQ(head.watchlist.timed.size(), 1U);
-    EXPECT_TRUE(head.watchlist.anchors.empty()) << "the head's own anchor judges";
+    base.watchlist.choices = {watch};
+    const Union both = unite(base, Policy());
+    EXPECT_EQ(both.loosened.size(), 8U) << "and the standard scene";
+    EXPECT_EQ(both.policy.standard, base.standard);
+    EXPECT_EQ(both.policy.watchlist.bounds.size(), 1U);
+    EXPECT_EQ(both.policy.watchlist.timed.size(), 1U);
+    EXPECT_EQ(both.policy.watchlist.choices.size(), 1U);
+    EXPECT_TRUE(unite(both.policy, both.policy).loosened.empty());
 }
 
 TEST(GatePolicy, IsReadAsItIsWrittenAndMayNameWhatThisBuildLacks) {
     Identity identity{"c0ffee", true, "9a55", policyWith(leakBelow(0.1))};
     identity.policy.watchlist.bounds[0].metric = "a-metric-to-come";
     identity.policy.watchlist.bounds[0].cells.techniques = {"a-technique-to-come"};
-    identity.policy.watchlist.anchors = {{"v1", 2, "a test"}};
+    identity.policy.rules.limits["accuracy.to_come"] = {
+        metrics::TruthError::Rms, 2, "accuracy.pixels.lit", 0.1, 0.2, true, 1};
+    identity.policy.time.floor = 0.02;
     const Identity read = identityFrom(toJson(identity));
     EXPECT_EQ(toJson(read), toJson(identity));
     EXPECT_THROW(identityFrom("{}"), BadInput);
-    Policy head;
-    add(read.policy, head);
-    EXPECT_TRUE(head.watchlist.bounds.empty());
+    EXPECT_EQ(read.policy.rules.limits.at("accuracy.to_come").of, "accuracy.pixels.lit");
+    EXPECT_TRUE(unite(read.policy, Policy()).policy.watchlist.bounds.empty());
 }
 
 TEST(GatePolicy, OfThisBuildIsThatOfTheCommittedFile) {
     const Policy file = readPolicy(std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml", Profile::Gate);
     const Policy own = ownIdentity().policy;
-    EXPECT_TRUE(sentencesOf(loosened(own, file)).empty());
-    EXPECT_TRUE(sentencesOf(loosened(file, own)).empty());
+    EXPECT_TRUE(loosened(own, file).empty());
+    EXPECT_TRUE(loosened(file, own).empty());
     EXPECT_FALSE(own.standard.empty());
 }
 
@@ -152,56 +143,107 @@ TEST_F(GateUnion, ARenamedSceneOrTechniqueIsNamed) {
     base.standard = {"treees"};
     const JudgedCells cells(options_, base, {"sm-unifrom"});
     ASSERT_EQ(cells.gone.size(), 2U);
-    EXPECT_NE((cells.gone[0] + cells.gone[1]).find("the scene treees, which the base judges, no longer exists"),
-              std::string::npos);
-    EXPECT_NE((cells.gone[0] + cells.gone[1]).find("sm-unifrom, which the base shows, no longer exists"), std::string::npos);
+    EXPECT_EQ(cells.gone[0].sentence, "sm-unifrom, which the base shows, no longer exists");
+    EXPECT_EQ(cells.gone[1].sentence, "the scene treees, which the base judges, no longer exists");
 }
 
-Record counted(double instructions) {
-    Record record = test::softRecord();
-    record.values["cost.instructions"] = instructions;
-    return record;
+TEST_F(GateUnion, TheScenesOfTheBasesChoicesAreJudgedOrNamed) {
+    Policy base;
+    base.watchlist.choices = {{"choices.toml", {"pcf"}, {}, "a test"}};
+    ASSERT_EQ(JudgedCells(options_, base, {}).gone.size(), 1U);
+    EXPECT_EQ(JudgedCells(options_, base, {}).gone[0].scene, "choices.toml");
+    EXPECT_EQ(JudgedCells(options_, base, {}).gone[0].direction, Direction::Unjudged);
+    std::filesystem::copy_file(std::filesystem::path(SOURCE_FOLDER) / "harness/gate/scenes/choices-point.toml",
+                               folder_.path() / "choices.toml");
+    const JudgedCells cells(options_, base, {});
+    EXPECT_TRUE(cells.gone.empty());
+    EXPECT_TRUE(cells.chooses("choices", "pcf:kernel=3,filter=constant") ||
+                std::ranges::any_of(cells.scenes, [](const JudgedScene& s) { return s.id == "choices"; }));
 }
 
-TEST(GateAnchor, SmallChangesThatAddUpAreARegression) {
-    const Anchor anchor{"v1", 4, "a test"}; // 4 × 0.5 %
-    EXPECT_TRUE(judgeDrift(anchor, {counted(1e6)}, {counted(1.019e6)}).changes.empty());
-    const AnchorJudgement judged = judgeDrift(anchor, {counted(1e6)}, {counted(1.024e6)}); // six commits of 0.4 %
-    ASSERT_EQ(judged.changes.size(), 1U);
-    EXPECT_EQ(judged.changes[0].direction, Direction::Worse);
-    EXPECT_EQ(judged.changes[0].metric, "cost.instructions");
-    EXPECT_NE(judged.changes[0].sentence.find("since the anchor v1"), std::string::npos);
-    EXPECT_GT(judged.compared, 10U);
+TEST_F(GateUnion, ASceneOfTwoEntriesIsMeasuredOnce) {
+    Policy base;
+    base.watchlist.scenes = {{"colonnade", {"pcf"}, {}, "a test"}, {"colonnade", {"pcf", "sm-uniform"}, {}, "a test"}};
+    const JudgedCells cells(options_, base, {});
+    ASSERT_EQ(std::ranges::count(cells.scenes, "colonnade", &JudgedScene::id), 1);
+    const auto scene = std::ranges::find(cells.scenes, "colonnade", &JudgedScene::id);
+    EXPECT_EQ(std::ranges::count(scene->variants, "pcf"), 1);
+    EXPECT_EQ(std::ranges::count(scene->variants, "sm-uniform"), 1);
 }
 
-TEST(GateAnchor, NeitherFiguresNorWhatIsNewOrGoneDrift) {
-    Record before = counted(1e6), now = counted(1e6), isNew = counted(1e6);
-    before.figures["tiles"] = 6;
-    now.figures["tiles"] = 60; // a figure has no better direction
-    now.values["accuracy.rmse"].reset();
-    isNew.variant = "pcf";
-    EXPECT_TRUE(judgeDrift({"v1", 4, ""}, {before}, {now, isNew}).changes.empty());
-}
-
-TEST(GateAnchor, BreakPointsDoNotDrift) {
-    const auto swept = [](double breakPoint) {
-        Record record = counted(1e6);
-        record.sweep = SweepStep{"near-plane", "m", record.variant, 1, breakPoint};
-        return record;
+TEST(GatePolicy, TheStricterRuleOfTimesJudges) {
+    const Policy base;
+    const auto united = [&](const TimeRule& rule) {
+        Policy head;
+        head.time = rule;
+        return unite(base, head);
     };
-    EXPECT_TRUE(judgeDrift({"v1", 4, ""}, {swept(0.1)}, {swept(1)}).changes.empty()) << "the gate judges each by itself";
+    const TimeRule own;
+    for (const TimeRule& looser : {TimeRule{2 * own.floor, own.wallFloor, own.mustTell, own.alpha},
+                                   TimeRule{own.floor, 2 * own.wallFloor, own.mustTell, own.alpha},
+                                   TimeRule{own.floor, own.wallFloor, 2 * own.mustTell, own.alpha},
+                                   TimeRule{own.floor, own.wallFloor, own.mustTell, own.alpha / 2}}) {
+        EXPECT_EQ(united(looser).loosened, std::vector<std::string>{"the rule of times is looser than the base's"});
+        const TimeRule rule = united(looser).policy.time;
+        EXPECT_EQ(rule.floor, own.floor);
+        EXPECT_EQ(rule.wallFloor, own.wallFloor);
+        EXPECT_EQ(rule.mustTell, own.mustTell);
+        EXPECT_EQ(rule.alpha, own.alpha);
+    }
+    EXPECT_TRUE(united({own.floor / 2, own.wallFloor, own.mustTell, 2 * own.alpha}).loosened.empty());
+    EXPECT_EQ(united({own.floor / 2, own.wallFloor, own.mustTell, own.alpha}).policy.time.floor, own.floor / 2);
 }
 
-TEST(GateAnchor, WhatCannotBeComparedIsNotedOnce) {
-    Record other = counted(1e6), another = counted(1e6);
-    other.reference->key = another.reference->key = "other";
-    another.variant = "pcf";
-    Record old = counted(1e6);
-    old.variant = "pcf";
-    const AnchorJudgement judged = judgeDrift({"v1", 4, ""}, {counted(1e6), old}, {other, another});
-    EXPECT_EQ(judged.compared, 0U);
-    ASSERT_EQ(judged.notes.size(), 1U);
-    EXPECT_TRUE(judged.notes[0].starts_with("2 comparisons with the anchor v1")) << judged.notes[0];
+const Waiver leaksUntilMay{"tre*", {"pcf*", "gone:map=3"}, "leak", "a test", "2026-05-31"};
+
+TEST(Waivers, AcceptWhatIsOfTheirCellsAndClassThroughTheirLastDay) {
+    const auto waived = [](const std::string& scene, const std::string& variant, Class what, Direction direction,
+                           const std::string& today) {
+        std::vector<Change> changes{{scene, variant, "m", what, 1, 2, 0, direction, "it leaks"}};
+        waive(changes, {leaksUntilMay}, today);
+        return changes[0].direction == Direction::Waived;
+    };
+    EXPECT_TRUE(waived("trees", "pcf", Class::Leak, Direction::Worse, "2026-05-31"));
+    EXPECT_FALSE(waived("trees", "pcf", Class::Leak, Direction::Worse, "2026-06-01"));
+    EXPECT_TRUE(waived("trees", "pcf", Class::Leak, Direction::Unjudged, "2026-01-01"));
+    EXPECT_TRUE(waived("trees", "gone:map=3", Class::Leak, Direction::Unjudged, "2026-01-01"));
+    EXPECT_FALSE(waived("simple", "pcf", Class::Leak, Direction::Worse, "2026-01-01"));
+    EXPECT_FALSE(waived("trees", "esm", Class::Leak, Direction::Worse, "2026-01-01"));
+    EXPECT_FALSE(waived("trees", "pcf", Class::Edge, Direction::Worse, "2026-01-01"));
+    for (const Direction other : {Direction::Better, Direction::Same, Direction::Unclear})
+        EXPECT_FALSE(waived("trees", "pcf", Class::Leak, other, "2026-01-01"));
+}
+
+TEST(Waivers, ThatAcceptNothingAreNamed) {
+    std::vector<Change> changes;
+    EXPECT_EQ(waive(changes, {leaksUntilMay}, "2026-01-01"),
+              std::vector<std::string>{"the waiver \"a test\" accepts nothing: remove it"});
+    EXPECT_EQ(waive(changes, {leaksUntilMay}, "2026-07-01"),
+              std::vector<std::string>{"the waiver \"a test\" held until 2026-05-31 and accepts nothing now"});
+}
+
+TEST(Waivers, OfTheHeadAloneAreListed) {
+    Policy with;
+    with.watchlist.waivers = {leaksUntilMay};
+    ASSERT_EQ(loosened(Policy(), with).size(), 1U);
+    EXPECT_TRUE(loosened(Policy(), with)[0].starts_with(
+        "this build accepts, and its base does not, leak of pcf*, gone:map=3 on tre*"));
+    EXPECT_TRUE(loosened(with, with).empty());
+    EXPECT_TRUE(loosened(with, Policy()).empty());
+    EXPECT_TRUE(unite(with, Policy()).policy.watchlist.waivers.empty()) << "the head is held to more";
+    EXPECT_EQ(identityFrom(toJson(Identity{"c0ffee", false, "9a55", with})).policy.watchlist.waivers[0].expires,
+              "2026-05-31");
+}
+
+TEST(Waivers, AreReadFromTheFileOfBounds) {
+    const auto read = [](const std::string& day, const std::string& what) {
+        return parseWatchlist("[[waiver]]\nscene = \"*\"\ntechniques = [\"gone\"]\nclass = \"" + what +
+                                  "\"\nreason = \"a test\"\nexpires = \"" + day + "\"\n",
+                              "bounds.toml", Profile::Gate);
+    };
+    EXPECT_EQ(read("2026-12-31", "false shadow").waivers.at(0).what, "false shadow");
+    EXPECT_THROW(read("31.12.2026", "leak"), BadInput);
+    EXPECT_THROW(read("2026-12-31", "no class"), BadInput);
 }
 
 TEST(GateChoices, EveryTwoChoicesComeTogether) {
@@ -263,7 +305,7 @@ TEST(GateCounts, HoldEveryTechnique) {
     std::set<std::string> counted;
     for (const JudgedScene& scene : cells.scenes)
         for (const std::string& name : scene.variants)
-            for (const Watch& watch : cells.watchlist.counted)
+            for (const Watch& watch : cells.policy.watchlist.counted)
                 if (watch.scene == scene.id && watch.covers(name)) counted.insert(techniques::parseVariant(name).entry->id);
     for (const techniques::Entry& entry : techniques::catalog()) EXPECT_TRUE(counted.contains(entry.id)) << entry.id;
 }

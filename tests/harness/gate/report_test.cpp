@@ -93,8 +93,8 @@ TEST(GateReport, CommandsCanBePastedIntoAShell) {
 /// One change of each direction.
 std::vector<Change> oneOfEach() {
     std::vector<Change> changes;
-    for (const Direction direction :
-         {Direction::Better, Direction::Same, Direction::Worse, Direction::Unclear, Direction::Unjudged}) {
+    for (const Direction direction : {Direction::Better, Direction::Same, Direction::Worse, Direction::Unclear,
+                                      Direction::Unjudged, Direction::Waived}) {
         changes.push_back(worse("trees", "pcf"));
         changes.back().direction = direction;
         changes.back().sentence = "change " + std::to_string(changes.size());
@@ -102,20 +102,75 @@ std::vector<Change> oneOfEach() {
     return changes;
 }
 
+Comparison comparisonOf(const std::vector<Change>& changes) { return {changes, {2, 1, {}, {}, {"pcf on trees"}, {}}}; }
+
 TEST(ChangesReport, ListsTheWorstFirstAndCountsTheRest) {
-    EXPECT_EQ(changesReport(oneOfEach(), "text"), "worse      leak          change 3\nnot judged leak          change 5\n"
-                                                  "unclear    leak          change 4\nbetter     leak          change 1\n"
-                                                  "1 worse, 1 better, 1 the same, 1 unclear, 1 not judged\n");
-    EXPECT_EQ(changesReport({}, "text"), "0 worse, 0 better, 0 the same\n");
-    const std::string page = changesReport(oneOfEach(), "md");
-    EXPECT_TRUE(page.starts_with("**1 worse, 1 better, 1 the same, 1 unclear, 1 not judged**\n")) << page;
-    EXPECT_TRUE(contains(page, "\n| not judged | class |\n|---|---|\n| change 5 | leak |\n")) << page;
-    EXPECT_FALSE(contains(changesReport({worse("trees", "pcf")}, "md"), "| better |"));
+    EXPECT_EQ(
+        changesReport(comparisonOf(oneOfEach()), "text"),
+        "worse      leak          change 3\nnot judged leak          change 5\nunclear    leak          change 4\n"
+        "waived     leak          change 6\nbetter     leak          change 1\n1 worse, 1 better, 1 the same, 1 unclear, "
+        "1 waived, 1 not judged; 1 of 2 expected results compared; failed: pcf on trees\n");
+    EXPECT_EQ(changesReport({}, "text"), "0 worse, 0 better, 0 the same; 0 of 0 expected results compared\n");
+    const std::string page = changesReport(comparisonOf(oneOfEach()), "md");
+    EXPECT_TRUE(page.starts_with("**1 worse, 1 better, 1 the same, 1 unclear, 1 waived, 1 not judged; 1 of 2")) << page;
+    EXPECT_TRUE(contains(page, "\n| not judged | leak | change 5 |\n")) << page;
+    EXPECT_TRUE(contains(page, "\n| leak | 1 | 1 | 1 | 1 | 1 |\n")) << page;
 }
 
-TEST(Annotations, WarnOfWhatIsUnclearOrNotJudged) {
+TEST(ChangesReport, OfMarkdownBeginsWithTheTenWorstOneAResultAndCause) {
+    std::vector<Change> changes;
+    for (int i = 0; i < 24; ++i) {
+        changes.push_back(worse("trees", "pcf" + std::to_string(i / 2)));
+        changes.back().head = 0.2 + 0.01 * i;
+        changes.back().sentence = "change " + std::to_string(i);
+    }
+    const std::string page = changesReport(comparisonOf(changes), "md");
+    const std::string worst = page.substr(0, page.find("\n| class |"));
+    EXPECT_TRUE(contains(worst, "| change 23, and 1 more of leak |")) << worst;
+    EXPECT_EQ(std::ranges::count(worst, '\n'), 1 + 1 + 2 + 10) << worst;
+    EXPECT_TRUE(contains(page, "| change 0 |")) << "all are below";
+}
+
+TEST(ChangesReport, NoSentenceBreaksATable) {
+    Change change = worse("trees", "pcf");
+    change.sentence = "a|b\nc";
+    EXPECT_TRUE(contains(changesReport(comparisonOf({change}), "md"), "| a/b/c |"));
+}
+
+TEST(GateComment, HasFortyLinesHoweverMuchIsWorse) {
+    GateResult result = resultOf({});
+    for (int i = 0; i < 100; ++i) {
+        for (Change change : oneOfEach()) {
+            change.variant += std::to_string(i);
+            change.sentence = "several\nlines\nof words";
+            result.changes.push_back(change);
+        }
+        result.loosened.emplace_back("the base's bound is gone");
+        result.unjudged.emplace_back("not measured");
+    }
+    const std::string comment = gateComment(result, optionsOf());
+    EXPECT_LE(std::ranges::count(comment, '\n'), 40) << comment;
+    EXPECT_TRUE(comment.starts_with("## shadowbench: inconclusive\n")) << comment;
+    EXPECT_LT(comment.find("Looser than the base:"), comment.find("Worse:"));
+    EXPECT_TRUE(contains(comment, "* … and 90 more\n")) << comment;
+}
+
+TEST(Annotations, AreOneForEachResultAndCauseAndWarnOfWhatIsUnclearOrNotJudged) {
     EXPECT_EQ(annotations(oneOfEach()), "::error title=leak is worse::change 3\n::warning title=leak is not judged::change "
-                                        "4\n::warning title=leak is not judged::change 5\n");
+                                        "5\n::warning title=leak is unclear::change 4\n");
+    EXPECT_EQ(annotations({worse("trees", "pcf"), worse("trees", "pcf")}),
+              "::error title=leak is worse::pcf on trees leaks, and 1 more of leak\n");
+}
+
+TEST(Annotations, NoSentenceIsTakenForACommand) {
+    Change change = worse("trees", "pcf");
+    change.sentence = "100 %\r\n::stop-commands::x";
+    EXPECT_EQ(annotations({change}), "::error title=leak is worse::100 %25%0D%0A::stop-commands::x\n");
+}
+
+TEST(JUnit, SaysWhatATimeThatPassedWouldHaveTold) {
+    const Change time{"trees", "pcf", "time.ratio", Class::Time, 1, 1, 0.01, Direction::Same, "2 % would have been told"};
+    EXPECT_TRUE(contains(junit({time}), "<system-out>2 % would have been told\n</system-out>")) << junit({time});
 }
 
 } // namespace

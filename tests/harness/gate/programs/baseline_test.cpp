@@ -91,6 +91,24 @@ TEST_F(ABaseline, ThatIsNothingOrNowhereIsInconclusive) {
     EXPECT_NE(complaint("empty").find("the base \"empty\" is no build folder"), std::string::npos);
 }
 
+TEST_F(ABaseline, ThatIsAPathAndARevisionIsRefused) {
+    makeRepository();
+    makeCmake("printf '#!/bin/sh\\n' >shadowbench; chmod +x shadowbench\n");
+    writeFile("v1/results.jsonl", "{}\n");
+    EXPECT_THROW(find("v1"), BadInput);
+    EXPECT_EQ(find("./v1").kind, Baseline::Kind::Records);
+}
+
+TEST_F(ABaseline, ThatAShallowCloneLacksSaysSo) {
+    fs::create_directory("whole");
+    fs::current_path("whole");
+    makeRepository();
+    fs::current_path("..");
+    ASSERT_TRUE(git(".", {"clone", "-q", "--depth", "1", "file://" + (fs::current_path() / "whole").string(), "shallow"}));
+    fs::current_path("shallow");
+    EXPECT_NE(complaint("v0").find("this clone is shallow: fetch the whole history"), std::string::npos) << complaint("v0");
+}
+
 TEST_F(ABaseline, ACommitIsBuiltOnce) {
     makeRepository();
     makeCmake("printf '#!/bin/sh\\n' >shadowbench; chmod +x shadowbench\n");

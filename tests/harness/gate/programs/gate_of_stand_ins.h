@@ -44,6 +44,7 @@ protected:
     }
     static Record leaking(Record record, double leak = 0.1) {
         record.values["accuracy.leak"] = leak;
+        record.images = std::to_string(leak);
         return record;
     }
     [[nodiscard]] std::string complaint() const {
@@ -68,6 +69,14 @@ inline std::string all(const std::vector<std::string>& sentences) {
 
 inline bool has(const std::vector<std::string>& sentences, const std::string& part) {
     return all(sentences).find(part) != std::string::npos;
+}
+
+/// The sentences of what was not judged, a line each.
+inline std::string unjudged(const GateResult& result) {
+    std::string text = all(result.unjudged);
+    for (const Change& change : result.changes)
+        if (change.direction == Direction::Unjudged) text += change.sentence + "\n";
+    return text;
 }
 
 inline std::vector<Change> of(const GateResult& result, const std::string& metric) {

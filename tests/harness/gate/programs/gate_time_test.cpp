@@ -23,6 +23,7 @@ TEST_F(TimeOfStandIns, AsLongIsTheSameAndLongerIsWorse) {
     base_.takes("100", "100");
     head_.takes("100", "100");
     EXPECT_EQ(judged().first, Direction::Same);
+    EXPECT_NE(judged().second.find("1.0 % or more would have been told"), std::string::npos) << judged().second;
     head_.takes("105", "105");
     EXPECT_EQ(judged().first, Direction::Worse);
     EXPECT_NE(judged().second.find("pcf on tiny: a frame takes 1.050 of the base's CPU time, surely more than 1.050"),
@@ -46,6 +47,17 @@ TEST_F(TimeOfStandIns, WhatStaysUncertainIsUnclear) {
     const auto [direction, sentence] = judged();
     EXPECT_EQ(direction, Direction::Unclear) << sentence;
     EXPECT_NE(sentence.find("which 1920 rounds leave uncertain"), std::string::npos) << sentence;
+}
+
+// The same, a tenth apart: what this run could have told is more than anybody would accept.
+TEST_F(TimeOfStandIns, WhatStaysUncertainAndCouldNotBeToldIsNotJudged) {
+    base_.takes("10000", "10000");
+    head_.takes("10300 + (start % 2 ? 1 : -1) * (1000 + 10 * (start / 2 % 48))", "10000");
+    head_.does("time-frames", "echo >>\"$here/starts\"\nstart=$(($(wc -l <\"$here/starts\") + 1))\n" +
+                                  readFile(head_.program().parent_path() / "time-frames.sh"));
+    const auto [direction, sentence] = judged();
+    EXPECT_EQ(direction, Direction::Unjudged) << sentence;
+    EXPECT_NE(sentence.find("% or more would have been told"), std::string::npos) << sentence;
 }
 
 TEST_F(TimeOfStandIns, OnAMachineThatIsNotSteadyNothingIsJudged) {

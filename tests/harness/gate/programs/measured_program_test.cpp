@@ -72,6 +72,18 @@ TEST_F(AMeasuredProgram, IsMeasuredOnce) {
     EXPECT_EQ(progress_, std::vector<std::string>{"tiny 1/3  pcf"}) << "of its lines those that are progress";
 }
 
+TEST_F(AMeasuredProgram, IsMeasuredAgainWhereSomebodyChangedItsRecords) {
+    (void)measure(step_);
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path() / "cache"))
+        if (entry.path().filename() == "results.jsonl") {
+            std::vector<Record> records = readRecords(entry.path());
+            records[0].values["accuracy.leak"] = 0.5;
+            writeRecords(entry.path(), records);
+        }
+    EXPECT_EQ(measure(step_).records.at(0).values["accuracy.leak"], standInRecord("pcf").values["accuracy.leak"]);
+    EXPECT_EQ(standIn_.calls("run"), 2);
+}
+
 TEST_F(AMeasuredProgram, IsMeasuredAgainForOtherInputsAndWithOtherPrograms) {
     (void)measure(step_);
     step_.inputs = "another scene";
