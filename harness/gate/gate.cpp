@@ -3,7 +3,6 @@
 #include "base/progress_line.h"
 #include "groundtruth/store/cache.h"
 #include "harness/cells/environment.h"
-#include "harness/gate/anchor.h"
 #include "harness/gate/baseline.h"
 #include "harness/gate/bounds.h"
 #include "harness/gate/failure_pictures.h"
@@ -81,7 +80,6 @@ private:
         std::ranges::move(measureSteps(head, "head", cells_.externalSteps()), std::back_inserter(now));
         judgeRecords(before, now, cells_.steps(head, instructions));
         if (const auto why = whyMeaningless(before, now, options_.aa)) result_.unjudged.push_back(*why);
-        judgeAgainstAnchors(now);
         addPictures(nullptr, head);
     }
 
@@ -93,7 +91,6 @@ private:
         const std::vector<Record> now = measure(head, "head", options_.instructions);
         judgeRecords(before, now, cells_.steps(head, options_.instructions));
         if (const auto why = whyMeaningless(before, now, true)) result_.unjudged.push_back(*why);
-        judgeAgainstAnchors(now);
         if (options_.time) judgeTimes(base, head);
         addPictures(&base, head);
     }
@@ -171,27 +168,6 @@ private:
         if (std::ranges::any_of(steps, [](const Step& s) { return s.records == "sweep.jsonl"; }) &&
             std::ranges::none_of(before, [](const Record& r) { return r.sweep.has_value(); }))
             result_.notes.emplace_back("break points are not judged: the base's records hold no sweep");
-    }
-
-    /// The drift since each anchor, in units of what one commit may change.
-    void judgeAgainstAnchors(const std::vector<Record>& now) {
-        if (std::ranges::all_of(now, isExternal)) return; // of which an anchor knows nothing
-        for (const Anchor& anchor : cells_.watchlist.anchors) {
-            StageLine line("anchor", options_.quiet);
-            const Baseline found =
-                timed("building the anchor", [&] { return findBaseline(anchor.commit, cache_, line.progress()); });
-            const std::vector<Record> before =
-                found.kind == Baseline::Kind::Records
-                    ? readRecords(found.file)
-                    : measure(MeasuredProgram(found.file, cache_), "anchor", options_.instructions);
-            AnchorJudgement judgement = judgeDrift(anchor, before, now);
-            std::ranges::move(judgement.changes, std::back_inserter(result_.changes));
-            std::ranges::move(judgement.notes, std::back_inserter(result_.notes));
-            if (judgement.compared == 0)
-                result_.unjudged.push_back(
-                    fmt::format("nothing can be compared with the anchor {}: name a younger commit in {}", anchor.commit,
-                                options_.bounds.string()));
-        }
     }
 
     void noteUnknownScenes() {

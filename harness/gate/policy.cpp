@@ -40,12 +40,6 @@ void fields(auto&& visit, auto& sweep) requires requires { sweep.axis; }
     visit("axis", sweep.axis);
     visit("values", sweep.values);
 }
-void fields(auto&& visit, auto& anchor) requires requires { anchor.limit; }
-{
-    visit("commit", anchor.commit);
-    visit("limit", anchor.limit);
-    visit("reason", anchor.reason);
-}
 
 /// The lists of a watchlist, once.
 void lists(auto&& visit, auto& watchlist) {
@@ -56,7 +50,6 @@ void lists(auto&& visit, auto& watchlist) {
     visit("time", watchlist.timed);
     visit("seeds", watchlist.seeds);
     visit("choices", watchlist.choices);
-    visit("anchor", watchlist.anchors);
 }
 
 Json policyJson(const Policy& policy) {
@@ -110,7 +103,6 @@ bool asStrict(const Bound& head, const Bound& base) {
 bool asStrict(const WatchedSweep& head, const WatchedSweep& base) {
     return asStrict(head.cells, base.cells) && head.axis == base.axis && head.values == base.values;
 }
-bool asStrict(const Anchor& head, const Anchor& base) { return head.commit == base.commit && head.limit <= base.limit; }
 
 template <class Entry>
 void keepLoosened(std::vector<Entry>& base, const std::vector<Entry>& head) {
@@ -124,7 +116,6 @@ std::string text(const Bound& bound) {
     return fmt::format("{}: {} {} {}", text(bound.cells), bound.metric, bound.below ? "below" : "above", bound.value);
 }
 std::string text(const WatchedSweep& sweep) { return fmt::format("{} over {}", text(sweep.cells), sweep.axis); }
-std::string text(const Anchor& anchor) { return anchor.commit; }
 
 } // namespace
 
@@ -170,7 +161,6 @@ Policy loosened(const Policy& base, const Policy& head) {
     keepLoosened(before.timed, now.timed);
     keepLoosened(before.seeds, now.seeds);
     keepLoosened(before.choices, now.choices);
-    keepLoosened(before.anchors, now.anchors);
     return result;
 }
 

@@ -63,11 +63,6 @@ Watch readPlainWatch(const TomlValue& entry) {
     return readWatch(entry);
 }
 
-Anchor readAnchor(const TomlValue& entry) {
-    entry.only({"commit", "limit", "reason"});
-    return {entry.get("commit").text(), entry.get("limit").positive(), entry.get("reason").text()};
-}
-
 template <class Read>
 auto readList(const TomlValue& root, const char* key, Read read) {
     std::vector<decltype(read(root))> list;
@@ -138,11 +133,11 @@ Watchlist parseWatchlist(const std::string& text, const std::string& file, Profi
     const TomlSource source{file, profileNames(), std::string(name(profile))};
     const toml::table table = parseToml(text, source.file);
     const TomlValue root(source, "", table);
-    root.only({"scene", "bound", "sweep", "count", "time", "seeds", "choices", "anchor"});
-    return {readList(root, "scene", readPlainWatch),   readList(root, "bound", readBound),
-            readList(root, "sweep", readSweep),        readList(root, "count", readPlainWatch),
-            readList(root, "time", readPlainWatch),    readList(root, "seeds", readPlainWatch),
-            readList(root, "choices", readPlainWatch), readList(root, "anchor", readAnchor)};
+    root.only({"scene", "bound", "sweep", "count", "time", "seeds", "choices"});
+    return {readList(root, "scene", readPlainWatch),  readList(root, "bound", readBound),
+            readList(root, "sweep", readSweep),       readList(root, "count", readPlainWatch),
+            readList(root, "time", readPlainWatch),   readList(root, "seeds", readPlainWatch),
+            readList(root, "choices", readPlainWatch)};
 }
 
 } // namespace shadowbench::gate

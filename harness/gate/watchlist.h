@@ -42,13 +42,6 @@ struct WatchedSweep {
     std::vector<double> values; // empty: the axis' own
 };
 
-/// A commit that the build is compared with beside its base, so that small changes cannot add up unseen.
-struct Anchor {
-    std::string commit; // as `--base` takes it
-    double limit = 1;   // of the drift since, in multiples of what one commit may change
-    std::string reason;
-};
-
 /// Seeds that a cell is measured with where chance plays a part: as many as the allowance for it counts on
 /// (harness/records/compare.cpp).
 inline constexpr std::uint32_t seedsOfChance = 8;
@@ -61,7 +54,6 @@ struct Watchlist {
     std::vector<Watch> timed;   // in pairs
     std::vector<Watch> seeds;   // measured with several seeds, for what chance does to them
     std::vector<Watch> choices; // every two choices of their parameters together; the scene is a file beside the bounds
-    std::vector<Anchor> anchors;
 
     /// Whether chance plays a part in a variant, by its canonical name, on a scene.
     [[nodiscard]] bool isByChance(const std::string& scene, const std::string& variant) const;

@@ -119,8 +119,7 @@ TEST_F(WatchlistFile, NamesWhatNoListMayHold) {
         {"[[sweep]]\n" + watch + "axis = \"near-plane\"\nvalues = [\"a\"]\n", "values"},
         {"[[bound]]\n" + watch + "metric = \"leek\"\nbelow = 1\n", "leak"},
         {"[[bound]]\n" + watch + "metric = \"leak\"\nbelow = -1\n", "below"},
-        {"[[anchor]]\ncommit = \"v1\"\nreason = \"r\"\n", "limit"},
-        {"[[anchor]]\ncommit = \"v1\"\nlimit = 0\nreason = \"r\"\n", "limit"},
+        {"[[anchor]]\ncommit = \"v1\"\n", "anchor: unknown key"},
         {"[[time]\n", "bounds.toml"}};
     for (const auto& [text, part] : faults) {
         EXPECT_NE(complaint(text).find(part), std::string::npos) << text << complaint(text);

@@ -1,13 +1,11 @@
-// Whose policy judges, what drifts since an anchor, and which choices are tried.
+// Whose policy judges, and which choices are tried.
 #include "base/error.h"
 #include "base/files.h"
 #include "base/temporary_folder.h"
-#include "harness/gate/anchor.h"
 #include "harness/gate/choices.h"
 #include "harness/gate/judged_cells.h"
 #include "harness/gate/policy.h"
 #include "techniques/catalog.h"
-#include "tests/support/records_examples.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -42,21 +40,13 @@ TEST(GatePolicy, ALooserBoundIsListedAndAStricterOneIsNot) {
     EXPECT_EQ(sentencesOf(loosened(base, policyWith(except))).size(), 1U);
 }
 
-TEST(GatePolicy, ASweepOrAnAnchorThatAsksForLessIsListed) {
+TEST(GatePolicy, ASweepThatAsksForLessIsListed) {
     const Watch watch{"trees", {"pcf"}, {}, "a test"};
     Policy base, head;
     base.watchlist.sweeps = {{watch, "map", {512, 256}}};
-    base.watchlist.anchors = {{"v1", 2, "a test"}};
     const auto listed = [&] { return sentencesOf(loosened(base, head)); };
     head.watchlist = base.watchlist;
     EXPECT_TRUE(listed().empty());
-    head.watchlist.anchors[0].limit = 1.5;
-    EXPECT_TRUE(listed().empty()) << "a stricter one";
-    head.watchlist.anchors[0].limit = 3;
-    EXPECT_EQ(listed(), std::vector<std::string>{"the base's [anchor] v1 is gone or looser here"});
-    head.watchlist.anchors = {{"v2", 1, "a test"}};
-    EXPECT_EQ(listed().size(), 1U) << "another commit";
-    head.watchlist = base.watchlist;
     head.watchlist.sweeps[0].values = {512};
     EXPECT_EQ(listed(), std::vector<std::string>{"the base's [sweep] pcf on trees over map is gone or looser here"});
     head.watchlist.sweeps[0] = {watch, "near-plane", {512, 256}};
@@ -83,8 +73,8 @@ TEST(GatePolicy, OfAnotherProfileLeavesOutWhatScenesExpectOfTheGates) {
 
 TEST(GatePolicy, OfAProgramThatIsOlderThanAKindOfEntryHasNone) {
     std::string json = toJson(Identity{"c0ffee", false, "9a55", policyWith(leakBelow(0.1))});
-    json.replace(json.find("\"anchor\""), 8, "\"a kind to come\"");
-    EXPECT_TRUE(identityFrom(json).policy.watchlist.anchors.empty());
+    json.replace(json.find("\"choices\": []"), 13, R"("anchor": [{"commit": "v1"}])"); // nor are those that this one lost
+    EXPECT_TRUE(identityFrom(json).policy.watchlist.choices.empty());
     EXPECT_EQ(identityFrom(json).policy.watchlist.bounds.size(), 1U);
     EXPECT_THROW(identityFrom("no JSON"), BadInput);
 }
@@ -94,22 +84,19 @@ TEST(GatePolicy, EveryKindOfEntryThatIsGoneIsListedAndJudgesOn) {
     const Watch watch{"trees", {"*"}, {}, "a test"};
     base.watchlist.scenes = base.watchlist.counted = base.watchlist.timed = base.watchlist.seeds = {watch};
     base.watchlist.sweeps = {{watch, "map", {}}};
-    base.watchlist.anchors = {{"v1", 2, "a test"}};
     Policy head;
     const Policy more = loosened(base, head);
-    EXPECT_EQ(sentencesOf(more).size(), 8U) << "and the standard scene";
+    EXPECT_EQ(sentencesOf(more).size(), 7U) << "and the standard scene";
     add(more, head);
     EXPECT_EQ(head.standard, base.standard);
     EXPECT_EQ(head.watchlist.bounds.size(), 1U);
     EXPECT_EQ(head.watchlist.timed.size(), 1U);
-    EXPECT_TRUE(head.watchlist.anchors.empty()) << "the head's own anchor judges";
 }
 
 TEST(GatePolicy, IsReadAsItIsWrittenAndMayNameWhatThisBuildLacks) {
     Identity identity{"c0ffee", true, "9a55", policyWith(leakBelow(0.1))};
     identity.policy.watchlist.bounds[0].metric = "a-metric-to-come";
     identity.policy.watchlist.bounds[0].cells.techniques = {"a-technique-to-come"};
-    identity.policy.watchlist.anchors = {{"v1", 2, "a test"}};
     const Identity read = identityFrom(toJson(identity));
     EXPECT_EQ(toJson(read), toJson(identity));
     EXPECT_THROW(identityFrom("{}"), BadInput);
@@ -155,53 +142,6 @@ TEST_F(GateUnion, ARenamedSceneOrTechniqueIsNamed) {
     EXPECT_NE((cells.gone[0] + cells.gone[1]).find("the scene treees, which the base judges, no longer exists"),
               std::string::npos);
     EXPECT_NE((cells.gone[0] + cells.gone[1]).find("sm-unifrom, which the base shows, no longer exists"), std::string::npos);
-}
-
-Record counted(double instructions) {
-    Record record = test::softRecord();
-    record.values["cost.instructions"] = instructions;
-    return record;
-}
-
-TEST(GateAnchor, SmallChangesThatAddUpAreARegression) {
-    const Anchor anchor{"v1", 4, "a test"}; // 4 × 0.5 %
-    EXPECT_TRUE(judgeDrift(anchor, {counted(1e6)}, {counted(1.019e6)}).changes.empty());
-    const AnchorJudgement judged = judgeDrift(anchor, {counted(1e6)}, {counted(1.024e6)}); // six commits of 0.4 %
-    ASSERT_EQ(judged.changes.size(), 1U);
-    EXPECT_EQ(judged.changes[0].direction, Direction::Worse);
-    EXPECT_EQ(judged.changes[0].metric, "cost.instructions");
-    EXPECT_NE(judged.changes[0].sentence.find("since the anchor v1"), std::string::npos);
-    EXPECT_GT(judged.compared, 10U);
-}
-
-TEST(GateAnchor, NeitherFiguresNorWhatIsNewOrGoneDrift) {
-    Record before = counted(1e6), now = counted(1e6), isNew = counted(1e6);
-    before.figures["tiles"] = 6;
-    now.figures["tiles"] = 60; // a figure has no better direction
-    now.values["accuracy.rmse"].reset();
-    isNew.variant = "pcf";
-    EXPECT_TRUE(judgeDrift({"v1", 4, ""}, {before}, {now, isNew}).changes.empty());
-}
-
-TEST(GateAnchor, BreakPointsDoNotDrift) {
-    const auto swept = [](double breakPoint) {
-        Record record = counted(1e6);
-        record.sweep = SweepStep{"near-plane", "m", record.variant, 1, breakPoint};
-        return record;
-    };
-    EXPECT_TRUE(judgeDrift({"v1", 4, ""}, {swept(0.1)}, {swept(1)}).changes.empty()) << "the gate judges each by itself";
-}
-
-TEST(GateAnchor, WhatCannotBeComparedIsNotedOnce) {
-    Record other = counted(1e6), another = counted(1e6);
-    other.reference->key = another.reference->key = "other";
-    another.variant = "pcf";
-    Record old = counted(1e6);
-    old.variant = "pcf";
-    const AnchorJudgement judged = judgeDrift({"v1", 4, ""}, {counted(1e6), old}, {other, another});
-    EXPECT_EQ(judged.compared, 0U);
-    ASSERT_EQ(judged.notes.size(), 1U);
-    EXPECT_TRUE(judged.notes[0].starts_with("2 comparisons with the anchor v1")) << judged.notes[0];
 }
 
 TEST(GateChoices, EveryTwoChoicesComeTogether) {

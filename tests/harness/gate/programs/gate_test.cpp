@@ -244,42 +244,12 @@ TEST_F(GateOfStandIns, ABaseOfRecordsWithoutSweepsJudgesNone) {
     EXPECT_EQ(gate(options_).code(), ExitCode::AccuracyRegression);
 }
 
-std::string anchoredTo(const std::string& commit) {
-    return "[[anchor]]\ncommit = \"" + commit + "\"\nlimit = 2\nreason = \"a test\"\n";
-}
-
-TEST_F(GateOfStandIns, DriftSinceAnAnchorIsARegressionHoweverSmallTheLastStep) {
-    writeRecords(path("anchor/results.jsonl"), {leaking(standInRecord("pcf"), 0.0001)});
-    bounds(anchoredTo(path("anchor")));
-    base_.measures({leaking(standInRecord("pcf"), 0.0999)});
-    head_.measures({leaking(headRecord())});
-    const GateResult result = gate(options_);
-    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
-    EXPECT_NE(of(result, "accuracy.leak").back().sentence.find("since the anchor"), std::string::npos);
-}
-
-TEST_F(GateOfStandIns, AnAnchorThatIsAProgramIsMeasured) {
-    const StandIn anchor(folder_.path(), "anchor");
-    bounds(anchoredTo(anchor.program()));
-    EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
-    EXPECT_EQ(anchor.calls("run"), 1);
-}
-
-TEST_F(GateOfStandIns, AnAnchorWithWhichNothingCanBeComparedIsNamed) {
-    writeRecords(path("anchor/results.jsonl"), {standInRecord("none")});
-    bounds(anchoredTo(path("anchor")));
-    const GateResult result = gate(options_);
-    EXPECT_EQ(result.code(), ExitCode::Inconclusive);
-    EXPECT_TRUE(has(result.unjudged, "nothing can be compared with the anchor")) << all(result.unjudged);
-}
-
 TEST_F(GateOfStandIns, OtherRenderersAreCalledByTheHeadEachTimeAndComparedWithRecords) {
     options_.external = std::make_shared<OneRenderer>();
     options_.externalFiles = {path("engine.toml")};
     options_.techniques = {"external:*"};
     EXPECT_NE(complaint().find("--external needs records as --base"), std::string::npos) << complaint();
     compareWith({standInRecord("external:copy")});
-    bounds(anchoredTo(path("nowhere"))); // of which an anchor knows nothing: it is not even looked for
     head_.measures({leaking(headRecord("external:copy"))});
     const GateResult result = gate(options_);
     EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
