@@ -121,18 +121,6 @@ TEST_F(GateVerb, ASelectionThatAppliesNowhereIsInconclusive) {
     EXPECT_NE(outcome.output.find("no cell is scored in both"), std::string::npos) << outcome.output;
 }
 
-TEST_F(GateVerb, DriftSinceAnAnchorIsARegression) {
-    const std::string base = recorded("--technique sm-uniform");
-    std::vector<Record> anchor = readRecords(base);
-    anchor[0].values["cost.work.vertices"] = *anchor[0].values["cost.work.vertices"] * 0.9;
-    writeRecords(folder_ / "anchor/results.jsonl", anchor);
-    bounds_ = folder_.write("anchored.toml",
-                            "[[anchor]]\ncommit = \"" + folder_ / "anchor" + "\"\nlimit = 4\nreason = \"a test\"\n");
-    const Outcome outcome = gate(base, "--aa --technique sm-uniform --cost none");
-    EXPECT_EQ(outcome.code, 3) << outcome.output;
-    EXPECT_NE(outcome.output.find("since the anchor"), std::string::npos) << outcome.output;
-}
-
 TEST_F(GateVerb, AWorseHeadFailsWithPicturesAndACommandThatShowsItAgain) {
     const std::string base = recorded("--technique sm-uniform:map=64");
     std::vector<Record> records = readRecords(base);
