@@ -8,6 +8,7 @@
 #include "harness/gate/bounds.h"
 #include "harness/gate/failure_pictures.h"
 #include "harness/gate/judged_cells.h"
+#include "harness/gate/truth_sample.h"
 #include "harness/gate/verdict.h"
 #include "harness/measure/callgrind.h"
 #include "scene/load/load.h"
@@ -153,6 +154,8 @@ private:
         std::erase_if(ofSeed, [&](const Record& r) { return r.seed != options_.seed; });
         for (Change& change : judgeBounds(ofSeed, bounds)) result_.changes.push_back(std::move(change));
         requireEveryCell(before, now, steps);
+        std::ranges::move(contradictedTruths(cells_.scenes, options_.profile, cache_, builtFrom().hash, options_.quiet),
+                          std::back_inserter(result_.unjudged));
     }
 
     /// Every cell that was to be measured has a record that can be judged, and the base holds some of them.
