@@ -1,5 +1,5 @@
 # Run at every build: writes embedded_commit.h with the project's version, the checked-out commit and hashes of the sources,
-# only when it changed.
+# and embedded_oracle_sources.h with those of each oracle's, only when they changed.
 # Of results/, which is being made anew while the program runs, only the golden references make another program.
 execute_process(COMMAND git rev-parse HEAD WORKING_DIRECTORY ${ROOT} OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
                 ERROR_QUIET RESULT_VARIABLE failed)
@@ -15,11 +15,17 @@ else()
   set(dirty true)
 endif()
 
-# The hash of all files in folders and of a text that belongs to them: the same wherever and whenever they are built.
-function(digest_of result text)
+# The hash of all files in folders, and of files whatever they end in, but those that match `without`, and of a text that
+# belongs to them: the same wherever and whenever they are built.
+function(digest_of result text without)
   set(all "${text}\n")
-  foreach(folder IN LISTS ARGN)
-    file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${folder}/*)
+  foreach(name IN LISTS ARGN)
+    if(IS_DIRECTORY ${ROOT}/${name})
+      file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${name}/*)
+    else()
+      file(GLOB files RELATIVE ${ROOT} ${ROOT}/${name}.*)
+    endif()
+    list(FILTER files EXCLUDE REGEX "${without}")
     list(SORT files)
     foreach(file IN LISTS files)
       file(SHA256 ${ROOT}/${file} hash)
@@ -37,8 +43,26 @@ foreach(file CMakeLists.txt results/reference/lock.json)
     string(APPEND beside " ${hash}")
   endif()
 endforeach()
-digest_of(program "${COMPILER}${beside}" base scene techniques groundtruth harness cmake)
-digest_of(metric_code "" harness/cells harness/measure harness/metrics harness/records harness/render)
+digest_of(program "${COMPILER}${beside}" "^$" base scene techniques groundtruth harness cmake)
+digest_of(metric_code "" "^$" harness/cells harness/measure harness/metrics harness/records harness/render)
+
+# The hashes of what computes the numbers of a truth, an oracle each, which name entries of the cache. What a scene consists of
+# is in the reference's key. A new file of groundtruth/ counts for all oracles until it is named here.
+set(decides groundtruth base/random base/image_io scene/camera scene/sky scene/sky_sampler scene/spherical_harmonics)
+set(keeps "groundtruth/(store|area_comparison)")
+set(samples "groundtruth/(povray|sky_reference|certify/(certificate|honest_renders|sky_certificate))|base/image_io|scene/s")
+digest_of(exact "" "${keeps}|${samples}|groundtruth/cgal/(area|plan)" ${decides})
+digest_of(plan "" "${keeps}|${samples}|groundtruth/cgal/area" ${decides})
+digest_of(area "" "${keeps}|${samples}|groundtruth/cgal/plan" ${decides})
+digest_of(sampled "" "${keeps}|groundtruth/cgal/plan" ${decides})
+set(oracles "")
+foreach(oracle exact plan area sampled)
+  string(SUBSTRING ${${oracle}} 0 12 digest)
+  string(APPEND oracles "inline constexpr const char* ${oracle}_sources = \"${digest}\";\n")
+endforeach()
+file(WRITE ${OUT}/embedded_oracle_sources.h.new
+     "#pragma once\n\nnamespace shadowbench::embedded {\n\n${oracles}\n}  // namespace shadowbench::embedded\n")
+file(COPY_FILE ${OUT}/embedded_oracle_sources.h.new ${OUT}/embedded_oracle_sources.h ONLY_IF_DIFFERENT)
 
 file(WRITE ${OUT}/embedded_commit.h.new "#pragma once\n\nnamespace shadowbench::embedded {\n\n"
      "inline constexpr const char* version = \"${VERSION}\";\n"

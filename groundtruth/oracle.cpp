@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "embedded_oracle_sources.h"
 #include "groundtruth/certify/agreement.h"
 #include "groundtruth/certify/certificate.h"
 #include "groundtruth/certify/pixel_certificate.h"
@@ -228,6 +229,7 @@ Reference computeWith(const ReferenceKey& key, const Request& request, const Pro
                                                          : hardReference(request, progress);
     reference.provenance.key = key.text;
     reference.provenance.tools = key.tools;
+    reference.provenance.sources = key.sources;
     reference.provenance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return reference;
 }
@@ -251,6 +253,17 @@ Tools toolVersions(const Request& request) {
     return tools;
 }
 
+std::string sourcesOf(const Request& request) {
+    const Light& light = request.snapshot.light;
+    if (isExactShare(request.oracle)) return embedded::area_sources;
+    if (light.isArea() || light.isEnvironment()) return embedded::sampled_sources;
+    return request.oracle == Oracle::Plan ? embedded::plan_sources : embedded::exact_sources;
+}
+
+std::set<std::string> allSources() {
+    return {embedded::exact_sources, embedded::plan_sources, embedded::area_sources, embedded::sampled_sources};
+}
+
 Reference compute(const Request& request, const Progress& progress) {
     requireAnswerable(request); // a wrong request is reported rather than a missing tool
     return computeWith(referenceKey(request), request, progress);
@@ -259,7 +272,7 @@ Reference compute(const Request& request, const Progress& progress) {
 ReferenceKey referenceKey(const Request& request) {
     Tools tools = toolVersions(request);
     std::string text = key(request, tools);
-    return {std::move(text), std::move(tools)};
+    return {std::move(text), std::move(tools), sourcesOf(request)};
 }
 
 std::string key(const Request& request) { return referenceKey(request).text; }
@@ -270,7 +283,7 @@ Reference cached(const Cache& cache, const Request& request, const Progress& pro
 
 Reference cached(const Cache& cache, const Request& request, const ReferenceKey& key, const Progress& progress) {
     return cache.get(
-        key.text, [&] { return computeWith(key, request, progress); }, progress);
+        key.text, key.sources, [&] { return computeWith(key, request, progress); }, progress);
 }
 
 } // namespace shadowbench::groundtruth

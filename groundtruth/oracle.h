@@ -6,6 +6,9 @@
 #include "groundtruth/contract/reference_key.h"
 #include "groundtruth/store/cache.h"
 
+#include <set>
+#include <string>
+
 namespace shadowbench::groundtruth {
 
 /// Computes a reference, without looking at a cache. Visibility is 0 off the receivers. With an explicit `Polygon` or
@@ -18,10 +21,16 @@ Reference compute(const Request& request, const Progress& progress = {});
 /// Versions of all that decides the reference's numbers. Throws Inconclusive if POV-Ray is needed and missing.
 Tools toolVersions(const Request& request);
 
-/// The key of a request's reference in the cache, and the versions that it was made of.
+/// The hash of the sources that compute the request's reference, which names its entry in the cache and is no part of its
+/// key: records stay comparable where the numbers are the same, and no number is kept that these sources have not computed.
+std::string sourcesOf(const Request& request);
+std::set<std::string> allSources(); // of any request
+
+/// The key of a request's reference, the versions that it is made of and the hash of the sources that compute it.
 struct ReferenceKey {
     std::string text; // groundtruth/contract/reference_key.h
     Tools tools;
+    std::string sources;
 };
 
 /// Hashes every mesh of the request: to be made once and passed on. Throws Inconclusive if a tool whose version it needs is

@@ -45,6 +45,7 @@ struct Provenance {
     /// what honest renders leave, "…_most_bias", "…_most_rms" and "…_most_fall". Under an environment light, which has no
     /// "light_mismatch", also "…_directions" (exact ones at each point).
     std::map<std::string, double> measured;
+    std::string sources = {}; // hash of the code that computed it, 12 hex digits; no part of the key
 };
 
 struct Reference {

@@ -28,8 +28,8 @@ using Checksum = std::uint64_t;
 [[noreturn]] void damaged(std::string_view what) { throw BadInput(fmt::format("a stored reference is damaged: {}", what)); }
 
 Json toJson(const Provenance& p) {
-    return {{"oracle", p.oracle}, {"key", p.key},         {"samples", p.samples},
-            {"tools", p.tools},   {"seconds", p.seconds}, {"measured", p.measured}};
+    return {{"oracle", p.oracle},   {"key", p.key},           {"samples", p.samples}, {"tools", p.tools},
+            {"seconds", p.seconds}, {"measured", p.measured}, {"sources", p.sources}};
 }
 
 Provenance provenanceFrom(const Json& json) {
@@ -40,6 +40,7 @@ Provenance provenanceFrom(const Json& json) {
     json.at("tools").get_to(p.tools);
     json.at("seconds").get_to(p.seconds);
     json.at("measured").get_to(p.measured);
+    p.sources = json.value("sources", ""); // entries of older programs have none
     return p;
 }
 

@@ -48,6 +48,10 @@ void touch(const std::filesystem::path& file) {
     std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored);
 }
 
+bool isHex(std::string_view text, std::size_t digits) {
+    return text.size() == digits && text.find_first_not_of("0123456789abcdef") == text.npos;
+}
+
 } // namespace
 
 std::filesystem::path defaultCacheFolder() {
@@ -57,10 +61,8 @@ std::filesystem::path defaultCacheFolder() {
     return home() / ".cache" / "shadowbench";
 }
 
-bool isKey(std::string_view text) {
-    constexpr std::size_t digits = 32;
-    return text.size() == digits && text.find_first_not_of("0123456789abcdef") == text.npos;
-}
+bool isKey(std::string_view text) { return isHex(text, 32); }
+bool isSources(std::string_view text) { return isHex(text, 12); }
 
 std::uintmax_t defaultCacheSize() {
     constexpr std::uintmax_t size = std::uintmax_t{4} << 30;
@@ -73,13 +75,14 @@ std::uintmax_t defaultCacheSize() {
     }
 }
 
-std::filesystem::path Cache::entry(const std::string& key) const {
+std::filesystem::path Cache::entry(const std::string& key, const std::string& sources) const {
     if (!isKey(key)) throw InternalError(fmt::format("\"{}\" is not the key of a reference", key));
-    return folder_ / key.substr(0, 2) / (key + ".ref");
+    if (!isSources(sources)) throw InternalError(fmt::format("\"{}\" is not the hash of an oracle's sources", sources));
+    return folder_ / key.substr(0, 2) / fmt::format("{}.{}.ref", key, sources);
 }
 
-std::optional<Reference> Cache::find(const std::string& key) const {
-    const std::filesystem::path file = entry(key);
+std::optional<Reference> Cache::find(const std::string& key, const std::string& sources) const {
+    const std::filesystem::path file = entry(key, sources);
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
     const std::optional<std::string> bytes = contents(file);
@@ -97,18 +100,19 @@ std::optional<Reference> Cache::find(const std::string& key) const {
 }
 
 void Cache::store(const Reference& reference) const {
-    writeFile(entry(reference.provenance.key), encode(reference));
+    writeFile(entry(reference.provenance.key, reference.provenance.sources), encode(reference));
     prune({.maxBytes = maxBytes_, .olderThan = {}});
 }
 
-Reference Cache::get(const std::string& key, const std::function<Reference()>& compute, const Progress& progress) const {
-    if (std::optional<Reference> known = find(key)) return std::move(*known);
+Reference Cache::get(const std::string& key, const std::string& sources, const std::function<Reference()>& compute,
+                     const Progress& progress) const {
+    if (std::optional<Reference> known = find(key, sources)) return std::move(*known);
     // Keys that share a folder share the lock. Where there is none to be had (a cache that cannot be written), each process
     // computes for itself.
-    const FolderLock lock(entry(key).parent_path(), [&] {
+    const FolderLock lock(entry(key, sources).parent_path(), [&] {
         if (progress) progress(0, "waiting for another process to compute this or a neighbouring reference");
     });
-    if (std::optional<Reference> known = find(key)) return std::move(*known); // by whom the lock waited for
+    if (std::optional<Reference> known = find(key, sources)) return std::move(*known); // by whom the lock waited for
     Reference reference = compute();
     try {
         store(reference);

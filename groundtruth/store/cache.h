@@ -1,5 +1,6 @@
-// Content-addressed store of references: one checksummed file per key, written whole or not at all; bounded in size, the
-// least recently used entries go first. Safe for several processes: an entry appears whole and disappears whole.
+// Content-addressed store of references: one checksummed file per key and hash of the code that computed it, so that nothing
+// outlives its code; written whole or not at all; bounded in size, the least recently used entries go first. Safe for
+// several processes: an entry appears whole and disappears whole.
 #pragma once
 
 #include "base/progress.h"
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -23,8 +25,9 @@ std::filesystem::path defaultCacheFolder();
 /// that is no size.
 std::uintmax_t defaultCacheSize();
 
-/// Whether `text` has the shape of a key: 32 hex digits.
+/// Whether `text` has the shape of a key, 32 hex digits, or of a hash of sources, 12.
 bool isKey(std::string_view text);
+bool isSources(std::string_view text);
 
 /// An entry as its folder shows it. Entries are not compressed: 29 bytes a pixel.
 struct CacheEntry {
@@ -32,12 +35,14 @@ struct CacheEntry {
     std::filesystem::path file;
     std::uintmax_t bytes = 0;
     std::filesystem::file_time_type lastUse; // when it was stored or last found: the file's time of modification
+    std::string sources = {};                // Provenance::sources; "" of a program that named none
 };
 
-/// What prune removes: entries that break either rule, and files that a killed writer left an hour ago or earlier.
+/// What prune removes: entries that break a rule, and files that a killed writer left an hour ago or earlier.
 struct PruneRules {
-    std::optional<std::uintmax_t> maxBytes;        // the least recently used go until the others fit
-    std::optional<std::chrono::seconds> olderThan; // those not used for longer go
+    std::optional<std::uintmax_t> maxBytes;            // the least recently used go until the others fit
+    std::optional<std::chrono::seconds> olderThan;     // those not used for longer go
+    std::optional<std::set<std::string>> sources = {}; // those that other code computed go
 };
 
 struct Pruned {
@@ -56,7 +61,7 @@ public:
 
     /// The stored reference, which counts as used now; nothing when absent or damaged (a damaged entry is removed and
     /// reported on stderr in one line).
-    [[nodiscard]] std::optional<Reference> find(const std::string& key) const;
+    [[nodiscard]] std::optional<Reference> find(const std::string& key, const std::string& sources) const;
 
     /// Stores, then removes the least recently used entries above the size; a failure to write or remove (full disk, no
     /// permission) throws InternalError and leaves no partial entry. Writers of the same key do not disturb each other: the
@@ -65,10 +70,12 @@ public:
 
     /// `find`, else `compute` and `store`, in one process at a time; `progress` reports a wait for another one. A cache that
     /// cannot be written costs a warning, not the run.
-    Reference get(const std::string& key, const std::function<Reference()>& compute, const Progress& progress = {}) const;
+    Reference get(const std::string& key, const std::string& sources, const std::function<Reference()>& compute,
+                  const Progress& progress = {}) const;
 
-    /// Where the entry of `key` is or would be. Throws InternalError unless isKey(key).
-    [[nodiscard]] std::filesystem::path entry(const std::string& key) const;
+    /// Where the entry of `key` that code of the hash `sources` computed is or would be. Throws InternalError unless
+    /// isKey(key) and isSources(sources).
+    [[nodiscard]] std::filesystem::path entry(const std::string& key, const std::string& sources) const;
 
     /// All entries, the most recently used first; a missing folder holds none. Throws InternalError when the folder cannot
     /// be read.

@@ -25,10 +25,16 @@ struct Listing {
     std::vector<fs::path> leftovers;
 };
 
-/// "<key>.ref" in the folder of its first two digits.
+/// "<key>.<sources>.ref", or the "<key>.ref" of older programs, in the folder of its first two digits.
 bool isEntry(const fs::path& file) {
-    const std::string key = file.stem().string();
-    return file.extension() == extension && isKey(key) && file.parent_path().filename() == key.substr(0, 2);
+    const std::string name = file.stem().string(), key = name.substr(0, keyDigits);
+    return file.extension() == extension && isKey(key) && file.parent_path().filename() == key.substr(0, 2) &&
+           (name == key || (name[keyDigits] == '.' && isSources(name.substr(keyDigits + 1))));
+}
+
+CacheEntry entryOf(const fs::path& file, std::uintmax_t bytes, fs::file_time_type lastUse) {
+    const std::string name = file.stem().string();
+    return {name.substr(0, keyDigits), file, bytes, lastUse, name.size() > keyDigits ? name.substr(keyDigits + 1) : ""};
 }
 
 /// What an entry is written under.
@@ -48,7 +54,7 @@ void add(const fs::directory_entry& found, Listing& listing) {
     const std::uintmax_t bytes = found.file_size(gone);
     const auto time = modificationTime(found.path());
     if (gone || !time) return;
-    if (isEntry(found.path())) listing.entries.push_back({found.path().stem().string(), found.path(), bytes, *time});
+    if (isEntry(found.path())) listing.entries.push_back(entryOf(found.path(), bytes, *time));
     if (isUnfinishedEntry(found.path()) && fs::file_time_type::clock::now() - *time >= leftoverAge)
         listing.leftovers.push_back(found.path());
 }
@@ -69,9 +75,9 @@ Listing list(const fs::path& folder) {
     if (failure)
         throw InternalError(
             fmt::format("reading the cache {} failed: {}; choose another with --cache", folder.string(), failure.message()));
-    // The key decides between equal times, so that every process names the same entries.
+    // The name decides between equal times, so that every process names the same entries.
     std::ranges::sort(listing.entries, [](const CacheEntry& a, const CacheEntry& b) {
-        return std::tie(b.lastUse, a.key) < std::tie(a.lastUse, b.key);
+        return std::tie(b.lastUse, a.file) < std::tie(a.lastUse, b.file);
     });
     std::ranges::sort(listing.leftovers);
     return listing;
@@ -95,9 +101,10 @@ std::vector<CacheEntry> entriesToRemove(const std::vector<CacheEntry>& entries, 
     bool full = false;
     for (const CacheEntry& entry : entries) {
         const std::uintmax_t bytes = std::max<std::uintmax_t>(entry.bytes, 1); // an empty file counts, too
-        full = full || (rules.maxBytes && kept + bytes > *rules.maxBytes);
+        const bool foreign = rules.sources && !rules.sources->contains(entry.sources);
         const bool old = rules.olderThan && now - entry.lastUse > *rules.olderThan;
-        if (full || old)
+        full = full || (rules.maxBytes && !foreign && !old && kept + bytes > *rules.maxBytes);
+        if (full || old || foreign)
             result.push_back(entry);
         else
             kept += bytes;

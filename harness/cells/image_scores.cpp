@@ -230,12 +230,24 @@ void ImageScores::add(int frame, const Image<float>& v, Record& record) {
     }
     movingAreas.add(frames_, receivers_, v);
     moving.add(frames_, receivers_, v);
+    addTruths(frame);
+}
+
+void ImageScores::addTruths(int frame) {
+    Truths& truths = frames_.truths();
+    const auto add = [&](Truth truth) {
+        for (const std::string& text : {truths.key(truth, frame), truths.content(truth, frame)})
+            truths_.add(text.data(), text.size());
+    };
+    add(rule_.truth);
+    if (rule_.pixelAreas) add(Truth::PixelArea);
 }
 
 void ImageScores::finish(Record& record) const {
     sequences_->moving.finish<metrics::OfMovingFrames>(record.values);
     sequences_->movingAreas.finish<metrics::OfMovingAreas>(record.values);
     record.images = shown_.digest().text();
+    record.truths = truths_.digest().text();
 }
 
 std::vector<Image<float>> ImageScores::flickerMaps() const { return sequences_->movingAreas.flickerMaps(); }

@@ -49,7 +49,7 @@ public:
     /// [0, 1] and when more than 0.1 % of the primary hits disagree with the truth's: an error of the set-up, not a score.
     void add(int frame, const Image<float>& v, Record& record);
 
-    /// Fills in stability and the hash of the images, once all are added.
+    /// Fills in stability and the hashes of the images and of their truths, once all are added.
     void finish(Record& record) const;
 
     /// What `flicker` is the mean of, of the scored frame (nothing) and each moving one; empty where nothing moves.
@@ -57,12 +57,13 @@ public:
 
 private:
     struct Sequences;
+    void addTruths(int frame);
 
     SceneFrames& frames_;
     ScoringRule rule_;
     Receivers receivers_;
     std::string variant_;
-    Hasher128 shown_;
+    Hasher128 shown_, truths_;
     std::unique_ptr<Sequences> sequences_;
 };
 

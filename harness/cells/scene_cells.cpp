@@ -82,7 +82,7 @@ std::vector<std::pair<Truth, int>> SceneCells::truthsOf(const techniques::Varian
 }
 
 bool SceneCells::isKept(Truth truth, int frame) const {
-    return std::filesystem::exists(cache_.entry(truths_.key(truth, frame)));
+    return std::filesystem::exists(cache_.entry(truths_.key(truth, frame), truths_.sources(truth, frame)));
 }
 
 void SceneCells::computeTruth(Truth truth, int frame, const Progress& progress) {

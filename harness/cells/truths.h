@@ -50,6 +50,9 @@ public:
     /// groundtruth::key of that request, computed once: it hashes every mesh and asks the tools for their versions.
     [[nodiscard]] const std::string& key(Truth truth, int frame) const { return keyOf(truth, frame).text; }
 
+    /// groundtruth::sourcesOf that request.
+    [[nodiscard]] const std::string& sources(Truth truth, int frame) const { return keyOf(truth, frame).sources; }
+
     /// The reference, valid as long as this object. Throws what computing throws, and Inconclusive for one that has the key
     /// of a golden reference and another content, and for the soft truth of an area light, in the last still frame, whose
     /// rms error against Area is not what its certificate says.

@@ -3,12 +3,14 @@
 #include "base/files.h"
 #include "base/progress_line.h"
 #include "groundtruth/contract/reference_files.h"
+#include "groundtruth/oracle.h"
 #include "groundtruth/store/cache_limits.h"
 #include "groundtruth/store/golden.h"
 #include "harness/cells/golden_contents.h"
 #include "harness/cli/command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fstream>
@@ -49,6 +51,9 @@ std::string age(const CacheEntry& entry) {
     return groundtruth::durationText(std::max(unused, std::chrono::seconds(0)));
 }
 
+/// Whether this program never reads it, as its own code would compute it otherwise, or may.
+bool isOfOtherCode(const CacheEntry& entry) { return !groundtruth::allSources().contains(entry.sources); }
+
 std::uintmax_t sum(const std::vector<CacheEntry>& entries) {
     std::uintmax_t bytes = 0;
     for (const CacheEntry& entry : entries) bytes += entry.bytes;
@@ -67,7 +72,7 @@ std::optional<groundtruth::EntryHeader> headerOf(const CacheEntry& entry) {
 }
 
 Json brief(const CacheEntry& entry) {
-    return {{"key", entry.key}, {"bytes", entry.bytes}, {"last_use", utc(entry.lastUse)}};
+    return {{"key", entry.key}, {"sources", entry.sources}, {"bytes", entry.bytes}, {"last_use", utc(entry.lastUse)}};
 }
 
 Json withFacts(const CacheEntry& entry) {
@@ -105,14 +110,16 @@ ExitCode list(const CacheOptions& options) {
                    "size", "unused");
     if (!options.quiet)
         for (const CacheEntry& entry : entries) fmt::print("{}", row(entry));
-    fmt::print("{}: {} references, {} of at most {}\n", cache.folder().string(), entries.size(),
-               groundtruth::bytesText(sum(entries)), groundtruth::bytesText(cache.maxBytes()));
+    const auto others = std::ranges::count_if(entries, isOfOtherCode);
+    fmt::print("{}: {} references, {} of at most {}{}\n", cache.folder().string(), entries.size(),
+               groundtruth::bytesText(sum(entries)), groundtruth::bytesText(cache.maxBytes()),
+               others > 0 ? fmt::format("; {} that another program computed go with `cache prune`", others) : "");
     return ExitCode::Pass;
 }
 
 /// What is wrong with an intact entry that has the key of a golden reference; nothing if it has its pixels, too.
 std::optional<std::string> unlikeGolden(const CacheEntry& entry) {
-    if (!committedContents().contains(entry.key)) return std::nullopt;
+    if (!committedContents().contains(entry.key) || isOfOtherCode(entry)) return std::nullopt;
     try {
         const groundtruth::Reference kept = groundtruth::decode(readFile(entry.file), entry.key);
         requireGolden(committedContents(), entry.key, contentOf(contentHashes(kept)));
@@ -148,6 +155,7 @@ ExitCode verify(const CacheOptions& options) {
 
 groundtruth::PruneRules rulesOf(const PruneOptions& options) {
     groundtruth::PruneRules rules;
+    rules.sources = groundtruth::allSources();
     if (options.all) rules.maxBytes = 0;
     if (!options.maxSize.empty()) rules.maxBytes = groundtruth::bytesOf(options.maxSize);
     if (!options.olderThan.empty()) rules.olderThan = groundtruth::durationOf(options.olderThan);
@@ -204,7 +212,8 @@ void addCache(CLI::App& app, Action& action) {
     verifyVerb->callback([&action, options] { action = [options] { return verify(*options); }; });
 
     const auto what = std::make_shared<PruneOptions>();
-    CLI::App* pruneVerb = verb->add_subcommand("prune", "Removes references (default: those above the size that is kept)");
+    CLI::App* pruneVerb = verb->add_subcommand(
+        "prune", "Removes references that other code computed than this program's, and those above the size that is kept");
     pruneVerb->footer("Example:\n  shadowbench cache prune --older-than 30d --max-size 2G");
     addCommon(*pruneVerb, *options);
     CLI::Option* size = pruneVerb->add_option("--max-size", what->maxSize, "Keep at most this much: 500M, 4G");

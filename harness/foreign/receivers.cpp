@@ -136,7 +136,11 @@ const metrics::Mask& RowReceivers::scored(Truth truth) {
     const std::pair key(truth, files_.frame);
     if (const auto found = masks_.find(key); found != masks_.end()) return found->second;
     metrics::Mask mask = seen(truth);
-    if (!leftOut_.empty()) mask = withoutPixels(mask, leftOut_);
+    if (!leftOut_.empty()) {
+        const std::size_t all = mask.count;
+        mask = withoutPixels(mask, leftOut_);
+        mask.primaryMismatch += static_cast<double>(all - mask.count) / static_cast<double>(mask.scored.size());
+    }
     if (row_.leaveOutEdges) mask = withoutPixels(mask, geometryEdges(frames_.truth(truth), frames_.stage().shown().camera));
     return masks_.emplace(key, std::move(mask)).first->second;
 }

@@ -33,7 +33,8 @@ public:
     /// Goes on to a frame, which `frames` shows. Throws BadInput for files that cannot be read.
     void show(const FrameFiles& files);
 
-    /// Leaves pixels of that frame out, before its masks are asked for.
+    /// Leaves receivers of that frame out, before its masks are asked for. They count as seen otherwise than by the truth: a
+    /// picture that says nothing of them, though light reaches them, does not show what is there.
     void leaveOut(Pixels pixels) { leftOut_ = std::move(pixels); }
 
     /// The receivers that the renderer saw. Throws BadInput when away from geometry's edges more than 0.1 % of the pixels

@@ -91,7 +91,7 @@ public:
                     record.variant);
             judge(files, v, mask);
             scores->add(files.frame, v, record);
-            if (files.frame == frames_.scored()) scoreApart(files, v, mask, record);
+            if (files.frame == frames_.scored()) scoreApart(v, mask, record);
             if (shown != nullptr) shown->frames.emplace(files.frame, v);
         }
         scores->finish(record);
@@ -153,9 +153,10 @@ private:
         if (std::ranges::find(warnings_, sentence) == warnings_.end()) warnings_.push_back(sentence);
     }
 
-    /// What pixels away from geometry's edges score, where nothing says what the renderer saw at these.
-    void scoreApart(const FrameFiles& files, const Image<float>& v, const metrics::Mask& mask, Record& record) {
-        if (files.hits || files.depth || row_.leaveOutEdges) return;
+    /// What pixels away from geometry's edges score: where nothing says what the renderer saw at these, the edges' errors
+    /// may be the geometry's. Of rows that do say it, too, so that one that begins to loses no number.
+    void scoreApart(const Image<float>& v, const metrics::Mask& mask, Record& record) {
+        if (row_.leaveOutEdges) return;
         const groundtruth::Reference& truth = frames_.truth(truth_);
         const metrics::Mask inside = withoutPixels(mask, geometryEdges(truth, frames_.stage().shown().camera));
         if (inside.count == 0) return;

@@ -111,10 +111,10 @@ Visibility quotient(const ForeignImage& image, const ForeignImage& lit, const Fo
         if (v < -0.1F || v > 1.1F) ++far;
         result.v[i] = std::clamp(v, 0.0F, 1.0F);
     }
-    if (20 * unknown > all)
+    if (1000 * unknown > all)
         throw BadInput(
-            fmt::format("image {} is too dark to divide by at {} of {} receiver pixels: light them more, or write "
-                        "floats",
+            fmt::format("image {} is too dark to divide by at {} of {} receiver pixels (limit 0.1 %): light them more, or "
+                        "write floats",
                         lit.file.string(), unknown, all));
     if (100 * far > all)
         throw BadInput(

@@ -7,6 +7,7 @@
 #include "harness/gate/bounds.h"
 #include "harness/gate/failure_pictures.h"
 #include "harness/gate/judged_cells.h"
+#include "harness/gate/truth_sample.h"
 #include "harness/gate/verdict.h"
 #include "harness/gate/waivers.h"
 #include "harness/measure/callgrind.h"
@@ -181,6 +182,8 @@ private:
         });
         std::ranges::move(judgeBounds(now, bounds, options_.techniques.empty()), std::back_inserter(result_.changes));
         writeRecords(options_.out / "results.jsonl", now); // the base of a later gate, once this build is accepted
+        std::ranges::move(contradictedTruths(cells_.scenes, options_.profile, cache_, builtFrom().hash, options_.quiet),
+                          std::back_inserter(result_.unjudged));
     }
 
     void noteUnknownScenes() {

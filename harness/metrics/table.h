@@ -254,7 +254,7 @@ inline constexpr auto table = std::to_array<Metric>({
 
     {.path = "off_geometry_edges.mismatch", .unit = "share", .range = range::share, .optional = true, .about = Class::Labels,
      .allowance = Allowance{.pixels = 2, .of = "off_geometry_edges.pixels"},
-     .meaning = "another renderer's images without hits: mismatch over the receivers at which no edge of geometry is seen"},
+     .meaning = "another renderer's images: mismatch over the receivers at which no edge of geometry is seen"},
     {.path = "off_geometry_edges.rmse", .unit = "1", .range = range::size, .about = Class::Penumbra,
      .allowance = Allowance{.truth = TruthError::Rms, .of = "off_geometry_edges.pixels"},
      .meaning = "the same: root mean square of V − V*"},

@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace shadowbench::gate {
@@ -63,6 +64,19 @@ std::optional<std::string> truthDifference(const std::optional<ReferenceInfo>& b
     return {};
 }
 
+/// Why what was scored over two classes of pixels cannot be compared: one truth gives classes of one size, but for pixels of
+/// which another renderer's images say nothing. So few of these as rounding leaves (docs/metrics.md, "Primary hits") decide
+/// no score.
+std::optional<std::string> sizeDifference(const metrics::Metric& metric, const Record& base, const Record& head) {
+    constexpr double most = 0.001; // of the image, or of all frames that the class is of
+    const metrics::Metric* size = metric.allowance ? metrics::metricAt(metric.allowance->of) : nullptr;
+    if (size == nullptr || !base.values[*size] || !head.values[*size]) return {};
+    const double before = *base.values[*size], now = *head.values[*size];
+    const double all = std::max({static_cast<double>(base.width) * base.height, before, now});
+    if (std::abs(now - before) <= most * all) return {};
+    return fmt::format("it is over {} pixels and was over {} ({})", now, before, size->path);
+}
+
 bool statesCosts(const Record& record) {
     const auto& values = record.values;
     return !record.technique.starts_with("external:") &&
@@ -110,7 +124,11 @@ std::optional<std::string> whyIncomparable(const Record& base, const Record& hea
 }
 
 std::optional<std::string> whyIncomparable(const metrics::Metric& metric, const Record& base, const Record& head) {
-    return truthDifference(truthOf(metric, base), truthOf(metric, head));
+    if (auto truth = truthDifference(truthOf(metric, base), truthOf(metric, head))) return truth;
+    if (isOneOf<metrics::OfMovingFrames, metrics::OfMovingAreas>(metric.computed) &&
+        stated("truths", base.truths, head.truths))
+        return "moving frames were scored against different truths: the scene's motion or the ground truth changed";
+    return sizeDifference(metric, base, head);
 }
 
 std::vector<Record> readOfOneDevice(const std::vector<std::filesystem::path>& files) {

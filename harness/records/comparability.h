@@ -28,7 +28,8 @@ const std::optional<ReferenceInfo>& truthOf(const metrics::Metric& metric, const
 /// frames, another rasteriser. Nothing where they can.
 std::optional<std::string> whyIncomparable(const Record& base, const Record& head);
 
-/// Why one metric of two records that can be compared cannot: the truth that it was computed from is another one.
+/// Why one metric of two records that can be compared cannot: the truth that it was computed from is another one, of a
+/// metric of moving frames that of any of them, or the class of pixels that it is over has another size.
 std::optional<std::string> whyIncomparable(const metrics::Metric& metric, const Record& base, const Record& head);
 
 /// The records of the files, one after the other. Throws BadInput naming two that state costs (times, instruction counts)

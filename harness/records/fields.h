@@ -157,6 +157,7 @@ void fields(auto& visit, Is<Record> auto& r) {
     visit.text("program", r.program);
     visit.text("metric_code", r.metricCode);
     visit.text("images", r.images);
+    visit.text("truths", r.truths);
     visit("time", r.time);
     visit("environment", r.environment);
     visit("reference", r.reference);

@@ -108,6 +108,7 @@ struct Record {
     std::string program;    // hash of the sources and the compiler it was built from; empty in older records
     std::string metricCode; // of these, of what scores; empty in older records
     std::string images;     // hash of all frames that were scored; empty in older records and where none was
+    std::string truths;     // hash of what these were scored against, keys and contents; empty likewise
     std::string time;       // ISO 8601, UTC
     Environment environment;
     std::optional<ReferenceInfo> reference;

@@ -36,6 +36,7 @@ constexpr const char* withoutMetrics = R"({
     "program": {"type": "string", "description": "hash of the program's sources and compiler"},
     "metric_code": {"type": "string", "description": "hash of the sources that score"},
     "images": {"type": "string", "description": "hash of all frames that were scored"},
+    "truths": {"type": "string", "description": "hash of the keys and contents of what they were scored against"},
     "time": {"type": "string", "description": "ISO 8601, UTC"},
     "environment": {
       "type": "object",

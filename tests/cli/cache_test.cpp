@@ -72,6 +72,19 @@ TEST_F(CacheVerb, PruneRemovesWhatADryRunLists) {
     EXPECT_EQ(json("list")["entries"].size(), 0U);
 }
 
+TEST_F(CacheVerb, PruneRemovesWhatThisProgramNeverReads) {
+    EXPECT_EQ(json("prune")["removed"].size(), 0U);
+    const Json entry = json("list")["entries"][0];
+    const std::string key = entry["key"], sources = entry["sources"];
+    const fs::path group = fs::path(folder_ / "cache") / key.substr(0, 2);
+    fs::copy(group / (key + "." + sources + ".ref"), group / (key + ".0123456789ab.ref"));
+    EXPECT_NE(shell("shadowbench cache list --quiet" + where()).output.find("; 1 that another program computed"),
+              std::string::npos);
+    EXPECT_EQ(shell("shadowbench cache verify --quiet" + where()).code, 0);
+    EXPECT_EQ(json("prune")["removed"].at(0)["sources"], "0123456789ab");
+    EXPECT_EQ(json("list")["entries"].size(), 4U);
+}
+
 TEST_F(CacheVerb, WrongArgumentsEndInOneLineThatSaysWhatIsValid) {
     const std::vector<std::pair<std::string, std::string>> wrong{{"lsit", "did you mean \"list\"?"},
                                                                  {"prune --max-size lots", "500M"},

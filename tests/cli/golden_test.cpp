@@ -98,7 +98,9 @@ TEST(GoldenContents, AreWhatCacheVerifyHoldsEntriesTo) {
     const int frame = scene.timeline.still - 1;
     groundtruth::Reference wrong = groundtruth::readGolden(committed / "dueling-frusta-pixel-area.exr");
     wrong.position = Image<glm::vec3>(scene.size.x, scene.size.y);
-    wrong.provenance.key = groundtruth::key(referenceRequest(scene, Truth::PixelArea, frame));
+    const groundtruth::Request request = referenceRequest(scene, Truth::PixelArea, frame);
+    wrong.provenance.key = groundtruth::key(request);
+    wrong.provenance.sources = groundtruth::sourcesOf(request);
     const groundtruth::Cache cache(folder / "cache");
     const std::string verify = "shadowbench cache verify --cache " + folder / "cache";
     cache.store(wrong);

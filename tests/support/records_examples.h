@@ -43,6 +43,7 @@ inline Record hardRecord() {
     r.program = "9a55";
     r.metricCode = "5c0e";
     r.images = "1111";
+    r.truths = "7247";
     r.time = "2026-01-02T03:04:05Z";
     r.environment = {
         "llvmpipe (LLVM 15.0.6, 256 bits)", "4.5 (Core Profile) Mesa 22.3.6", "some cpu", "GCC 12.2.0", 0, 256, {}};

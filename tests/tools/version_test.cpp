@@ -2,6 +2,7 @@
 #include "base/files.h"
 #include "tests/support/program.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace shadowbench {
@@ -22,12 +23,12 @@ protected:
         EXPECT_EQ(made.code, 0) << made.output;
     }
 
-    [[nodiscard]] std::string embedded() const {
+    [[nodiscard]] std::string embedded(const char* header = "embedded_commit.h") const {
         fs::create_directories(out_ / "");
         const Outcome outcome = shell("cmake -DROOT=" + tree_ / "" + " -DOUT=" + out_ / "" + " -DVERSION=1.2.3 -P " +
                                       SOURCE_FOLDER "/cmake/version.cmake");
         EXPECT_EQ(outcome.code, 0) << outcome.output;
-        return readFile(out_ / "embedded_commit.h");
+        return readFile(out_ / header);
     }
 
     static bool isDirty(const std::string& header) { return header.find("dirty = true") != std::string::npos; }
@@ -55,6 +56,35 @@ TEST_F(EmbeddedVersion, SourcesAreHashedWhateverTheCommit) {
     EXPECT_EQ(valueOf(embedded(), "metric_code"), valueOf(before, "metric_code"));
     tree_.write("harness/metrics/b.cpp", "changed\n");
     EXPECT_NE(valueOf(embedded(), "metric_code"), valueOf(before, "metric_code"));
+}
+
+/// Which oracles' hashes change with a file: entries of the cache that these name are computed anew.
+TEST_F(EmbeddedVersion, EachOracleHasAHashOfWhatComputesItsNumbers) {
+    const std::vector<std::string> names{"exact_sources", "plan_sources", "area_sources", "sampled_sources"};
+    const std::vector<std::pair<std::string, std::vector<std::string>>> files{
+        {"groundtruth/cgal/hard/exact.cpp", names},
+        {"groundtruth/new.cpp", names},
+        {"scene/camera.cpp", names},
+        {"base/random.h", names},
+        {"groundtruth/cgal/plan/plan_view.cpp", {"plan_sources"}},
+        {"groundtruth/cgal/area/area.cpp", {"area_sources", "sampled_sources"}},
+        {"groundtruth/povray/scene_text.cpp", {"sampled_sources"}},
+        {"groundtruth/certify/certificate.cpp", {"sampled_sources"}},
+        {"scene/sky_sampler.cpp", {"sampled_sources"}},
+        {"base/image_io.cpp", {"sampled_sources"}},
+        {"groundtruth/store/cache.cpp", {}},
+        {"scene/scene.h", {}}};
+    std::string before = embedded("embedded_oracle_sources.h");
+    for (const auto& [file, changed] : files) {
+        fs::create_directories(fs::path(tree_ / file).parent_path());
+        tree_.write(file, "changed\n");
+        const std::string now = embedded("embedded_oracle_sources.h");
+        for (const std::string& name : names) {
+            EXPECT_EQ(valueOf(now, name).size(), 12U);
+            EXPECT_EQ(valueOf(now, name) != valueOf(before, name), std::ranges::count(changed, name) > 0) << file << name;
+        }
+        before = now;
+    }
 }
 
 TEST_F(EmbeddedVersion, ACleanTreeIsItsCommit) {

@@ -39,7 +39,7 @@ std::optional<std::string> partial(const std::filesystem::path& file) {
             (void)readChannel(file, 0);
             return {};
         }
-        if (extension == ".ref") return groundtruth::damage({file.stem().string(), file, 0, {}});
+        if (extension == ".ref") return groundtruth::damage({file.stem().string().substr(0, 32), file, 0, {}});
         const std::string text = readFile(file);
         if (extension == ".jsonl") return require(isJsonLines(text), "a line is cut off");
         if (extension == ".json" || extension == ".gltf") return require(isJson(text), "it is no JSON");

@@ -33,6 +33,13 @@ void expectEqual(const Reference& a, const Reference& b) {
     EXPECT_EQ(a.provenance.seconds, b.provenance.seconds);
 }
 
+/// Quick to compute: no POV-Ray.
+Request quick() {
+    Request request{overlappingPlates(), {16, 16}};
+    request.snapshot.light = request.snapshot.light.centreOnly();
+    return request;
+}
+
 class CacheFolder : public testing::Test {
 protected:
     [[nodiscard]] Cache cache() const { return Cache(folder_ / "references"); }
@@ -40,10 +47,10 @@ protected:
     /// Stores a sample, changes its file's bytes and expects the entry to be refused, reported in one line, and removed.
     void expectRefusedAfter(const std::function<std::string(std::string)>& damage) const {
         cache().store(sample(someKey));
-        const fs::path file = cache().entry(someKey);
+        const fs::path file = cache().entry(someKey, someSources);
         writeFile(file, damage(readFile(file)));
         testing::internal::CaptureStderr();
-        EXPECT_FALSE(cache().find(someKey));
+        EXPECT_FALSE(cache().find(someKey, someSources));
         const std::string said = testing::internal::GetCapturedStderr();
         EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
         EXPECT_NE(said.find("damaged"), said.npos) << said;
@@ -57,14 +64,14 @@ protected:
 TEST_F(CacheFolder, FindsBitForBitWhatWasStored) {
     const Reference stored = sample(someKey);
     cache().store(stored);
-    const auto found = cache().find(someKey);
+    const auto found = cache().find(someKey, someSources);
     ASSERT_TRUE(found);
     expectEqual(*found, stored);
 }
 
 TEST_F(CacheFolder, HoldsNothingAtFirstAndSaysNothingAboutIt) {
     testing::internal::CaptureStderr();
-    EXPECT_FALSE(cache().find(someKey));
+    EXPECT_FALSE(cache().find(someKey, someSources));
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
@@ -91,9 +98,22 @@ TEST_F(CacheFolder, RefusesAnAppendedTail) {
     expectRefusedAfter([](const std::string& bytes) { return bytes + "tail"; });
 }
 
+TEST_F(CacheFolder, WhatOtherCodeComputedIsNotFound) {
+    cache().store(sample(someKey));
+    EXPECT_FALSE(cache().find(someKey, otherSources));
+    Reference other = sample(someKey, 0.75F);
+    other.provenance.sources = otherSources;
+    cache().store(other);
+    EXPECT_EQ(cache().find(someKey, otherSources)->visibility[0], 0.75F);
+    EXPECT_EQ(cache().find(someKey, someSources)->visibility[0], 0.25F);
+    EXPECT_EQ(groundtruth::cached(cache(), quick()).provenance.sources, sourcesOf(quick()));
+}
+
 TEST_F(CacheFolder, KeysAreHexDigitsAndNothingElse) {
-    EXPECT_THROW((void)cache().find("../../etc/passwd"), InternalError);
-    EXPECT_THROW((void)cache().find(""), InternalError);
+    EXPECT_THROW((void)cache().find(someKey, ""), InternalError);
+    EXPECT_THROW((void)cache().find(someKey, "../98765432"), InternalError);
+    EXPECT_THROW((void)cache().find("../../etc/passwd", someSources), InternalError);
+    EXPECT_THROW((void)cache().find("", someSources), InternalError);
 }
 
 TEST_F(CacheFolder, ThreadsThatWriteOneKeyLeaveOneWholeEntry) {
@@ -104,13 +124,14 @@ TEST_F(CacheFolder, ThreadsThatWriteOneKeyLeaveOneWholeEntry) {
         });
     int damaged = 0;
     for (int k = 0; k < 100; ++k) {
-        const auto found = cache().find(someKey);
+        const auto found = cache().find(someKey, someSources);
         damaged += found && found->visibility[0] != found->visibility[1];
     }
     for (std::thread& writer : writers) writer.join();
     EXPECT_EQ(damaged, 0);
-    EXPECT_TRUE(cache().find(someKey));
-    EXPECT_EQ(std::distance(fs::directory_iterator(cache().entry(someKey).parent_path()), {}), 1); // no temporary file left
+    EXPECT_TRUE(cache().find(someKey, someSources));
+    EXPECT_EQ(std::distance(fs::directory_iterator(cache().entry(someKey, someSources).parent_path()), {}),
+              1); // no temporary file left
 }
 
 TEST_F(CacheFolder, ProcessesThatWriteOneKeyLeaveOneWholeEntry) {
@@ -128,31 +149,24 @@ TEST_F(CacheFolder, ProcessesThatWriteOneKeyLeaveOneWholeEntry) {
         waitpid(child, &status, 0);
         EXPECT_EQ(status, 0);
     }
-    const auto found = cache().find(someKey);
+    const auto found = cache().find(someKey, someSources);
     ASSERT_TRUE(found);
     expectEqual(*found, sample(someKey));
 }
 
-/// Quick to compute: no POV-Ray.
-Request quick() {
-    Request request{overlappingPlates(), {16, 16}};
-    request.snapshot.light = request.snapshot.light.centreOnly();
-    return request;
-}
-
 TEST_F(CacheFolder, GetComputesOnceAndThenReads) {
     const Reference first = groundtruth::cached(cache(), quick());
-    EXPECT_TRUE(fs::exists(cache().entry(first.provenance.key)));
+    EXPECT_TRUE(fs::exists(cache().entry(first.provenance.key, first.provenance.sources)));
     const Reference second = groundtruth::cached(cache(), quick());
     expectEqual(first, second); // the recorded seconds too: it was not computed again
 }
 
 TEST_F(CacheFolder, AKeyThatIsGivenIsNotMadeAgain) {
-    const ReferenceKey key{someKey, {{"tool", "1"}}};
+    const ReferenceKey key{someKey, {{"tool", "1"}}, someSources};
     const Reference reference = groundtruth::cached(cache(), quick(), key);
     EXPECT_EQ(reference.provenance.key, someKey);
     EXPECT_EQ(reference.provenance.tools, key.tools);
-    EXPECT_TRUE(cache().find(someKey));
+    EXPECT_TRUE(cache().find(someKey, someSources));
 }
 
 TEST_F(CacheFolder, WhoAsksWhileAReferenceIsBeingComputedWaitsForIt) {
@@ -165,12 +179,12 @@ TEST_F(CacheFolder, WhoAsksWhileAReferenceIsBeingComputedWaitsForIt) {
 
 TEST_F(CacheFolder, GetComputesADamagedEntryAgain) {
     const Reference first = groundtruth::cached(cache(), quick());
-    writeFile(cache().entry(first.provenance.key), "rubbish");
+    writeFile(cache().entry(first.provenance.key, first.provenance.sources), "rubbish");
     testing::internal::CaptureStderr();
     const Reference again = groundtruth::cached(cache(), quick());
     testing::internal::GetCapturedStderr();
     EXPECT_EQ(first.visibility, again.visibility);
-    EXPECT_TRUE(cache().find(first.provenance.key));
+    EXPECT_TRUE(cache().find(first.provenance.key, first.provenance.sources));
 }
 
 TEST_F(CacheFolder, ACacheThatCannotBeWrittenCostsOneWarning) {
@@ -188,22 +202,22 @@ TEST_F(CacheFolder, ACacheThatCannotBeWrittenCostsOneWarning) {
 TEST_F(CacheFolder, AnEntryThatCannotBeReadIsKeptAndCostsAWarning) {
     cache().store(sample(someKey));
     testing::internal::CaptureStderr();
-    const auto find = [&] { return std::string(cache().find(someKey) ? "found" : "not found"); };
+    const auto find = [&] { return std::string(cache().find(someKey, someSources) ? "found" : "not found"); };
     EXPECT_EQ(test::saidWhere(test::failingOpen(EACCES, O_DIRECTORY, 0), find), "not found");
     const std::string said = testing::internal::GetCapturedStderr();
-    EXPECT_EQ(said, "warning: a stored reference is not used: cannot read " + cache().entry(someKey).string() +
+    EXPECT_EQ(said, "warning: a stored reference is not used: cannot read " + cache().entry(someKey, someSources).string() +
                         ": Permission denied\n");
-    EXPECT_TRUE(cache().find(someKey));
+    EXPECT_TRUE(cache().find(someKey, someSources));
 }
 
 TEST_F(CacheFolder, ADamagedEntryThatCannotBeRemovedIsNotUsedEither) {
-    writeFile(cache().entry(someKey), "rubbish");
+    writeFile(cache().entry(someKey, someSources), "rubbish");
     testing::internal::CaptureStderr();
-    const auto find = [&] { return std::string(cache().find(someKey) ? "found" : "not found"); };
+    const auto find = [&] { return std::string(cache().find(someKey, someSources) ? "found" : "not found"); };
     EXPECT_EQ(test::saidWhere({SCMP_SYS(unlink), EROFS}, find), "not found");
     const std::string said = testing::internal::GetCapturedStderr();
     EXPECT_TRUE(said.ends_with("; it cannot be removed\n")) << said;
-    EXPECT_TRUE(fs::exists(cache().entry(someKey)));
+    EXPECT_TRUE(fs::exists(cache().entry(someKey, someSources)));
 }
 
 TEST_F(CacheFolder, WrittenReferenceHoldsTheFourChannelsAndTheProvenance) {

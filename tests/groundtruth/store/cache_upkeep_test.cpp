@@ -49,7 +49,7 @@ protected:
     void fill(int n) const {
         for (int i = n; i >= 1; --i) {
             cache_.store(sample(keyOf(i)));
-            setAge(cache_.entry(keyOf(i)), hours(i));
+            setAge(cache_.entry(keyOf(i), someSources), hours(i));
         }
     }
 
@@ -67,7 +67,7 @@ TEST_F(CacheUpkeep, ListsEntriesWithTheMostRecentlyUsedFirst) {
 
 TEST_F(CacheUpkeep, AHitIsAUse) {
     fill(3);
-    ASSERT_TRUE(cache_.find(keyOf(3)));
+    ASSERT_TRUE(cache_.find(keyOf(3), someSources));
     EXPECT_EQ(cache_.entries().front().key, keyOf(3));
 }
 
@@ -90,6 +90,21 @@ TEST_F(CacheUpkeep, OldEntriesGo) {
     EXPECT_EQ(keys(cache_.entries()), (std::vector{keyOf(1), keyOf(2)}));
 }
 
+TEST_F(CacheUpkeep, WhatOtherCodeComputedGoesWhereThatIsAskedFor) {
+    fill(2);
+    Reference other = sample(keyOf(1));
+    other.provenance.sources = otherSources;
+    cache_.store(other);
+    const fs::path older = cache_.folder() / keyOf(3).substr(0, 2) / (keyOf(3) + ".ref"); // of before names had sources
+    fs::create_directories(older.parent_path());
+    writeFile(older, encode(sample(keyOf(3))));
+    EXPECT_EQ(cache_.entries().size(), 4U);
+    const Pruned pruned = cache_.prune({.maxBytes = {}, .olderThan = {}, .sources = {{someSources}}});
+    EXPECT_EQ(pruned.entries.size(), 2U);
+    EXPECT_EQ(keys(cache_.entries()), (std::vector{keyOf(1), keyOf(2)}));
+    EXPECT_EQ(cache_.entries().front().sources, someSources);
+}
+
 TEST_F(CacheUpkeep, ADryRunNamesTheSameAndRemovesNothing) {
     fill(4);
     const PruneRules rules{.maxBytes = entryBytes, .olderThan = {}};
@@ -104,15 +119,15 @@ TEST_F(CacheUpkeep, AStoreKeepsToTheSizeAndRemovesTheLeastRecentlyUsed) {
     fill(3);
     small.store(sample(keyOf(9)));
     EXPECT_EQ(keys(small.entries()), (std::vector{keyOf(9), keyOf(1), keyOf(2)}));
-    ASSERT_TRUE(small.find(keyOf(2)));
+    ASSERT_TRUE(small.find(keyOf(2), someSources));
     small.store(sample(keyOf(8)));
-    EXPECT_FALSE(small.find(keyOf(1)));
-    EXPECT_TRUE(small.find(keyOf(2)));
+    EXPECT_FALSE(small.find(keyOf(1), someSources));
+    EXPECT_TRUE(small.find(keyOf(2), someSources));
 }
 
 TEST_F(CacheUpkeep, NeitherAnEntryBeingWrittenNorAnotherFileIsTouched) {
     fill(1);
-    const fs::path group = cache_.entry(keyOf(1)).parent_path();
+    const fs::path group = cache_.entry(keyOf(1), someSources).parent_path();
     const fs::path young = group / fmt::format(".{}.shadowbench-aB3dE6.ref", keyOf(1)),
                    old = group / fmt::format(".{}.shadowbench-XyZ123.ref", keyOf(2));
     const std::vector<fs::path> others{cache_.folder() / "notes.txt", group / "notes.ref",
@@ -134,7 +149,7 @@ TEST_F(CacheUpkeep, NeitherAnEntryBeingWrittenNorAnotherFileIsTouched) {
 
 TEST_F(CacheUpkeep, ALinkToAFileOutsideIsNoEntry) {
     fill(1);
-    const fs::path outside = folder_.path() / "outside.ref", link = cache_.entry(keyOf(2));
+    const fs::path outside = folder_.path() / "outside.ref", link = cache_.entry(keyOf(2), someSources);
     writeFile(outside, "someone's");
     fs::create_directories(link.parent_path());
     fs::create_symlink(outside, link);
@@ -144,7 +159,7 @@ TEST_F(CacheUpkeep, ALinkToAFileOutsideIsNoEntry) {
 
 TEST_F(CacheUpkeep, DamageIsSaidInOneSentence) {
     fill(2);
-    const fs::path file = cache_.entry(keyOf(2));
+    const fs::path file = cache_.entry(keyOf(2), someSources);
     std::string bytes = readFile(file);
     bytes[bytes.size() / 2] ^= 1;
     writeFile(file, bytes);
@@ -196,7 +211,8 @@ void useAsOneOfSeveral(const fs::path& folder, std::uintmax_t size, unsigned see
     for (int i = 0; i < 60; ++i) {
         const int number = static_cast<int>(random() % 12);
         cache.store(sample(keyOf(number), static_cast<float>(number)));
-        if (const auto found = cache.find(keyOf(static_cast<int>(random() % 12))); found && found->visibility.empty())
+        if (const auto found = cache.find(keyOf(static_cast<int>(random() % 12)), someSources);
+            found && found->visibility.empty())
             throw InternalError("an entry without pixels");
         if (i % 10 == 9) cache.prune({.maxBytes = 2 * entryBytes, .olderThan = {}});
     }

@@ -253,14 +253,21 @@ TEST_F(ForeignFiles, VisibilityIsTheQuotientOfWhatTheLightAdds) {
 }
 
 TEST_F(ForeignFiles, WhereThereIsNothingToDivideByNothingIsKnown) {
-    Image<float> lit(side, side, 1), image = ramp_;
-    for (int x = 0; x < 8; ++x) lit(x, 0) = image(x, 0) = 0; // 8 of 256
-    const Visibility found = read(FrameFiles{.image = exr("i.exr", image), .lit = exr("a.exr", lit)});
+    constexpr int size = 64; // of which four pixels are less than a thousandth
+    const ForeignImage image{"image", {Image<float>(size, size, 0.5F)}, {}};
+    ForeignImage lit{"lit", {Image<float>(size, size, 1)}, {}};
+    const Pixels scored(size, size, 1);
+    for (int x = 0; x < 4; ++x) lit.channels[0](x, 0) = 0;
+    const Visibility found = quotient(image, lit, nullptr, scored);
     EXPECT_EQ(found.unknown(3, 0), 1);
     EXPECT_EQ(found.unknown(3, 1), 0);
-    for (int x = 0; x < 16; ++x) lit(x, 0) = 0;
-    expectIn(refusal(FrameFiles{.image = exr("i.exr", image), .lit = exr("a.exr", lit)}),
-             "too dark to divide by at 16 of 256");
+    lit.channels[0](4, 0) = 0;
+    try {
+        quotient(image, lit, nullptr, scored);
+        ADD_FAILURE() << "more is unknown than may be";
+    } catch (const BadInput& error) {
+        expectIn(error.what(), "too dark to divide by at 5 of 4096 receiver pixels (limit 0.1 %)");
+    }
 }
 
 } // namespace

@@ -124,6 +124,33 @@ TEST(TruthOfAMetric, IsTheOneThatItWasComputedFrom) {
     EXPECT_EQ(keyOf("stability.flicker.mean"), "feed");
 }
 
+std::string whyNot(const char* path, const std::function<void(Record&)>& change) {
+    Record head = hardRecord();
+    change(head);
+    EXPECT_FALSE(whyIncomparable(hardRecord(), head)) << "the cell as a whole is comparable";
+    return whyIncomparable(*metrics::metricAt(path), hardRecord(), head).value_or("");
+}
+
+TEST(IncomparableMetrics, OfMotionNeedTheSameTruthsOfAllFrames) {
+    const auto slower = [](Record& r) { r.truths = "other"; }; // the camera's path: the still frame's truth is the same
+    for (const char* path : {"stability.flicker.mean", "stability.flip_rate", "stability.moving_rmse"})
+        EXPECT_NE(whyNot(path, slower).find("the scene's motion"), std::string::npos) << path;
+    for (const char* path : {"accuracy.leak", "stability.convergence", "cost.work.draws"})
+        EXPECT_EQ(whyNot(path, slower), "") << path;
+    EXPECT_EQ(whyNot("stability.flicker.mean", [](Record& r) { r.truths = ""; }), "") << "an older record";
+}
+
+TEST(IncomparableMetrics, AreOverOneClassOfPixels) {
+    const auto fewer = [](double by) {
+        return [by](Record& r) { r.values["accuracy.pixels.lit"] = *r.values["accuracy.pixels.lit"] - by; };
+    };
+    EXPECT_EQ(whyNot("accuracy.false_shadow", fewer(65)), ""); // 0.1 % of 256 × 256
+    EXPECT_EQ(whyNot("accuracy.false_shadow", fewer(66)),
+              "it is over 49934 pixels and was over 50000 (accuracy.pixels.lit)");
+    EXPECT_EQ(whyNot("accuracy.leak", fewer(66)), "") << "over the shadowed ones";
+    EXPECT_EQ(whyNot("accuracy.false_shadow", [](Record& r) { r.values["accuracy.pixels.lit"].reset(); }), "");
+}
+
 TEST(SameCode, IsAssumedWhereARecordDoesNotSayAndSameImagesAreNot) {
     Record older = hardRecord(), other = hardRecord();
     older.metricCode = older.images = "";

@@ -118,11 +118,11 @@ TEST(RecordJson, WritesTheFieldsInSchemaOrderAndNoAbsentMetric) {
     const Json json = Json::parse(toJson(softRecord()));
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
-    EXPECT_EQ(keys,
-              (std::vector<std::string>{"schema_version", "scene",    "technique",   "variant", "parameters", "profile",
-                                        "size",           "frames",   "seed",        "status",  "cell",       "commit",
-                                        "dirty",          "program",  "metric_code", "images",  "time",       "environment",
-                                        "reference",      "accuracy", "stability",   "cost",    "tolerances"}));
+    EXPECT_EQ(keys, (std::vector<std::string>{"schema_version", "scene",     "technique", "variant",     "parameters",
+                                              "profile",        "size",      "frames",    "seed",        "status",
+                                              "cell",           "commit",    "dirty",     "program",     "metric_code",
+                                              "images",         "truths",    "time",      "environment", "reference",
+                                              "accuracy",       "stability", "cost",      "tolerances"}));
     EXPECT_FALSE(json["accuracy"].contains("mismatch"));
     EXPECT_EQ(json["stability"]["by_frame"],
               Json::parse(R"({"rmse":[0.2,0.031],"bad30":[0.1,0.012],"changed":[0.04,0.008,0.0]})"));
