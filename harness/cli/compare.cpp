@@ -1,5 +1,6 @@
 #include "base/files.h"
 #include "harness/cli/command.h"
+#include "harness/gate/gate_report.h"
 #include "harness/gate/verdict.h"
 
 #include <CLI/CLI.hpp>
@@ -11,7 +12,6 @@ namespace {
 
 struct CompareOptions {
     std::filesystem::path base, head, junit, summary;
-    std::string format = "text";
     bool annotations = false;
     bool aa = false; // one program on both sides is meant
 };
@@ -23,14 +23,14 @@ std::vector<Record> recordsAt(const std::filesystem::path& place) {
 
 ExitCode compareAndPrint(const CompareOptions& options) {
     const std::vector<Record> base = recordsAt(options.base), head = recordsAt(options.head);
-    if (const auto why = gate::whyMeaningless(base, head, options.aa)) throw Inconclusive(*why);
-    const gate::Comparison compared = gate::compare(base, head);
-    fmt::print("{}", gate::changesReport(compared, options.format));
+    const gate::GateResult compared = gate::comparedRecords(base, head, options.aa);
+    if (!compared.unjudged.empty()) throw Inconclusive(compared.unjudged.front());
+    fmt::print("{}", gate::changesReport(compared));
     if (!options.aa && gate::sameProgram(base, head)) fmt::print("both commits make the same program\n");
     if (options.annotations) fmt::print("{}", gate::annotations(compared.changes));
     if (!options.junit.empty()) writeFile(options.junit, gate::junit(compared.changes));
-    if (!options.summary.empty()) writeFile(options.summary, gate::changesReport(compared, "md"));
-    return gate::verdictOf(compared.changes);
+    if (!options.summary.empty()) writeFile(options.summary, gate::gateComment(compared, {}));
+    return compared.code();
 }
 
 } // namespace
@@ -44,9 +44,9 @@ void addCompare(CLI::App& app, Action& action) {
         "both are\nof one program; else with 4 when accuracy or stability is worse, and with 3 when only cost is.");
     verb->add_option("base", options->base, "Records to compare with: a file, or the folder of a run")->required();
     verb->add_option("head", options->head, "Records to judge")->required();
-    verb->add_option("--format", options->format, "text or md")->check(CLI::IsMember({"text", "md"}))->capture_default_str();
     verb->add_option("--junit", options->junit, "Write the verdicts as JUnit XML");
-    verb->add_option("--summary", options->summary, "Write what changed as Markdown");
+    verb->add_option("--summary", options->summary,
+                     "Write the verdict and the worst there, in 40 lines of Markdown at most");
     verb->add_flag("--annotations", options->annotations, "Print what is worse as CI annotations too");
     verb->add_flag("--aa", options->aa, "Both are records of one program, on purpose");
     verb->callback([&action, options] { action = [options] { return compareAndPrint(*options); }; });

@@ -26,12 +26,9 @@ struct GateFiles {
 ExitCode gateAndPrint(const gate::GateOptions& options, const GateFiles& files) {
     const OutputLock alone(options.out);
     const gate::GateResult result = gate::gate(options);
-    const std::filesystem::path page = options.out / "gate.md";
-    writeFile(page, gate::gateReport(result, options, "md"));
     if (!files.summary.empty()) writeFile(files.summary, gate::gateComment(result, options));
     if (!files.junit.empty()) writeFile(files.junit, gate::junit(result.changes, result.unjudged));
-    fmt::print("{}page: {}\n", gate::gateReport(result, options, "text"), page.string());
-    fmt::print("for browsers: {}\n", site::writeGateSite(result, options).string());
+    fmt::print("{}page: {}\n", gate::gateReport(result, options), site::writeGateSite(result, options).string());
     if (files.annotations) fmt::print("{}", gate::annotations(result.changes));
     return result.code();
 }

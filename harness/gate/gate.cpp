@@ -279,6 +279,17 @@ private:
 
 ExitCode GateResult::code() const { return unjudged.empty() ? verdictOf(changes) : ExitCode::Inconclusive; }
 
+GateResult comparedRecords(const std::vector<Record>& base, const std::vector<Record>& head, bool aa) {
+    GateResult result{compare(base, head)};
+    const auto nameOf = [](const std::vector<Record>& records) {
+        return records.empty() ? std::string("no records") : records.front().commit;
+    };
+    result.base = nameOf(base);
+    result.head = nameOf(head);
+    if (const auto why = whyMeaningless(base, head, aa)) result.unjudged.push_back(*why);
+    return result;
+}
+
 GateResult gate(const GateOptions& options) {
     const auto start = Clock::now();
     GateResult result = Gate(options).judge();

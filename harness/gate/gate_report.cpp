@@ -13,33 +13,26 @@ namespace {
 constexpr std::size_t mostTimes = 5;
 
 /// A list under a heading; nothing when it is empty.
-std::string section(const std::string& heading, const std::vector<std::string>& lines, const std::string& format) {
-    if (lines.empty()) return "";
-    std::string text = format == "md" ? fmt::format("\n{}:\n\n", heading) : fmt::format("{}:\n", heading);
-    for (const std::string& line : lines) text += format == "md" ? "* " + line + "\n" : "  " + line + "\n";
-    return text;
+std::string section(const std::string& heading, const std::vector<std::string>& lines) {
+    return lines.empty() ? "" : fmt::format("{}:\n  {}\n", heading, fmt::join(lines, "\n  "));
 }
 
-std::vector<std::string> commands(const GateResult& result, const GateOptions& options, bool md) {
+std::vector<std::string> commands(const GateResult& result, const GateOptions& options) {
     std::vector<std::string> lines;
     for (const Change& change : result.changes) {
         if (change.direction != Direction::Worse) continue;
-        const std::string command = reproduction(change, options), line = md ? "`" + command + "`" : command;
+        const std::string line = reproduction(change, options);
         if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
     }
     return lines;
 }
 
-std::vector<std::string> pictureLines(const GateResult& result, bool md) {
+std::vector<std::string> pictureLines(const GateResult& result) {
     std::vector<std::string> lines;
     for (const FailurePictures& cell : result.pictures) {
         std::string line = fmt::format("{} on {}:", cell.variant, cell.scene);
-        for (const auto& [who, folder] : {std::pair("head", cell.head), std::pair("base", cell.base)}) {
-            if (folder.empty()) continue;
-            for (const char* picture : {"visibility", "reference", "error"})
-                line += md ? fmt::format(" [{} {}]({}/{}.png)", who, picture, folder.string(), picture) : "";
-            if (!md) line += fmt::format(" {}", (folder / "{visibility,reference,error}.png").string());
-        }
+        for (const std::filesystem::path& folder : {cell.head, cell.base})
+            if (!folder.empty()) line += fmt::format(" {}", (folder / "{visibility,reference,error}.png").string());
         lines.push_back(std::move(line));
     }
     return lines;
@@ -78,21 +71,12 @@ std::string reproduction(const Change& change, const GateOptions& options) {
     }
 }
 
-std::string gateReport(const GateResult& result, const GateOptions& options, const std::string& format) {
-    const bool md = format == "md";
-    std::string text =
-        md ? fmt::format("## shadowbench: {}\n\nHead {}, base {}. ", verdictText(result.code()), result.head, result.base)
-           : "";
-    text += section("looser than the base", result.loosened, format);
-    text += changesReport(result, format);
-    text += section("to see it again", commands(result, options, md), format);
-    text += section("pictures", pictureLines(result, md), format);
-    text += section("not judged", result.unjudged, format);
-    text += section("to note", result.notes, format);
-    text +=
-        section(fmt::format("slowest parts of {:.0f} s, some side by side", result.seconds), slowest(result.times), format);
-    if (!md) text += fmt::format("gate: {} (head {}, base {})\n", verdictText(result.code()), result.head, result.base);
-    return text;
+std::string gateReport(const GateResult& result, const GateOptions& options) {
+    std::string text = section("looser than the base", result.loosened) + changesReport(result) +
+                       section("to see it again", commands(result, options)) + section("pictures", pictureLines(result)) +
+                       section("not judged", result.unjudged) + section("to note", result.notes);
+    text += section(fmt::format("slowest parts of {:.0f} s, some side by side", result.seconds), slowest(result.times));
+    return text + fmt::format("gate: {} (head {}, base {})\n", verdictText(result.code()), result.head, result.base);
 }
 
 std::string gateComment(const GateResult& result, const GateOptions& options) {
@@ -116,7 +100,9 @@ std::string gateComment(const GateResult& result, const GateOptions& options) {
     list("Not judged", unjudged, mostUnjudged);
     list("Worse", worse, mostWorst);
     list("Unclear, waived or better", others, mostOthers);
-    list("To see it again", commands(result, options, true), mostCommands);
+    std::vector<std::string> again = commands(result, options);
+    for (std::string& command : again) command = "`" + command + "`";
+    list("To see it again", again, mostCommands);
     return text;
 }
 

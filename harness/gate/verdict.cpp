@@ -39,54 +39,6 @@ std::string totals(const Comparison& comparison) {
     return fmt::format("{}; {}", fmt::join(parts, ", "), text(comparison.presence));
 }
 
-std::string asText(const Comparison& comparison) {
-    std::string text;
-    for (const Change& change : worstFirst(comparison.changes))
-        text += fmt::format("{:<10} {:<13} {}\n", name(change.direction), name(change.changeClass), change.sentence);
-    return text + totals(comparison) + "\n";
-}
-
-/// A sentence in a cell of a Markdown table.
-std::string inTable(std::string sentence) {
-    for (std::size_t at = 0; (at = sentence.find_first_of("|\n\r", at)) != std::string::npos; ++at) sentence[at] = '/';
-    return sentence;
-}
-
-std::string changeTable(const std::vector<Change>& changes) {
-    std::string text = "| is | class | what |\n|---|---|---|\n";
-    for (const Change& change : changes)
-        text +=
-            fmt::format("| {} | {} | {} |\n", name(change.direction), name(change.changeClass), inTable(change.sentence));
-    return text;
-}
-
-std::string classTable(const std::vector<Change>& changes) {
-    std::map<Class, std::map<Direction, int>> counts;
-    for (const Change& change : changes) ++counts[change.changeClass][change.direction];
-    std::string text = "| class |";
-    for (const Direction direction : directions) text += fmt::format(" {} |", name(direction));
-    text += "\n|---|";
-    for (std::size_t i = 0; i < directions.size(); ++i) text += "--:|";
-    for (auto& [changeClass, byDirection] : counts) {
-        text += fmt::format("\n| {} |", name(changeClass));
-        for (const Direction direction : directions) text += fmt::format(" {} |", byDirection[direction]);
-    }
-    return text + "\n";
-}
-
-std::string asMarkdown(const Comparison& comparison) {
-    constexpr std::size_t most = 10;
-    const std::vector<Change> all = worstFirst(comparison.changes);
-    std::string text = fmt::format("**{}**\n", totals(comparison));
-    if (all.empty()) return text;
-    std::vector<Change> worst = oneACause(all);
-    std::erase_if(worst, [](const Change& change) { return change.direction == Direction::Better; });
-    worst.resize(std::min(worst.size(), most));
-    if (!worst.empty()) text += fmt::format("\n{}", changeTable(worst));
-    text += fmt::format("\n{}", classTable(all));
-    return text + fmt::format("\n<details><summary>all {}</summary>\n\n{}\n</details>\n", all.size(), changeTable(all));
-}
-
 std::string escaped(const std::string& text) {
     std::string result;
     for (const char c : text) switch (c) {
@@ -233,8 +185,11 @@ std::vector<Change> oneACause(const std::vector<Change>& worstFirst) {
     return worst;
 }
 
-std::string changesReport(const Comparison& comparison, const std::string& format) {
-    return format == "md" ? asMarkdown(comparison) : asText(comparison);
+std::string changesReport(const Comparison& comparison) {
+    std::string text;
+    for (const Change& change : worstFirst(comparison.changes))
+        text += fmt::format("{:<10} {:<13} {}\n", name(change.direction), name(change.changeClass), change.sentence);
+    return text + totals(comparison) + "\n";
 }
 
 std::string junit(const std::vector<Change>& changes, const std::vector<std::string>& unjudged) {

@@ -27,8 +27,8 @@ std::vector<Change> worstFirst(const std::vector<Change>& changes);
 /// One change a result, class and direction, the worst of them; how many more there are stands at the end of its sentence.
 std::vector<Change> oneACause(const std::vector<Change>& worstFirst);
 
-/// "text" for a terminal, all of it, or "md": the ten worst, what is worse by class, then everything.
-std::string changesReport(const Comparison& comparison, const std::string& format);
+/// A line for each change that is not the same, the worst first, then how many there are and what was compared.
+std::string changesReport(const Comparison& comparison);
 
 /// JUnit XML: a test suite a scene, a test case a technique and class. What is Worse is a failure, what is Unjudged an
 /// error, what is Unclear or Waived is skipped; their texts are the changes' sentences. What a time would have shown is the

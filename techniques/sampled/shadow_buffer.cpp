@@ -63,8 +63,8 @@ gl::Defines shadowBufferDefines(const Parameters& parameters) {
 
 LightView lightSampleView(const Frame& frame) {
     const Light& light = frame.snapshot.light;
-    const std::uint32_t i = haltonIndex(frame.index, frame.seed);
-    return fitFromSample(light, light.sample({halton(i, 2), halton(i, 3)}), boundingCorners(frame.snapshot));
+    const glm::dvec2 sample(haltonOf(frame.index, frame.seed, 2), haltonOf(frame.index, frame.seed, 3));
+    return fitFromSample(light, light.sample(sample), boundingCorners(frame.snapshot));
 }
 
 ShadowBuffer::Images::Images(glm::ivec2 size, glm::ivec2 border)

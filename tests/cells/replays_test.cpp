@@ -124,9 +124,11 @@ private:
     [[nodiscard]] techniques::LightView mapView(const Snapshot& frame) const {
         const techniques::LightView base = method_.warped ? techniques::fitLispsm(frame.light, frame, frame.camera, aspect())
                                                           : techniques::fitToScene(frame.light, frame);
-        const std::uint32_t i = techniques::haltonIndex(frame_ + scene_.timeline.approach, 1);
-        return techniques::jittered(base, method_.rotated ? glm::two_pi<double>() * techniques::halton(i, 5) : 0,
-                                    {techniques::halton(i, 2) - 0.5, techniques::halton(i, 3) - 0.5}, side);
+        const auto number = [&](std::uint32_t base) {
+            return techniques::haltonOf(frame_ + scene_.timeline.approach, 1, base);
+        };
+        return techniques::jittered(base, method_.rotated ? glm::two_pi<double>() * number(5) : 0,
+                                    {number(2) - 0.5, number(3) - 0.5}, side);
     }
 
     const Scene& scene_;
@@ -220,9 +222,9 @@ public:
     /// Shows the next frame.
     void next() {
         const Light& light = frame_.light;
-        const std::uint32_t i = techniques::haltonIndex(frames_, 1);
-        const techniques::LightView view = techniques::fitFromSample(
-            light, light.sample({techniques::halton(i, 2), techniques::halton(i, 3)}), techniques::boundingCorners(frame_));
+        const glm::dvec2 sample(techniques::haltonOf(frames_, 1, 2), techniques::haltonOf(frames_, 1, 3));
+        const techniques::LightView view =
+            techniques::fitFromSample(light, light.sample(sample), techniques::boundingCorners(frame_));
         const test::MapReplay map(triangles_, view, side);
         const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
         const std::vector<Pixel> before = pixels_;

@@ -73,6 +73,7 @@ TEST_F(Gate, AWorseMapIsAnAccuracyRegressionThatEveryFormNames) {
     std::vector<Record> worse = records("base");
     ASSERT_EQ(run("head", "--cost none --technique sm-uniform:map=64").code, 0);
     const Record coarse = records("head")[0];
+    worse[0].images = coarse.images;
     for (const metrics::Metric& line : metrics::linesOf("accuracy")) worse[0].values[line] = coarse.values[line];
     writeRecords(folder_ / "worse/results.jsonl", worse);
     const Outcome outcome = compare(

@@ -41,7 +41,7 @@ TEST_F(GateVerb, TheSameProgramPasses) {
     const Outcome outcome = gate(PROGRAM, "--aa --cost instructions --technique sm-uniform");
     EXPECT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("0 worse, 0 better"), std::string::npos) << outcome.output;
-    EXPECT_NE(readFile(folder_ / "out/gate.md").find("shadowbench: pass"), std::string::npos);
+    EXPECT_NE(readFile(folder_ / "out/gate.html").find("Nothing is worse"), std::string::npos);
 }
 
 /// This program, saying something else of itself.
@@ -124,7 +124,8 @@ TEST_F(GateVerb, ASelectionThatAppliesNowhereIsInconclusive) {
 TEST_F(GateVerb, AWorseHeadFailsWithPicturesAndACommandThatShowsItAgain) {
     const std::string base = recorded("--technique sm-uniform:map=64");
     std::vector<Record> records = readRecords(base);
-    records[0].values["accuracy.leak"] = *records[0].values["accuracy.leak"] - 0.05; // the base was better
+    records[0].values["accuracy.leak"] = *records[0].values["accuracy.leak"] - 0.05; // the base was better …
+    records[0].images = "others";                                                    // … and drew something else
     writeRecords(base, records);
     const Outcome outcome = gate(base, "--technique sm-uniform:map=64 --cost none --annotations --junit " +
                                            (folder_ / "junit.xml") + " --summary " + (folder_ / "summary.md"));
@@ -139,6 +140,7 @@ TEST_F(GateVerb, AWorseHeadFailsWithPicturesAndACommandThatShowsItAgain) {
     EXPECT_TRUE(fs::exists(folder_ / "out/cells/tiny/head_sm-uniform_map=64.js"));
     for (const char* file : {"junit.xml", "summary.md"})
         EXPECT_NE(readFile(folder_ / file).find("accuracy.leak"), std::string::npos) << file;
+    EXPECT_EQ(readRecords(folder_ / "out/results.jsonl").size(), 1U) << "for later gates";
 }
 
 TEST_F(GateVerb, BoundsAndExpectedFailuresAreJudgedWhateverTheBaseIs) {

@@ -7,10 +7,11 @@
 #include "harness/report/summary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <map>
+#include <set>
 
 namespace shadowbench::site {
 namespace {
@@ -96,19 +97,46 @@ std::optional<Data> pictures(const ComparedCell& cell, const std::string& title,
     return list;
 }
 
-Data cellsOf(const std::vector<ComparedCell>& cells, const SiteWriter& site) {
+/// The worst of each result and cause, ten at most; the first of a cell that was drawn has its pictures.
+Data worstOf(const std::vector<Change>& changes, const std::vector<ComparedCell>& cells, const SiteWriter& site) {
+    constexpr std::size_t most = 10;
+    std::vector<Change> worst = gate::oneACause(gate::worstFirst(changes));
+    std::erase_if(worst, [](const Change& change) { return change.direction == Direction::Better; });
+    worst.resize(std::min(worst.size(), most));
+    std::set<const ComparedCell*> shownCells;
     Data list{Data::type::list};
-    for (const ComparedCell& cell : cells) {
-        const std::string title = fmt::format("{} on {}", shown(cell.head.record.variant), shown(cell.head.record.scene));
-        const std::optional<Data> shownPictures = pictures(cell, title, site);
-        if (!shownPictures) continue;
+    for (const Change& change : worst) {
         Data data;
-        data.set("cell", title);
-        data.set("to", cellAddress(cell.head, cell.base ? &*cell.base : nullptr));
-        data.set("pictures", *shownPictures);
+        data.set("is", std::string(gate::name(change.direction)));
+        data.set("sentence", shown(change.sentence, sentenceRoom));
+        const auto cell = std::ranges::find_if(cells, [&](const ComparedCell& c) {
+            return c.head.record.scene == change.scene && c.head.record.variant == change.variant;
+        });
+        if (cell != cells.end() && shownCells.insert(&*cell).second) {
+            const std::string title = fmt::format("{} on {}", shown(change.variant), shown(change.scene));
+            if (const std::optional<Data> shownPictures = pictures(*cell, title, site)) {
+                data.set("to", cellAddress(cell->head, cell->base ? &*cell->base : nullptr));
+                data.set("pictures", *shownPictures);
+            }
+        }
         list << data;
     }
     return list;
+}
+
+Table classTable(const std::vector<Change>& changes) {
+    constexpr std::array directions{Direction::Worse,  Direction::Unjudged, Direction::Unclear,
+                                    Direction::Waived, Direction::Better,   Direction::Same};
+    std::map<gate::Class, std::map<Direction, int>> counts;
+    for (const Change& change : changes) ++counts[change.changeClass][change.direction];
+    Table table{.id = "classes", .caption = "By class", .columns = {{.title = "class", .number = false}}, .rows = {}};
+    for (const Direction direction : directions) table.columns.push_back({.title = std::string(gate::name(direction))});
+    for (auto& [changeClass, byDirection] : counts) {
+        Row& row = table.rows.emplace_back(Row{{Cell{std::string(gate::name(changeClass))}}});
+        for (const Direction direction : directions)
+            row.cells.push_back({fmt::format("{}", byDirection[direction]), static_cast<double>(byDirection[direction])});
+    }
+    return table;
 }
 
 /// The cells that a gate has drawn again.
@@ -166,23 +194,12 @@ void addGatePage(const gate::GateResult& result, const gate::GateOptions& option
                                    count(Direction::Waived), count(Direction::Better), count(Direction::Same),
                                    shown(gate::text(result.presence), sentenceRoom)));
     data.set("table", site.table(address, changeTable(result.changes, options)));
-    data.set("cells", cellsOf(cells, site));
+    data.set("classes", site.table(address, classTable(result.changes)));
+    data.set("worst", worstOf(result.changes, cells, site));
     data.set("loosened", sentences(result.loosened));
     data.set("unjudged", sentences(result.unjudged));
     data.set("notes", sentences(result.notes));
     site.add({address, verdictText(result.code()), render("gate.html", data)});
-}
-
-gate::GateResult comparedWith(const std::vector<Record>& base, const std::vector<Record>& head) {
-    gate::GateResult result;
-    const auto nameOf = [](const std::vector<Record>& records) {
-        return records.empty() ? std::string("no records") : records.front().commit;
-    };
-    result.base = nameOf(base);
-    result.head = nameOf(head);
-    static_cast<gate::Comparison&>(result) = gate::compare(base, head);
-    if (const auto why = gate::whyMeaningless(base, head, false)) result.unjudged.push_back(*why);
-    return result;
 }
 
 std::vector<ComparedCell> worseCells(const std::vector<Change>& changes, const RunImages& base, const RunImages& head) {

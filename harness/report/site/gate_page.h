@@ -17,13 +17,10 @@ struct ComparedCell {
     std::optional<RunCell> base; // nothing where that has no images
 };
 
-/// gate.html: what is worse first, then what could not be judged or told, then what is better, with the command that shows
-/// each again, and pictures of `cells`, whose pages have been written.
+/// gate.html: what is looser than the base, the ten worst with pictures of `cells`, whose pages have been written, then how
+/// many changes each class has, then everything with the command that shows it again.
 void addGatePage(const gate::GateResult& result, const gate::GateOptions& options, const std::vector<ComparedCell>& cells,
                  SiteWriter& site);
-
-/// The comparison of records with older ones, as a gate's result.
-gate::GateResult comparedWith(const std::vector<Record>& base, const std::vector<Record>& head);
 
 /// A run's records and the folder of its images, which may be missing.
 struct RunImages {

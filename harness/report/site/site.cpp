@@ -68,7 +68,7 @@ struct Comparison {
 
 Comparison comparisonOf(const Sources& sources) {
     if (!sources.base) return {};
-    gate::GateResult result = comparedWith(*sources.base, sources.records);
+    gate::GateResult result = gate::comparedRecords(*sources.base, sources.records);
     std::vector<ComparedCell> worse =
         worseCells(result.changes, {*sources.base, sources.baseImages}, {sources.records, sources.images});
     return {std::move(result), std::move(worse)};

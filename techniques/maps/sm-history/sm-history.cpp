@@ -104,9 +104,9 @@ private:
     /// window.
     [[nodiscard]] LightView rasterisedAnew(const LightView& view, const Frame& frame) const {
         if (jitter_ == "none") return view;
-        const std::uint32_t i = haltonIndex(frame.index, frame.seed);
-        const double angle = jitter_ == "translation" ? 0 : glm::two_pi<double>() * halton(i, 5);
-        return jittered(view, angle, {halton(i, 2) - 0.5, halton(i, 3) - 0.5}, map_.side());
+        const auto number = [&](std::uint32_t base) { return haltonOf(frame.index, frame.seed, base); };
+        const double angle = jitter_ == "translation" ? 0 : glm::two_pi<double>() * number(5);
+        return jittered(view, angle, {number(2) - 0.5, number(3) - 0.5}, map_.side());
     }
 
     FitView fit_;

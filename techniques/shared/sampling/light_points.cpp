@@ -16,9 +16,8 @@ glm::dvec2 onGrid(int i, int count) {
 
 glm::dvec2 inUnitSquare(std::string_view pattern, int i, int count, std::uint32_t seed) {
     if (pattern == "grid") return onGrid(i, count);
-    const std::uint32_t index = haltonIndex(i, seed);
-    if (pattern == "halton") return {halton(index, 2), halton(index, 3)};
-    return {(i + 0.5) / count, halton(index, 2)};
+    if (pattern == "halton") return {haltonOf(i, seed, 2), haltonOf(i, seed, 3)};
+    return {(i + 0.5) / count, haltonOf(i, seed, 2)};
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "techniques/shared/sampling/sampling.h"
 
+#include "base/random.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -15,8 +17,9 @@ double halton(std::uint32_t index, std::uint32_t base) {
     return result;
 }
 
-std::uint32_t haltonIndex(int frame, std::uint32_t seed) {
-    return 1 + static_cast<std::uint32_t>(frame) + 7919 * (seed - 1);
+double haltonOf(int frame, std::uint32_t seed, std::uint32_t base) {
+    const double turn = seed == 1 ? 0 : hashed(mixBits(seed) + base);
+    return glm::fract(halton(1 + static_cast<std::uint32_t>(frame), base) + turn);
 }
 
 namespace {

@@ -10,8 +10,10 @@ namespace shadowbench::techniques {
 /// Element `index` ≥ 0 of the van der Corput sequence in `base` ≥ 2: a number in [0, 1). Halton points take coprime bases.
 double halton(std::uint32_t index, std::uint32_t base);
 
-/// The Halton index of a frame: seeds start far apart in the sequence. Index 0 (the origin) is left out.
-std::uint32_t haltonIndex(int frame, std::uint32_t seed);
+/// A frame's Halton number in `base`; index 0 (the origin) is left out. A seed other than 1 turns the sequence by an angle
+/// of its own in each base (Cranley and Patterson 1976). Another start in the sequence would not do: it gives the points of
+/// another seed, some frames later, wherever two starts differ by little modulo powers of the bases.
+double haltonOf(int frame, std::uint32_t seed, std::uint32_t base);
 
 enum class Region { Disk, Square }; // the unit disk, or [−1, 1]²
 

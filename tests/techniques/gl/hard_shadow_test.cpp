@@ -121,9 +121,8 @@ TEST(SmHistory,
 
     // The second frame's rasterisation, as the technique draws it.
     using namespace techniques;
-    const std::uint32_t i = haltonIndex(1, 1);
-    const LightView view = jittered(fitToScene(scene.light, stage.shown()), glm::two_pi<double>() * halton(i, 5),
-                                    {halton(i, 2) - 0.5, halton(i, 3) - 0.5}, 64);
+    const LightView view = jittered(fitToScene(scene.light, stage.shown()), glm::two_pi<double>() * haltonOf(1, 1, 5),
+                                    {haltonOf(1, 1, 2) - 0.5, haltonOf(1, 1, 3) - 0.5}, 64);
     const metrics::Drawn drawn = stage.drawn();
     std::size_t weighted = 0;
     for (std::size_t pixel = 0; pixel < both.size(); ++pixel) {
