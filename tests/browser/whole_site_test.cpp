@@ -93,8 +93,11 @@ TEST(SingleFile, HoldsTheFramesOfSequences) {
 
 TEST(Comparison, ShowsHeadAgainstBaseInTheViewer) {
     std::vector<Record> base = tinyRun().records();
-    for (Record& record : base)
-        if (record.variant == "pcf:map=64") record.values["accuracy.leak"] = *record.values["accuracy.leak"] / 2;
+    for (Record& record : base) {
+        if (record.variant != "pcf:map=64") continue;
+        record.values["accuracy.leak"] = *record.values["accuracy.leak"] / 2;
+        record.images = "drawn otherwise";
+    }
     const TemporaryFolder folder;
     fs::create_directories(folder.path() / "base");
     fs::copy(tinyRun().images(), folder.path() / "base/images", fs::copy_options::recursive);

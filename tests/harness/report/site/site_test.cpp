@@ -158,11 +158,15 @@ TEST_F(Site, ComparesWithOlderRecordsAndShowsTheWorstFirst) {
     for (Record& record : head) record.commit = "decade";
     head[2].values["accuracy.mismatch"] = 0.002;
     head[1].values["accuracy.mismatch"] = 0.4;
+    head[1].images = head[2].images = "drawn otherwise";
     writeSite({.records = head, .base = base, .baseName = "before.jsonl"}, folder());
     const std::string page = readFile(folder() / "gate.html");
     EXPECT_TRUE(has(page, "Accuracy or stability is worse")) << page;
 
     EXPECT_TRUE(has(page, "./bench run --images --cost none")) << page;
+    EXPECT_TRUE(has(page, "expected results compared")) << page;
+    EXPECT_LT(page.find("worse: "), page.find("id=\"classes\"")) << "the worst, then how many, then all";
+    EXPECT_LT(page.find("id=\"classes\""), page.find("id=\"changes\""));
     EXPECT_LT(page.find(">sm-uniform<"), page.find(">sm-history:base=lispsm<"));
 }
 
