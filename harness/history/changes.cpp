@@ -16,18 +16,20 @@ std::vector<double> valuesOf(const Series& series) {
     return values;
 }
 
-/// Where levels begin. Noise is a factor: its figures are compared by their logarithms.
-std::vector<std::size_t> breaksOf(const Series& series, const NoiseRule& rule) {
-    std::vector<double> values = valuesOf(series);
-    if (!series.noisy) {
-        std::vector<double> allowances;
-        for (const Point& point : series.points) allowances.push_back(point.allowance);
-        return levelChanges(values, allowances);
+/// Noise is a factor: its figures are compared by their logarithms.
+Noisy noisyOf(const Series& series, std::size_t first = 0) {
+    Noisy figures;
+    for (std::size_t i = first; i < series.points.size(); ++i) {
+        figures.values.push_back(std::log(series.points[i].value));
+        figures.commits.push_back(series.points[i].commit);
     }
-    std::vector<std::size_t> commits;
-    for (const Point& point : series.points) commits.push_back(point.commit);
-    for (double& value : values) value = std::log(value);
-    return distributionChanges(values, commits, rule);
+    return figures;
+}
+
+std::vector<std::size_t> exactChanges(const Series& series) {
+    std::vector<double> allowances;
+    for (const Point& point : series.points) allowances.push_back(point.allowance);
+    return levelChanges(valuesOf(series), allowances);
 }
 
 Level levelOf(const Series& series, std::size_t first, std::size_t end) {
@@ -54,10 +56,8 @@ LevelChange changeBetween(const History& history, std::size_t index, const Level
     return {index, before, after, direction, std::min(1.0, change / std::max(larger, 100 * allowance))};
 }
 
-} // namespace
-
-std::vector<Level> levelsOf(const Series& series, const NoiseRule& rule) {
-    std::vector<std::size_t> ends = breaksOf(series, rule);
+/// The levels that begin at 0 and after each of `ends` but the last.
+std::vector<Level> levelsBetween(const Series& series, std::vector<std::size_t> ends) {
     ends.push_back(series.points.size());
     std::vector<Level> levels;
     std::size_t start = 0;
@@ -71,13 +71,45 @@ std::vector<Level> levelsOf(const Series& series, const NoiseRule& rule) {
     return levels;
 }
 
-std::vector<std::vector<Level>> levelsOf(const History& history, double alpha) {
-    NoiseRule rule;
-    rule.alpha =
-        alpha / static_cast<double>(std::max<std::ptrdiff_t>(1, std::ranges::count(history.series, true, &Series::noisy)));
-    std::vector<std::vector<Level>> levels;
-    for (const Series& series : history.series) levels.push_back(levelsOf(series, rule));
-    return levels;
+} // namespace
+
+Levels levelsOf(const History& history, const NoiseRule& rule) {
+    std::vector<Noisy> noisy;
+    for (const Series& series : history.series)
+        if (series.noisy) noisy.push_back(noisyOf(series));
+    const NoiseChanges found = distributionChanges(noisy, rule);
+    Levels result;
+    auto next = found.changes.begin();
+    for (const Series& series : history.series) {
+        result.levels.push_back(levelsBetween(series, series.noisy ? *next++ : exactChanges(series)));
+        result.smallest.emplace_back();
+        if (!series.noisy) continue;
+        const Noisy newest = noisyOf(series, series.points.size() - result.levels.back().back().figures);
+        const auto rise = smallestRise(newest, std::log1p(gate::TimeRule{}.floor), found.leastRatio, rule);
+        if (rise) result.smallest.back() = std::expm1(*rise);
+    }
+    return result;
+}
+
+std::vector<Event> eventsOf(const History& history) {
+    const auto identity = [](const Series& s) { return std::tie(s.scene, s.metric, s.variant, s.cell); };
+    const std::vector<Series>& all = history.series;
+    std::vector<Event> events;
+    for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+        std::size_t last = first; // the series with the newest figure
+        for (end = first; end < all.size() && identity(all[end]) == identity(all[first]); ++end) {
+            const std::size_t since = all[end].points.front().commit;
+            if (end > first) events.push_back({all[end].apart, end, since});
+            if (end == first && since > 0) events.push_back({"began", end, since});
+            if (all[end].points.back().commit >= all[last].points.back().commit) last = end;
+        }
+        const Point& newest = all[last].points.back();
+        if (newest.commit + 1 < history.commits.size())
+            events.push_back({"vanished", last, newest.commit});
+        else if (all[last].metricClass == gate::Class::Status && newest.value > 0)
+            events.push_back({"in error", last, newest.commit});
+    }
+    return events;
 }
 
 std::vector<LevelChange> changesBetween(const History& history, const std::vector<std::vector<Level>>& levels) {

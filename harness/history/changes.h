@@ -18,13 +18,16 @@ struct Level {
     std::size_t figures;
 };
 
-/// The levels of a series in order: one where nothing changes. Figures without noise by the gate's allowance, others by
-/// `rule`, where a change of the median by no more than the gate's floor of times is none.
-std::vector<Level> levelsOf(const Series& series, const NoiseRule& rule);
+struct Levels {
+    /// Of each series in order: one where nothing changes. Figures without noise by the gate's allowance, others by the
+    /// rule, where a change of the median by no more than the gate's floor of times is none.
+    std::vector<std::vector<Level>> levels;
+    /// Of each noisy series, the smallest rise of its newest figures that would be found, as a share of its newest level;
+    /// nothing where its newest level has too few.
+    std::vector<std::optional<double>> smallest;
+};
 
-/// Those of every series. `alpha` is the probability of a false alarm anywhere among the noisy series if none of them
-/// changes; each is judged at its share of it.
-std::vector<std::vector<Level>> levelsOf(const History& history, double alpha);
+Levels levelsOf(const History& history, const NoiseRule& rule);
 
 struct LevelChange {
     std::size_t series; // index in the history's
@@ -37,6 +40,15 @@ struct LevelChange {
 
 /// All changes between the `levels` of the history's series, the largest first.
 std::vector<LevelChange> changesBetween(const History& history, const std::vector<std::vector<Level>>& levels);
+
+/// What else a reader must know of a metric of a cell.
+struct Event {
+    std::string what;   // that it began, vanished, is in error, or why it cannot be compared with what was before
+    std::size_t series; // index in the history's
+    std::size_t commit; // the first or, of what vanished, the last that has it; the newest in error
+};
+
+std::vector<Event> eventsOf(const History& history);
 
 /// The commits after the last one known to be on the old level to the first one known to be on the new.
 struct Suspects {

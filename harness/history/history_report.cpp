@@ -1,5 +1,6 @@
 #include "harness/history/history_report.h"
 
+#include "base/error.h"
 #include "base/files.h"
 #include "harness/report/summary.h"
 #include "harness/report/text_table.h"
@@ -8,8 +9,10 @@
 #include <bit>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 
 namespace shadowbench::history {
 namespace {
@@ -68,17 +71,27 @@ std::string narrowing(const Findings& f) {
     return text;
 }
 
-std::string span(const Findings& f) {
-    const std::vector<Commit>& commits = f.history.commits;
-    const std::size_t last = commits.size() - 1;
-    return fmt::format("{} from {} to {}, {} of {} series without a change", count(commits.size(), "commit"), commit(f, 0),
-                       commit(f, last), std::ranges::count(f.levels, 1U, &std::vector<Level>::size), f.levels.size());
+/// One row for all metrics of a cell to which the same happened.
+TextTable eventsTable(const Findings& f) {
+    std::map<std::tuple<std::string, std::string, std::string, std::string, std::size_t>, std::vector<std::string>> rows;
+    for (const Event& event : f.events) {
+        const Series& s = f.history.series[event.series];
+        rows[{event.what, s.variant, s.scene, s.cell, event.commit}].push_back(s.metric);
+    }
+    TextTable table{{"what", "technique", "scene", "cell", "metrics", "at"}, {}};
+    for (const auto& [key, metrics] : rows) {
+        const auto& [what, variant, scene, cell, at] = key;
+        table.rows.push_back({what, variant, scene, cell,
+                              metrics.size() == 1 ? metrics.front() : fmt::format("{}", metrics.size()), commit(f, at)});
+    }
+    return table;
 }
 
 std::string asText(const Findings& f) {
     std::string text = f.changes.empty() ? "" : aligned(changesTable(f));
+    if (!f.events.empty()) text += aligned(eventsTable(f));
     for (const std::string& sentence : f.unreadable) text += fmt::format("left out: {}\n", sentence);
-    return text + span(f) + "\n" + narrowing(f);
+    return text + summaryOf(f) + "\n" + narrowing(f);
 }
 
 /// "1.69 % (64331f8 … d41c407, 3) → 1.47 % (9afa401 …)": without its commits where there is one level.
@@ -95,12 +108,13 @@ std::string levelsText(const Findings& f, const Series& series, const std::vecto
 /// The series of one metric on one scene, those that change before those that do not.
 std::string levelsTable(const Findings& f, const std::string& scene, const std::string& metric) {
     const std::vector<Series>& all = f.history.series;
-    TextTable table{{"technique", "cell", "figures", "levels", "conditions"}, {}};
+    TextTable table{{"technique", "cell", "figures", "levels", "smallest rise found", "apart because"}, {}};
     for (const bool changed : {true, false})
         for (std::size_t i = 0; i < all.size(); ++i)
             if (all[i].scene == scene && all[i].metric == metric && (f.levels[i].size() > 1) == changed)
                 table.rows.push_back({all[i].variant, all[i].cell, fmt::format("{}", all[i].points.size()),
-                                      levelsText(f, all[i], f.levels[i]), fmt::format("{}", all[i].conditions + 1)});
+                                      levelsText(f, all[i], f.levels[i]),
+                                      f.smallest[i] ? report::percent(*f.smallest[i]) : "", all[i].apart});
     return markdown(table);
 }
 
@@ -112,18 +126,21 @@ std::string commitsTable(const Findings& f) {
 }
 
 constexpr const char* reading =
-    R"(A figure that is the same in every run changes when it moves by more than the gate's allowance; times change where a permutation
-test of the energy statistic says so (E-divisive), at the likeliest commit. `size` is the share of the larger level that the
+    R"(A figure that is the same in every run changes when it moves by more than the gate's allowance, from commit to commit or, in
+small steps, since its level began. Times change where the energy statistic is larger than random orders of all series explain
+(E-divisive; one false series in twenty that are said to change), at the likeliest commits; the smallest rise is what the newest
+three figures of a series would have to show to be found. `size` is the share of the larger level that the
 change is, less where it is but a few allowances. A change is first seen at one commit and was last not there at another that
-was measured: the commits between are suspects, the first seen included. Of `edge_error.signed` the magnitude counts. Figures
-under different conditions, listed below, are different series and never compared.
+was measured: the commits between are suspects, the first seen included. Of `edge_error.signed` the magnitude counts. What
+the gate would not compare (another truth, rasteriser, machine, code of the metrics) is a series apart, with the reason.
 )";
 
 std::string asMarkdown(const Findings& f, bool charts) {
-    std::string text = fmt::format("# Past commits\n\n{}.\n\n{}", span(f), reading);
+    std::string text = fmt::format("# Past commits\n\n{}.\n\n{}", summaryOf(f), reading);
     text += "\n## What changed\n\n" + (f.changes.empty() ? "Nothing.\n" : markdown(changesTable(f)));
     if (const std::string steps = narrowing(f); !steps.empty())
         text += fmt::format("\n## Narrowing a change to its commit\n\n```\n{}```\n", steps);
+    if (!f.events.empty()) text += "\n## What began, vanished, broke off or is in error\n\n" + markdown(eventsTable(f));
     std::string scene;
     for (const auto& [ofScene, metric] : chartedMetrics(f)) {
         if (ofScene != scene) text += fmt::format("\n## {}\n", scene = ofScene);
@@ -131,10 +148,6 @@ std::string asMarkdown(const Findings& f, bool charts) {
         if (charts) text += fmt::format("![{} on {}]({})\n\n", metric, scene, chartName(metric, scene));
         text += levelsTable(f, scene, metric);
     }
-    text += "\n## Conditions\n\n";
-    for (std::size_t i = 0; i < f.history.conditions.size(); ++i)
-        if (!f.history.conditions[i].empty())
-            text += fmt::format("{}. {}\n", i + 1, report::markdownText(f.history.conditions[i]));
     text += "\n## Commits\n\n" + commitsTable(f);
     if (!f.unreadable.empty()) text += "\n## Left out\n\n";
     for (const std::string& sentence : f.unreadable) text += fmt::format("* {}\n", report::markdownText(sentence));
@@ -155,8 +168,9 @@ Json seriesJson(const Findings& f, std::size_t index) {
               {"cell", series.cell},
               {"metric", series.metric},
               {"class", gate::name(series.metricClass)},
-              {"noisy", series.noisy},
-              {"conditions", f.history.conditions[series.conditions]}};
+              {"noisy", series.noisy}};
+    if (!series.apart.empty()) json["apart"] = series.apart;
+    if (f.smallest[index]) json["smallest_rise"] = *f.smallest[index];
     for (const Point& point : series.points)
         json["points"].push_back({{"commit", f.history.commits[point.commit].hash}, {"value", point.value}});
     for (const Level& level : f.levels[index]) json["levels"].push_back(asJson(f, level));
@@ -183,12 +197,16 @@ Json changeJson(const Findings& f, const LevelChange& change) {
 }
 
 Json asJson(const Findings& f) {
-    Json json{{"commits", Json::array()}, {"changes", Json::array()}, {"series", Json::array()}, {"left_out", f.unreadable}};
+    const Json none = Json::array();
+    Json json{{"commits", none}, {"changes", none}, {"events", none}, {"series", none}, {"left_out", f.unreadable}};
     for (std::size_t i = 0; i < f.history.commits.size(); ++i) {
         const Commit& c = f.history.commits[i];
         json["commits"].push_back({{"commit", c.hash}, {"date", c.date}, {"subject", f.subjects[i]}});
     }
     for (const LevelChange& change : f.changes) json["changes"].push_back(changeJson(f, change));
+    for (const Event& event : f.events)
+        json["events"].push_back(
+            {{"what", event.what}, {"series", event.series}, {"commit", f.history.commits[event.commit].hash}});
     for (std::size_t i = 0; i < f.history.series.size(); ++i) json["series"].push_back(seriesJson(f, i));
     return json;
 }
@@ -203,7 +221,36 @@ std::string quoted(const Findings& f, const Suspects& suspects, const Word& word
 
 } // namespace
 
+Findings findingsOf(const std::filesystem::path& folder, const Selection& selection) {
+    const auto repository = Repository::around(folder);
+    Stored stored = readHistory(folder);
+    sortByAncestry(stored.commits, repository);
+    Findings findings;
+    findings.unreadable = stored.unreadable;
+    findings.history = historyOf(stored.commits, selection);
+    if (findings.history.series.empty())
+        throw BadInput(
+            fmt::format("{} holds no records of what was asked for; `shadowbench history add` adds some", folder.string()));
+    for (const Commit& commit : findings.history.commits)
+        findings.subjects.push_back(repository ? repository->subject(commit.hash) : "");
+    static_cast<Levels&>(findings) = levelsOf(findings.history, {});
+    findings.events = eventsOf(findings.history);
+    findings.changes = changesBetween(findings.history, findings.levels);
+    findings.suspects = suspectsOf(findings.history, findings.changes, repository);
+    return findings;
+}
+
 std::string shortHash(const std::string& commit) { return commit.substr(0, 7); }
+
+std::string summaryOf(const Findings& f) {
+    const auto happened = [&](const char* what) { return std::ranges::count(f.events, what, &Event::what); };
+    const auto began = happened("began"), vanished = happened("vanished"), failing = happened("in error");
+    return fmt::format(
+        "{} from {} to {}, {} of {} series without a change; {} began, {} vanished, {} broke off, {} in error",
+        count(f.history.commits.size(), "commit"), commit(f, 0), commit(f, f.history.commits.size() - 1),
+        std::ranges::count(f.levels, 1U, &std::vector<Level>::size), f.levels.size(), began, vanished,
+        static_cast<std::ptrdiff_t>(f.events.size()) - began - vanished - failing, failing);
+}
 
 Unit unitOf(const std::string& metric) {
     const metrics::Metric* line = metrics::metricAt(metric);

@@ -10,18 +10,21 @@
 namespace shadowbench::history {
 
 /// All that the reports are made from.
-struct Findings {
+struct Findings : Levels {
     History history;
     std::vector<std::string> subjects;   // of the history's commits; "" where no repository knows
     std::vector<std::string> unreadable; // sentences about files that were left out
-    std::vector<std::vector<Level>> levels;
+    std::vector<Event> events;
     std::vector<LevelChange> changes;
     std::vector<Suspects> suspects;
 };
 
-/// What the history in `folder` shows of `selection`, with one false alarm in twenty such reports. Throws BadInput where the
+/// What the history in `folder` shows of `selection`. Throws BadInput where the
 /// folder holds nothing of it.
 Findings findingsOf(const std::filesystem::path& folder, const Selection& selection);
+
+/// How many commits and series there are, and what happened to them.
+std::string summaryOf(const Findings& findings);
 
 /// The unit that figures of a metric are written in: shares in per cent, instructions in millions.
 struct Unit {

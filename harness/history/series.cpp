@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <map>
+#include <optional>
+#include <ranges>
 #include <tuple>
 
 namespace shadowbench::history {
@@ -28,39 +30,22 @@ struct Figure {
     gate::Class metricClass;
     bool noisy;
     double value, allowance;
-    std::string conditions;
+    const metrics::Metric* line; // nothing for whether the cell is in error
 };
-
-std::string rasteriser(const Environment& e) {
-    if (e.gl == notDrawnHere) return e.gl; // the next version of another renderer is what a series shows
-    const bool osMesa = e.platform.empty() || e.platform == "osmesa"; // which older records do not say
-    return fmt::format("{}, {}, {} raster threads, {} bits{}", e.renderer, e.gl, e.rasterThreads, e.vectorBits,
-                       osMesa ? "" : ", through " + e.platform);
-}
 
 /// All figures of a record that have a series.
 std::vector<Figure> figuresOf(const Record& record) {
     using gate::Class;
     const bool scored = wasScored(record.status), error = record.status == Status::Error;
     std::vector<Figure> figures;
-    if (scored || error) figures.push_back({errorMetric, Class::Status, false, error ? 1.0 : 0.0, 0, ""});
+    if (scored || error) figures.push_back({errorMetric, Class::Status, false, error ? 1.0 : 0.0, 0, nullptr});
     if (!scored) return figures;
-    const auto scoredIn = [&](const metrics::Metric& metric) { // rasteriser and truth decide a score
-        const std::optional<ReferenceInfo>& truth = gate::truthOf(metric, record);
-        return fmt::format("{}; truth {}", rasteriser(record.environment), truth ? truth->key : "");
-    };
     for (const metrics::Metric& metric : metrics::table) {
-        const std::optional<double> value = gate::comparedValue(metric, record);
+        const bool noisy = metric.noisy && metric.about;
+        const std::optional<double> value = noisy ? record.values[metric] : gate::comparedValue(metric, record);
         if (!value) continue;
-        const bool counted = metric.about == Class::Instructions;
-        figures.push_back({metric.path, *metric.about, false, *value, gate::allowanceOf(metric, record, *value),
-                           counted ? gate::countingEnvironment(record.environment) : scoredIn(metric)});
-    }
-    for (const metrics::Metric& metric : metrics::table) {
-        const std::optional<double>& value = record.values[metric];
-        if (!metric.noisy || !metric.about || !value) continue;
-        figures.push_back({metric.path, *metric.about, true, *value, gate::TimeRule{}.floor * *value,
-                           fmt::format("{}, {}", rasteriser(record.environment), record.environment.cpu)});
+        const double allowance = noisy ? gate::TimeRule{}.floor * *value : gate::allowanceOf(metric, record, *value);
+        figures.push_back({metric.path, *metric.about, noisy, *value, allowance, &metric});
     }
     return figures;
 }
@@ -73,10 +58,45 @@ std::string cellText(const Record& record) {
     return text;
 }
 
-/// Collects series and numbers the conditions in the order in which they first occur.
+/// Which metrics two versions of their code score alike, as far as cells say that showed the same under both.
+class MetricCode {
+public:
+    explicit MetricCode(const std::vector<Commit>& commits) {
+        std::map<gate::CellKey, const Record*> last;
+        for (const Commit& commit : commits)
+            for (const Record& record : commit.records) {
+                if (!wasScored(record.status)) continue;
+                const Record*& before = last[gate::cellOf(record)];
+                if (before != nullptr) take(*before, record);
+                before = &record;
+            }
+    }
+
+    [[nodiscard]] bool scoresAlike(const metrics::Metric& metric, const Record& before, const Record& now) const {
+        if (gate::sameMetricCode(before, now)) return true;
+        const auto found = alike_.find({metric.path, before.metricCode, now.metricCode});
+        const bool isCost = metric.noisy || metric.about == gate::Class::Instructions || metric.about == gate::Class::Work;
+        return isCost || (found != alike_.end() && found->second);
+    }
+
+private:
+    void take(const Record& before, const Record& now) {
+        if (gate::sameMetricCode(before, now) || !gate::sameImages(before, now) || gate::whyIncomparable(before, now))
+            return;
+        for (const metrics::Metric& metric : metrics::table)
+            if (before.values[metric] && !gate::whyIncomparable(metric, before, now)) {
+                bool& alike = alike_.try_emplace({metric.path, before.metricCode, now.metricCode}, true).first->second;
+                alike = alike && before.values[metric] == now.values[metric];
+            }
+    }
+
+    std::map<std::tuple<std::string_view, std::string, std::string>, bool> alike_;
+};
+
+/// Collects series: a figure goes to the newest one of its cell and metric whose last record its own can be compared with.
 class Collector {
 public:
-    explicit Collector(History& history) : history_(history) {}
+    Collector(History& history, const std::vector<Commit>& commits) : history_(history), code_(commits) {}
 
     void take(const Record& record, std::size_t commit, const Figure& figure) {
         Series& series = of(record, figure);
@@ -86,40 +106,55 @@ public:
     }
 
 private:
-    using Key = std::tuple<gate::CellKey, std::string_view, std::size_t>;
+    using Key = std::tuple<gate::CellKey, std::string_view>;
+    struct Open {
+        std::size_t series;
+        const Record* last;
+    };
 
     Series& of(const Record& record, const Figure& figure) {
-        const std::size_t conditions = numberOf(figure.conditions);
-        const auto [found, isNew] =
-            places_.try_emplace(Key{gate::cellOf(record), figure.metric, conditions}, history_.series.size());
-        if (isNew)
-            history_.series.push_back({record.scene,
-                                       record.variant,
-                                       std::string(figure.metric),
-                                       cellText(record),
-                                       figure.metricClass,
-                                       figure.noisy,
-                                       conditions,
-                                       {}});
-        return history_.series[found->second];
+        std::vector<Open>& open = open_[Key{gate::cellOf(record), figure.metric}];
+        std::string apart;
+        for (Open& one : std::views::reverse(open)) {
+            const std::optional<std::string> why = whyApart(figure, *one.last, record);
+            if (!why) {
+                one.last = &record;
+                return history_.series[one.series];
+            }
+            if (apart.empty()) apart = *why;
+        }
+        open.push_back({history_.series.size(), &record});
+        return history_.series.emplace_back(Series{record.scene,
+                                                   record.variant,
+                                                   std::string(figure.metric),
+                                                   cellText(record),
+                                                   figure.metricClass,
+                                                   figure.noisy,
+                                                   apart,
+                                                   {}});
     }
 
-    std::size_t numberOf(const std::string& conditions) {
-        const auto found = std::ranges::find(history_.conditions, conditions);
-        if (found != history_.conditions.end()) return static_cast<std::size_t>(found - history_.conditions.begin());
-        history_.conditions.push_back(conditions);
-        return history_.conditions.size() - 1;
+    [[nodiscard]] std::optional<std::string> whyApart(const Figure& figure, const Record& before, const Record& now) const {
+        if (figure.line == nullptr) return {};
+        if (auto why = gate::whyIncomparable(before, now)) return why;
+        if (auto why = gate::whyIncomparable(*figure.line, before, now)) return why;
+        if (figure.noisy || figure.metricClass == gate::Class::Instructions)
+            if (auto why = gate::difference(before.environment, now.environment, gate::Surroundings::OfCounts))
+                return "it was measured in other surroundings: " + *why;
+        if (code_.scoresAlike(*figure.line, before, now)) return {};
+        return "the code of the metrics differs, and cells whose images are the same do not show that it scores alike";
     }
 
     History& history_;
-    std::map<Key, std::size_t> places_;
+    MetricCode code_;
+    std::map<Key, std::vector<Open>> open_;
 };
 
 } // namespace
 
 History historyOf(const std::vector<Commit>& commits, const Selection& selection) {
     History history;
-    Collector collector(history);
+    Collector collector(history, commits);
     for (const Commit& commit : commits) {
         const std::size_t index = history.commits.size();
         history.commits.push_back({commit.hash, commit.date, {}});
@@ -131,7 +166,7 @@ History historyOf(const std::vector<Commit>& commits, const Selection& selection
         }
     }
     std::ranges::stable_sort(history.series, {},
-                             [](const Series& s) { return std::tie(s.scene, s.metric, s.variant, s.cell, s.conditions); });
+                             [](const Series& s) { return std::tie(s.scene, s.metric, s.variant, s.cell); });
     return history;
 }
 

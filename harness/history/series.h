@@ -26,22 +26,21 @@ struct Series {
     std::string scene, variant, metric;
     std::string cell; // what else distinguishes it: profile, size, seed, place in a sweep
     gate::Class metricClass;
-    bool noisy;             // another run of the same commit gives another figure
-    std::size_t conditions; // index in the history's conditions
+    bool noisy; // another run of the same commit gives another figure
+    /// Why its figures cannot be compared with earlier ones of the same metric and cell; "" where these are the first.
+    std::string apart;
     /// By commit. Of a metric without noise one a commit, its last; else one a record.
     std::vector<Point> points;
 };
 
 struct History {
     std::vector<Commit> commits; // without records, oldest first
-    /// What figures were measured in and against. Those of different conditions are never compared: rasteriser and truth for
-    /// scores; rasteriser, Valgrind and processor for instructions; rasteriser and processor for times.
-    std::vector<std::string> conditions;
-    std::vector<Series> series; // by scene, metric, variant
+    std::vector<Series> series;  // by scene, metric, variant, cell; what cannot be compared by its first commit
 };
 
 /// The series of scored cells: every metric that has an allowance, every cost that is timed and judged, and whether a cell
-/// is in error. Smaller is better throughout.
+/// is in error. Smaller is better throughout. Two records are of one series when the gate would compare them
+/// (harness/records/comparability.h), costs when they were also taken in the same surroundings.
 History historyOf(const std::vector<Commit>& commits, const Selection& selection);
 
 } // namespace shadowbench::history

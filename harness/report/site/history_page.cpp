@@ -95,8 +95,7 @@ void addHistoryPage(const Findings& f, SiteWriter& site) {
         entry.set("table", site.table(address, series));
         charts << entry;
     }
-    data.set("span", fmt::format("{} commits, {} series, {} changes.", f.history.commits.size(), f.history.series.size(),
-                                 f.changes.size()));
+    data.set("span", history::summaryOf(f) + ".");
     data.set("changes", site.table(address, changeTable(f)));
     data.set("charts", charts);
     site.add({address, "History", render("history.html", data)});

@@ -17,7 +17,7 @@ using test::softRecord;
 
 constexpr double pixel = 1.0 / 10000; // of the shadowed ones of the example records
 
-std::string hashOf(std::size_t index) { return std::string(40, static_cast<char>('a' + index)); }
+std::string hashOf(std::size_t index) { return std::to_string(1000000 + index) + std::string(33, 'a'); }
 
 /// A commit for each list of records, in order.
 std::vector<Commit> commitsOf(const std::vector<std::vector<Record>>& lists) {
@@ -43,7 +43,8 @@ Findings findingsOf(const std::vector<Commit>& commits, const Selection& selecti
     Findings findings;
     findings.history = historyOf(commits, selection);
     findings.subjects.assign(commits.size(), "");
-    findings.levels = levelsOf(findings.history, 0.05);
+    static_cast<Levels&>(findings) = levelsOf(findings.history, {});
+    findings.events = eventsOf(findings.history);
     findings.changes = changesBetween(findings.history, findings.levels);
     findings.suspects = suspectsOf(findings.history, findings.changes, std::nullopt);
     return findings;
@@ -90,12 +91,14 @@ TEST(Series, FollowsAnotherRendererFromVersionToVersion) {
 /// Series of one metric when the second commit's record is changed.
 template <typename Change>
 std::size_t seriesWhen(const std::string& metric, const Change& change) {
-    Record other = softRecord();
+    Record one = softRecord();
+    one.reference->content = "f00d";
+    Record other = one;
     change(other);
-    return historyOf(commitsOf({{softRecord()}, {other}}), {{metric}, {}, {}}).series.size();
+    return historyOf(commitsOf({{one}, {other}}), {{metric}, {}, {}}).series.size();
 }
 
-TEST(Series, FiguresOfDifferentConditionsAreDifferentSeries) {
+TEST(Series, FiguresThatTheGateWouldNotCompareAreDifferentSeries) {
     const auto renderer = [](Record& r) { r.environment.renderer = "llvmpipe (LLVM 16)"; };
     const auto cpu = [](Record& r) { r.environment.cpu = "another"; };
     const auto valgrind = [](Record& r) { r.environment.valgrind = "3.20.0"; };
@@ -110,9 +113,44 @@ TEST(Series, FiguresOfDifferentConditionsAreDifferentSeries) {
     EXPECT_EQ(seriesWhen("cost.time.ratio", cpu), 2U);
     EXPECT_EQ(seriesWhen("accuracy.rmse", valgrind), 1U);
     EXPECT_EQ(seriesWhen("cost.instructions", valgrind), 2U);
-    EXPECT_EQ(seriesWhen("cost.time.ratio", valgrind), 1U);
-    EXPECT_EQ(seriesWhen("accuracy.rmse", truth), 2U);
-    EXPECT_EQ(seriesWhen("cost.instructions", truth), 1U);
+    const auto content = [](Record& r) { r.reference->content = "another"; };
+    const auto parameter = [](Record& r) { r.parameters.front().second = "another"; };
+    const auto frames = [](Record& r) { ++r.frames; };
+    for (const char* metric : {"accuracy.rmse", "cost.instructions", "cost.time.ratio"}) {
+        EXPECT_EQ(seriesWhen(metric, truth), 2U) << metric; // perhaps of another scene
+        EXPECT_EQ(seriesWhen(metric, content), 2U) << metric;
+        EXPECT_EQ(seriesWhen(metric, parameter), 2U) << metric;
+        EXPECT_EQ(seriesWhen(metric, frames), 2U) << metric;
+    }
+}
+
+TEST(Series, OtherCodeOfTheMetricsScoresAlikeWhereEqualImagesSaySo) {
+    const auto code = [](Record& r) { r.metricCode = "another"; };
+    const auto unlike = [](Record& r) {
+        r.metricCode = "another";
+        r.values["accuracy.rmse"] = 0.5 * *r.values["accuracy.rmse"];
+    };
+    const auto images = [](Record& r) {
+        r.metricCode = "another";
+        r.images = "another";
+    };
+    EXPECT_EQ(seriesWhen("accuracy.rmse", code), 1U);
+    EXPECT_EQ(seriesWhen("accuracy.rmse", unlike), 2U) << "halved errors are no improvement";
+    EXPECT_EQ(seriesWhen("accuracy.penumbra_rmse", unlike), 1U) << "another metric";
+    EXPECT_EQ(seriesWhen("accuracy.rmse", images), 2U) << "no cell says that it scores alike";
+    EXPECT_EQ(seriesWhen("cost.instructions", images), 1U) << "no score";
+}
+
+TEST(Series, OfTwoMachinesInTurnAreTwo) {
+    Record one = hardRecord(), two = hardRecord();
+    two.environment.cpu = "another";
+    const History history = historyOf(commitsOf({{one, two}, {one, two}, {two}}), {{"cost.time.ratio"}, {}, {}});
+    ASSERT_EQ(history.series.size(), 2U);
+    EXPECT_EQ(history.series[0].points.size(), 2U);
+    EXPECT_EQ(history.series[1].points.size(), 3U);
+    EXPECT_NE(history.series[1].apart.find("other surroundings: cpu is \"some cpu\" and \"another\""), std::string::npos)
+        << history.series[1].apart;
+    EXPECT_EQ(eventsOf(history).size(), 1U) << "the first goes on in the second";
 }
 
 TEST(Series, OtherCellsAreOtherSeries) {
@@ -169,6 +207,70 @@ TEST(Changes, ACellThatFailsIsOne) {
     EXPECT_EQ(findings.changes[0].direction, gate::Direction::Worse);
 }
 
+TEST(Changes, HeldForThreeCommitsOf40AreListed) {
+    std::vector<double> values(40, 0.1);
+    for (std::size_t i = 20; i < 23; ++i) values[i] = 0.2;
+    const Findings findings = findingsOf(leaks(values), onlyLeak);
+    ASSERT_EQ(findings.changes.size(), 2U);
+    EXPECT_EQ(findings.changes[0].after.first, 20U);
+    EXPECT_EQ(findings.changes[1].after.first, 23U);
+}
+
+TEST(Changes, OfManySmallStepsAreFound) {
+    std::vector<double> values;
+    for (int i = 0; i < 12; ++i) values.push_back(0.1 + 0.9 * i * pixel); // not half of what is allowed
+    const Findings findings = findingsOf(leaks(values), onlyLeak);
+    EXPECT_EQ(findings.changes.size(), 3U);
+    for (const LevelChange& change : findings.changes) EXPECT_EQ(change.direction, gate::Direction::Worse);
+}
+
+/// "what metric commit" of each.
+std::vector<std::string> said(const Findings& findings) {
+    std::vector<std::string> all;
+    for (const Event& event : findings.events)
+        all.push_back(event.what + " " + findings.history.series[event.series].metric + " " + std::to_string(event.commit));
+    return all;
+}
+
+TEST(Events, WhatVanishedAndBeganIsListed) {
+    const Selection two{{"accuracy.leak", "accuracy.rmse"}, {}, {}};
+    std::vector<Commit> commits = leaks({0.1, 0.1, 0.1, 0.1});
+    for (Commit& commit : commits) commit.records[0].values["accuracy.rmse"].reset();
+    EXPECT_TRUE(findingsOf(commits, two).events.empty());
+    for (const std::size_t i : {2U, 3U}) commits[i].records[0].values["accuracy.leak"].reset();
+    commits[3].records[0].values["accuracy.rmse"] = 0.1;
+    const Findings findings = findingsOf(commits, two);
+    EXPECT_EQ(said(findings), (std::vector<std::string>{"vanished accuracy.leak 1", "began accuracy.rmse 3"}));
+    const std::string text = report(findings, "text");
+    EXPECT_NE(text.find("1 began, 1 vanished, 0 broke off, 0 in error"), std::string::npos) << text;
+    EXPECT_NE(report(findings, "md").find("## What began, vanished"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(report(findings, "json"))["events"][0]["what"], "vanished");
+}
+
+TEST(Events, AnotherTruthIsABreakHoweverBadTheScores) {
+    std::vector<Commit> commits = leaks({0, 0, 1, 1});
+    for (const std::size_t i : {2U, 3U}) commits[i].records[0].reference->key = "another";
+    const Findings findings = findingsOf(commits, onlyLeak);
+    EXPECT_TRUE(findings.changes.empty()) << "which cannot be told";
+    ASSERT_EQ(findings.events.size(), 1U);
+    EXPECT_NE(findings.events[0].what.find("scored against different truths"), std::string::npos);
+    EXPECT_EQ(findings.events[0].commit, 2U);
+    EXPECT_NE(report(findings, "text").find("1 broke off"), std::string::npos);
+}
+
+TEST(Events, ACellInErrorIsListedAsLongAsItIs) {
+    const Record failing = test::unscored(Status::Error, "no shader");
+    const Selection status{{"status.error"}, {}, {}};
+    EXPECT_EQ(said(findingsOf(commitsOf({{failing}, {failing}}), status)),
+              std::vector<std::string>{"in error status.error 1"});
+    Record scored = hardRecord();
+    scored.scene = failing.scene;
+    scored.variant = failing.variant;
+    EXPECT_EQ(said(findingsOf(commitsOf({{scored}, {failing}, {failing}}), status)),
+              std::vector<std::string>{"in error status.error 2"});
+    EXPECT_TRUE(said(findingsOf(commitsOf({{failing}, {scored}}), status)).empty());
+}
+
 /// Twenty commits, ten before and ten after a step of the cost; 1 % of noise that repeats after seven commits.
 std::vector<Commit> costs(double before, double after) {
     std::vector<std::vector<Record>> lists;
@@ -187,6 +289,12 @@ TEST(Changes, OfTimesAreThoseThatNoiseDoesNotMake) {
     ASSERT_EQ(findings.changes.size(), 1U);
     EXPECT_EQ(findings.changes[0].after.first, 10U);
     EXPECT_NEAR(findings.changes[0].after.value, 1.1, 0.011); // the median of the noise lies within it
+    // Ten figures are left for the next change. The noise spans 2 %: a rise by less than half of that is none, by 4 % all of
+    // the newest figures lie above all others.
+    ASSERT_TRUE(findings.smallest[0].has_value());
+    EXPECT_GT(*findings.smallest[0], 0.01);
+    EXPECT_LT(*findings.smallest[0], 0.04);
+    EXPECT_NE(report(findings, "md").find("smallest rise found"), std::string::npos);
 }
 
 TEST(Changes, OfTimesBelowTheGatesFloorAreNone) {
