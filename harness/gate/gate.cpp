@@ -280,7 +280,8 @@ private:
 ExitCode GateResult::code() const { return unjudged.empty() ? verdictOf(changes) : ExitCode::Inconclusive; }
 
 GateResult comparedRecords(const std::vector<Record>& base, const std::vector<Record>& head, bool aa) {
-    GateResult result{compare(base, head)};
+    GateResult result;
+    static_cast<Comparison&>(result) = compare(base, head);
     const auto nameOf = [](const std::vector<Record>& records) {
         return records.empty() ? std::string("no records") : records.front().commit;
     };

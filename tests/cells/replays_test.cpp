@@ -124,8 +124,8 @@ private:
     [[nodiscard]] techniques::LightView mapView(const Snapshot& frame) const {
         const techniques::LightView base = method_.warped ? techniques::fitLispsm(frame.light, frame, frame.camera, aspect())
                                                           : techniques::fitToScene(frame.light, frame);
-        const auto number = [&](std::uint32_t base) {
-            return techniques::haltonOf(frame_ + scene_.timeline.approach, 1, base);
+        const auto number = [&](std::uint32_t prime) {
+            return techniques::haltonOf(frame_ + scene_.timeline.approach, 1, prime);
         };
         return techniques::jittered(base, method_.rotated ? glm::two_pi<double>() * number(5) : 0,
                                     {number(2) - 0.5, number(3) - 0.5}, side);

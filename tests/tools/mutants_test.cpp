@@ -212,6 +212,7 @@ TEST(Mutants, OnlyTheExpectedClassCounts) {
     const Record base = test::hardRecord();
     Record head = base;
     EXPECT_FALSE(outcomeOf(mutant, recorded(base), recorded(head)).caught());
+    head = test::drawnAnew(head);
     head.values["accuracy.false_shadow"] = 0.5;
     const Outcome elsewhere = outcomeOf(mutant, recorded(base), recorded(head));
     EXPECT_TRUE(elsewhere.caught());
@@ -251,7 +252,7 @@ TEST(Mutants, TheReportCountsSharesAndNamesSurvivorsWithTheirReason) {
     metric.target = "harness/metrics/accuracy";
     benign.benign = true;
     const Record base = test::hardRecord();
-    Record leaking = base;
+    Record leaking = test::drawnAnew(base);
     leaking.values["accuracy.leak"] = 0.01;
     const Record counted = test::softRecord();
     Record slower = counted;

@@ -52,7 +52,7 @@ TEST_F(TimeOfStandIns, WhatStaysUncertainIsUnclear) {
 // The same, a tenth apart: what this run could have told is more than anybody would accept.
 TEST_F(TimeOfStandIns, WhatStaysUncertainAndCouldNotBeToldIsNotJudged) {
     base_.takes("10000", "10000");
-    head_.takes("10300 + (start % 2 ? 1 : -1) * (1000 + 10 * (start / 2 % 48))", "10000");
+    head_.takes("10190 + (start % 2 ? 1 : -1) * (900 + 2 * (start / 2 % 48))", "10000");
     head_.does("time-frames", "echo >>\"$here/starts\"\nstart=$(($(wc -l <\"$here/starts\") + 1))\n" +
                                   readFile(head_.program().parent_path() / "time-frames.sh"));
     const auto [direction, sentence] = judged();
