@@ -1,6 +1,7 @@
 #include "harness/history/series.h"
 
 #include "harness/gate/paired.h"
+#include "harness/records/metric_code.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -58,45 +59,24 @@ std::string cellText(const Record& record) {
     return text;
 }
 
-/// Which metrics two versions of their code score alike, as far as cells say that showed the same under both.
-class MetricCode {
-public:
-    explicit MetricCode(const std::vector<Commit>& commits) {
-        std::map<gate::CellKey, const Record*> last;
-        for (const Commit& commit : commits)
-            for (const Record& record : commit.records) {
-                if (!wasScored(record.status)) continue;
-                const Record*& before = last[gate::cellOf(record)];
-                if (before != nullptr) take(*before, record);
-                before = &record;
-            }
-    }
-
-    [[nodiscard]] bool scoresAlike(const metrics::Metric& metric, const Record& before, const Record& now) const {
-        if (gate::sameMetricCode(before, now)) return true;
-        const auto found = alike_.find({metric.path, before.metricCode, now.metricCode});
-        const bool isCost = metric.noisy || metric.about == gate::Class::Instructions || metric.about == gate::Class::Work;
-        return isCost || (found != alike_.end() && found->second);
-    }
-
-private:
-    void take(const Record& before, const Record& now) {
-        if (gate::sameMetricCode(before, now) || !gate::sameImages(before, now) || gate::whyIncomparable(before, now))
-            return;
-        for (const metrics::Metric& metric : metrics::table)
-            if (before.values[metric] && !gate::whyIncomparable(metric, before, now)) {
-                bool& alike = alike_.try_emplace({metric.path, before.metricCode, now.metricCode}, true).first->second;
-                alike = alike && before.values[metric] == now.values[metric];
-            }
-    }
-
-    std::map<std::tuple<std::string_view, std::string, std::string>, bool> alike_;
-};
+/// What each version of the code of metrics says of the one before.
+gate::MetricCode codeOf(const std::vector<Commit>& commits) {
+    gate::MetricCode code;
+    std::map<gate::CellKey, const Record*> last;
+    for (const Commit& commit : commits)
+        for (const Record& record : commit.records) {
+            if (!wasScored(record.status)) continue;
+            const Record*& before = last[gate::cellOf(record)];
+            if (before != nullptr) code.take(*before, record);
+            before = &record;
+        }
+    return code;
+}
 
 /// Collects series: a figure goes to the newest one of its cell and metric whose last record its own can be compared with.
 class Collector {
 public:
-    Collector(History& history, const std::vector<Commit>& commits) : history_(history), code_(commits) {}
+    Collector(History& history, const std::vector<Commit>& commits) : history_(history), code_(codeOf(commits)) {}
 
     void take(const Record& record, std::size_t commit, const Figure& figure) {
         Series& series = of(record, figure);
@@ -137,16 +117,15 @@ private:
     [[nodiscard]] std::optional<std::string> whyApart(const Figure& figure, const Record& before, const Record& now) const {
         if (figure.line == nullptr) return {};
         if (auto why = gate::whyIncomparable(before, now)) return why;
-        if (auto why = gate::whyIncomparable(*figure.line, before, now)) return why;
         if (figure.noisy || figure.metricClass == gate::Class::Instructions)
             if (auto why = gate::difference(before.environment, now.environment, gate::Surroundings::OfCounts))
                 return "it was measured in other surroundings: " + *why;
-        if (code_.scoresAlike(*figure.line, before, now)) return {};
-        return "the code of the metrics differs, and cells whose images are the same do not show that it scores alike";
+        const bool same = before.values[*figure.line] == now.values[*figure.line];
+        return code_.whyUnjudged(*figure.line, before, now, gate::sameImages(before, now), same);
     }
 
     History& history_;
-    MetricCode code_;
+    gate::MetricCode code_;
     std::map<Key, std::vector<Open>> open_;
 };
 

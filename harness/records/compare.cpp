@@ -1,5 +1,7 @@
 #include "harness/records/compare.h"
 
+#include "harness/records/metric_code.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -11,13 +13,6 @@ namespace shadowbench::gate {
 namespace {
 
 bool scored(const Record& record) { return wasScored(record.status); }
-
-/// What is computed of the map is not: it may change behind equal images.
-bool dependsOnImages(const metrics::Metric& metric) { return !std::holds_alternative<metrics::OfMap>(metric.computed); }
-
-bool isScore(const metrics::Metric& metric) {
-    return metric.about != Class::Work && metric.about != Class::Instructions && metric.about != Class::Time;
-}
 
 Change statusChange(const std::string& scene, const std::string& variant, Direction direction, const std::string& what) {
     return {scene, variant, "status", Class::Status, {}, {}, 0, direction, fmt::format("{} on {} {}", variant, scene, what)};
@@ -88,34 +83,13 @@ bool turned(const metrics::Metric& metric, const MatchedCell& cell, const Change
     return before * now < 0 && std::abs(now) > change.allowance && std::abs(now) > std::abs(before) - change.allowance;
 }
 
-/// What the cells that both sides show alike say of code that measures and scores, where it differs.
-class MetricCode {
-public:
-    explicit MetricCode(const std::vector<MatchedCell>& cells) {
-        for (const MatchedCell& cell : cells)
-            if (!cell.is(sameMetricCode) && cell.is(sameImages) && !whyIncomparable(*cell.base.front(), *cell.head.front()))
-                take(*cell.base.front(), *cell.head.front());
-    }
-
-    [[nodiscard]] bool scoresAlike(const metrics::Metric& metric) const {
-        return countsAlikeSomewhere(metric) && !unlike_.contains(metric.path);
-    }
-    [[nodiscard]] bool countsAlikeSomewhere(const metrics::Metric& metric) const { return alike_.contains(metric.path); }
-
-private:
-    void take(const Record& base, const Record& head) {
-        for (const metrics::Metric& metric : metrics::table)
-            if ((base.values[metric] || head.values[metric]) && !whyIncomparable(metric, base, head))
-                (base.values[metric] == head.values[metric] ? alike_ : unlike_).insert(metric.path);
-    }
-
-    std::set<std::string_view> alike_, unlike_;
-};
-
 class CellComparison {
 public:
     CellComparison(const std::vector<MatchedCell>& cells, const Rules& rules, std::vector<Change>& changes)
-        : code_(cells), rules_(rules), changes_(changes) {}
+        : rules_(rules), changes_(changes) {
+        for (const MatchedCell& cell : cells)
+            if (cell.is(sameImages)) code_.take(*cell.base.front(), *cell.head.front());
+    }
 
     void compareCell(const MatchedCell& cell) {
         const Record &base = *cell.base.front(), &head = *cell.head.front();
@@ -178,17 +152,8 @@ private:
         if (metric.about == Class::Instructions)
             if (const auto differs = difference(base.environment, head.environment, Surroundings::OfCounts))
                 return "counted in different environments, " + *differs + "; count both on one machine";
-        if (metric.about == Class::Work && direction != Direction::Same && !cell.is(sameMetricCode) &&
-            !code_.countsAlikeSomewhere(metric))
-            return "the code that measures differs, and no cell whose images are the same shows that it counts alike";
-        if (!isScore(metric)) return {};
-        if (auto why = whyIncomparable(metric, base, head)) return why;
-        if (cell.is(sameImages) && dependsOnImages(metric)) {
-            if (values.base == values.head) return {};
-            return "images and truth are the same, so what measures, scores or records them changed";
-        }
-        if (cell.is(sameMetricCode) || code_.scoresAlike(metric)) return {};
-        return "the code of the metrics differs, and cells whose images are the same do not show that it scores alike";
+        const bool same = metric.about == Class::Work ? direction == Direction::Same : values.base == values.head;
+        return code_.whyUnjudged(metric, base, head, cell.is(sameImages), same);
     }
 
     void compareFigures(const MatchedCell& cell) {
