@@ -34,6 +34,7 @@ std::vector<Commit> leaks(const std::vector<double>& values) {
     for (const double value : values) {
         Record record = hardRecord();
         record.values["accuracy.leak"] = value;
+        record.images = std::to_string(value); // drawn otherwise
         lists.push_back({record});
     }
     return commitsOf(lists);
@@ -65,7 +66,7 @@ TEST(Series, HoldsAFigureACommit) {
 }
 
 TEST(Series, ASecondMeasurementOfACommitReplacesTheFirstUnlessItIsNoisy) {
-    Record again = hardRecord();
+    Record again = test::drawnAnew(hardRecord());
     again.values["accuracy.leak"] = 0.3;
     const History history = historyOf(commitsOf({{hardRecord(), again}}), {{"accuracy.leak", "cost.time.ratio"}, {}, {}});
     ASSERT_EQ(history.series.size(), 2U);
@@ -198,6 +199,15 @@ TEST(Changes, LargerOnesComeFirst) {
     EXPECT_EQ(findings.history.series[findings.changes[0].series].metric, "accuracy.false_shadow");
     ASSERT_EQ(findings.suspects.size(), 1U); // of the same commit
     EXPECT_EQ(findings.suspects[0].changes.size(), 2U);
+}
+
+TEST(Series, BreaksWhereEqualImagesHaveAnotherScore) {
+    std::vector<Commit> commits = leaks({0.1, 0.2});
+    commits[1].records[0].images = commits[0].records[0].images;
+    const Findings findings = findingsOf(commits, onlyLeak);
+    EXPECT_TRUE(findings.changes.empty()) << "no technique did it";
+    ASSERT_EQ(findings.history.series.size(), 2U);
+    EXPECT_TRUE(findings.history.series[1].apart.starts_with("images and truth are the same"));
 }
 
 TEST(Changes, ACellThatFailsIsOne) {
