@@ -159,17 +159,17 @@ TEST(ForeignCells, ReceiversThatAQuotientSaysNothingOfAreSeenOtherwise) {
     const groundtruth::Reference& truth = underPoint().cells().truths().at(Truth::Hard, 2);
     Image<float> lit(v.width(), v.height(), 1);
     int hidden = 0;
-    for (std::size_t i = 0; i < v.size() && hidden < 4; ++i)
+    for (std::size_t i = 0; i < v.size(); ++i)
         if (truth.surface[i] == groundtruth::Surface::Receiver && v[i] != truth.visibility[i]) {
             lit[i] = 0;
             ++hidden;
         }
-    ASSERT_EQ(hidden, 4);
+    ASSERT_GT(hidden, 0);
     writeExr(underPoint().file("lit.exr"), {{"V", &lit}});
     row.frames[0].lit = underPoint().file("lit.exr");
     const Record record = underPoint().scored(row);
     EXPECT_LT(*record.values["accuracy.mismatch"], *whole.values["accuracy.mismatch"]);
-    EXPECT_NEAR(*record.values["accuracy.primary_mismatch"] - *whole.values["accuracy.primary_mismatch"], 4.0 / (96 * 96),
+    EXPECT_NEAR(*record.values["accuracy.primary_mismatch"] - *whole.values["accuracy.primary_mismatch"], hidden / (96.0 * 96),
                 1e-12);
 }
 

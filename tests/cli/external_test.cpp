@@ -27,7 +27,8 @@ protected:
     /// Our own images, which the scripts copy.
     static void SetUpTestSuite() {
         shared_ = std::make_unique<Folder>();
-        const Outcome own = shell("shadowbench run --quiet --cost none --images --technique pcf --technique none --scene " +
+        const Outcome own = shell("shadowbench run --quiet --cost none --images --technique pcf --technique pcf:map=64 "
+                                  "--technique none --scene " +
                                   scene() + options() + " --out " + own_());
         ASSERT_EQ(own.code, 0) << own.output;
     }
@@ -213,8 +214,15 @@ TEST_F(External, CompareAndGateJudgeTheNextVersionOfARenderer) {
     out_ = folder_ / "same";
     ASSERT_EQ(run("--technique 'external:*'").code, 0);
     EXPECT_EQ(shell("shadowbench compare " + before + " " + out_).code, 0);
-    // The next version has lost its shadows.
+    // A version without shadows has no boundary whose place could be compared.
     write(entry("a", "cp " + images() + "/../none/frame-*.exr {out}", "as_it_is = true"));
+    out_ = folder_ / "lost";
+    ASSERT_EQ(run("--technique 'external:*'").code, 0);
+    const Outcome lost = shell("shadowbench compare " + before + " " + out_);
+    EXPECT_EQ(lost.code, 5) << lost.output;
+    EXPECT_TRUE(contains(lost.output, "edge_error.missing 0 → 1")) << lost.output;
+
+    write(entry("a", "cp " + images() + "_map=64/frame-*.exr {out}"));
     out_ = folder_ / "worse";
     ASSERT_EQ(run("--technique 'external:*'").code, 0);
     const Outcome compared = shell("shadowbench compare " + before + " " + out_);

@@ -127,7 +127,7 @@ TEST_F(GateVerb, AWorseHeadFailsWithPicturesAndACommandThatShowsItAgain) {
     records[0].values["accuracy.leak"] = *records[0].values["accuracy.leak"] - 0.05; // the base was better …
     records[0].images = "others";                                                    // … and drew something else
     writeRecords(base, records);
-    const Outcome outcome = gate(base, "--technique sm-uniform:map=64 --cost none --annotations --junit " +
+    const Outcome outcome = gate(base, "--aa --technique sm-uniform:map=64 --cost none --annotations --junit " +
                                            (folder_ / "junit.xml") + " --summary " + (folder_ / "summary.md"));
     EXPECT_EQ(outcome.code, 4) << outcome.output;
     EXPECT_NE(outcome.output.find("worse      leak"), std::string::npos) << outcome.output;
@@ -153,8 +153,9 @@ TEST_F(GateVerb, BoundsAndExpectedFailuresAreJudgedWhateverTheBaseIs) {
                     (folder_ / "out") + " --aa --base " + base + " " + more + (folder_ / "kept.toml"))
                   .code,
               0);
-    const Outcome broken = shell("shadowbench gate --quiet --scene " + scene_ + " --cache " + (folder_ / "cache") +
-                                 " --out " + (folder_ / "out") + " --base " + base + " " + more + (folder_ / "broken.toml"));
+    const Outcome broken =
+        shell("shadowbench gate --quiet --scene " + scene_ + " --cache " + (folder_ / "cache") + " --out " +
+              (folder_ / "out") + " --aa --base " + base + " " + more + (folder_ / "broken.toml"));
     EXPECT_EQ(broken.code, 4) << broken.output;
     EXPECT_NE(broken.output.find("must be below 0.5: test"), std::string::npos) << broken.output;
 }
@@ -237,9 +238,9 @@ TEST_F(GateVerb, KilledAtAnyMomentItLeavesNothingPartialAndGoesOn) {
             EXPECT_NO_THROW(readRecords(file.path())) << file.path();
         }
         // The page is whole or not there. A kill may come after it, before the program ends.
-        const fs::path page = folder_ / "out/gate.md";
+        const fs::path page = folder_ / "out/gate.html";
         const std::string said = fs::exists(page) ? readFile(page) : "";
-        EXPECT_TRUE(said.find("shadowbench: pass") != std::string::npos || (said.empty() && killed.code != 0)) << said;
+        EXPECT_TRUE(said.find("Nothing is worse") != std::string::npos || (said.empty() && killed.code != 0)) << said;
         const Outcome resumed = gate(PROGRAM, more);
         EXPECT_EQ(resumed.code, 0) << resumed.output;
         EXPECT_EQ(resumed.output.substr(0, resumed.output.find("the same")),

@@ -83,7 +83,7 @@ TEST_F(PairedTime, AnUnclearCellIsMeasuredOnUntilALookDecides) {
     PairedOptions options;
     options.restarts = 1;
     const TimeJudgement judgement = judgePairedTime(taking(100), taking(110), {{"simple", "none"}}, options, {})[0];
-    EXPECT_EQ(judgement.samples.restarts.size(), 6U); // of looks at 3, 6, 12 and 24: 3⁻³ > 0.01/4 > 3⁻⁶
+    EXPECT_EQ(judgement.samples.restarts.size(), 12U); // of looks at 3, 6, 12 and 24 on two clocks: 3⁻⁶ > 0.01/8 > 3⁻¹²
     EXPECT_EQ(judgement.verdict, TimeVerdict::Slower);
 }
 
