@@ -59,21 +59,9 @@ std::vector<Source> sourcesOf(const TreeCopy& tree) {
     return sources;
 }
 
-/// The headers that the build writes and `source` includes.
-void buildHeadersOf(const TreeCopy& tree, const Source& source) {
-    constexpr std::string_view include = "#include \"embedded_";
-    for (std::size_t at = source.text.find(include); at != std::string::npos; at = source.text.find(include, at + 1)) {
-        const std::size_t name = at + include.find("embedded");
-        tree.build("embedded/" + source.text.substr(name, source.text.find('"', name) - name));
-    }
-}
-
 void findMutants(const TreeCopy& tree, std::vector<Source>& sources) {
     tree.build("commit"); // after which it is known how files are compiled
-    for (Source& source : sources) {
-        source.flags = syntaxFlags(tree.folder() / "build/release", tree.folder() / source.file);
-        buildHeadersOf(tree, source);
-    }
+    for (Source& source : sources) source.flags = syntaxFlags(tree.folder() / "build/release", tree.folder() / source.file);
     inParallel(static_cast<int>(sources.size()), hardwareThreads(), [&](int i) {
         Source& source = sources[static_cast<std::size_t>(i)];
         source.mutants = mutantsOf(source.judge, source.file, source.text, pointsOf(source.text, source.flags));

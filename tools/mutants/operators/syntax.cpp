@@ -34,7 +34,7 @@ public:
         for (const std::string& flag : flags) words.push_back(flag.c_str());
         CXUnsavedFile file{fileName, source.data(), source.size()};
         unit_.reset(clang_parseTranslationUnit(index_.get(), fileName, words.data(), static_cast<int>(words.size()), &file,
-                                               1, CXTranslationUnit_None));
+                                               1, CXTranslationUnit_KeepGoing));
         if (!unit_) throw InternalError("libclang cannot read a source");
     }
 
