@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "harness/metrics/lod.h"
 #include "harness/metrics/pixels.h"
+#include "harness/metrics/thresholds.h"
 #include "tests/support/metrics_images.h"
 
 #include <functional>

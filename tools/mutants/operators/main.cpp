@@ -48,13 +48,14 @@ void say(const std::string& sentence) {
     std::fflush(stdout);
 }
 
-std::vector<Source> sourcesOf(const TreeCopy& tree) {
+std::vector<Source> sourcesOf(const TreeCopy& tree, const std::string& only) {
+    const auto isOf = [](const std::string& file, const Judge& judge) {
+        return std::ranges::any_of(judge.sources, [&](const std::string& beginning) { return file.starts_with(beginning); });
+    };
     std::vector<Source> sources;
     for (std::size_t judge = 0; judge < judges().size(); ++judge)
         for (const std::string& file : tree.files())
-            if (file.ends_with(".cpp") && std::ranges::any_of(judges()[judge].sources, [&](const std::string& beginning) {
-                    return file.starts_with(beginning);
-                }))
+            if (file.ends_with(".cpp") && isOf(file, judges()[judge]) && fnmatch(only.c_str(), file.c_str(), 0) == 0)
                 sources.push_back({judge, file, tree.read(file), {}, {}, {}});
     return sources;
 }
@@ -82,9 +83,6 @@ bool leaveOutWhatDoesNotCompile(Source& source) {
 std::vector<OperatorMutant> draw(std::vector<Source>& sources, const Options& options) {
     std::vector<OperatorMutant> all;
     for (const Source& source : sources) all.insert(all.end(), source.mutants.begin(), source.mutants.end());
-    std::erase_if(all, [&](const OperatorMutant& m) {
-        return fnmatch(options.only.c_str(), fmt::format("{}:{}", m.file, m.id).c_str(), 0) != 0;
-    });
     say(fmt::format("{} mutants could be drawn", all.size()));
     shuffle(all, options.seed);
     std::vector<OperatorMutant> drawn;
@@ -192,7 +190,7 @@ ExitCode run(const Options& options) {
     const std::filesystem::path folder = std::filesystem::absolute(options.folder), list = "tools/mutants/operators";
     const auto why = readSurvivors(SOURCE_FOLDER / list / "survivors.toml");
     const TreeCopy tree(SOURCE_FOLDER, folder / "tree");
-    std::vector<Source> sources = sourcesOf(tree);
+    std::vector<Source> sources = sourcesOf(tree, options.only);
     findMutants(tree, sources);
     std::vector<OperatorMutant> mutants = draw(sources, options);
     plant(tree, sources);
@@ -232,7 +230,7 @@ int main(int argc, char** argv) {
                  "operator_mutants");
     app.add_option("--seed", options.seed, "Which mutants are drawn")->capture_default_str();
     app.add_option("--count", options.count, "How many")->capture_default_str();
-    app.add_option("--only", options.only, "Glob over FILE:ID that they match")->capture_default_str();
+    app.add_option("--only", options.only, "Glob over the files that they are of")->capture_default_str();
     app.add_option("--least", options.least, "Share that has to be killed")->capture_default_str();
     app.add_option("--folder", options.folder, "Folder of the copy and its build")->capture_default_str();
     app.add_option("--report", options.report, "Where the report goes (default: nowhere)");
