@@ -40,8 +40,8 @@ TEST(Axes, TakeTheirLimitsAndNothingBeyond) {
     for (const double times : {-1.0, 7.0}) EXPECT_FALSE(takes("dueling-frusta", "tessellation", times));
     EXPECT_TRUE(takes("dueling-frusta", "still-frames", 1));
     EXPECT_FALSE(takes("dueling-frusta", "still-frames", 0));
-    for (const double count : {0.0, 5.0}) EXPECT_TRUE(takes("dueling-frusta", "casters", count));
-    for (const double count : {-1.0, 5.5}) EXPECT_FALSE(takes("dueling-frusta", "casters", count));
+    for (const double count : {0.0, 16.0}) EXPECT_TRUE(takes("dueling-frusta", "casters", count));
+    for (const double count : {-1.0, 16.5}) EXPECT_FALSE(takes("dueling-frusta", "casters", count));
 }
 
 TEST(Axes, SetWhatTheyAreNamedAfter) {
@@ -67,10 +67,10 @@ TEST(Axes, OfTheGroundsCasterCountsLeaveItAlone) {
 
 TEST(Axes, LeaveTheValuesBelowTheLargestOfTheScene) {
     const Scene scene = loadScene("dueling-frusta", Profile::Gate);
-    EXPECT_EQ(axisNamed("casters").valuesFor(scene), (std::vector<double>{1, 2, 4, 5}));
+    EXPECT_EQ(axisNamed("casters").valuesFor(scene), (std::vector<double>{1, 2, 4, 8, 16}));
     Axis axis = axisNamed("casters");
-    axis.values = {1, 5, 6};
-    EXPECT_EQ(axis.valuesFor(scene), (std::vector<double>{1, 5})) << "the largest once";
+    axis.values = {1, 5, 16, 17};
+    EXPECT_EQ(axis.valuesFor(scene), (std::vector<double>{1, 5, 16})) << "the largest once";
 }
 
 TEST(Axes, RunFromWhatIsEasyToWhatIsHardAndSayHowTheyAreDrawn) {
@@ -294,7 +294,7 @@ TEST(Bounds, TakeNothingAndRefuseWhatIsNoNumber) {
     for (const char* text : {"nan", "0.1x", "leak=", "", "leak=-1"})
         EXPECT_THROW((void)parseBound(text, hard), BadInput) << text;
     EXPECT_EQ(test::messageOf<BadInput>([&] { (void)parseBound("leek=1", hard); }),
-              "shadows of this light are not measured by \"leek\"; did you mean \"leak\"?; they are by mismatch, "
+              "shadows of this light are not measured by \"leek\" (did you mean \"leak\"?); they are by mismatch, "
               "false_shadow, leak");
 }
 
@@ -313,8 +313,10 @@ TEST(Casters, StandInTheBandThatTheirDistanceEnds) {
     ASSERT_EQ(all.groups().size(), 2U) << "one band of each object";
     EXPECT_EQ(all.groups()[0].from, 0);
     EXPECT_TRUE(std::isinf(all.groups()[0].until));
-    const Placement& first = all.groups()[0].placements.front();
-    const double distance = glm::distance(snapshot(scene, 59).camera.eye, glm::dvec3(first.world[3]));
+    const glm::dvec3 eye = snapshot(scene, 59).camera.eye;
+    const auto distanceOf = [&](const Placement& p) { return glm::distance(eye, glm::dvec3(p.world[3])); };
+    const Placement& first = *std::ranges::min_element(all.groups()[0].placements, {}, distanceOf);
+    const double distance = distanceOf(first);
     const Casters split(scene, 59, {distance});
     const auto& near = split.groups()[0].placements;
     EXPECT_TRUE(std::ranges::any_of(near, [&](const Placement& p) { return p.id == first.id; })) << "(from, until]";
