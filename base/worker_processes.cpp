@@ -31,7 +31,7 @@ constexpr std::chrono::milliseconds pause{200};                         // betwe
 
 /// What a worker sends: this, and as many bytes of text.
 struct Message {
-    bool isAnswer = false; // else of progress
+    enum class Kind { Progress, Answer, Failure } kind = Kind::Progress;
     double done = 0;
     std::size_t length = 0;
 };
@@ -72,20 +72,24 @@ Progress progressThrough(int socket) {
     return [socket, last = Clock::time_point()](double done, std::string_view what) mutable {
         if (Clock::now() - last < pause) return;
         last = Clock::now();
-        sendMessage(socket, {.isAnswer = false, .done = done}, what);
+        sendMessage(socket, {.done = done}, what);
     };
 }
 
-/// The worker's half: receives the numbers of items and answers each. What is thrown here ends the worker: it would unwind
-/// into the parent's calls, whose copies would clear up what is the parent's.
+/// The worker's half: receives the numbers of items and answers each. What is thrown here ends the worker, after which it
+/// clears up nothing: the copies of the parent's objects would clear up what is the parent's.
 [[noreturn]] void answerItems(int socket, pid_t parent, const SharedWork& work) noexcept {
     DeferredInterrupts::startAsWorker();
     prctl(PR_SET_PDEATHSIG, SIGTERM); // not SIGKILL: the tools that it runs have folders to remove
     if (getppid() != parent) _exit(1);
     std::size_t item = noMore;
     while (receiveAll(socket, &item, sizeof item) && item != noMore) {
-        const std::string answer = work.work(item, progressThrough(socket));
-        if (!sendMessage(socket, {.isAnswer = true}, answer)) break;
+        try {
+            if (!sendMessage(socket, {.kind = Message::Kind::Answer}, work.work(item, progressThrough(socket)))) break;
+        } catch (const std::exception& error) {
+            sendMessage(socket, {.kind = Message::Kind::Failure}, error.what());
+            _exit(static_cast<int>(ExitCode::Internal));
+        }
     }
     if (work.leave) work.leave();
     std::fflush(nullptr);
@@ -182,17 +186,19 @@ private:
         Worker& worker = *workers_[i];
         const std::size_t item = worker.item();
         auto said = worker.next();
-        if (said && !said->first.isAnswer) {
+        const auto is = [&](Message::Kind kind) { return said && said->first.kind == kind; };
+        if (is(Message::Kind::Progress)) {
             if (work_.progress) work_.progress(item, said->first.done, said->second);
             return;
         }
-        if (said && next_ < work_.items) {
+        if (is(Message::Kind::Answer) && next_ < work_.items) {
             giveNext(worker);
             return work_.finished(item, std::move(said->second));
         }
-        const std::string how = worker.finish();
+        std::string how = worker.finish();
         workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
-        if (said) return work_.finished(item, std::move(said->second));
+        if (is(Message::Kind::Answer)) return work_.finished(item, std::move(said->second));
+        if (is(Message::Kind::Failure)) how = "failed: " + said->second;
         if (next_ < work_.items) startWorker();
         work_.lost(item, how);
     }

@@ -16,7 +16,7 @@ struct SharedWork {
 
     // In a worker:
     /// Does item i < items and returns what `finished` is given. A worker keeps what it made for earlier items; the items
-    /// that it is given rise. Must not throw.
+    /// that it is given rise. What it throws ends the worker.
     std::function<std::string(std::size_t item, const Progress& progress)> work;
     /// Gives back what it has kept, after the last item; may be empty.
     std::function<void()> leave = {};
@@ -24,7 +24,7 @@ struct SharedWork {
     // In this process, one call at a time:
     std::function<void(std::size_t item, double done, std::string_view what)> progress = {}; // of `work`; may be empty
     std::function<void(std::size_t item, std::string answer)> finished;
-    std::function<void(std::size_t item, const std::string& how)> lost; // its worker "was killed by signal 9"
+    std::function<void(std::size_t item, const std::string& how)> lost; // its worker "was killed by signal 9", "failed: …"
 };
 
 /// Does every item once, in rising order as workers become free, and returns when all are finished or lost. The workers are

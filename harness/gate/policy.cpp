@@ -49,14 +49,14 @@ void fields(auto&& visit, auto& waiver) requires requires { waiver.expires; }
     visit("reason", waiver.reason);
     visit("expires", waiver.expires);
 }
-void fields(auto&& visit, auto& limit) requires requires { limit.isNone; }
+void fields(auto&& visit, auto& limit) requires requires { limit.absent; }
 {
     numbers(visit, limit);
     visit("truth", limit.truth);
     visit("of", limit.of);
     visit("magnitude", limit.magnitude);
     visit("best", limit.best);
-    visit("none_is_best", limit.isNone);
+    visit("absent", limit.absent);
 }
 // Of a time rule, larger is looser but for α.
 void fields(auto&& visit, auto& rule) requires requires { rule.wallFloor; }

@@ -46,16 +46,20 @@ inline constexpr Range any{-infinity, infinity}, share{0, 1}, size{0, infinity},
 /// differences, or as a root of mean squares.
 enum class TruthError { None, Mean, Rms };
 
+/// What a value that is absent from a record with others of its group stands for: nothing, as good as `best`, or a frame
+/// after the last still one.
+enum class Absent { Nothing, Best, AfterTheEnd };
+
 /// How much of a change from one commit to the next means nothing.
 struct Allowance {
     TruthError truth = TruthError::None;
-    double pixels = 0;       // so many pixels may change …
-    std::string_view of{};   // … of the class whose size this metric is; "": of the image
-    double relative = 0;     // so may this share of the former value
-    double absolute = 0;     // so may this much, in the metric's unit
-    bool magnitude = false;  // the distance from 0 counts, and a sign that turns
-    double best = 0;         // the value of no error: what is compared is the distance from it
-    bool noneIsBest = false; // absent where there is nothing to measure, which is as good as `best`
+    double pixels = 0;      // so many pixels may change …
+    std::string_view of{};  // … of the class whose size this metric is; "": of the image
+    double relative = 0;    // so may this share of the former value
+    double absolute = 0;    // so may this much, in the metric's unit
+    bool magnitude = false; // the distance from 0 counts, and a sign that turns
+    double best = 0;        // the value of no error: what is compared is the distance from it
+    Absent absent = Absent::Nothing;
 };
 
 /// What a function has computed of one `Frame`, kept for the metrics that are parts of it: each function runs once.

@@ -19,7 +19,8 @@ namespace shadowbench::metrics {
 
 // Rendering is the same to the bit from run to run, so the only allowance that exact truths need is for what an innocent
 // change of rounding may do: a pixel or two whose centre lies on an edge, or two pixels beside an edge of a thousand.
-inline constexpr double strayEdge = 0.002;  // px
+inline constexpr double strayEdge = 0.002; // px
+inline constexpr double strayShare = 0.002;
 inline constexpr double strayTail = 0.02;   // px: of one point in twenty, on which the 95th percentile rests
 inline constexpr double strayWidth = 0.004; // two points in a thousand, each off by the most that is counted: 2
 
@@ -119,7 +120,7 @@ inline constexpr auto table = std::to_array<Metric>({
      .computed = OfLabels{part<edgeError, &EdgeError::signedMean>},
      .meaning = "the same, mean with a sign: − shadow too small, + too large"},
     {.path = "accuracy.edge_error.missing", .unit = "share", .range = range::share, .optional = true, .about = Class::Edge,
-     .bound = "missing_edges", .allowance = Allowance{.pixels = 2},
+     .bound = "missing_edges", .allowance = Allowance{.absolute = strayShare},
      .computed = OfLabels{part<edgeError, &EdgeError::missing>},
      .meaning = "exact shadow edge with none of the technique's within 8 pixels"},
     {.path = "accuracy.edge_error.islands", .unit = "count", .range = range::count, .optional = true, .about = Class::Edge,
@@ -288,7 +289,7 @@ inline constexpr auto table = std::to_array<Metric>({
      .computed = OfMovingFrames{part<movingErrors, &MovingErrors::disoccluded>},
      .meaning = "the same over the pixels in their first frame"},
     {.path = "stability.ghost_half_life", .unit = "frames", .range = range::size, .optional = true, .about = Class::Flicker,
-     .bound = "ghost_half_life", .allowance = Allowance{.relative = 0.05, .absolute = 0.05, .noneIsBest = true},
+     .bound = "ghost_half_life", .allowance = Allowance{.relative = 0.05, .absolute = 0.05, .absent = Absent::Best},
      .computed = OfMovingFrames{of<ghostHalfLife>},
      .meaning = "frames after which what a history still shows of shadows that came or went has halved"},
     {.path = "stability.seeds.rmse", .unit = "1", .range = range::size, .optional = true, .unjudged = onDemand,
@@ -321,7 +322,8 @@ inline constexpr auto table = std::to_array<Metric>({
      .unjudged = classSize, .computed = OfMovingFrames{part<movingPixels, &MovingPixels::disoccluded>},
      .meaning = "those in their first frame"},
     {.path = "stability.convergence", .unit = "frames", .range = range::frameNumber, .optional = true,
-     .about = Class::Flicker, .bound = "convergence", .allowance = Allowance{.relative = 0.05, .absolute = 1}, .computed = OfStillFrames{of<convergence>},
+     .about = Class::Flicker, .bound = "convergence", .allowance = Allowance{.relative = 0.05, .absolute = 1, .absent = Absent::AfterTheEnd},
+     .computed = OfStillFrames{of<convergence>},
      .meaning = "still frames from an empty history until the error stays within 5 % of its steady state"},
     {.path = "stability.by_frame.mismatch", .unit = "share", .range = range::size, .list = true, .optional = true,
      .unjudged = behindScores,

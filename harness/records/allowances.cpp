@@ -43,18 +43,23 @@ double truthsOwn(const metrics::Metric& metric, const Limit& limit, const Record
 /// The group of metrics that a metric belongs to: "stability" of "stability.flicker.mean".
 std::string_view groupOf(const metrics::Metric& metric) { return metric.path.substr(0, metric.path.find('.')); }
 
+/// What is compared of a value that is absent.
+std::optional<double> standIn(const metrics::Metric& metric, const Record& record, metrics::Absent absent) {
+    if (absent == metrics::Absent::Best && record.values.any(metrics::linesOf(groupOf(metric)))) return 0.0;
+    const std::size_t frames = record.values.list("stability.by_frame.changed").size();
+    if (absent == metrics::Absent::AfterTheEnd && frames > 0) return static_cast<double>(frames + 1);
+    return {};
+}
+
 } // namespace
 
 std::optional<double> comparedValue(const metrics::Metric& metric, const Record& record, const Rules& rules) {
     const auto limit = rules.limits.find(metric.path);
     if (limit == rules.limits.end()) return {};
     const std::optional<double>& value = record.values[metric];
-    if (!value) {
-        const bool measured = limit->second.isNone && record.values.any(metrics::linesOf(groupOf(metric)));
-        return measured ? std::optional(0.0) : std::nullopt;
-    }
-    const auto& [truth, pixels, of, relative, absolute, magnitude, best, isNone] = limit->second;
-    return magnitude || best != 0 ? std::abs(*value - best) : *value;
+    if (!value) return standIn(metric, record, limit->second.absent);
+    const Limit& l = limit->second;
+    return l.magnitude || l.best != 0 ? std::abs(*value - l.best) : *value;
 }
 
 double allowanceOf(const metrics::Metric& metric, const Record& base, double value, const Rules& rules) {

@@ -114,13 +114,15 @@ private:
     void compareMetric(const MatchedCell& cell, const metrics::Metric& metric) {
         const Compared values{valuesOf(metric, cell.base), valuesOf(metric, cell.head)};
         const auto has = [&](const Record* record) { return record->values[metric].has_value(); };
-        if (values.base.size() < cell.base.size()) return;                                        // new to this cell
+        if (values.base.empty()) return;                                                          // new to this cell
         if (std::ranges::none_of(cell.base, has) && std::ranges::none_of(cell.head, has)) return; // best on both sides
         const Record& head = *cell.head.front();
         Change change{head.scene, head.variant, std::string(metric.path), *metric.about, values.before(), {}, 0, {}, {}};
-        if (values.head.size() < cell.head.size()) {
+        const bool wasWhole = values.base.size() == cell.base.size();
+        if (!wasWhole || values.head.size() < cell.head.size()) {
             change.direction = Direction::Unjudged;
-            change.sentence = fmt::format("{} on {}: {} is no longer measured", head.variant, head.scene, metric.path);
+            change.sentence = fmt::format("{} on {}: {} {}", head.variant, head.scene, metric.path,
+                                          wasWhole ? "is no longer measured" : "was not measured with every seed");
         } else {
             judge(cell, metric, values, change);
         }

@@ -7,7 +7,7 @@ namespace shadowbench::gate {
 namespace {
 
 Limit limitOf(const metrics::Allowance& a) {
-    return {a.truth, a.pixels, std::string(a.of), a.relative, a.absolute, a.magnitude, a.best, a.noneIsBest};
+    return {a.truth, a.pixels, std::string(a.of), a.relative, a.absolute, a.magnitude, a.best, a.absent};
 }
 
 Rules rulesOfTheTable() {
@@ -29,7 +29,7 @@ void forBoth(const auto& base, auto& head, const auto& use) {
 
 /// Whether both compare the same of a metric.
 bool compareTheSame(const Limit& a, const Limit& b) {
-    return a.of == b.of && a.magnitude == b.magnitude && a.best == b.best && a.isNone == b.isNone && a.truth == b.truth;
+    return a.of == b.of && a.magnitude == b.magnitude && a.best == b.best && a.absent == b.absent && a.truth == b.truth;
 }
 
 } // namespace
@@ -52,7 +52,7 @@ Rules stricter(const Rules& base, const Rules& head) {
         limit.of = before.of;
         limit.magnitude = before.magnitude || limit.magnitude;
         limit.best = before.best;
-        limit.isNone = before.isNone;
+        limit.absent = before.absent;
         now->second = limit;
     }
     return result;

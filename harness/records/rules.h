@@ -17,7 +17,7 @@ struct Limit {
     double relative = 0, absolute = 0;
     bool magnitude = false;
     double best = 0;
-    bool isNone = false; // an absent value is the best one
+    metrics::Absent absent = metrics::Absent::Nothing;
 };
 
 struct Rules {

@@ -175,19 +175,32 @@ std::optional<Problem> surfaceProblem(const Snapshot& frame) {
     return std::nullopt;
 }
 
+std::optional<Problem> walkProblem(Camera camera, const LodWalk& walk) {
+    const glm::dvec3 eye = camera.eye, target = camera.target;
+    for (int frame = 0; frame < walk.frames; ++frame) {
+        camera.eye = walk.eye.at(frame, eye);
+        camera.target = walk.target.at(frame, target);
+        if (const auto problem = viewProblem(camera))
+            return Problem{"lod.path", fmt::format("{} at frame {} of the walk", problem->sentence, frame)};
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::optional<Problem> findProblem(const Scene& scene) {
     if (auto problem = sizeProblem(scene.light)) return problem;
     if (scene.light.kind == LightKind::Directional && !(glm::length(scene.light.direction) > 0))
         return Problem{"light.direction", "expected a vector other than zero"};
-    for (int frame = std::max(0, scene.timeline.still - 1); frame < scene.timeline.frames(); ++frame) {
+    const int lastStill = std::max(0, scene.timeline.still - 1); // the ones before it are the same
+    for (int frame = -scene.timeline.approach; frame < scene.timeline.frames(); ++frame) {
+        if (frame >= 0 && frame < lastStill) continue;
         const Snapshot now = snapshot(scene, frame);
         if (auto problem = reachProblem(now)) return problem;
         if (auto problem = viewProblem(now.camera)) return problem;
         if (auto problem = surfaceProblem(now)) return problem;
     }
-    return std::nullopt;
+    return scene.lod ? walkProblem(scene.camera, *scene.lod) : std::nullopt;
 }
 
 void requireWellPosed(const Scene& scene) {

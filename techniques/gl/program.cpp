@@ -83,9 +83,14 @@ Program::Program(const std::string& vertexFile, const std::string& fragmentFile,
 
 Program::Program(const std::vector<Stage>& stages) {
     std::vector<GLuint> shaders;
-    for (const Stage& stage : stages) {
-        shaders.push_back(compile(stage.kind, stage.name, stage.source));
-        title_ += (title_.empty() ? "" : " + ") + stage.name;
+    try {
+        for (const Stage& stage : stages) {
+            shaders.push_back(compile(stage.kind, stage.name, stage.source));
+            title_ += (title_.empty() ? "" : " + ") + stage.name;
+        }
+    } catch (...) {
+        for (const GLuint shader : shaders) glDeleteShader(shader);
+        throw;
     }
     id_ = link(shaders, title_);
     findUniforms();
@@ -192,6 +197,7 @@ Program& Program::set(const std::string& sampler, const TextureArray& array) {
 
 void Program::activateUnit(const std::string& sampler) const {
     const Uniform& found = uniform(sampler);
+    if (found.unit < 0) throw InternalError(title_ + ": " + sampler + " is no sampler of a 2D texture or an array of them");
     glProgramUniform1i(id_, found.location, found.unit);
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(found.unit));
 }

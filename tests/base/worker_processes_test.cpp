@@ -71,13 +71,12 @@ TEST(WorkerProcesses, ClearUpHoweverOftenTheyAreTold) {
     EXPECT_EQ(outcome.lost, (std::map<std::size_t, std::string>{{0, "was killed by signal 15"}})) << "and then it ends";
 }
 
-TEST(WorkerProcesses, ThatThrowClearUpNothingOfTheirParents) {
+TEST(WorkerProcesses, ThatThrowSayWhatAndClearUpNothingOfTheirParents) {
     Outcome outcome;
     const TemporaryFolder folder;
-    shareAmongProcesses(1, outcome.work(1, [](std::size_t, const Progress&) -> std::string {
-        throw std::runtime_error("which it must not");
-    }));
-    EXPECT_EQ(outcome.lost, (std::map<std::size_t, std::string>{{0, "was killed by signal 6"}}));
+    shareAmongProcesses(
+        1, outcome.work(1, [](std::size_t, const Progress&) -> std::string { throw std::runtime_error("no context"); }));
+    EXPECT_EQ(outcome.lost, (std::map<std::size_t, std::string>{{0, "failed: no context"}}));
     EXPECT_TRUE(std::filesystem::exists(folder.path())) << "removed by the worker";
 }
 

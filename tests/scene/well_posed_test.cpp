@@ -87,6 +87,22 @@ TEST(SceneSound, ADirectionOfNoLengthGivesNoLight) {
     EXPECT_EQ(problemOf([](Scene& scene) { scene.light = {LightKind::Directional, {}, {0, -1, 0}}; }), "");
 }
 
+TEST(SceneSound, FramesOfTheApproachAndOfTheWalkAreCheckedToo) {
+    EXPECT_EQ(problemOf([](Scene& scene) {
+                  scene.timeline.approach = 2;
+                  scene.eye.keys = {{-2, scene.camera.target}, {0, scene.camera.eye}};
+              }),
+              "camera.target: the camera looks at its own eye");
+    const auto walk = [](double meet) {
+        return [meet](Scene& scene) {
+            scene.lod = LodWalk{.frames = 4, .eye = {}, .target = {}};
+            scene.lod->target.keys = {{0, scene.camera.target}, {meet, scene.camera.eye}};
+        };
+    };
+    EXPECT_EQ(problemOf(walk(3)), "lod.path: the camera looks at its own eye at frame 3 of the walk");
+    EXPECT_EQ(problemOf(walk(4)), "") << "after the last frame";
+}
+
 TEST(SceneSound, WhatSweepsMoveFartherThanAnyFileMayIsRefused) {
     const std::string where = "farther than 1e+12 m from the origin at frame 59; ";
     EXPECT_EQ(problemOf([](Scene& scene) { scene.camera.eye.x = 2e12; }), "camera.eye: lies " + where + "move it nearer");

@@ -146,6 +146,42 @@ TEST(Compare, NoGhostIsTheBestHalfLife) {
         << "nobody measured whether there is one";
 }
 
+TEST(Compare, AnErrorThatIsRestlessAtTheEndConvergesAfterIt) {
+    Record steady = hardRecord();
+    steady.values.list("stability.by_frame.changed").assign(60, 0);
+    steady.values["stability.convergence"] = 50;
+    Record restless = steady;
+    restless.values["stability.convergence"].reset();
+    EXPECT_EQ(onlyWorseClass(steady, restless), Class::Flicker);
+    EXPECT_TRUE(unjudged(restless, steady).empty());
+    EXPECT_TRUE(worse(restless, steady).empty());
+    steady.values["stability.convergence"] = 59;
+    EXPECT_TRUE(worse(steady, restless).empty()) << "frame 61 of 60 is within a frame and 5 %";
+    restless.values.list("stability.by_frame.changed").clear();
+    EXPECT_EQ(unjudged(steady, restless).size(), 1U) << "nobody measured when";
+}
+
+TEST(Compare, WhatSomeSeedsOfTheBaseLackIsNotJudged) {
+    std::vector<Record> base, head;
+    for (int seed = 1; seed <= 3; ++seed) {
+        base.push_back(hardRecord());
+        base.back().seed = seed;
+        head.push_back(drawnAnew(base.back()));
+    }
+    EXPECT_EQ(verdictOf(compare(base, head).changes), ExitCode::Pass);
+    test::clear(base[1], "accuracy.edge_error");
+    EXPECT_EQ(verdictOf(compare(base, head).changes), ExitCode::Inconclusive);
+}
+
+TEST(Compare, TwoPixelsBesideAnEdgeOfAThousandMayBeMissing) {
+    Record base = hardRecord(), head = base;
+    base.values["accuracy.edge_error.missing"] = 0.01;
+    head.values["accuracy.edge_error.missing"] = 0.0119;
+    EXPECT_TRUE(worse(base, head).empty());
+    head.values["accuracy.edge_error.missing"] = 0.0121;
+    EXPECT_EQ(onlyWorseClass(base, head), Class::Edge);
+}
+
 TEST(Compare, InstructionsCountedInDifferentEnvironmentsAreNotJudgedScoresAre) {
     for (const auto& change : std::vector<std::function<void(Environment&)>>{
              [](Environment& e) { e.valgrind = "3.20.0"; }, [](Environment& e) { e.cpu = "another"; },

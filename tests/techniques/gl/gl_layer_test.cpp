@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/counters.h"
+#include "tests/support/message_of.h"
 #include "tests/support/stages.h"
 
 #include <gtest/gtest.h>
@@ -35,6 +36,36 @@ TEST(Program, ACompileErrorNamesFileAndLineOfTheSource) { // in a file with incl
 TEST(Program, AMissingShaderIsNamed) {
     testContext();
     EXPECT_THROW(gl::Program::screen("no/such.frag"), InternalError);
+}
+
+TEST(Program, ASecondStageThatFailsLeavesNoFirstOne) {
+    testContext();
+    const auto next = [] {
+        const GLuint shader = glCreateShader(GL_VERTEX_SHADER);
+        glDeleteShader(shader);
+        return shader;
+    };
+    const GLuint before = next();
+    EXPECT_THROW(gl::Program::screenFromText("x.frag", "nonsense", {}), InternalError);
+    const GLuint after = next();
+    for (GLuint shader = before; shader < after; ++shader) {
+        GLint kind = 0; // stays where there is no such shader
+        glGetShaderiv(shader, GL_SHADER_TYPE, &kind);
+        EXPECT_EQ(kind, 0) << shader;
+    }
+    gl::Context::current().discardErrors();
+}
+
+TEST(Program, SaysWhichSamplersTakeTextures) {
+    testContext();
+    gl::Program program = gl::Program::screenFromText("x.frag",
+                                                      "uniform samplerCube sky;\nout vec4 o;\n"
+                                                      "void main() { o = texture(sky, vec3(1)); }\n",
+                                                      {});
+    EXPECT_EQ(test::messageOf<InternalError>([&] {
+                  program.set("sky", gl::Texture(gl::Format::R32F, {1, 1}));
+              }),
+              "gl/screen.vert + x.frag: sky is no sampler of a 2D texture or an array of them");
 }
 
 TEST(Program, AMisspeltUniformIsAnError) {
