@@ -169,8 +169,8 @@ TEST(ForeignCells, ReceiversThatAQuotientSaysNothingOfAreSeenOtherwise) {
     row.frames[0].lit = underPoint().file("lit.exr");
     const Record record = underPoint().scored(row);
     EXPECT_LT(*record.values["accuracy.mismatch"], *whole.values["accuracy.mismatch"]);
-    EXPECT_NEAR(*record.values["accuracy.primary_mismatch"] - *whole.values["accuracy.primary_mismatch"], hidden / (96.0 * 96),
-                1e-12);
+    EXPECT_NEAR(*record.values["accuracy.primary_mismatch"] - *whole.values["accuracy.primary_mismatch"],
+                hidden / (96.0 * 96), 1e-12);
 }
 
 class Refused : public testing::Test {
