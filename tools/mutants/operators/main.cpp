@@ -18,6 +18,7 @@
 #include <fmt/ranges.h>
 #include <fnmatch.h>
 #include <set>
+#include <tuple>
 
 namespace shadowbench::mutants {
 namespace {
@@ -124,51 +125,86 @@ void plant(const TreeCopy& tree, const std::vector<Source>& sources) {
                            tree.read("CMakeLists.txt"), quiet));
 }
 
+/// Every test of a program, as --gtest_filter names it.
+std::vector<std::string> testsOf(const std::filesystem::path& program) {
+    std::vector<std::string> tests;
+    std::string suite;
+    for (std::string line : runTool(program, {"--gtest_list_tests"}, program.parent_path())) {
+        line.resize(std::min(line.find(" #"), line.size()));
+        if (line.starts_with("  "))
+            tests.push_back(suite + line.substr(2));
+        else if (line.ends_with('.'))
+            suite = line;
+    }
+    return tests;
+}
+
 class Tests {
 public:
     Tests(const TreeCopy& tree, std::filesystem::path folder) : tree_(tree), folder_(std::move(folder)) {}
 
-    /// Runs every program that `mutants` need without any of them on. Throws InternalError where one fails.
+    /// Runs every test of the programs that `mutants` need without any of them on, each alone, which tells what it reaches.
+    /// Throws InternalError where one fails.
     void runPlainly(const std::vector<OperatorMutant>& mutants) {
         std::set<std::string> programs;
         for (const OperatorMutant& mutant : mutants)
             programs.insert(judges()[mutant.judge].programs.begin(), judges()[mutant.judge].programs.end());
-        for (const std::string& program : programs) {
-            const std::filesystem::path marks = folder_ / (program + ".reached");
+        for (const std::string& program : programs)
+            for (const std::string& test : testsOf(pathOf(program))) tests_.push_back({program, test, {}, {}});
+        inParallel(static_cast<int>(tests_.size()), hardwareThreads(), [&](int i) {
+            Test& test = tests_[static_cast<std::size_t>(i)];
+            const std::filesystem::path marks = folder_ / fmt::format("{}.reached", i);
             writeFile(marks, std::string(::mutants::most, '\0'));
             const auto start = Clock::now();
-            if (!passes(program, {"MUTANTS_REACHED=" + marks.string()}, std::chrono::minutes(10)))
-                throw InternalError(fmt::format("{} fails without a mutant", program));
-            plain_[program] = {std::chrono::milliseconds(static_cast<int>(1000 * secondsSince(start))), readFile(marks)};
-            say(fmt::format("{:5.1f} s  {} without a mutant", secondsSince(start), program));
-        }
+            if (!passes(test.program, test.name, {"MUTANTS_REACHED=" + marks.string()}, std::chrono::minutes(10)))
+                throw InternalError(fmt::format("{} of {} fails without a mutant", test.name, test.program));
+            test.time = std::chrono::milliseconds(static_cast<int>(1000 * secondsSince(start)));
+            test.reached = readFile(marks);
+            std::filesystem::remove(marks);
+        });
     }
 
+    /// With the tests that reach the mutant, those that take least first.
     void runWith(OperatorMutant& mutant) const {
         const auto number = static_cast<std::size_t>(mutant.point.number);
-        for (const std::string& program : judges()[mutant.judge].programs) {
-            const Plain& plain = plain_.at(program);
-            if (plain.reached[number] == 0) continue;
+        std::vector<const Test*> reaching;
+        for (const Test& test : tests_)
+            if (test.reached[number] != 0 &&
+                std::ranges::find(judges()[mutant.judge].programs, test.program) != judges()[mutant.judge].programs.end())
+                reaching.push_back(&test);
+        std::ranges::sort(reaching, {}, [](const Test* test) { return std::tie(test->program, test->time); });
+        for (auto next = reaching.begin(); next != reaching.end();) { // a program has many tests that take no time
+            std::string names;
+            std::chrono::milliseconds time{0};
+            const std::string& program = (*next)->program;
+            for (; next != reaching.end() && (*next)->program == program && time < std::chrono::seconds(1); ++next) {
+                names += (names.empty() ? "" : ":") + (*next)->name;
+                time += (*next)->time;
+            }
             mutant.end = End::Survives;
-            const std::string on = fmt::format("MUTANT={}", number);
-            if (passes(program, {on}, 3 * plain.time + std::chrono::seconds(10))) continue;
+            if (passes(program, names, {fmt::format("MUTANT={}", number)}, 3 * time + std::chrono::seconds(10))) continue;
             mutant.end = End::Killed;
             return;
         }
     }
 
 private:
-    struct Plain {
+    struct Test {
+        std::string program, name;
         std::chrono::milliseconds time;
-        std::string reached;
+        std::string reached; // a byte for each mutant
     };
 
-    [[nodiscard]] bool passes(const std::string& program, const std::vector<std::string>& variables,
-                              std::chrono::milliseconds limit) const {
+    [[nodiscard]] std::filesystem::path pathOf(const std::string& program) const {
+        return tree_.folder() / "build/release/tests" / program;
+    }
+
+    [[nodiscard]] bool passes(const std::string& program, const std::string& filter,
+                              const std::vector<std::string>& variables, std::chrono::milliseconds limit) const {
         Command command;
-        command.program = tree_.folder() / "build/release/tests" / program;
-        command.arguments = {"--gtest_fail_fast", "--gtest_brief=1"};
-        command.folder = tree_.folder() / "build/release/tests";
+        command.program = pathOf(program);
+        command.arguments = {"--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + filter};
+        command.folder = command.program.parent_path();
         command.limit = limit;
         command.cpuLimit.reset(); // with one, tests of paired times have too coarse a clock
         command.memoryLimit = std::uintmax_t{16} << 30;
@@ -182,7 +218,7 @@ private:
 
     const TreeCopy& tree_;
     std::filesystem::path folder_;
-    std::map<std::string, Plain> plain_;
+    std::vector<Test> tests_;
 };
 
 ExitCode run(const Options& options) {
@@ -203,6 +239,7 @@ ExitCode run(const Options& options) {
 
     Tests tests(tree, folder);
     tests.runPlainly(mutants);
+    say(fmt::format("{:5.0f} s  the tests pass without a mutant", secondsSince(start)));
     inParallel(static_cast<int>(mutants.size()), hardwareThreads(), [&](int i) {
         OperatorMutant& mutant = mutants[static_cast<std::size_t>(i)];
         tests.runWith(mutant);
