@@ -10,6 +10,7 @@
 #include "tests/support/records_examples.h"
 
 #include <algorithm>
+#include <functional>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -78,6 +79,19 @@ TEST(GatePolicy, OfAProgramThatIsOlderThanAKindOfEntryHasNone) {
     EXPECT_TRUE(identityFrom(json).policy.watchlist.waivers.empty());
     EXPECT_EQ(identityFrom(json).policy.watchlist.bounds.size(), 1U);
     EXPECT_THROW(identityFrom("no JSON"), BadInput);
+}
+
+TEST(GatePolicy, AnotherThingThatIsComparedOfAMetricIsListed) {
+    const Rules base = ownRules();
+    const std::string path = base.limits.begin()->first;
+    for (const auto& change : std::vector<std::function<void(Limit&)>>{
+             [](Limit& l) { l.of = "another class"; }, [](Limit& l) { l.magnitude = !l.magnitude; },
+             [](Limit& l) { l.best += 0.5; }, [](Limit& l) { l.absent = metrics::Absent::AfterTheEnd; },
+             [](Limit& l) { l.truth = metrics::TruthError::Rms; }}) {
+        Rules head = base;
+        change(head.limits.find(path)->second);
+        EXPECT_EQ(loosened(base, head), std::vector<std::string>{"what is compared of " + path + " is another thing"});
+    }
 }
 
 TEST(GatePolicy, EveryKindOfEntryThatIsGoneIsListedAndJudgesOn) {

@@ -512,6 +512,9 @@ TEST(Grain, IsOfGradedPixelsOfOneSurfaceOnly) {
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) truth.id(x, y) = static_cast<std::uint32_t>(1 + x % 2);
     EXPECT_FALSE(metrics::grain({v, truth, everything(truth)}).plateau);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) truth.id(x, y) = static_cast<std::uint32_t>(1 + y % 2);
+    EXPECT_FALSE(metrics::grain({v, truth, everything(truth)}).plateau) << "surfaces in rows";
     const Image<float> lit(4, 4, 1.0F);
     EXPECT_FALSE(metrics::grain({lit, truth, everything(truth)}).noise);
 }

@@ -182,6 +182,7 @@ TEST(Outcomes, HoldUpToTheBoundItself) {
     EXPECT_EQ(outcomeOf(samples({0})), Outcome::Yes);
     EXPECT_EQ(outcomeOf(samples({0, 0, 0})), Outcome::Yes);
     EXPECT_EQ(outcomeOf(samples({-1e-300})), Outcome::No);
+    EXPECT_EQ(outcomeOf(samples({HUGE_VAL, 1})), Outcome::Yes) << "a quotient by 0 has no mean";
     std::vector<Sample> some = samples({1, 1});
     some[1].holds.reset();
     EXPECT_EQ(outcomeOf(some), Outcome::NotMeasured);

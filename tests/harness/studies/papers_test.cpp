@@ -75,6 +75,8 @@ TEST(Papers, MistakesNamePageAndKey) {
     };
     EXPECT_EQ(message("{}"), "reading papers: not a JSON list");
     EXPECT_EQ(message(R"([{"id": "t", "titel": "T"}])"), "reading papers: t: \"titel\" is no key");
+    EXPECT_EQ(message(R"([{"id": "t", "title": "T", "where": "w", "says": "s", "charts": {"title": "C"}}])"),
+              "reading papers: t: \"charts\" must be a list");
     std::string short_ = table;
     short_.replace(short_.find("[2, 10]"), 7, "[2]");
     EXPECT_EQ(message(short_), "reading papers: t: the row \"B\" has 1 numbers for 2 columns");
