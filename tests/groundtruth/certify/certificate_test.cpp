@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "groundtruth/certify/certificate.h"
+#include "groundtruth/certify/sky_certificate.h"
 #include "groundtruth/povray/uncertainty.h"
 #include "tests/support/certificates.h"
 
@@ -219,6 +220,29 @@ TEST(Certificate, NamesWhatItMeasured) {
         EXPECT_TRUE(key.starts_with("certificate_")) << key;
         EXPECT_TRUE(std::isfinite(value)) << key;
     }
+}
+
+TEST(SkyCertificate, AllowsFewerDirectionsLargerErrors) {
+    Certificate c;
+    c.points = 64;
+    c.penumbra = 32;
+    const auto refused = [&](int directions) { return rejection(requireSkyCertified, c, directions); };
+    c.bias = -0.0011;
+    EXPECT_NE(refused(usualDirections).find("its mean error over 32 partly lit points is -0.0011, more than 0.0010"),
+              std::string::npos)
+        << refused(usualDirections);
+    EXPECT_NE(refused(2 * usualDirections), "");
+    EXPECT_EQ(refused(usualDirections / 16), "") << "16^0.75 = 8 times as much";
+    c.bias = 0.0081;
+    EXPECT_NE(refused(usualDirections / 16), "");
+    c.bias = 0;
+    c.rms = 0.0051;
+    c.rmsQuarter = 1;
+    EXPECT_NE(refused(usualDirections).find("its rms error over 32 partly lit points is 0.0051, more than 0.0050"),
+              std::string::npos);
+    EXPECT_EQ(refused(usualDirections / 16), "");
+    c.penumbra = 31;
+    EXPECT_EQ(refused(usualDirections), "") << "too few to know it";
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "harness/gate/verdict.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace shadowbench::gate {
@@ -158,6 +159,17 @@ TEST(Annotations, NoSentenceIsTakenForACommand) {
 TEST(JUnit, SaysWhatATimeThatPassedWouldHaveTold) {
     const Change time{"trees", "pcf", "time.ratio", Class::Time, 1, 1, 0.01, Direction::Same, "2 % would have been told"};
     EXPECT_TRUE(contains(junit({time}), "<system-out>2 % would have been told\n</system-out>")) << junit({time});
+}
+
+TEST(Excess, OfWhatHasNoNumberIsTheMost) {
+    Change change;
+    change.base = 1;
+    EXPECT_TRUE(std::isinf(excess(change))) << "the head has none";
+    change.head = 3;
+    change.allowance = 0.5;
+    EXPECT_EQ(excess(change), 4);
+    change.base.reset();
+    EXPECT_TRUE(std::isinf(excess(change)));
 }
 
 } // namespace

@@ -374,6 +374,12 @@ TEST(FalseGreens, AnAllowanceOfTheHeadAloneExcusesNothing) {
     withoutSign.limits.find("accuracy.edge_error.signed")->second.magnitude = false;
     EXPECT_EQ(loosened(ownRules(), withoutSign).size(), 1U);
     EXPECT_TRUE(stricter(ownRules(), withoutSign).limits.find("accuracy.edge_error.signed")->second.magnitude);
+    Rules exact = ownRules(); // as if the truth of a graded score had no error of its own
+    Limit& graded = exact.limits.find("accuracy.rmse")->second;
+    ASSERT_NE(graded.truth, metrics::TruthError::None);
+    graded.truth = metrics::TruthError::None;
+    for (const Rules& both : {stricter(exact, ownRules()), stricter(ownRules(), exact)})
+        EXPECT_EQ(both.limits.find("accuracy.rmse")->second.truth, metrics::TruthError::None);
 }
 
 } // namespace

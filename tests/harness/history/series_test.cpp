@@ -1,8 +1,11 @@
 // Series out of records, their levels and changes.
+#include "base/error.h"
 #include "base/files.h"
 #include "base/temporary_folder.h"
 #include "harness/history/changes.h"
 #include "harness/history/history_report.h"
+#include "harness/history/store.h"
+#include "tests/support/message_of.h"
 #include "tests/support/records_examples.h"
 
 #include <algorithm>
@@ -373,6 +376,14 @@ TEST_F(HistoryFolder, RecordsOfAnotherSchemaAreLeftOutAndNamed) {
     EXPECT_EQ(stored.commits.size(), 1U);
     ASSERT_EQ(stored.unreadable.size(), 1U);
     EXPECT_NE(stored.unreadable[0].find("20250101T000000Z-dead-00000000.jsonl:1"), std::string::npos);
+}
+
+TEST(Stored, AFolderThatIsNoneIsNamed) {
+    const TemporaryFolder folder;
+    const std::string file = folder.path() / "history";
+    writeFile(file, "");
+    const std::string message = test::messageOf<BadInput>([&] { (void)readHistory(file); });
+    EXPECT_TRUE(message.starts_with("cannot read the history " + file + ": ")) << message;
 }
 
 } // namespace

@@ -515,8 +515,9 @@ TEST(Grain, IsOfGradedPixelsOfOneSurfaceOnly) {
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) truth.id(x, y) = static_cast<std::uint32_t>(1 + y % 2);
     EXPECT_FALSE(metrics::grain({v, truth, everything(truth)}).plateau) << "surfaces in rows";
-    const Image<float> lit(4, 4, 1.0F);
-    EXPECT_FALSE(metrics::grain({lit, truth, everything(truth)}).noise);
+    const Reference plain = truthOf(4, 4, [](glm::dvec2) { return 0.5; });
+    for (const float full : {0.0F, 1.0F})
+        EXPECT_FALSE(metrics::grain({Image<float>(4, 4, full), plain, everything(plain)}).noise) << full;
 }
 
 TEST(Unresolved, IsTheShareOfTheMaskWithinThreeSigma) {

@@ -364,6 +364,18 @@ TEST(Claims, AParagraphSaysWhatTheDocumentHasWhatWeHaveAndWhatWasRuledOut) {
         "in double precision. Not ruled out: s (0.1: no); s (missing: not measured). What is left: the weather.");
     EXPECT_EQ(paragraphOf(judge(parsed.front(), {with("a", 0.001)})), "") << "the claim is reproduced";
     EXPECT_EQ(paragraphOf(judge(parsed.front(), {})), "") << "it is not measured";
+
+    const auto asJson = [&](const std::vector<Record>& records) {
+        return nlohmann::json::parse(claimsReport({judge(parsed.front(), records)}, "json")).at(0);
+    };
+    const nlohmann::json refuted = asJson({with("a", 0.1)}), reproduced = asJson({with("a", 0.001)});
+    EXPECT_EQ(refuted["paragraph"], paragraphOf(judge(parsed.front(), {with("a", 0.1)})));
+    EXPECT_FALSE(reproduced.contains("paragraph"));
+    EXPECT_EQ(refuted["replay"], "Suite.Name");
+    const nlohmann::json& sample = refuted["checks"][0]["cases"][0][0];
+    EXPECT_EQ(sample["left"], 0.1);
+    EXPECT_EQ(sample["holds"], false);
+    EXPECT_EQ(refuted["ruled out"].size(), 3U);
 }
 
 } // namespace
