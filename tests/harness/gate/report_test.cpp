@@ -168,6 +168,10 @@ TEST(Excess, OfWhatHasNoNumberIsTheMost) {
     change.head = 3;
     change.allowance = 0.5;
     EXPECT_EQ(excess(change), 4);
+    change.allowance = 0;
+    EXPECT_EQ(excess(change), 2e12) << "nothing was allowed";
+    change.head = 1;
+    EXPECT_EQ(excess(change), 0);
     change.base.reset();
     EXPECT_TRUE(std::isinf(excess(change)));
 }

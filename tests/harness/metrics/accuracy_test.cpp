@@ -156,7 +156,23 @@ TEST(Accuracy, RefusesAVisibilityThatIsNotANumberInTheMaskOnly) {
     mask.scored(2, 3) = 0;
     --mask.count;
     EXPECT_NO_THROW(metrics::labelErrors({v, truth, mask}));
-    EXPECT_THROW(metrics::labelErrors({Image<float>(7, 8), truth, mask}), InternalError);
+}
+
+TEST(Accuracy, EveryMetricRefusesImagesOfAnotherSize) {
+    const Reference truth = vertical.truth(8, 8);
+    const metrics::Mask mask = everything(truth);
+    const Image<float> wider(9, 8, 0.5F);
+    const metrics::ScoredFrame frame{wider, truth, mask};
+    EXPECT_THROW(metrics::labelErrors(frame), InternalError);
+    EXPECT_THROW(metrics::labelledPixels(frame), InternalError);
+    EXPECT_THROW(metrics::edgeError(frame), InternalError);
+    EXPECT_THROW(metrics::penumbraWidthError(frame), InternalError);
+    EXPECT_THROW(metrics::visibilityErrors(frame), InternalError);
+    EXPECT_THROW(metrics::gradedPixels(frame), InternalError);
+    EXPECT_THROW(metrics::umbra(frame), InternalError);
+    EXPECT_THROW(metrics::grain(frame), InternalError);
+    EXPECT_THROW(metrics::unresolved(frame), InternalError);
+    EXPECT_THROW(metrics::ssim(frame), InternalError);
 }
 
 TEST(EdgeError, OfAShiftByOnePixelIsOnePixelWithItsSign) {
