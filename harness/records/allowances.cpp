@@ -46,7 +46,7 @@ std::string_view groupOf(const metrics::Metric& metric) { return metric.path.sub
 /// What is compared of a value that is absent.
 std::optional<double> standIn(const metrics::Metric& metric, const Record& record, metrics::Absent absent) {
     if (absent == metrics::Absent::Best && record.values.any(metrics::linesOf(groupOf(metric)))) return 0.0;
-    const std::size_t frames = record.values.list("stability.by_frame.changed").size();
+    const std::size_t frames = record.values.list("stability.by_frame.changed").size(); // the still ones
     if (absent == metrics::Absent::AfterTheEnd && frames > 0) return static_cast<double>(frames + 1);
     return {};
 }

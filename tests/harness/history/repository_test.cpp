@@ -5,7 +5,6 @@
 #include "base/temporary_folder.h"
 #include "harness/history/repository.h"
 
-#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace shadowbench::history {

@@ -101,8 +101,8 @@ std::string operatorsReport(const std::vector<OperatorMutant>& mutants, const st
                             const std::string& source) {
     std::string text =
         fmt::format("# Operator mutants of what judges\n\nMade by `operator_mutants` ({}): {:.1f} % of {} mutants are "
-                    "killed by the unit "
-                    "tests of the part that they change.\n\n| part | mutants | killed | not reached | share killed |\n"
+                    "killed by the unit tests of the part that they change.\n\n| part | mutants | killed | not reached | "
+                    "share killed |\n"
                     "|---|--:|--:|--:|--:|\n",
                     source, 100 * killedShare(mutants), mutants.size());
     for (std::size_t judge = 0; judge < judges().size(); ++judge) {
