@@ -15,7 +15,7 @@ namespace {
 class Distances {
 public:
     explicit Distances(const std::vector<double>& values) : size_(values.size()), sums_((size_ + 1) * (size_ + 1)) {
-        for (std::size_t end = 1; end <= size_; ++end) {
+        for (std::size_t end = 2; end <= size_; ++end) {
             double toLast = 0;
             for (std::size_t first = end - 1; first-- > 0;) {
                 toLast += std::abs(values[first] - values[end - 1]);
@@ -140,7 +140,7 @@ NoiseChanges distributionChanges(const std::vector<Noisy>& series, const NoiseRu
         std::ranges::sort(byChance, std::greater{});
         const std::optional<double> least = leastFound(found, byChance, rule);
         const auto most = static_cast<std::size_t>(mostByChance(rule));
-        if (whole && byChance.size() > most) result.leastRatio = byChance[most];
+        if (whole && !byChance.empty()) result.leastRatio = byChance[most];
         std::vector<Part> next;
         for (std::size_t i = 0; least && i < parts.size(); ++i) {
             const auto& [of, first, end] = parts[i];

@@ -132,6 +132,15 @@ TEST(PixelCertificate, RejectsErrorsOfTwiceWhatItsRaysErrBy) {
     EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << told(found);
 }
 
+// 1,024 rays of a share of ½ lie within 0.105 of it, by Bernstein's inequality at 10⁻⁵ over all points.
+TEST(PixelCertificate, CountsPointsThatNoRaysCouldGive) {
+    Reference means = meansOf(shown("windmills"));
+    for (float& share : means.visibility)
+        if (share > 0 && share < 1) share += share < 0.5F ? 0.3F : -0.3F;
+    const PixelCertificate found = certificateOf("windmills", means);
+    EXPECT_NEAR(found.impossible, 0.75 * found.points, 0.05 * found.points) << told(found);
+}
+
 TEST(PixelCertificate, IsInTheProvenanceOfPixelAreas) {
     Request request{shown("dueling-frusta"), size};
     request.pixelAreas = true;

@@ -79,6 +79,18 @@ TEST(DistributionChanges, TwoStepsAreFound) {
     EXPECT_EQ(changesOf(values, single(36)), (Positions{12, 24}));
 }
 
+TEST(DistributionChanges, OfEachPartAreFound) {
+    for (const std::size_t finer : {0U, 12U, 24U}) { // by five deviations, within one of three levels that lie far apart
+        Random random(6);
+        std::vector<double> values = series(36, 12, 100, random, normal);
+        for (std::size_t i = 24; i < 36; ++i) values[i] += 200;
+        for (std::size_t i = finer; i < finer + 6; ++i) values[i] -= 5;
+        Positions expected{12, 24, finer + 6};
+        std::ranges::sort(expected);
+        EXPECT_EQ(changesOf(values, single(36)), expected) << finer;
+    }
+}
+
 TEST(DistributionChanges, FiguresOfOneCommitAreNeverSplit) {
     Random random(3);
     const std::vector<double> values = series(24, 10, 20, random, normal);

@@ -201,6 +201,32 @@ TEST(EdgeError, OfAShiftWithoutADistanceFieldIsMeasuredBetweenTheLabels) {
     }
 }
 
+TEST(EdgeError, WhereOneEdgeHasNoDistanceIsMeasuredBetweenTheLabels) {
+    const HalfPlane edge{{1, 0}, 16};
+    const Image<float> v = imageOf(32, 32, [&](glm::dvec2 p) { return edge.moved(3).hard(p); });
+    for (const bool atExactEdge : {true, false}) {
+        Reference truth = edge.truth(32, 32);
+        for (float& distance : truth.edgeDistance)
+            if ((distance < 2) != atExactEdge) distance = std::numeric_limits<float>::infinity();
+        const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
+        ASSERT_TRUE(error);
+        EXPECT_NEAR(*error->mean, 3, 1e-6) << atExactEdge;
+        EXPECT_NEAR(*error->signedMean, 3, 1e-6) << atExactEdge;
+    }
+}
+
+TEST(EdgeError, WhereBothPixelsAreOnTheExactEdgeIsMeasuredFromHalfwayBetweenThem) {
+    const HalfPlane edge{{1, 0}, 16};
+    Reference truth = edge.truth(32, 32);
+    for (float& distance : truth.edgeDistance)
+        if (distance < 1) distance = 0;
+    const Image<float> v = imageOf(32, 32, [&](glm::dvec2 p) { return edge.ramp(p, 4); }); // graded, and ½ on the edge
+    const std::optional<metrics::EdgeError> error = metrics::edgeError({v, truth, everything(truth)});
+    ASSERT_TRUE(error);
+    EXPECT_EQ(*error->mean, 0);
+    EXPECT_EQ(error->missing, 0);
+}
+
 TEST(EdgeError, OfAGradedEdgeResolvesAQuarterOfAPixel) {
     for (const double shift : {0.25, -0.25}) {
         const HalfPlane edge{{0.8, 0.6}, 22.37};
@@ -231,7 +257,7 @@ TEST(EdgeError, CountsAShadowThatIsMissingFarAwayInTheHausdorffDistanceAndAsMiss
     const std::optional<metrics::EdgeError> error =
         metrics::edgeError({vertical.truth(size, size).visibility, truth, everything(truth)});
     ASSERT_TRUE(error);
-    EXPECT_EQ(error->mean, 0);
+    EXPECT_EQ(*error->mean, 0);
     EXPECT_NEAR(*error->hausdorff, std::hypot(15.5, 0.5),
                 1e-12);                           // the patch's corner (31.5, 3) to the edge's sample (16, 2.5)
     EXPECT_NEAR(error->missing, 9.0 / 41, 1e-12); // of 32 samples of the one edge and 3 + 6 of the other

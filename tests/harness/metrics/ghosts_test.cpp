@@ -13,13 +13,17 @@ using groundtruth::Reference;
 
 constexpr int side = 64;
 
-/// What a technique shows of a plane seen by a camera at rest, frame by frame; lit from column `edge` on.
+enum class Edge { Upright, Level };
+
+/// What a technique shows of a plane seen by a camera at rest, frame by frame; lit from column, or row, `edge` on.
 class Shown {
 public:
+    explicit Shown(Edge edge = Edge::Upright) : axis_(edge == Edge::Upright ? 0 : 1) {}
+
     /// With V = (1 − weight) V* + weight V of the frame before, which is V* in the first frame.
     void add(double edge, double weight) {
         Frame& now = frames_.emplace_back();
-        now.truth = test::truthOf(side, side, [&](glm::dvec2 p) { return p.x < edge ? 0 : 1; });
+        now.truth = test::truthOf(side, side, [&](glm::dvec2 p) { return p[axis_] < edge ? 0 : 1; });
         now.mask = test::everything(now.truth);
         now.v = now.truth.visibility;
         if (frames_.size() < 2) return;
@@ -46,6 +50,7 @@ private:
         Image<float> v;
         metrics::Mask mask;
     };
+    int axis_;
     std::deque<Frame> frames_;
 };
 
@@ -87,6 +92,23 @@ TEST(GhostHalfLife, IsAbsentWithoutHistoryOrGhostAndWhereNothingFades) {
     Shown resting;
     for (int i = 0; i < 4; ++i) resting.add(20, 0.9);
     EXPECT_FALSE(resting.halfLife()) << "nothing moves";
+}
+
+TEST(GhostHalfLife, OfAShadowThatComesBackTooDarkIsWhereALineIsHalf) {
+    Shown shown;
+    shown.add(20, 0);
+    shown.add(40, 0.8);
+    for (int i = 0; i < 3; ++i) shown.add(40, -0.25); // shares of 0.8 and −0.2: no exponential passes through both
+    EXPECT_NEAR(shown.halfLife().value_or(-1), (0.8 - 0.4) / (0.8 + 0.2), 1e-6);
+}
+
+TEST(GhostHalfLife, IsOfPixelsWithAllTheirNeighbours) {
+    for (const Edge edge : {Edge::Upright, Edge::Level})
+        for (const double to : {37, 43}) { // of three rows the middle one has neighbours that change with it
+            Shown shown(edge);
+            for (const double at : {40.0, to, to, to}) shown.add(at, 0.8);
+            EXPECT_NEAR(shown.halfLife().value_or(-1), exact(0.8), 1e-3 * exact(0.8)) << to;
+        }
 }
 
 TEST(GhostHalfLife, LeavesOutLabelsThatStepAlongAnEdge) {

@@ -74,6 +74,8 @@ TEST(Motion, OfCastersIsTheLargestAngleOfACornerOfTheirBounds) {
     const auto shifted = [](double x) { return glm::translate(glm::dmat4(1), glm::dvec3(x, 0, 0)); };
     wall.now.batches.push_back({mesh, {1, 1, 1}, true, {{shifted(0), shifted(0), 1}, {shifted(-1), shifted(0), 2}}});
     EXPECT_NEAR(wall.motion(), glm::degrees(std::atan(1 / distance)), 1e-3) << "the corner in the axis moves by a metre";
+    wall.now.batches.back().placements = {{shifted(1), shifted(0), 1}};
+    EXPECT_NEAR(wall.motion(), glm::degrees(std::atan(1 / distance)), 1e-3) << "from the axis";
 }
 
 TEST(Motion, OfNothingIsNone) {

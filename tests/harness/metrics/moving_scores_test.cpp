@@ -86,6 +86,18 @@ TEST(FlickerMap, HoldsEachPixelsChangeBeyondTheTruths) {
     EXPECT_FALSE(metrics::flicker({})) << "no pair";
 }
 
+TEST(FlickerMap, OfAChangeAgainstTheTruthsIsTheSumOfBoth) {
+    Still frames;
+    Reference before = frames.truth;
+    before.visibility(7, 2) = 1 - frames.truth.visibility(7, 2);
+    const float change = frames.truth.visibility(7, 2) - before.visibility(7, 2);
+    frames.before(7, 2) = frames.now(7, 2) + 0.25F * change;
+    const metrics::FramePair pair{
+        {frames.now, frames.truth, frames.mask}, {frames.before, before, frames.mask}, frames.warp};
+    EXPECT_EQ(metrics::flickerMap(pair)(7, 2), 1.25F);
+    EXPECT_NEAR(metrics::flicker(metrics::MovingFrames{{pair}})->mean, 1.25 / (side * side), 1e-9);
+}
+
 TEST(MovingFrames, OfDifferentSizesAreAnError) {
     const Still frames;
     const Reference small = HalfPlane{{1, 0}, 5}.truth(side, side - 1);

@@ -162,6 +162,8 @@ TEST(Claims, AListIsReadAtAFrameOrWhereItSettles) {
     EXPECT_EQ(judged("\", \"settles\": 0.6", "at most", 1), Verdict::Reproduced);
     EXPECT_EQ(judged("\", \"settles\": 0.05", "at most", 1000), Verdict::NotReproduced); // never
     EXPECT_EQ(judged("\", \"settles\": 0.05", "at least", 1000), Verdict::Reproduced);
+    record.values.list("stability.by_frame.rmse").clear();
+    EXPECT_EQ(judged("\", \"settles\": 0.05", "at least", 1000), Verdict::NotMeasured);
 }
 
 TEST(Claims, RankCorrelationIsSpearmansWithMeanRanks) {

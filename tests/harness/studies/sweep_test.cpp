@@ -7,6 +7,7 @@
 #include "scene/load/load.h"
 #include "scene/meshes/primitives.h"
 #include "scene/sky.h"
+#include "tests/support/message_of.h"
 #include "tests/support/records_examples.h"
 
 #include <cmath>
@@ -185,6 +186,27 @@ std::vector<Record> curve(const std::vector<std::pair<double, double>>& points) 
         records.push_back(record);
     }
     return records;
+}
+
+TEST(Axes, OfMapsHaveEveryPowerOfTwo) {
+    const std::vector<double> sides = axisNamed("map").valuesFor(loadScene("dueling-frusta", Profile::Gate));
+    EXPECT_EQ(sides.front(), 4096);
+    for (std::size_t i = 1; i < sides.size(); ++i) EXPECT_EQ(sides[i], sides[i - 1] / 2);
+    EXPECT_EQ(sides.back(), 64);
+}
+
+TEST(Sweep, IsOfTechniquesThatHaveTheParameter) {
+    SweepOptions options;
+    options.scene = "dueling-frusta";
+    options.axis = "map";
+    options.values = {-1};
+    options.techniques = {"volume-zfail"};
+    EXPECT_EQ(test::messageOf<BadInput>([&] { sweep(options); }),
+              "none of the chosen techniques has a parameter \"map\": choose other techniques, or another axis");
+    options.techniques = {"volume-zfail", "sm-uniform"};
+    const std::string refused = test::messageOf([&] { sweep(options); });
+    EXPECT_NE(refused.find("map"), std::string::npos) << refused;
+    EXPECT_EQ(refused.find("none of"), std::string::npos) << refused;
 }
 
 TEST(Sweep, TheBreakPointIsTheFirstValueInOrderBeyondTheTolerance) {
