@@ -27,7 +27,8 @@ HonestRenders honest() { return {LightKind::Rectangle, samples, 0}; }
 
 TEST(HonestRenders, ThatErrAlikeLeaveTheirErrorAsBound) {
     HonestRenders renders = honest();
-    add(renders, [](std::size_t) { return 40; }, 2); // errors of 1/8, and of 1/4 in the quarter
+    add(
+        renders, [](std::size_t) { return 40; }, 2); // errors of 1/8, and of 1/4 in the quarter
     add(renders, [](std::size_t) { return 28; });    // of −1/16
     const HonestBounds bounds = renders.bounds();
     EXPECT_NEAR(bounds.bias, 1.0 / 32, 1e-12);
@@ -38,7 +39,8 @@ TEST(HonestRenders, ThatErrAlikeLeaveTheirErrorAsBound) {
 
 TEST(HonestRenders, ThatErrBothWaysLeaveAQuantileOfStudents) {
     HonestRenders renders = honest();
-    add(renders, [](std::size_t set) { return set % 2 == 0 ? 36 : 28; }); // 64 sets, half of which err by 1/16, half by −1/16
+    add(renders,
+        [](std::size_t set) { return set % 2 == 0 ? 36 : 28; }); // 64 sets, half of which err by 1/16, half by −1/16
     const double deviation = std::sqrt(64.0 / 63 * (1 + 1.0 / 64)) / 16; // of one more
     EXPECT_NEAR(renders.bounds().bias, 4.613 * deviation, 1e-12);
     EXPECT_NEAR(renders.bounds().rms, 1.0 / 16, 1e-12);

@@ -15,8 +15,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <limits>
-#include <numbers>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <numeric>
 #include <tuple>
 
@@ -74,7 +74,8 @@ TEST(RecommendationText, HasEveryAnswer) {
         " triangles: 350 of 2240, 84 % saved, at mismatch 0.4 % (rays; 7 of 18 choices judged)\n"
         " cast at the levels that are drawn: 1120 triangles, 50 % saved, at mismatch 0.6 %: above tolerance\n"
         " verified by polygon: at these levels mismatch 0.45 %, with any one group a level coarser above tolerance; 1 of 3 "
-        "groups cast at the end of their chain, and nothing says that a coarser level would not do: give more with --levels\n"
+        "groups cast at the end of their chain, and nothing says that a coarser level would not do: give more with "
+        "--levels\n"
         " counted on objects without levels: 1500 of 2000 receiver pixels\n"
         " cheapest technique within mismatch 0.5 %, edge_error.p95 1.5: sm-tiled, at 0.31 % and 2.25 frames of "
         "sm-uniform, the dearer of standing and in motion\n"
@@ -101,8 +102,7 @@ TEST(RecommendationText, SaysWhatIsNotSo) {
 
     unlike.casters.reset();
     unlike.technique.reset();
-    EXPECT_EQ(text(unlike),
-              " scene: yard\n cheapest technique within mismatch 0.5 %, edge_error.p95 1.5: none\n");
+    EXPECT_EQ(text(unlike), " scene: yard\n cheapest technique within mismatch 0.5 %, edge_error.p95 1.5: none\n");
 }
 
 TEST(RecommendationJson, HasEveryAnswer) {
@@ -180,9 +180,9 @@ private:
 };
 
 TEST_F(Recorded, TheCheapestWithinToleranceIsNamedAndWhatTheLeastMapIs) {
-    RecommendOptions options = asked({record("a", "map=512", 0.02, 0.5), record("a", "map=1024", 0.004, 1.5),
-                                      record("a", "map=2048", 0.001, 2.5)},
-                                     {Question::Technique, Question::Map});
+    RecommendOptions options =
+        asked({record("a", "map=512", 0.02, 0.5), record("a", "map=1024", 0.004, 1.5), record("a", "map=2048", 0.001, 2.5)},
+              {Question::Technique, Question::Map});
     const Recommendations found = recommend(options);
     EXPECT_EQ(found.code, ExitCode::Pass);
     ASSERT_EQ(found.scenes.size(), 1U);
@@ -245,8 +245,9 @@ TEST_F(Recorded, WithoutRecordsOrToleranceThereIsNoAnswer) {
     EXPECT_EQ(test::messageOf<BadInput>([&] { recommend(asked({one}, {Question::Technique})); }),
               "scene dueling-frusta states no tolerance: give one with --tolerance");
     one.scene = "simple";
-    EXPECT_NE(test::messageOf<BadInput>([&] { recommend(asked({one}, {Question::Technique})); })
-                  .find("holds no record of scene dueling-frusta"),
+    EXPECT_NE(test::messageOf<BadInput>([&] {
+                  recommend(asked({one}, {Question::Technique}));
+              }).find("holds no record of scene dueling-frusta"),
               std::string::npos);
 }
 
@@ -266,7 +267,8 @@ Scene plates(const std::string& places, const std::string& light = "kind = \"dir
                       "plates.toml", Profile::Gate);
 }
 
-const std::string onePlate = "{ at = [0.013, 9, 0.017] }", twoPlates = "{ at = [2.513, 7, 0.017] }, { at = [-2.487, 12, 0.017] }";
+const std::string onePlate = "{ at = [0.013, 9, 0.017] }",
+                  twoPlates = "{ at = [2.513, 7, 0.017] }, { at = [-2.487, 12, 0.017] }";
 constexpr double rounding = 0.015; // half of the pixels along the outline of the largest plate
 
 TEST(Casters, AreGroupedByDistanceAndCastWhereTheyStand) {
@@ -336,8 +338,7 @@ TEST(CasterRecommendation, OfAPlateIsTheCoarsestWithinTolerance) {
 // Under 4 m × 4 m of light as far above a plate as the plate is above the ground, the plate's penumbra reaches 2 m to either
 // side of its edge, where it is half lit.
 TEST(CasterRecommendation, UnderAnAreaLightIsOfWhatIsVisible) {
-    const Scene scene =
-        plates(onePlate, "kind = \"rectangle\", centre = [0.013, 18, 0.017], u = [4, 0, 0], v = [0, 0, 4]");
+    const Scene scene = plates(onePlate, "kind = \"rectangle\", centre = [0.013, 18, 0.017], u = [4, 0, 0], v = [0, 0, 4]");
     CasterOptions options;
     options.tolerance = {"rmse=0.01"};
     options.lightSamples = 16;
