@@ -20,17 +20,16 @@ bool dominates(const Place& a, const Place& b) {
 
 bool isBaseline(const Record& record) { return record.technique == "none"; }
 
-namespace {
-
 double spreadOf(std::vector<double> times) {
-    constexpr std::size_t fewest = 6; // with fewer rounds no interval of order statistics holds 95 %
-    if (times.size() < fewest) return 0;
+    if (times.empty()) return 0;
     std::ranges::sort(times);
     const double n = static_cast<double>(times.size());
     const auto low = static_cast<std::size_t>(std::max(0.0, std::floor(0.5 * n - 0.98 * std::sqrt(n)))); // 1.96 / 2
     const double median = 0.5 * (times[(times.size() - 1) / 2] + times[times.size() / 2]);
     return 0.5 * (times[times.size() - 1 - low] - times[low]) / median;
 }
+
+namespace {
 
 std::optional<FrameCost> movingCost(const Record& record) {
     const std::optional<double>& ratio = record.values["cost.motion.time.ratio"];

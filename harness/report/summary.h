@@ -30,8 +30,11 @@ std::map<std::size_t, std::vector<std::size_t>> inseparable(const std::vector<Re
 /// "pcss, temporal-soft": the variants of the records at `indices`.
 std::string variantsOf(const std::vector<Record>& records, const std::vector<std::size_t>& indices);
 
-/// What a frame costs, in frames of sm-uniform. It lies within ratio · (1 ± spread): half the 95 % interval of the median of
-/// the rounds' times (by order statistics), as a share of the median; 0 where the record has no rounds.
+/// Half the 95 % interval of the median of the rounds' times, by order statistics, as a share of the median. Of fewer than
+/// six rounds it is the range of all, which holds less; of one or none 0.
+double spreadOf(std::vector<double> times);
+
+/// What a frame costs, in frames of sm-uniform. It lies within ratio · (1 ± spread), the spread of its rounds.
 struct FrameCost {
     double ratio;
     double spread = 0;

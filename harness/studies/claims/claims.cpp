@@ -82,8 +82,39 @@ std::optional<double> numberOf(const Figure& figure, const Record& record) {
     return sum;
 }
 
-/// What a figure is in the records.
-using LookUp = std::function<std::optional<double>(const Figure&)>;
+/// Half the 95 % interval of a time of the record, as a share of it: that of its rounds. Of other metrics none.
+double timeSpread(const Record& record, const std::string& metric) {
+    if (metric.starts_with("cost.time.")) return report::spreadOf(record.values.list("cost.time.samples"));
+    if (metric.starts_with("cost.motion.time.")) return report::spreadOf(record.values.list("cost.motion.time.samples"));
+    return 0;
+}
+
+/// A figure in the records of one seed, or of any.
+class LookUp {
+public:
+    LookUp(const std::vector<Record>& records, std::optional<std::uint32_t> seed) : records_(records), seed_(seed) {}
+
+    std::optional<double> operator()(Figure figure) {
+        if (seed_) figure.seed = seed_;
+        width_ = 0;
+        const std::optional<double> number = lookUp(figure, records_, [&](const Record& record) {
+            read_.push_back(&record);
+            width_ = std::hypot(width_, timeSpread(record, figure.metric));
+        });
+        width_ *= std::abs(number.value_or(0));
+        return number;
+    }
+
+    /// Half the 95 % interval of the last number.
+    [[nodiscard]] double width() const { return width_; }
+    [[nodiscard]] const std::vector<const Record*>& read() const { return read_; }
+
+private:
+    const std::vector<Record>& records_;
+    std::optional<std::uint32_t> seed_;
+    double width_ = 0;
+    std::vector<const Record*> read_;
+};
 
 Figure atPlace(Figure figure, double place) {
     figure.value = place;
@@ -100,7 +131,7 @@ void decide(Sample& sample, double margin) {
     sample.holds = margin >= 0;
 }
 
-Sample examineGrowth(const Check& check, const Figure& left, const LookUp& number) {
+Sample examineGrowth(const Check& check, const Figure& left, LookUp& number) {
     Sample sample;
     for (const double place : check.growsOver) sample.places.push_back(number(atPlace(left, place)));
     if (std::ranges::any_of(sample.places, [](const auto& value) { return !value; })) return sample;
@@ -108,7 +139,7 @@ Sample examineGrowth(const Check& check, const Figure& left, const LookUp& numbe
     return sample;
 }
 
-Sample examineOrder(const Check& check, const Figure& left, const LookUp& number) {
+Sample examineOrder(const Check& check, const Figure& left, LookUp& number) {
     Sample sample;
     std::vector<double> ours, theirs;
     for (const Published& row : check.published) {
@@ -123,14 +154,19 @@ Sample examineOrder(const Check& check, const Figure& left, const LookUp& number
     return sample;
 }
 
-Sample examine(const Check& check, const Case& place, const LookUp& number) {
+Sample examine(const Check& check, const Case& place, LookUp& number) {
     if (!check.growsOver.empty()) return examineGrowth(check, place.left, number);
     if (!check.published.empty()) return examineOrder(check, place.left, number);
     Sample sample{number(place.left), {}, {}, {}};
-    if (place.right) sample.right = number(*place.right);
+    sample.leftWidth = number.width();
+    if (place.right) {
+        sample.right = number(*place.right);
+        sample.rightWidth = number.width();
+    }
     if (!sample.left || (place.right && !sample.right)) return sample;
     const double bound = check.factor * sample.right.value_or(1);
     decide(sample, *sample.left == bound ? 0 : check.atMost ? bound - *sample.left : *sample.left - bound);
+    sample.marginWidth = std::hypot(sample.leftWidth, check.factor * sample.rightWidth);
     return sample;
 }
 
@@ -157,17 +193,17 @@ std::vector<Sample> samplesOf(const Check& check, const Case& place, const std::
                               const std::function<void(const Record&)>& found) {
     std::vector<Sample> complete;
     for (const std::uint32_t seed : seedsOf(figuresOf(check, place), records)) {
-        std::vector<const Record*> read;
-        const Sample sample = examine(check, place, [&](Figure figure) {
-            figure.seed = seed;
-            return lookUp(figure, records, [&](const Record& record) { read.push_back(&record); });
-        });
+        LookUp number(records, seed);
+        const Sample sample = examine(check, place, number);
         if (!sample.holds) continue;
         complete.push_back(sample);
-        for (const Record* record : read) found(*record);
+        for (const Record* record : number.read()) found(*record);
     }
     if (!complete.empty()) return complete;
-    return {examine(check, place, [&](const Figure& figure) { return lookUp(figure, records, found); })};
+    LookUp number(records, {});
+    const Sample sample = examine(check, place, number);
+    for (const Record* record : number.read()) found(*record);
+    return {sample};
 }
 
 Finding examine(const Check& check, const std::vector<Record>& records, const std::function<void(const Record&)>& found) {
@@ -235,15 +271,18 @@ std::vector<Figure> figuresOf(const Check& check) {
 
 Outcome outcomeOf(const std::vector<Sample>& samples) {
     std::vector<double> margins;
+    double timesWidth = 0; // of their mean
     for (const Sample& sample : samples) {
         if (!sample.holds) return Outcome::NotMeasured;
+        timesWidth = std::hypot(timesWidth, sample.marginWidth / static_cast<double>(samples.size()));
         if (sample.margin && std::isfinite(*sample.margin)) margins.push_back(*sample.margin);
     }
     if (margins.size() < samples.size()) {
         const auto held = std::ranges::count_if(samples, [](const Sample& sample) { return *sample.holds; });
         return held == 0 ? Outcome::No : held == std::ssize(samples) ? Outcome::Yes : Outcome::NotToldApart;
     }
-    const auto [mean, halfWidth] = metrics::meanInterval(margins);
+    const auto [mean, seedsWidth] = metrics::meanInterval(margins);
+    const double halfWidth = std::hypot(seedsWidth, timesWidth);
     return mean - halfWidth >= 0 ? Outcome::Yes : mean + halfWidth < 0 ? Outcome::No : Outcome::NotToldApart;
 }
 

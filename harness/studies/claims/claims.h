@@ -78,6 +78,8 @@ struct Sample {
         margin; // by how much it holds, below 0 by how much it fails; absent where it only does or does not
     std::optional<bool> holds;
     std::vector<std::optional<double>> places = {}; // left at the places of `Check::growsOver`, or of `Check::published`
+    // Half the 95 % intervals of left, right and margin over the rounds of what was timed; 0 of what is counted or scored.
+    double leftWidth = 0, rightWidth = 0, marginWidth = 0;
 };
 
 /// Of one case: whether it holds, or its interval over seeds has the bound inside. Of several: `Partly` where they differ.
@@ -118,8 +120,8 @@ std::optional<double> lookUp(const Figure& figure, const std::vector<Record>& re
 /// All figures that a check compares, of any seed.
 std::vector<Figure> figuresOf(const Check& check);
 
-/// Of a case by its samples: that of the 95 % interval of their mean margin; of samples without one, or with one that is
-/// infinite, that of all.
+/// Of a case by its samples: that of the 95 % interval of their mean margin, over seeds and over rounds of times; of samples
+/// without one, or with one that is infinite, that of all.
 Outcome outcomeOf(const std::vector<Sample>& samples);
 
 /// Each check is asked in each of its cases with the records of each seed.

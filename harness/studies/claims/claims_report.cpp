@@ -55,8 +55,9 @@ std::string markdownPage(const std::vector<Judgement>& judgements) {
         "it lists: it holds (yes) or fails (no) in all of them, or in some. Where there are records of several seeds, ± is "
         "the "
         "half width of the 95 % interval of the mean over them (Student's t), and what is compared are figures of the same "
-        "seed; where the interval of their difference has the bound inside, they are not told apart. A range, such as 58 to "
-        "209, is that over scenes, places and seeds.\n\n"
+        "seed; of times, it is that of the median of their rounds, which says nothing of another run. Where the interval of "
+        "the difference has the bound inside, they are not told apart. A range, such as 58 to 209, is that over scenes, "
+        "places and seeds.\n\n"
         "| # | claim | where | verdict |\n|---|---|---|---|\n";
     for (const Judgement& judgement : judgements) {
         const Claim& claim = *judgement.claim;

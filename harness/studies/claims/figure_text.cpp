@@ -62,12 +62,15 @@ std::vector<double> numbersOf(const std::vector<Sample>& samples, Side side) {
     return numbers;
 }
 
-/// "0.0147", or with the interval of the mean over seeds: "0.0147 ± 0.0006".
-std::string spread(const std::vector<Sample>& samples, Side side) {
+/// "0.0147", or with the interval of the mean over seeds and over rounds of times: "0.0147 ± 0.0006".
+std::string spread(const std::vector<Sample>& samples, Side side, double Sample::*width = &Sample::leftWidth) {
     const std::vector<double> numbers = numbersOf(samples, side);
     if (numbers.empty()) return "missing";
     if (std::isinf(numbers.back())) return range(numbers);
-    const auto [mean, halfWidth] = metrics::meanInterval(numbers);
+    const auto [mean, seedsWidth] = metrics::meanInterval(numbers);
+    double halfWidth = seedsWidth;
+    for (const Sample& sample : samples)
+        halfWidth = std::hypot(halfWidth, sample.*width / static_cast<double>(samples.size()));
     return halfWidth == 0 ? shown(mean) : fmt::format("{} ± {:.2g}", shown(mean), halfWidth);
 }
 
@@ -90,7 +93,7 @@ std::string comparison(const Check& check, const std::vector<Sample>& samples) {
     }
     if (!check.published.empty())
         return fmt::format("rank correlation {} ≥ {:g}", spread(samples, &Sample::left), check.factor);
-    const std::string right = check.cases.front().right ? " × " + spread(samples, &Sample::right) : "";
+    const std::string right = check.cases.front().right ? " × " + spread(samples, &Sample::right, &Sample::rightWidth) : "";
     return fmt::format("{} {} {:g}{}", spread(samples, &Sample::left), sign(check), check.factor, right);
 }
 
@@ -121,7 +124,7 @@ std::string describedOne(const Check& check, const std::vector<Sample>& samples)
     if (!check.published.empty()) return fmt::format("{}: {}", described(place.left), found);
     if (!place.right) return fmt::format("{} = {}", described(place.left), found);
     return fmt::format("{} = {} {} {:g} × {} = {}", described(place.left), spread(samples, &Sample::left), sign(check),
-                       check.factor, described(*place.right), spread(samples, &Sample::right));
+                       check.factor, described(*place.right), spread(samples, &Sample::right, &Sample::rightWidth));
 }
 
 /// Of several cases: what all have in common, and then each by what it has alone.

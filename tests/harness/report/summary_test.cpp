@@ -45,7 +45,8 @@ double spreadOf(std::vector<double> samples) {
 }
 
 TEST(StandingCost, HasTheIntervalOfTheMedianOfItsRounds) {
-    EXPECT_EQ(spreadOf({1, 2, 3, 4, 5}), 0) << "too few for an interval";
+    EXPECT_EQ(spreadOf({4}), 0);
+    EXPECT_DOUBLE_EQ(spreadOf({1, 2, 3, 4, 5}), 0.5 * (5 - 1) / 3) << "their range";
     EXPECT_DOUBLE_EQ(spreadOf({6, 2, 3, 4, 5, 1}), 0.5 * (6 - 1) / 3.5);
     EXPECT_DOUBLE_EQ(spreadOf({1, 2, 3, 4, 5, 6, 9}), 0.5 * (9 - 1) / 4);
     EXPECT_DOUBLE_EQ(spreadOf({1, 2, 4, 7, 11, 16, 22, 29, 37, 46, 56, 67}), 0.5 * (46 - 4) / 19);

@@ -310,6 +310,33 @@ TEST(Claims, AnIntervalOverSeedsThatHasTheBoundInsideIsNotToldApart) {
         << "one check holds";
 }
 
+TEST(Claims, TimesAreToldApartByTheIntervalsOfTheirRounds) {
+    const auto timed = [](const std::string& variant, double ratio, double spread) {
+        Record record = with(variant, 0.1);
+        record.values["cost.time.ratio"] = ratio;
+        record.values.list("cost.time.samples") = {20 * (1 - spread), 20, 20 * (1 + spread)};
+        return record;
+    };
+    const auto asked = [](const std::string& rest) {
+        return claim(R"({"says": "s", "left": {"scene": "dueling-frusta", "variant": "a", "metric": "cost.time.ratio"}, )"
+                     R"("is": "at most", )" +
+                     rest + "}");
+    };
+    const std::string bound = asked(R"("bound": 1.11)");
+    EXPECT_EQ(verdict(bound, {timed("a", 1.13, 0.01)}), Verdict::NotReproduced); // ± 0.0113
+    EXPECT_EQ(verdict(bound, {timed("a", 1.13, 0.02)}), Verdict::NotToldApart);
+    EXPECT_EQ(verdict(bound, {timed("a", 1.09, 0.02)}), Verdict::NotToldApart);
+    EXPECT_EQ(verdict(bound, {timed("a", 1.09, 0.01)}), Verdict::Reproduced);
+    const std::string other = asked(R"("times": 2, "right": {"variant": "b"})");
+    EXPECT_EQ(verdict(other, {timed("a", 1.9, 0.02), timed("b", 1, 0.02)}),
+              Verdict::Reproduced); // √(0.038² + 0.04²) = 0.055
+    EXPECT_EQ(verdict(other, {timed("a", 1.9, 0.02), timed("b", 1, 0.05)}), Verdict::NotToldApart);
+    const std::vector<Claim> parsed = parseClaims(other);
+    EXPECT_EQ(describedFindings(judge(parsed.front(), {timed("a", 1.9, 0.02), timed("b", 1, 0.05)})).front(),
+              "cost.time.ratio of a on dueling-frusta = 1.9 ± 0.038 ≤ 2 × cost.time.ratio of b on dueling-frusta = 1 ± "
+              "0.05: not told apart");
+}
+
 TEST(Claims, FiguresThatDoNotDependOnTheSeedHaveNoWidth) {
     const std::string bounded = claim(check("a", "at most", "\"bound\": 0.01"));
     EXPECT_EQ(verdict(bounded, seeds({0.01, 0.01, 0.01})), Verdict::Reproduced);
