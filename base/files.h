@@ -19,8 +19,7 @@ void writeFile(const std::filesystem::path& file, std::string_view content);
 /// The same for a library that writes by name: `write` is given the temporary path, which keeps `file`'s extension.
 void writeFileWith(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write);
 
-/// The same of files that the command that made them makes again, which therefore need not outlive a power cut: it does not
-/// wait for the disk.
+/// As writeFile but without fsync, for output that can be made again: it need not survive a power cut.
 void writeFileUnflushed(const std::filesystem::path& file, std::string_view content);
 
 /// Makes the folder and those above it that are missing, so that they outlive a power cut, and returns these, the deepest

@@ -16,9 +16,8 @@ public:
     /// Whether one was noted: whoever waits for something should give up.
     [[nodiscard]] static bool pending();
 
-    /// For a worker, a copy of another process (fork): what that one holds is not the worker's to wait for, and from now on
-    /// the second and later signals are held back as well. Nobody counts those that a worker gets: it is told to end again
-    /// by every thread of its parent that it is handed to while the parent ends.
+    /// For a forked worker: it does not wait for what its parent holds, and second and later signals are held back as well.
+    /// A worker may get SIGTERM repeatedly, from every thread of its parent that owns it; repeats are ignored.
     static void startAsWorker();
 };
 

@@ -71,7 +71,7 @@ Errors errorsOf(const Runs& runs, int trials, const auto& halves) {
         const auto [base, head] = halves();
         bool red = false;
         for (const Change& change : gate::compare(relabelled(runs, base), relabelled(runs, head)).changes) {
-            if (change.direction != Direction::Worse && change.direction != Direction::Unjudged) continue;
+            if (change.direction != Direction::Worse && change.direction != Direction::NotCompared) continue;
             red = true;
             ++errors.metrics[fmt::format("{} of {} on {}", change.metric, change.variant, change.scene)];
         }

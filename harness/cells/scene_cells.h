@@ -55,7 +55,7 @@ public:
     /// their own progress: they are the long part of an empty cache. Throws what rendering and truths throw.
     void score(const techniques::Variant& variant, Record& record, const Progress& progress);
 
-    /// Fills in the times of a scored record that are asked for, which want a processor of their own.
+    /// Fills in the times of a scored record that are asked for, which need an idle core.
     void time(const techniques::Variant& variant, Record& record);
 
     /// Both.

@@ -24,7 +24,7 @@ std::vector<Record> recordsAt(const std::filesystem::path& place) {
 ExitCode compareAndPrint(const CompareOptions& options) {
     const std::vector<Record> base = recordsAt(options.base), head = recordsAt(options.head);
     const gate::GateResult compared = gate::comparedRecords(base, head, options.aa);
-    if (!compared.unjudged.empty()) throw Inconclusive(compared.unjudged.front());
+    if (!compared.notCompared.empty()) throw Inconclusive(compared.notCompared.front());
     fmt::print("{}", gate::changesReport(compared));
     if (!options.aa && gate::sameProgram(base, head)) fmt::print("both commits make the same program\n");
     if (options.annotations) fmt::print("{}", gate::annotations(compared.changes));

@@ -27,7 +27,7 @@ ExitCode gateAndPrint(const gate::GateOptions& options, const GateFiles& files) 
     const OutputLock alone(options.out);
     const gate::GateResult result = gate::gate(options);
     if (!files.summary.empty()) writeFile(files.summary, gate::gateComment(result, options));
-    if (!files.junit.empty()) writeFile(files.junit, gate::junit(result.changes, result.unjudged));
+    if (!files.junit.empty()) writeFile(files.junit, gate::junit(result.changes, result.notCompared));
     fmt::print("{}page: {}\n", gate::gateReport(result, options), site::writeGateSite(result, options).string());
     if (files.annotations) fmt::print("{}", gate::annotations(result.changes));
     return result.code();
@@ -39,7 +39,7 @@ void addPolicy(CLI::App& app, Action& action) {
     verb->group(""); // left out of --help
     verb->callback([&action] {
         action = [] {
-            fmt::print("{}", gate::toJson(gate::ownIdentity()));
+            fmt::print("{}", gate::toJson(gate::ownBuildInfo()));
             return ExitCode::Pass;
         };
     });

@@ -1,7 +1,7 @@
 #include "harness/cells/golden.h"
 #include "harness/cli/reference.h"
 #include "harness/gate/gate.h"
-#include "harness/gate/watchlist.h"
+#include "harness/gate/gate_config.h"
 #include "scene/load/load.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ std::set<std::string> judged(const ReferenceOptions& options) {
     std::set<std::string> scenes;
     const std::filesystem::path bounds = gate::GateOptions().bounds;
     if (std::filesystem::exists(bounds))
-        for (const gate::Watch& watch : gate::readWatchlist(bounds, options.profile).scenes) scenes.insert(watch.scene);
+        for (const gate::GateRule& watch : gate::readGateConfig(bounds, options.profile).scenes) scenes.insert(watch.scene);
     else if (std::filesystem::exists(lockFile(options.golden)))
         for (const GoldenEntry& entry : readLock(options.golden).entries) scenes.insert(entry.name.scene);
     return scenes;

@@ -102,8 +102,8 @@ void addRun(CLI::App& app, Action& action) {
     addSeedOption(*verb, options->measure.seed);
     addGlOption(*verb);
     verb->add_option("--seeds", options->measure.seeds,
-                     "Draw what depends on the seed with so many, from --seed on, and split its error into what all have in "
-                     "common and noise (stability.seeds)")
+                     "Render what depends on the seed with so many seeds, from --seed on, and split its error into bias and "
+                     "noise (stability.seeds)")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
     verb->add_option("--views", options->measure.views,

@@ -1,4 +1,4 @@
-// What is wrong with an image as a whole, told from how much nearer the truth it comes when that is undone. Pure functions.
+// Detects flips, shifts and encodings of whole images by undoing each and comparing the error. Pure functions.
 #pragma once
 
 #include "base/image.h"

@@ -21,7 +21,7 @@ Change judged(const Record& record, const Bound& bound) {
         bound.value,
         value,
         0,
-        !value ? Direction::Unjudged
+        !value ? Direction::NotCompared
         : kept ? Direction::Same
                : Direction::Worse,
         fmt::format("{} on {}: {} {} and {}: {}", record.variant, record.scene, bound.metric, is, what, bound.cells.reason)};
@@ -37,7 +37,7 @@ Change vacuous(const Bound& bound) {
             bound.value,
             {},
             0,
-            Direction::Unjudged,
+            Direction::NotCompared,
             fmt::format("{} on {}: the bound on {} met no result", techniques, bound.cells.scene, bound.metric)};
 }
 
@@ -45,7 +45,7 @@ Change vacuous(const Bound& bound) {
 std::vector<Bound> listOf(const Scene& scene, const std::vector<Expectation>& expectations, bool below) {
     std::vector<Bound> bounds;
     for (const Expectation& e : expectations)
-        if (metrics::boundedMetric(e.metric)->unjudged != metrics::onDemand)
+        if (metrics::boundedMetric(e.metric)->notCompared != metrics::onDemand)
             bounds.push_back({{scene.id, {e.technique}, {}, e.reason}, e.metric, e.bound, below});
     return bounds;
 }

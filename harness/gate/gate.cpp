@@ -76,14 +76,14 @@ private:
         const bool counted =
             std::ranges::any_of(before, [](const Record& r) { return r.values["cost.instructions"].has_value(); });
         result_.notes.emplace_back("the base is a file of records: this build's policy alone judges");
-        if (options_.time) result_.notes.emplace_back("time is not judged: the base is a file of records, not a program");
+        if (options_.time) result_.notes.emplace_back("time is not compared: the base is a file of records, not a program");
         if (options_.instructions && !counted)
-            result_.notes.emplace_back("instructions are not judged: the base's records hold none");
+            result_.notes.emplace_back("instructions are not compared: the base's records hold none");
         leaveOutWhatNoRecordIsOf(before);
         std::vector<Record> now = measure(head, "head", options_.instructions && counted, &before);
         std::ranges::move(measureSteps(head, "head", cells_.externalSteps()), std::back_inserter(now));
         judgeRecords(before, now, nullptr);
-        if (const auto why = whyMeaningless(before, now, options_.aa)) result_.unjudged.push_back(*why);
+        if (const auto why = whyMeaningless(before, now, options_.aa)) result_.notCompared.push_back(*why);
         addPictures(nullptr, head);
     }
 
@@ -94,7 +94,7 @@ private:
         const std::vector<Record> before = measure(base, "base", options_.instructions);
         const std::vector<Record> now = measure(head, "head", options_.instructions);
         judgeRecords(before, now, &base);
-        if (const auto why = whyMeaningless(before, now, true)) result_.unjudged.push_back(*why);
+        if (const auto why = whyMeaningless(before, now, true)) result_.notCompared.push_back(*why);
         if (options_.time) judgeTimes(base, head);
         addPictures(&base, head);
     }
@@ -109,17 +109,17 @@ private:
             return out;
         });
         if (std::ranges::none_of(before, [](const Record& r) { return r.sweep.has_value(); }) &&
-            !cells_.policy.watchlist.sweeps.empty())
+            !cells_.policy.config.sweeps.empty())
             left.emplace_back("break points");
         if (!left.empty())
             result_.notes.push_back(
-                fmt::format("not judged, for the base's records hold nothing of them: {}", fmt::join(left, ", ")));
+                fmt::format("not compared, for the base's records hold nothing of them: {}", fmt::join(left, ", ")));
     }
 
     /// One program is never worse than itself: of one commit that is a mistake, of two it is all there is to say.
     bool isDecidedAlready(const MeasuredProgram& base, const MeasuredProgram& head) {
         if (options_.aa) return false;
-        const auto &before = base.identity(), &now = head.identity();
+        const auto &before = base.build(), &now = head.build();
         const bool same = base.content() == head.content() || (before && now && before->program == now->program);
         if (!same) return false;
         if (!before || !now || (before->commit == now->commit && before->dirty == now->dirty))
@@ -137,8 +137,8 @@ private:
 
     void unitePolicies(const MeasuredProgram& base) {
         std::optional<Policy> policy;
-        if (base.identity())
-            policy = base.identity()->policy;
+        if (base.build())
+            policy = base.build()->policy;
         else
             result_.notes.emplace_back("the base was built before programs said what they judge: this build's policy alone "
                                        "judges");
@@ -172,7 +172,7 @@ private:
         Comparison compared = compare(before, now, cells_.policy.rules, cells_.expected(base));
         result_.presence = std::move(compared.presence);
         std::ranges::move(compared.changes, std::back_inserter(result_.changes));
-        std::vector<Bound> bounds = cells_.policy.watchlist.bounds;
+        std::vector<Bound> bounds = cells_.policy.config.bounds;
         if (options_.profile == Profile::Gate) // what scenes expect, they expect of this profile; those of others are known
             for (const JudgedScene& scene : cells_.scenes)
                 if (!scene.content.empty())
@@ -183,13 +183,13 @@ private:
         std::ranges::move(judgeBounds(now, bounds, options_.techniques.empty()), std::back_inserter(result_.changes));
         writeRecords(options_.out / "results.jsonl", now); // the base of a later gate, once this build is accepted
         std::ranges::move(contradictedTruths(cells_.scenes, options_.profile, cache_, builtFrom().hash, options_.quiet),
-                          std::back_inserter(result_.unjudged));
+                          std::back_inserter(result_.notCompared));
     }
 
     void noteUnknownScenes() {
         std::vector<std::string> known;
         for (const JudgedScene& scene : cells_.scenes) known.push_back(scene.id);
-        for (const std::string& scene : cells_.policy.watchlist.unknownScenes(known))
+        for (const std::string& scene : cells_.policy.config.unknownScenes(known))
             result_.notes.push_back(
                 fmt::format("{} names a scene \"{}\" that is not among the chosen ones", options_.bounds.string(), scene));
     }
@@ -197,7 +197,7 @@ private:
     void judgeTimes(const MeasuredProgram& base, const MeasuredProgram& head) {
         const std::vector<TimedCell> cells = cells_.timedCells(base, head);
         if (cells.empty()) {
-            result_.notes.emplace_back("time is not judged: none of the chosen cells is timed");
+            result_.notes.emplace_back("time is not compared: none of the chosen cells is timed");
             return;
         }
         StageLine line("time", options_.quiet);
@@ -217,7 +217,7 @@ private:
         Change change{scene,           variant,    "time.ratio",    Class::Time,   1,
                       judgement.ratio, rule.floor, Direction::Same, figures + told};
         if (judgement.controlAlarm) {
-            change.direction = Direction::Unjudged;
+            change.direction = Direction::NotCompared;
             change.sentence =
                 fmt::format("{}, but the base against itself differs, too: the machine is not steady enough", figures);
         } else if (judgement.verdict == TimeVerdict::Slower) {
@@ -225,7 +225,7 @@ private:
             change.sentence = fmt::format("{}, surely more than {:.3f}", figures, judgement.lowerBound);
         } else if (judgement.verdict == TimeVerdict::Unclear) {
             const bool tells = judgement.smallestTold < rule.mustTell;
-            change.direction = tells ? Direction::Unclear : Direction::Unjudged;
+            change.direction = tells ? Direction::Unclear : Direction::NotCompared;
             change.sentence = fmt::format("{}, which {} rounds leave uncertain{}", figures, judgement.rounds, told);
         }
         result_.changes.push_back(std::move(change));
@@ -239,7 +239,7 @@ private:
 
     void addPictures(const MeasuredProgram* base, const MeasuredProgram& head) {
         const std::string today = fmt::format("{:%F}", fmt::gmtime(std::time(nullptr)));
-        std::ranges::move(waive(result_.changes, cells_.policy.watchlist.waivers, today), std::back_inserter(result_.notes));
+        std::ranges::move(waive(result_.changes, cells_.policy.config.waivers, today), std::back_inserter(result_.notes));
         StageLine line("pictures of what is worse", options_.quiet);
         result_.pictures = timed("pictures of what is worse", [&] {
             return drawFailures(result_.changes, cells_, base, head, options_.out, line.progress());
@@ -277,7 +277,7 @@ private:
 
 } // namespace
 
-ExitCode GateResult::code() const { return unjudged.empty() ? verdictOf(changes) : ExitCode::Inconclusive; }
+ExitCode GateResult::code() const { return notCompared.empty() ? verdictOf(changes) : ExitCode::Inconclusive; }
 
 GateResult comparedRecords(const std::vector<Record>& base, const std::vector<Record>& head, bool aa) {
     GateResult result;
@@ -287,7 +287,7 @@ GateResult comparedRecords(const std::vector<Record>& base, const std::vector<Re
     };
     result.base = nameOf(base);
     result.head = nameOf(head);
-    if (const auto why = whyMeaningless(base, head, aa)) result.unjudged.push_back(*why);
+    if (const auto why = whyMeaningless(base, head, aa)) result.notCompared.push_back(*why);
     return result;
 }
 

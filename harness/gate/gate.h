@@ -43,10 +43,10 @@ struct FailurePictures {
 };
 
 struct GateResult : Comparison {
-    std::string base, head;            // as reports name them
-    std::vector<std::string> loosened; // sentences: what the base judges more strictly, and what only the head waives
-    std::vector<std::string> unjudged; // sentences: what could not be judged, and why
-    std::vector<std::string> notes;    // sentences: what was left out on purpose, or is uncertain
+    std::string base, head;               // as reports name them
+    std::vector<std::string> loosened;    // sentences: what the base judges more strictly, and what only the head waives
+    std::vector<std::string> notCompared; // sentences: what could not be judged, and why
+    std::vector<std::string> notes;       // sentences: what was left out on purpose, or is uncertain
     std::vector<FailurePictures> pictures;
     std::vector<StepTime> times; // of the parts, some of which ran side by side
     double seconds = 0;          // of all

@@ -74,13 +74,13 @@ std::string reproduction(const Change& change, const GateOptions& options) {
 std::string gateReport(const GateResult& result, const GateOptions& options) {
     std::string text = section("looser than the base", result.loosened) + changesReport(result) +
                        section("to see it again", commands(result, options)) + section("pictures", pictureLines(result)) +
-                       section("not judged", result.unjudged) + section("to note", result.notes);
+                       section("not compared", result.notCompared) + section("to note", result.notes);
     text += section(fmt::format("slowest parts of {:.0f} s, some side by side", result.seconds), slowest(result.times));
     return text + fmt::format("gate: {} (head {}, base {})\n", verdictText(result.code()), result.head, result.base);
 }
 
 std::string gateComment(const GateResult& result, const GateOptions& options) {
-    constexpr std::size_t mostWorst = 10, mostUnjudged = 4, mostOthers = 3, mostCommands = 2; // 40 lines in all
+    constexpr std::size_t mostWorst = 10, mostNotCompared = 4, mostOthers = 3, mostCommands = 2; // 40 lines in all
     std::string text = fmt::format("## shadowbench: {}\n\nHead {}, base {}. {}.\n", verdictText(result.code()), result.head,
                                    result.base, gate::text(result.presence));
     const auto list = [&](std::string_view heading, const std::vector<std::string>& lines, std::size_t most) {
@@ -89,15 +89,15 @@ std::string gateComment(const GateResult& result, const GateOptions& options) {
         for (std::size_t i = 0; i < std::min(lines.size(), most); ++i) text += fmt::format("* {}\n", onOneLine(lines[i]));
         if (lines.size() > most) text += fmt::format("* … and {} more\n", lines.size() - most);
     };
-    std::vector<std::string> worse, unjudged = result.unjudged, others;
+    std::vector<std::string> worse, notCompared = result.notCompared, others;
     for (const Change& change : oneACause(worstFirst(result.changes))) {
-        std::vector<std::string>& lines = change.direction == Direction::Worse      ? worse
-                                          : change.direction == Direction::Unjudged ? unjudged
-                                                                                    : others;
+        std::vector<std::string>& lines = change.direction == Direction::Worse         ? worse
+                                          : change.direction == Direction::NotCompared ? notCompared
+                                                                                       : others;
         lines.push_back(fmt::format("{}: {}", name(change.direction), change.sentence));
     }
     list("Looser than the base", result.loosened, mostOthers);
-    list("Not judged", unjudged, mostUnjudged);
+    list("Not compared", notCompared, mostNotCompared);
     list("Worse", worse, mostWorst);
     list("Unclear, waived or better", others, mostOthers);
     std::vector<std::string> again = commands(result, options);

@@ -54,15 +54,15 @@ std::vector<std::string> namesOf(const GateOptions& options) {
 bool isExternal(const std::string& variant) { return variant.starts_with(externalPrefix); }
 
 /// Those of `variants` that a watch of `scene` covers; all of them if no watch names any of the scenes.
-std::vector<std::string> coveredOf(const std::vector<Watch>& watches, const std::vector<JudgedScene>& scenes,
+std::vector<std::string> coveredOf(const std::vector<GateRule>& watches, const std::vector<JudgedScene>& scenes,
                                    const std::string& scene, const std::vector<std::string>& variants) {
-    const auto isJudged = [&](const Watch& w) {
+    const auto isJudged = [&](const GateRule& w) {
         return std::ranges::find(scenes, w.scene, &JudgedScene::id) != scenes.end();
     };
     if (std::ranges::none_of(watches, isJudged)) return variants;
     std::vector<std::string> result;
     for (const std::string& variant : variants)
-        if (std::ranges::any_of(watches, [&](const Watch& w) { return w.scene == scene && w.covers(variant); }))
+        if (std::ranges::any_of(watches, [&](const GateRule& w) { return w.scene == scene && w.covers(variant); }))
             result.push_back(variant);
     return result;
 }
@@ -93,7 +93,7 @@ std::optional<std::string> ownName(const std::string& variant) {
 }
 
 template <class Predicate>
-std::vector<std::string> those(const std::vector<std::string>& all, const Predicate& predicate) {
+std::vector<std::string> select(const std::vector<std::string>& all, const Predicate& predicate) {
     std::vector<std::string> some;
     std::ranges::copy_if(all, std::back_inserter(some), predicate);
     return some;
@@ -113,7 +113,7 @@ std::vector<std::string> arguments(const char* verb, const JudgedScene& scene, P
 /// What the base judges and this build cannot.
 Change goneOf(const std::string& scene, const std::string& variant, const std::string& why) {
     const std::string what = variant == "*" ? "the scene " + scene : variant;
-    return {scene, variant, "status", Class::Status, {}, {}, 0, Direction::Unjudged, fmt::format("{}, {}", what, why)};
+    return {scene, variant, "status", Class::Status, {}, {}, 0, Direction::NotCompared, fmt::format("{}, {}", what, why)};
 }
 
 /// Whether choices are tried there: on an area light those of soft techniques only, for others do the same as elsewhere.
@@ -135,15 +135,15 @@ JudgedCells::JudgedCells(const GateOptions& options, const std::optional<Policy>
         loosened = std::move(both.loosened);
     }
     const std::vector<std::string> chosen = chosenVariants(options, baseVariants);
-    const auto addCovered = [&](const std::string& scene, const Watch* only) {
+    const auto addCovered = [&](const std::string& scene, const GateRule* only) {
         if (options.scenes.empty() && !isBuiltin(scene))
             return gone.push_back(goneOf(scene, "*", "which the base judges, no longer exists"));
-        addScene(scene, those(chosen, [&](const std::string& v) { return only == nullptr || only->covers(v); }),
+        addScene(scene, select(chosen, [&](const std::string& v) { return only == nullptr || only->covers(v); }),
                  only != nullptr);
     };
     for (const std::string& scene : options.scenes.empty() ? policy.standard : options.scenes) addCovered(scene, nullptr);
     if (options.scenes.empty()) {
-        for (const Watch& watch : policy.watchlist.scenes) addCovered(watch.scene, &watch);
+        for (const GateRule& watch : policy.config.scenes) addCovered(watch.scene, &watch);
         addChoices(options, chosen);
     }
     addCounted(chosen);
@@ -160,7 +160,7 @@ void JudgedCells::addScene(const std::string& argument, std::vector<std::string>
 }
 
 void JudgedCells::addCounted(const std::vector<std::string>& chosen) {
-    for (const Watch& watch : policy.watchlist.counted) {
+    for (const GateRule& watch : policy.config.counted) {
         const auto scene = std::ranges::find(scenes, watch.scene, &JudgedScene::id);
         if (scene == scenes.end()) continue;
         for (const std::string& variant : watch.named()) {
@@ -189,7 +189,7 @@ std::vector<std::string> JudgedCells::chosenVariants(const GateOptions& options,
 }
 
 void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::string>& chosen) {
-    for (const Watch& watch : policy.watchlist.choices) {
+    for (const GateRule& watch : policy.config.choices) {
         const std::string file = (options.bounds.parent_path() / watch.scene).string();
         if (!fs::exists(file)) {
             gone.push_back(goneOf(watch.scene, "*", "on which the base judges choices, no longer exists"));
@@ -211,19 +211,20 @@ void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::
 
 void JudgedCells::addSteps(const MeasuredProgram& program, const JudgedScene& scene, bool instructions,
                            std::vector<Step>& steps) const {
-    const std::vector<std::string> known = those(scene.variants, [&](const auto& v) { return program.knowsVariant(v); });
+    const std::vector<std::string> known = select(scene.variants, [&](const auto& v) { return program.knowsVariant(v); });
     const auto counted =
-        instructions ? coveredOf(policy.watchlist.counted, scenes, scene.id, known) : std::vector<std::string>{};
+        instructions ? coveredOf(policy.config.counted, scenes, scene.id, known) : std::vector<std::string>{};
     const auto add = [&](const std::string& name, std::uint32_t with, const char* cost,
                          const std::vector<std::string>& variants) {
         if (!variants.empty())
             steps.push_back({name, arguments("run", scene, profile, with, {"--cost", cost}), variants, "results.jsonl",
                              scene.content + scene.truths, false, scene.id, with});
     };
-    add(scene.id, seed, "none", those(known, [&](const auto& v) { return std::ranges::find(counted, v) == counted.end(); }));
+    add(scene.id, seed, "none",
+        select(known, [&](const auto& v) { return std::ranges::find(counted, v) == counted.end(); }));
     add(scene.id + ", instructions", seed, "instructions", counted);
     const std::vector<std::string> byChance =
-        those(known, [&](const auto& v) { return policy.watchlist.isByChance(scene.id, v); });
+        select(known, [&](const auto& v) { return policy.config.isByChance(scene.id, v); });
     for (std::uint32_t other = seed + 1; other < seed + seedsOfChance; ++other)
         add(fmt::format("{}, seed {}", scene.id, other), other, "none", byChance);
 }
@@ -233,12 +234,12 @@ std::vector<Step> JudgedCells::steps(const MeasuredProgram& program, bool instru
     for (const JudgedScene& scene : scenes)
         if (has(program, scene)) addSteps(program, scene, instructions, steps);
     std::set<std::array<std::string, 3>> known; // a sweep by two entries is the first's
-    for (const WatchedSweep& sweep : policy.watchlist.sweeps) {
+    for (const SweepRule& sweep : policy.config.sweeps) {
         const auto scene = std::ranges::find(scenes, sweep.cells.scene, &JudgedScene::id);
         if (scene == scenes.end() || !has(program, *scene)) continue;
         std::vector<std::string> more{"--axis", sweep.axis};
         for (const double value : sweep.values) more.insert(more.end(), {"--values", fmt::format("{}", value)});
-        const std::vector<std::string> swept = those(scene->variants, [&](const auto& v) {
+        const std::vector<std::string> swept = select(scene->variants, [&](const auto& v) {
             return program.knowsVariant(v) && sweep.cells.covers(v) && known.insert({scene->id, sweep.axis, v}).second;
         });
         if (!swept.empty())
@@ -254,7 +255,7 @@ std::vector<Step> JudgedCells::externalSteps() const {
     for (const fs::path& file : externalFiles_) more.insert(more.end(), {"--external", fs::absolute(file).string()});
     std::vector<Step> steps;
     for (const JudgedScene& scene : scenes) {
-        const std::vector<std::string> variants = those(scene.variants, isExternal);
+        const std::vector<std::string> variants = select(scene.variants, isExternal);
         if (!variants.empty())
             steps.push_back({.name = scene.id + ", other renderers",
                              .arguments = arguments("run", scene, profile, seed, more),
@@ -276,7 +277,7 @@ std::vector<TimedCell> JudgedCells::timedCells(const MeasuredProgram& base, cons
             return !isExternal(variant) && !techniques::parseVariant(variant).isLod() && base.knowsVariant(variant) &&
                    head.knowsVariant(variant);
         });
-        for (const std::string& variant : coveredOf(policy.watchlist.timed, scenes, scene.id, known))
+        for (const std::string& variant : coveredOf(policy.config.timed, scenes, scene.id, known))
             if (!notApplicable(loadScene(scene.argument, profile), techniques::parseVariant(variant)))
                 cells.push_back({scene.argument, variant});
     }

@@ -36,13 +36,13 @@ struct JudgedCells {
                          const std::vector<std::string>& baseVariants = {});
 
     /// The runs that measure all cells whose scene and variant `program` has. With `instructions`, the instructions of those
-    /// that the watchlist names are counted, or of all when it names none of the scenes.
+    /// that the config names are counted, or of all when it names none of the scenes.
     [[nodiscard]] std::vector<Step> steps(const MeasuredProgram& program, bool instructions) const;
 
     /// The runs in which this program calls the renderers that are not ours.
     [[nodiscard]] std::vector<Step> externalSteps() const;
 
-    /// Cells that both programs have and whose time is compared: those that the watchlist names, or all when it names none
+    /// Cells that both programs have and whose time is compared: those that the config names, or all when it names none
     /// of the scenes.
     [[nodiscard]] std::vector<TimedCell> timedCells(const MeasuredProgram& base, const MeasuredProgram& head) const;
 

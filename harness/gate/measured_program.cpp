@@ -77,11 +77,11 @@ Json listOf(const fs::path& program, const std::string& what) {
 }
 
 /// What the program says of itself; nothing where it has no such verb.
-std::optional<Identity> identityOf(const fs::path& program) {
+std::optional<BuildInfo> buildOf(const fs::path& program) {
     std::string text;
     const auto [code, last] = runToEnd(program, {"policy"}, [&](std::string_view line) { text += line; });
     if (code != 0) return {};
-    return identityFrom(text);
+    return buildInfoFrom(text);
 }
 
 /// "pcss:taps=32+32,map=2048" → ("taps", "32+32"), ("map", "2048").
@@ -126,7 +126,7 @@ MeasuredProgram::MeasuredProgram(const fs::path& file, const fs::path& cache)
     } catch (const BadInput& error) {
         throw Inconclusive(error.what());
     }
-    identity_ = identityOf(file_);
+    build_ = buildOf(file_);
     for (const Json& scene : listOf(file_, "scenes")) scenes_.push_back(scene.at("id"));
     for (const Json& technique : listOf(file_, "techniques")) {
         Technique& known = techniques_.emplace_back(Technique{technique.at("id"), {}, technique.at("variants")});

@@ -47,7 +47,7 @@ public:
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
     /// What it is and judges; nothing of a build from before there was the verb `policy`.
-    [[nodiscard]] const std::optional<Identity>& identity() const { return identity_; }
+    [[nodiscard]] const std::optional<BuildInfo>& build() const { return build_; }
 
     /// Hash of the executable.
     [[nodiscard]] const std::string& content() const { return content_; }
@@ -77,7 +77,7 @@ private:
 
     std::filesystem::path file_, cache_, records_;
     std::string content_;
-    std::optional<Identity> identity_;
+    std::optional<BuildInfo> build_;
     std::vector<std::string> scenes_;
     std::vector<Technique> techniques_;
 };

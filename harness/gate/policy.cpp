@@ -67,16 +67,16 @@ void fields(auto&& visit, auto& rule) requires requires { rule.wallFloor; }
     visit("alpha", rule.alpha);
 }
 
-/// The lists of a watchlist, once.
-void lists(auto&& visit, auto& watchlist) {
-    visit("scene", watchlist.scenes);
-    visit("bound", watchlist.bounds);
-    visit("sweep", watchlist.sweeps);
-    visit("count", watchlist.counted);
-    visit("time", watchlist.timed);
-    visit("seeds", watchlist.seeds);
-    visit("choices", watchlist.choices);
-    visit("waiver", watchlist.waivers);
+/// The lists of a config, once.
+void lists(auto&& visit, auto& config) {
+    visit("scene", config.scenes);
+    visit("bound", config.bounds);
+    visit("sweep", config.sweeps);
+    visit("count", config.counted);
+    visit("time", config.timed);
+    visit("seeds", config.seeds);
+    visit("choices", config.choices);
+    visit("waiver", config.waivers);
 }
 
 Json policyJson(const Policy& policy) {
@@ -89,7 +89,7 @@ Json policyJson(const Policy& policy) {
                 fields([&](const char* name, const auto& member) { written[name] = member; }, entry);
             }
         },
-        policy.watchlist);
+        policy.config);
     const auto into = [](Json& object) {
         return [&object](const char* name, const auto& member) { object[name] = member; };
     };
@@ -110,7 +110,7 @@ Policy policyFrom(const Json& json) {
             for (const Json& entry : json.at(key))
                 fields([&](const char* name, auto& member) { entry.at(name).get_to(member); }, list.emplace_back());
         },
-        policy.watchlist);
+        policy.config);
     const auto from = [](const Json& object) {
         return [&object](const char* name, auto& member) {
             if (object.contains(name)) object.at(name).get_to(member);
@@ -127,12 +127,12 @@ Policy policyFrom(const Json& json) {
     return policy;
 }
 
-Policy withScenes(Watchlist watchlist, Profile profile) {
-    Policy policy{standardScenes(), std::move(watchlist), ownRules(), {}};
+Policy withScenes(GateConfig config, Profile profile) {
+    Policy policy{standardScenes(), std::move(config), ownRules(), {}};
     if (profile != Profile::Gate) return policy; // what scenes expect, they expect of this profile
     for (const std::string& id : builtinScenes())
         for (Bound& bound : boundsOf(loadScene(id, profile, metrics::boundedMetrics())))
-            policy.watchlist.bounds.push_back(std::move(bound));
+            policy.config.bounds.push_back(std::move(bound));
     return policy;
 }
 
@@ -141,14 +141,14 @@ bool holdsAll(const std::vector<std::string>& all, const std::vector<std::string
 }
 
 // Whether `head` asks for as much as `base`.
-bool asStrict(const Watch& head, const Watch& base) {
+bool asStrict(const GateRule& head, const GateRule& base) {
     return head.scene == base.scene && holdsAll(head.techniques, base.techniques) && holdsAll(base.except, head.except);
 }
 bool asStrict(const Bound& head, const Bound& base) {
     return asStrict(head.cells, base.cells) && head.metric == base.metric && head.below == base.below &&
            (base.below ? head.value <= base.value : head.value >= base.value);
 }
-bool asStrict(const WatchedSweep& head, const WatchedSweep& base) {
+bool asStrict(const SweepRule& head, const SweepRule& base) {
     return asStrict(head.cells, base.cells) && head.axis == base.axis && head.values == base.values;
 }
 
@@ -159,20 +159,20 @@ void keepLoosened(std::vector<Entry>& base, const std::vector<Entry>& head) {
     });
 }
 
-std::string text(const Watch& watch) { return fmt::format("{} on {}", fmt::join(watch.techniques, ", "), watch.scene); }
+std::string text(const GateRule& watch) { return fmt::format("{} on {}", fmt::join(watch.techniques, ", "), watch.scene); }
 std::string text(const Bound& bound) {
     return fmt::format("{}: {} {} {}", text(bound.cells), bound.metric, bound.below ? "below" : "above", bound.value);
 }
-std::string text(const WatchedSweep& sweep) { return fmt::format("{} over {}", text(sweep.cells), sweep.axis); }
+std::string text(const SweepRule& sweep) { return fmt::format("{} over {}", text(sweep.cells), sweep.axis); }
 std::string text(const Waiver& waiver) {
     return fmt::format("{} of {} on {} until {}: {}", waiver.what, fmt::join(waiver.techniques, ", "), waiver.scene,
                        waiver.expires, waiver.reason);
 }
 
 /// Entries of `base` that `head` does not have at least as strict. A waiver makes nothing stricter.
-Watchlist looserEntries(const Policy& base, const Policy& head) {
-    Watchlist before = base.watchlist;
-    const Watchlist& now = head.watchlist;
+GateConfig looserEntries(const Policy& base, const Policy& head) {
+    GateConfig before = base.config;
+    const GateConfig& now = head.config;
     keepLoosened(before.scenes, now.scenes);
     keepLoosened(before.bounds, now.bounds);
     keepLoosened(before.sweeps, now.sweeps);
@@ -194,26 +194,26 @@ std::vector<std::string> lostScenes(const Policy& base, const Policy& head) {
 } // namespace
 
 Policy readPolicy(const std::filesystem::path& bounds, Profile profile) {
-    return withScenes(readWatchlist(bounds, profile), profile);
+    return withScenes(readGateConfig(bounds, profile), profile);
 }
 
-Identity ownIdentity() {
+BuildInfo ownBuildInfo() {
     const Commit commit = builtFrom();
     const embedded::File& bounds = embedded::gate_policy().front();
     return {commit.hash, commit.dirty, programHash(),
-            withScenes(parseWatchlist(std::string(bounds.text), std::string(bounds.path), Profile::Gate), Profile::Gate)};
+            withScenes(parseGateConfig(std::string(bounds.text), std::string(bounds.path), Profile::Gate), Profile::Gate)};
 }
 
-std::string toJson(const Identity& identity) {
-    return Json{{"commit", identity.commit},
-                {"dirty", identity.dirty},
-                {"program", identity.program},
-                {"policy", policyJson(identity.policy)}}
+std::string toJson(const BuildInfo& build) {
+    return Json{{"commit", build.commit},
+                {"dirty", build.dirty},
+                {"program", build.program},
+                {"policy", policyJson(build.policy)}}
                .dump(1) +
            "\n";
 }
 
-Identity identityFrom(const std::string& text) {
+BuildInfo buildInfoFrom(const std::string& text) {
     try {
         const Json json = Json::parse(boundedJson(text, "a program's policy"));
         return {json.at("commit").get<std::string>(), json.at("dirty").get<bool>(), json.at("program").get<std::string>(),
@@ -227,7 +227,7 @@ std::vector<std::string> loosened(const Policy& base, const Policy& head) {
     std::vector<std::string> sentences;
     for (const std::string& scene : lostScenes(base, head))
         sentences.push_back(fmt::format("the base's standard scene {} is none of this build's", scene));
-    const Watchlist looser = looserEntries(base, head);
+    const GateConfig looser = looserEntries(base, head);
     lists(
         [&](const char* key, const auto& list) {
             for (const auto& entry : list)
@@ -238,9 +238,9 @@ std::vector<std::string> loosened(const Policy& base, const Policy& head) {
     const TimeRule &was = base.time, &is = head.time;
     if (is.floor > was.floor || is.wallFloor > was.wallFloor || is.mustTell > was.mustTell || is.alpha < was.alpha)
         sentences.emplace_back("the rule of times is looser than the base's");
-    for (const Waiver& waiver : head.watchlist.waivers)
-        if (std::ranges::find(base.watchlist.waivers, text(waiver), [](const Waiver& w) { return text(w); }) ==
-            base.watchlist.waivers.end())
+    for (const Waiver& waiver : head.config.waivers)
+        if (std::ranges::find(base.config.waivers, text(waiver), [](const Waiver& w) { return text(w); }) ==
+            base.config.waivers.end())
             sentences.push_back("this build accepts, and its base does not, " + text(waiver));
     return sentences;
 }
@@ -249,8 +249,8 @@ Union unite(const Policy& base, const Policy& head) {
     Union result{head, loosened(base, head)};
     const auto join = [](auto& all, const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
     join(result.policy.standard, lostScenes(base, head));
-    Watchlist& all = result.policy.watchlist;
-    const Watchlist some = looserEntries(base, head);
+    GateConfig& all = result.policy.config;
+    const GateConfig some = looserEntries(base, head);
     join(all.scenes, some.scenes);
     all.sweeps.insert(all.sweeps.begin(), some.sweeps.begin(), some.sweeps.end()); // the first of an axis decides its values
     join(all.counted, some.counted);

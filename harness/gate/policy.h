@@ -1,8 +1,8 @@
 // What a program judges, as it says so itself: a gate judges by the stricter of its base's policy and its own.
 #pragma once
 
+#include "harness/gate/gate_config.h"
 #include "harness/gate/paired.h"
-#include "harness/gate/watchlist.h"
 #include "harness/records/rules.h"
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace shadowbench::gate {
 
 struct Policy {
     std::vector<std::string> standard; // scenes that are judged with all techniques
-    Watchlist watchlist;               // with what the built-in scenes expect among its bounds, for the gate's profile
+    GateConfig config;                 // with what the built-in scenes expect among its bounds, for the gate's profile
     Rules rules = ownRules();          // those of older programs, which do not state them, are this build's
     TimeRule time = {};
 };
@@ -22,7 +22,7 @@ struct Policy {
 Policy readPolicy(const std::filesystem::path& bounds, Profile profile);
 
 /// A program by its sources, and what it judges.
-struct Identity {
+struct BuildInfo {
     std::string commit;
     bool dirty = false;
     std::string program; // hash, as records have it
@@ -30,12 +30,12 @@ struct Identity {
 };
 
 /// This program, with the file of bounds that it was built with.
-Identity ownIdentity();
+BuildInfo ownBuildInfo();
 
-/// As the verb `policy` prints it; `identityFrom` throws BadInput for what is none. What another build judges may name
+/// As the verb `policy` prints it; `buildInfoFrom` throws BadInput for what is none. What another build judges may name
 /// techniques, scenes and metrics that this one does not have.
-std::string toJson(const Identity& identity);
-Identity identityFrom(const std::string& json);
+std::string toJson(const BuildInfo& build);
+BuildInfo buildInfoFrom(const std::string& json);
 
 /// What makes `head` judge at least as strictly as `base`: entries of the base that the head does not have with the same
 /// scene, at least the same techniques and, for a bound, the same metric with a value that is as hard to keep; and the

@@ -19,7 +19,7 @@ bool isCost(const Change& change) {
 }
 
 /// In the order of reports; the rest is the same.
-constexpr std::array directions{Direction::Worse, Direction::Unjudged, Direction::Unclear, Direction::Waived,
+constexpr std::array directions{Direction::Worse, Direction::NotCompared, Direction::Unclear, Direction::Waived,
                                 Direction::Better};
 
 bool isWorse(const Change& change) { return change.direction == Direction::Worse; }
@@ -35,7 +35,7 @@ std::string totals(const Comparison& comparison) {
         if (number >= least) parts.push_back(fmt::format("{} {}", number, name(direction)));
     };
     for (const Direction direction : {Direction::Worse, Direction::Better, Direction::Same}) add(direction, 0);
-    for (const Direction direction : {Direction::Unclear, Direction::Waived, Direction::Unjudged}) add(direction, 1);
+    for (const Direction direction : {Direction::Unclear, Direction::Waived, Direction::NotCompared}) add(direction, 1);
     return fmt::format("{}; {}", fmt::join(parts, ", "), text(comparison.presence));
 }
 
@@ -74,12 +74,12 @@ std::string asData(const std::string& text) {
 
 /// What became of one test case: the worst of its changes, with their sentences.
 struct Outcome {
-    std::string worse, unjudged, unclear, output;
+    std::string worse, notCompared, unclear, output;
 
     /// JUnit's element for it; nothing for one that passed.
     [[nodiscard]] std::string_view element() const {
         if (!worse.empty()) return "failure";
-        if (!unjudged.empty()) return "error";
+        if (!notCompared.empty()) return "error";
         return unclear.empty() ? "" : "skipped";
     }
 };
@@ -89,7 +89,7 @@ using Cases = std::map<Case, Outcome>;
 
 void add(const Change& change, Outcome& outcome) {
     if (change.direction == Direction::Worse) outcome.worse += change.sentence + "\n";
-    if (change.direction == Direction::Unjudged) outcome.unjudged += change.sentence + "\n";
+    if (change.direction == Direction::NotCompared) outcome.notCompared += change.sentence + "\n";
     if (change.direction == Direction::Unclear || change.direction == Direction::Waived)
         outcome.unclear += change.sentence + "\n";
     if (change.changeClass == Class::Time && change.direction == Direction::Same) outcome.output += change.sentence + "\n";
@@ -101,9 +101,9 @@ std::string testCase(const std::string& scene, const Case& id, const Outcome& ou
     const std::string begin = fmt::format("    <testcase classname=\"{}\" name=\"{}\"", escaped(scene), escaped(name));
     if (element.empty() && outcome.output.empty()) return begin + "/>\n";
     if (element.empty()) return fmt::format("{}><system-out>{}</system-out></testcase>\n", begin, escaped(outcome.output));
-    const std::string_view is = element == "failure" ? "is worse" : element == "error" ? "is not judged" : "is unclear";
+    const std::string_view is = element == "failure" ? "is worse" : element == "error" ? "is not compared" : "is unclear";
     return fmt::format("{}><{} message=\"{} {}\">{}</{}></testcase>\n", begin, element, escaped(id.second), is,
-                       escaped(outcome.worse + outcome.unjudged + outcome.unclear), element);
+                       escaped(outcome.worse + outcome.notCompared + outcome.unclear), element);
 }
 
 std::string suite(const std::string& scene, const Cases& cases) {
@@ -119,7 +119,7 @@ std::string suite(const std::string& scene, const Cases& cases) {
 } // namespace
 
 ExitCode verdictOf(const std::vector<Change>& changes) {
-    if (count(changes, Direction::Unjudged) > 0) return ExitCode::Inconclusive;
+    if (count(changes, Direction::NotCompared) > 0) return ExitCode::Inconclusive;
     if (std::ranges::any_of(changes, [](const Change& c) { return isWorse(c) && !isCost(c); }))
         return ExitCode::AccuracyRegression;
     return std::ranges::any_of(changes, isWorse) ? ExitCode::CostRegression : ExitCode::Pass;
@@ -148,8 +148,8 @@ std::string_view name(Direction direction) {
         return "worse";
     case Direction::Unclear:
         return "unclear";
-    case Direction::Unjudged:
-        return "not judged";
+    case Direction::NotCompared:
+        return "not compared";
     case Direction::Waived:
         return "waived";
     }
@@ -188,15 +188,15 @@ std::vector<Change> oneACause(const std::vector<Change>& worstFirst) {
 std::string changesReport(const Comparison& comparison) {
     std::string text;
     for (const Change& change : worstFirst(comparison.changes))
-        text += fmt::format("{:<10} {:<13} {}\n", name(change.direction), name(change.changeClass), change.sentence);
+        text += fmt::format("{:<12} {:<13} {}\n", name(change.direction), name(change.changeClass), change.sentence);
     return text + totals(comparison) + "\n";
 }
 
-std::string junit(const std::vector<Change>& changes, const std::vector<std::string>& unjudged) {
+std::string junit(const std::vector<Change>& changes, const std::vector<std::string>& notCompared) {
     std::map<std::string, Cases> scenes;
     for (const Change& change : changes)
         add(change, scenes[change.scene][{change.variant, std::string(name(change.changeClass))}]);
-    for (const std::string& sentence : unjudged) scenes["gate"][{"", sentence}].unjudged = sentence;
+    for (const std::string& sentence : notCompared) scenes["gate"][{"", sentence}].notCompared = sentence;
     std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"shadowbench\">\n";
     for (const auto& [scene, cases] : scenes) xml += suite(scene, cases);
     return xml + "</testsuites>\n";
@@ -205,7 +205,7 @@ std::string junit(const std::vector<Change>& changes, const std::vector<std::str
 std::string annotations(const std::vector<Change>& changes) {
     std::string lines;
     for (const Change& change : oneACause(worstFirst(changes)))
-        if (change.direction == Direction::Worse || change.direction == Direction::Unjudged ||
+        if (change.direction == Direction::Worse || change.direction == Direction::NotCompared ||
             change.direction == Direction::Unclear)
             lines += fmt::format("::{} title={} is {}::{}\n", isWorse(change) ? "error" : "warning",
                                  name(change.changeClass), name(change.direction), asData(change.sentence));

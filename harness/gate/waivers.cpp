@@ -14,7 +14,7 @@ std::vector<std::string> waive(std::vector<Change>& changes, const std::vector<W
         }
         bool accepts = false;
         for (Change& change : changes) {
-            if (change.direction != Direction::Worse && change.direction != Direction::Unjudged) continue;
+            if (change.direction != Direction::Worse && change.direction != Direction::NotCompared) continue;
             if (waiver.what != name(change.changeClass) || !waiver.covers(change.scene, change.variant)) continue;
             change.direction = Direction::Waived;
             change.sentence += fmt::format(" (accepted until {}: {})", waiver.expires, waiver.reason);

@@ -1,7 +1,7 @@
 // Changes for the worse that a waiver accepts.
 #pragma once
 
-#include "harness/gate/watchlist.h"
+#include "harness/gate/gate_config.h"
 #include "harness/records/compare.h"
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace shadowbench::gate {
 
-/// Makes what is Worse or Unjudged and of a waiver's cells and class Waived, with the reason in its sentence. `today` as
+/// Makes what is Worse or NotCompared and of a waiver's cells and class Waived, with the reason in its sentence. `today` as
 /// "2026-12-31": a waiver holds through its last day. Returns a sentence for each that has expired or accepts nothing.
 std::vector<std::string> waive(std::vector<Change>& changes, const std::vector<Waiver>& waivers, const std::string& today);
 

@@ -118,7 +118,7 @@ private:
         if (figure.line == nullptr) return {};
         if (auto why = gate::whyIncomparable(before, now)) return why;
         if (figure.noisy || figure.metricClass == gate::Class::Instructions)
-            if (auto why = gate::difference(before.environment, now.environment, gate::Surroundings::OfCounts))
+            if (auto why = gate::difference(before.environment, now.environment, gate::EnvironmentScope::OfCounts))
                 return "it was measured in other surroundings: " + *why;
         const bool same = before.values[*figure.line] == now.values[*figure.line];
         return code_.whyUnjudged(*figure.line, before, now, gate::sameImages(before, now), same);

@@ -201,7 +201,7 @@ struct Metric {
     std::optional<Class> about{};         // of a metric that is judged
     std::string_view bound{};             // its name in `[tolerance]`, `[expect]` and the gate's bounds; "": it takes none
     std::optional<Allowance> allowance{}; // of a metric that is compared from commit to commit; smaller is better
-    std::string_view unjudged{};          // of one that is not: why
+    std::string_view notCompared{};       // of one that is not: why
     Computation computed = Measured{};
     std::string_view meaning;
 };

@@ -8,7 +8,7 @@ namespace shadowbench::metrics {
 namespace {
 
 // Every metric is compared, or says why not.
-static_assert(std::ranges::all_of(table, [](const Metric& m) { return m.allowance.has_value() == m.unjudged.empty(); }));
+static_assert(std::ranges::all_of(table, [](const Metric& m) { return m.allowance.has_value() == m.notCompared.empty(); }));
 
 // What an allowance counts pixels of has a line of its own.
 static_assert(std::ranges::all_of(table, [](const Metric& m) {

@@ -90,11 +90,11 @@ bool isOneOf(const metrics::Computation& computed) {
 
 } // namespace
 
-std::optional<std::string> difference(const Environment& a, const Environment& b, Surroundings what) {
+std::optional<std::string> difference(const Environment& a, const Environment& b, EnvironmentScope what) {
     if (auto found = rasteriserDifference(a, b)) return found;
-    if (what == Surroundings::OfScores) return {};
+    if (what == EnvironmentScope::OfScores) return {};
     if (auto found = countDifference(a, b)) return found;
-    return what == Surroundings::All ? differs("compiler", a.compiler, b.compiler) : std::nullopt;
+    return what == EnvironmentScope::All ? differs("compiler", a.compiler, b.compiler) : std::nullopt;
 }
 
 std::string countingEnvironment(const Environment& e) {
@@ -118,7 +118,7 @@ std::optional<std::string> whyIncomparable(const Record& base, const Record& hea
     if (auto truth = truthDifference(base.reference, head.reference)) return truth;
     if (auto parameters = parameterDifference(base, head)) return parameters;
     if (base.frames != head.frames) return fmt::format("it had {} frames and has {}", base.frames, head.frames);
-    if (const auto rasteriser = difference(base.environment, head.environment, Surroundings::OfScores))
+    if (const auto rasteriser = difference(base.environment, head.environment, EnvironmentScope::OfScores))
         return fmt::format("it was drawn by different rasterisers: {}", *rasteriser);
     return {};
 }
@@ -139,7 +139,7 @@ std::vector<Record> readOfOneDevice(const std::vector<std::filesystem::path>& fi
     for (const Record& record : records) {
         if (!statesCosts(record)) continue;
         if (first == nullptr) first = &record;
-        if (const auto differs = difference(first->environment, record.environment, Surroundings::OfCounts))
+        if (const auto differs = difference(first->environment, record.environment, EnvironmentScope::OfCounts))
             throw BadInput(
                 fmt::format("costs of different devices are not put side by side: of {} on {} and of {} on {}, {}; "
                             "give the records of one device alone",

@@ -12,10 +12,10 @@ namespace shadowbench::gate {
 
 /// What decides scores, what also decides instruction counts, and all of it. Members that one of two environments does not
 /// state, as older records do not, are no difference.
-enum class Surroundings { OfScores, OfCounts, All };
+enum class EnvironmentScope { OfScores, OfCounts, All };
 
 /// The first member in which two environments differ, in words: `cpu is "x" and "y"`; nothing if they are the same.
-std::optional<std::string> difference(const Environment& a, const Environment& b, Surroundings what);
+std::optional<std::string> difference(const Environment& a, const Environment& b, EnvironmentScope what);
 
 /// What an instruction count depends on beside the program.
 std::string countingEnvironment(const Environment& environment);

@@ -94,7 +94,8 @@ public:
     void compareCell(const MatchedCell& cell) {
         const Record &base = *cell.base.front(), &head = *cell.head.front();
         if (const auto why = whyIncomparable(base, head)) {
-            changes_.push_back(statusChange(head.scene, head.variant, Direction::Unjudged, "cannot be compared: " + *why));
+            changes_.push_back(
+                statusChange(head.scene, head.variant, Direction::NotCompared, "cannot be compared: " + *why));
             return;
         }
         for (const metrics::Metric& metric : metrics::table)
@@ -120,7 +121,7 @@ private:
         Change change{head.scene, head.variant, std::string(metric.path), *metric.about, values.before(), {}, 0, {}, {}};
         const bool wasWhole = values.base.size() == cell.base.size();
         if (!wasWhole || values.head.size() < cell.head.size()) {
-            change.direction = Direction::Unjudged;
+            change.direction = Direction::NotCompared;
             change.sentence = fmt::format("{} on {}: {} {}", head.variant, head.scene, metric.path,
                                           wasWhole ? "is no longer measured" : "was not measured with every seed");
         } else {
@@ -143,8 +144,8 @@ private:
                                            deviation(values.base));
         }
         if (const auto why = whyUnjudged(cell, metric, values, change.direction)) {
-            change.direction = Direction::Unjudged;
-            change.sentence += ", which is not judged: " + *why;
+            change.direction = Direction::NotCompared;
+            change.sentence += ", which is not compared: " + *why;
         }
     }
 
@@ -152,7 +153,7 @@ private:
                                                          const Compared& values, Direction direction) const {
         const Record &base = *cell.base.front(), &head = *cell.head.front();
         if (metric.about == Class::Instructions)
-            if (const auto differs = difference(base.environment, head.environment, Surroundings::OfCounts))
+            if (const auto differs = difference(base.environment, head.environment, EnvironmentScope::OfCounts))
                 return "counted in different environments, " + *differs + "; count both on one machine";
         const bool same = metric.about == Class::Work ? direction == Direction::Same : values.base == values.head;
         return code_.whyUnjudged(metric, base, head, cell.is(sameImages), same);
@@ -165,7 +166,7 @@ private:
             Change change{head.scene, head.variant, path, Class::Figure, first, {}, 0, Direction::Worse, {}};
             const auto now = head.figures.find(name);
             if (now == head.figures.end()) {
-                change.direction = Direction::Unjudged;
+                change.direction = Direction::NotCompared;
                 change.sentence = fmt::format("{} on {}: {} is no longer reported", head.variant, head.scene, path);
             } else {
                 change.head = now->second;
@@ -235,8 +236,8 @@ void compareBreakPoints(const Curves& base, const Curves& head, std::vector<Chan
                                   curve.breakText(), before.breakText()),
                       step.axis};
         if (curve.toleranceText() != before.toleranceText()) {
-            change.direction = Direction::Unjudged;
-            change.sentence += fmt::format(", which is not judged: the scene's tolerance is {} and was {}",
+            change.direction = Direction::NotCompared;
+            change.sentence += fmt::format(", which is not compared: the scene's tolerance is {} and was {}",
                                            curve.toleranceText(), before.toleranceText());
         } else if (is != was) {
             change.direction = is < was ? Direction::Worse : Direction::Better;
@@ -265,7 +266,7 @@ Comparison compare(const std::vector<Record>& base, const std::vector<Record>& h
     Comparison comparison{{}, std::move(matched.presence)};
     for (const Absence& absence : matched.absences)
         comparison.changes.push_back(statusChange(absence.scene, absence.variant,
-                                                  absence.isNew ? Direction::Same : Direction::Unjudged, absence.what));
+                                                  absence.isNew ? Direction::Same : Direction::NotCompared, absence.what));
     CellComparison cells(matched.cells, rules, comparison.changes);
     for (const MatchedCell& cell : matched.cells) cells.compareCell(cell);
     compareBreakPoints(curvesOf(base), curvesOf(head), comparison.changes);

@@ -19,9 +19,9 @@ enum class Direction {
     Better,
     Same,
     Worse,
-    Unclear,  // measured, but not certain enough to call it worse
-    Unjudged, // could not be compared: inconclusive
-    Waived,   // worse or not compared, which a waiver of the policy accepts
+    Unclear,     // measured, but not certain enough to call it worse
+    NotCompared, // could not be compared: inconclusive
+    Waived,      // worse or not compared, which a waiver of the policy accepts
 };
 
 /// What is compared of a metric by `rules`; nothing where they do not judge it or the record lacks it.
@@ -55,11 +55,11 @@ struct Comparison {
 /// scene, variant, profile, size, seed and place in a sweep; one that was measured with several seeds on both sides is
 /// compared by its means and by how much its seeds scatter.
 ///
-/// Unjudged is what is not there on both sides (harness/records/presence.h), the scores of cells that cannot be compared
+/// NotCompared is what is not there on both sides (harness/records/presence.h), the scores of cells that cannot be compared
 /// (harness/records/comparability.h), instructions counted in different surroundings, and a score that is another one
 /// though images and truth are the same: what draws has not changed it. Where the code that measures and scores differs, a
-/// metric of other images is compared if all cells with equal images score it alike, and Unjudged if one does not or there
-/// is none; of work, one that counts alike is enough, for a technique may do with less and show the same.
+/// metric of other images is compared if all cells with equal images score it alike, and NotCompared if one does not or
+/// there is none; of work, one that counts alike is enough, for a technique may do with less and show the same.
 Comparison compare(const std::vector<Record>& base, const std::vector<Record>& head, const Rules& rules = ownRules(),
                    const std::optional<std::vector<Expected>>& expected = {});
 

@@ -21,7 +21,7 @@ struct Limit {
 };
 
 struct Rules {
-    std::map<std::string, Limit, std::less<>> limits; // by the metric's path; one without is not judged
+    std::map<std::string, Limit, std::less<>> limits; // by the metric's path; one without is not compared
     double strayPixels = 2;    // whose centres lie on an edge of an exact truth: their labels are arbitrary
     double figureShare = 0.25; // figures explain a technique and have no better direction: less than this share …
     double figureStep = 0.01;  // … and this much more is no change

@@ -129,14 +129,14 @@ std::vector<std::string> excessRow(const Record& record) {
                 : "–"};
 }
 
-std::string cellOf(const std::optional<double>& value) { return value ? written(*value) : ""; }
+std::string cellOf(const std::optional<double>& value) { return value ? csvText(*value) : ""; }
 
 std::string csvRow(const Record& record, int width, int height, const char* frame, const PassRecord& pass) {
     const BareCost bare = pass.bare.value_or(BareCost{});
-    const auto ofBare = [&](std::uint64_t value) { return pass.bare ? written(value) : std::string(); };
-    return csvLine({quoted(record.scene), quoted(record.variant), record.profile, written(width), written(height), frame,
-                    quoted(pass.name), written(pass.runs), cellOf(pass.milliseconds), cellOf(pass.share),
-                    written(pass.fragments), written(pass.vertices), written(pass.draws), cellOf(bare.milliseconds),
+    const auto ofBare = [&](std::uint64_t value) { return pass.bare ? csvText(value) : std::string(); };
+    return csvLine({quoted(record.scene), quoted(record.variant), record.profile, csvText(width), csvText(height), frame,
+                    quoted(pass.name), csvText(pass.runs), cellOf(pass.milliseconds), cellOf(pass.share),
+                    csvText(pass.fragments), csvText(pass.vertices), csvText(pass.draws), cellOf(bare.milliseconds),
                     ofBare(bare.fragments), ofBare(bare.vertices), ofBare(bare.taps), quoted(bare.source)});
 }
 

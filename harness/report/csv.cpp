@@ -10,13 +10,13 @@
 namespace shadowbench::report {
 namespace {
 
-using report::written;
-std::string written(const std::string& text) { return quoted(text); }
-std::string written(Status status) { return std::string(name(status)); }
+using report::csvText;
+std::string csvText(const std::string& text) { return quoted(text); }
+std::string csvText(Status status) { return std::string(name(status)); }
 
 template <typename T>
 concept Text = requires(const T& value) {
-    written(value);
+    csvText(value);
 };
 
 /// Visits every number and text of a record, there or not, in schema order: collects its column's title and its cell.
@@ -33,7 +33,7 @@ public:
     void metric(const char* key, const metrics::Metric& line, const metrics::Values& values) {
         if (line.list) return;
         const std::optional<double>& value = values[line];
-        add(key, !value ? "" : line.range.whole ? written(static_cast<std::uint64_t>(*value)) : written(*value));
+        add(key, !value ? "" : line.range.whole ? csvText(static_cast<std::uint64_t>(*value)) : csvText(*value));
     }
     void operator()(const char*, const std::map<std::string, std::string>&) {}
     void operator()(const char*, const std::optional<OtherScreen>&) {} // passCsv() has them, a row each
@@ -46,14 +46,14 @@ public:
     }
     void text(const char* key, const std::string& value) { add(key, quoted(value)); }
     void size(const char*, int width, int height) {
-        add("width", written(width));
-        add("height", written(height));
+        add("width", csvText(width));
+        add("height", csvText(height));
     }
     void parameters(const char*, const std::vector<std::pair<std::string, std::string>>&) {} // the variant says them
     void figures(const char*, const std::map<std::string, double>&) {}                       // each technique has its own
     void bounds(const char* key, const std::map<std::string, double>& bounds) {
         std::vector<std::string> parts;
-        for (const auto& [metric, value] : bounds) parts.push_back(metric + "=" + written(value));
+        for (const auto& [metric, value] : bounds) parts.push_back(metric + "=" + csvText(value));
         add(key, fmt::format("{}", fmt::join(parts, " ")));
     }
 
@@ -64,7 +64,7 @@ private:
     template <typename T>
     void optional(const char* key, const T* value) {
         if constexpr (Text<T>)
-            add(key, value == nullptr ? "" : written(*value));
+            add(key, value == nullptr ? "" : csvText(*value));
         else
             inside(key, value != nullptr, [&] { records::fields(*this, value == nullptr ? blank<T>() : *value); });
     }

@@ -19,9 +19,9 @@ inline std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
-inline std::string written(bool value) { return value ? "true" : "false"; }
+inline std::string csvText(bool value) { return value ? "true" : "false"; }
 template <typename T>
-requires std::is_arithmetic_v<T> std::string written(T value) {
+requires std::is_arithmetic_v<T> std::string csvText(T value) {
     return fmt::format("{}", value); // the shortest text that reads back equal
 }
 

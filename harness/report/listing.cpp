@@ -81,14 +81,14 @@ Json metricsAsJson() {
                        {"class", metric.about ? name(*metric.about) : ""},
                        {"bound", metric.bound},
                        {"allowance", metric.allowance ? describe(*metric.allowance) : ""},
-                       {"not judged", metric.unjudged},
+                       {"not compared", metric.notCompared},
                        {"meaning", metric.meaning}});
     all.push_back({{"id", "figures.*"},
                    {"unit", ""},
                    {"class", name(metrics::Class::Figure)},
                    {"bound", ""},
                    {"allowance", "25 % either way"},
-                   {"not judged", ""},
+                   {"not compared", ""},
                    {"meaning", "numbers of the scored frame that only the technique knows: see list techniques"}});
     for (const char* passes : {"cost.by_pass", "cost.other_screen"})
         all.push_back({{"id", passes},
@@ -96,7 +96,7 @@ Json metricsAsJson() {
                        {"class", ""},
                        {"bound", ""},
                        {"allowance", ""},
-                       {"not judged", "its sums are: a cost that moves from one pass to another is none"},
+                       {"not compared", "its sums are: a cost that moves from one pass to another is none"},
                        {"meaning", "work and time pass by pass, beside the least that each pass needs; on the scored image, "
                                    "and on one of another size"}});
     return all;

@@ -85,8 +85,8 @@ void requireOneEnvironment(const std::vector<Found>& cells) {
         if (first == nullptr) first = &found;
         if (counted == nullptr && found.cell.record.environment.valgrind) counted = &found;
         for (const Found* other : {first, counted == nullptr ? first : counted})
-            if (const auto differs =
-                    gate::difference(other->cell.record.environment, found.cell.record.environment, gate::Surroundings::All))
+            if (const auto differs = gate::difference(other->cell.record.environment, found.cell.record.environment,
+                                                      gate::EnvironmentScope::All))
                 throw Inconclusive(fmt::format("cells were measured in different environments: {} in {} and {}; measure all "
                                                "of them on machines of one kind",
                                                *differs, other->file.string(), found.file.string()));

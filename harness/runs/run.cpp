@@ -63,8 +63,8 @@ bool isTimed(const Record& record, const MeasureOptions& options) {
 }
 
 /// Calls `work`; what it throws becomes the record of a failed cell.
-MeasuredCell tried(const SceneCells& cells, const techniques::Variant& variant, Record record,
-                   const std::function<void(Record&)>& work) {
+MeasuredCell runGuarded(const SceneCells& cells, const techniques::Variant& variant, Record record,
+                        const std::function<void(Record&)>& work) {
     try {
         work(record);
         return {"", std::move(record), ExitCode::Pass};
@@ -225,7 +225,7 @@ private:
         const techniques::Variant& variant = variantOf(cell);
         Record blank = cells.blank(variant);
         if (blank.status == Status::NotApplicable) return {"", std::move(blank), ExitCode::Pass};
-        return tried(cells, variant, std::move(blank), [&](Record& record) {
+        return runGuarded(cells, variant, std::move(blank), [&](Record& record) {
             record.cell = cells.id(variant);
             if (const Record* same = finishedAlready(record))
                 record = *same;
@@ -252,7 +252,7 @@ private:
             line.show(done++, 0, nameOf(cell));
             SceneCells& cells = cellsOf(sceneOf(cell));
             const techniques::Variant& variant = variantOf(cell);
-            keep(cell, tried(cells, variant, *known_[cell], [&](Record& record) { cells.time(variant, record); }));
+            keep(cell, runGuarded(cells, variant, *known_[cell], [&](Record& record) { cells.time(variant, record); }));
         }
         line.show(static_cast<int>(untimed.size()), 0, "");
     }
@@ -265,7 +265,7 @@ private:
     const Record* finishedAlready(const Record& cell) const {
         const auto found = std::find_if(earlier_.begin(), earlier_.end(), [&](const Record& r) {
             return r.status != Status::Error && r.cell == cell.cell &&
-                   (isExternal(r) || !gate::difference(r.environment, cell.environment, gate::Surroundings::OfScores));
+                   (isExternal(r) || !gate::difference(r.environment, cell.environment, gate::EnvironmentScope::OfScores));
         });
         return found == earlier_.end() ? nullptr : &*found;
     }

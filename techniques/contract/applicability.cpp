@@ -8,7 +8,7 @@
 namespace shadowbench::techniques {
 namespace {
 
-std::string_view described(LightKind kind) {
+std::string_view describe(LightKind kind) {
     switch (kind) {
     case LightKind::Point:
         return "a point";
@@ -30,7 +30,7 @@ std::string_view described(LightKind kind) {
 
 std::optional<std::string> lightWithoutAnswer(const Scene& scene, const Entry& entry) {
     const auto needs = [&](std::string_view light) {
-        return fmt::format("needs {}; the light of {} is {}", light, scene.id, described(scene.light.kind));
+        return fmt::format("needs {}; the light of {} is {}", light, scene.id, describe(scene.light.kind));
     };
     const bool soft = entry.answer == Answer::Soft;
     if (scene.light.isEnvironment()) {

@@ -107,11 +107,11 @@ TEST_F(GateVerb, AHeadThatTakesLongerThanItsBaseIsACostRegression) {
     base.answers = "time-frames) while read count variant; do printf '0.%05d 1\\n' $count; done ;;"; // next to nothing
     const Outcome outcome = gate(base.program(), "--technique none --cost time");
     EXPECT_EQ(outcome.code, 3) << outcome.output;
-    EXPECT_NE(outcome.output.find("worse      time          none on tiny: a frame takes "), std::string::npos)
+    EXPECT_NE(outcome.output.find("worse        time          none on tiny: a frame takes "), std::string::npos)
         << outcome.output;
     EXPECT_NE(outcome.output.find("--cost time --scene tiny --technique none"), std::string::npos) << outcome.output;
     const Outcome untimed = gate(base.program(), "--technique lod-switch --cost time");
-    EXPECT_NE(untimed.output.find("time is not judged: none of the chosen cells is timed"), std::string::npos)
+    EXPECT_NE(untimed.output.find("time is not compared: none of the chosen cells is timed"), std::string::npos)
         << untimed.output;
 }
 
@@ -130,7 +130,7 @@ TEST_F(GateVerb, AWorseHeadFailsWithPicturesAndACommandThatShowsItAgain) {
     const Outcome outcome = gate(base, "--aa --technique sm-uniform:map=64 --cost none --annotations --junit " +
                                            (folder_ / "junit.xml") + " --summary " + (folder_ / "summary.md"));
     EXPECT_EQ(outcome.code, 4) << outcome.output;
-    EXPECT_NE(outcome.output.find("worse      leak"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("worse        leak"), std::string::npos) << outcome.output;
     EXPECT_NE(outcome.output.find("--technique sm-uniform:map=64 --profile gate --seed 1"), std::string::npos);
     EXPECT_NE(outcome.output.find("::error title=leak is worse"), std::string::npos) << outcome.output;
     for (const char* picture : {"visibility.png", "reference.png", "error.png"})
@@ -181,8 +181,8 @@ TEST_F(GateVerb, WithoutABaseAToolOrATruthItIsInconclusive) {
 TEST_F(GateVerb, RecordsWithoutTheCellsAreNoBase) {
     const Outcome outcome = gate(recorded("--technique none"), "--technique sm-uniform --cost time,instructions");
     EXPECT_EQ(outcome.code, 5) << outcome.output;
-    for (const char* sentence : {"no cell is scored in both", "time is not judged: the base is a file of records",
-                                 "instructions are not judged: the base's records hold none"})
+    for (const char* sentence : {"no cell is scored in both", "time is not compared: the base is a file of records",
+                                 "instructions are not compared: the base's records hold none"})
         EXPECT_NE(outcome.output.find(sentence), std::string::npos) << outcome.output;
 }
 

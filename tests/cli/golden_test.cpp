@@ -3,7 +3,7 @@
 #include "base/files.h"
 #include "harness/cells/golden_lock.h"
 #include "harness/gate/gate.h"
-#include "harness/gate/watchlist.h"
+#include "harness/gate/gate_config.h"
 #include "harness/metrics/table.h"
 #include "scene/load/load.h"
 #include "tests/support/program.h"
@@ -38,7 +38,7 @@ std::set<std::string> judgedScenes(Profile profile) {
     const std::vector<std::string> standard = standardScenes();
     std::set<std::string> scenes(standard.begin(), standard.end());
     const fs::path bounds = fs::path(SOURCE_FOLDER) / gate::GateOptions().bounds;
-    for (const gate::Watch& watch : gate::readWatchlist(bounds, profile).scenes) scenes.insert(watch.scene);
+    for (const gate::GateRule& watch : gate::readGateConfig(bounds, profile).scenes) scenes.insert(watch.scene);
     return scenes;
 }
 

@@ -1,5 +1,5 @@
+#include "harness/gate/gate_config.h"
 #include "harness/gate/policy.h"
-#include "harness/gate/watchlist.h"
 #include "harness/studies/behaviour/behaviour.h"
 #include "harness/studies/claims/claims.h"
 #include "harness/studies/papers/papers.h"
@@ -9,16 +9,16 @@
 namespace shadowbench::fuzz {
 
 void readBounds(std::string_view input) {
-    const gate::Watchlist list = gate::parseWatchlist(std::string(input), "bounds.toml", Profile::Gate);
+    const gate::GateConfig list = gate::parseGateConfig(std::string(input), "bounds.toml", Profile::Gate);
     (void)list.unknownScenes({});
     (void)list.isByChance("simple", "sm-uniform");
     for (const gate::Bound& bound : list.bounds) (void)bound.cells.named();
 }
 
 void readPolicyOfAProgram(std::string_view input) {
-    const gate::Identity identity = gate::identityFrom(std::string(input));
+    const gate::BuildInfo identity = gate::buildInfoFrom(std::string(input));
     const std::string written = gate::toJson(identity);
-    require(gate::toJson(gate::identityFrom(written)) == written, "a policy is another one after it was written and read");
+    require(gate::toJson(gate::buildInfoFrom(written)) == written, "a policy is another one after it was written and read");
     require(gate::loosened(identity.policy, identity.policy).empty(), "a policy is looser than itself");
 }
 

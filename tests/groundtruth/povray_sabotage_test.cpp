@@ -105,10 +105,10 @@ class SabotagedRecipe : public testing::TestWithParam<std::size_t> {};
 TEST_P(SabotagedRecipe, IsRejectedWhereTheRecipePasses) {
     const Sabotage sabotage = sabotages()[GetParam()];
     const Certificate bad = certificateOf(sabotage, sabotage.recipe), good = certificateOf(sabotage, {});
-    RecordProperty("sabotaged", told(bad));
-    RecordProperty("honest", told(good));
-    EXPECT_NE(rejection(requireCertified, bad, sabotage.samples).find(sabotage.reason), std::string::npos) << told(bad);
-    EXPECT_EQ(rejection(requireCertified, good, sabotage.samples), "") << told(good);
+    RecordProperty("sabotaged", describe(bad));
+    RecordProperty("honest", describe(good));
+    EXPECT_NE(rejection(requireCertified, bad, sabotage.samples).find(sabotage.reason), std::string::npos) << describe(bad);
+    EXPECT_EQ(rejection(requireCertified, good, sabotage.samples), "") << describe(good);
     EXPECT_GE(good.points, 256);
 }
 
@@ -119,10 +119,10 @@ TEST(Recipe, AGridIsWorseWhereEdgesAreParallelToTheLightsSides) {
     const Sabotage grid{"", halfPlane(LightKind::Rectangle), 64, {}, ""};
     Certificate eight = certificateOf(grid, {.lights = Lights::Grid});
     const Certificate points = certificateOf(grid, {});
-    EXPECT_EQ(rejection(requireCertified, points, grid.samples), "") << told(points);
+    EXPECT_EQ(rejection(requireCertified, points, grid.samples), "") << describe(points);
     EXPECT_NE(rejection(requireCertified, eight, grid.samples).find("what these samples see"), std::string::npos);
     eight.replayed = 0; // were the grid the recipe's own sample set
-    EXPECT_NE(rejection(requireCertified, eight, grid.samples).find("rms error"), std::string::npos) << told(eight);
+    EXPECT_NE(rejection(requireCertified, eight, grid.samples).find("rms error"), std::string::npos) << describe(eight);
     EXPECT_NEAR(eight.rms, 0.036, 0.003);    // steps of 1/8 along the edge: 1/(8 √12), known from some 380 points
     EXPECT_LE(points.rms, 0.25 * eight.rms); // steps of 1/64
 }

@@ -31,7 +31,7 @@ Certificate certificateOf(const Request& asked, const povray::Render& image) {
 TEST(WrappedPovRay, IsCertifiedWhereTheScriptChangesNothing) {
     const povray::Render image = renderBy(request(), Wrapper::Honest);
     const Certificate c = certificateOf(request(), image);
-    EXPECT_EQ(rejection(requireCertified, c, request().samples), "") << told(c);
+    EXPECT_EQ(rejection(requireCertified, c, request().samples), "") << describe(c);
     EXPECT_GT(c.penumbra, 500);
     EXPECT_LT(c.replayed, 0.02) << "POV-Ray and the exact oracle see the same samples but for rounding";
 }
@@ -41,7 +41,7 @@ class WrappedPovRayWith : public testing::TestWithParam<std::size_t> {};
 TEST_P(WrappedPovRayWith, AFaultIsRefused) {
     const Wrapper wrapper = faultyWrappers[GetParam()];
     const Certificate c = certificateOf(request(), renderBy(request(), wrapper));
-    EXPECT_NE(rejection(requireCertified, c, request().samples), "") << name(wrapper) << ": " << told(c);
+    EXPECT_NE(rejection(requireCertified, c, request().samples), "") << name(wrapper) << ": " << describe(c);
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, WrappedPovRayWith, testing::Range<std::size_t>(0, faultyWrappers.size()));
@@ -51,12 +51,12 @@ TEST(WrappedPovRay, LargeFaultsAreOutsideOfWhatHonestRendersErrBy) {
     for (const Wrapper wrapper : {Wrapper::ShiftedByFour, Wrapper::EveryFiftiethDropped}) {
         Certificate c = certificateOf(request(), renderBy(request(), wrapper));
         c.replayed = 0;
-        EXPECT_NE(rejection(requireCertified, c, request().samples), "") << name(wrapper) << ": " << told(c);
+        EXPECT_NE(rejection(requireCertified, c, request().samples), "") << name(wrapper) << ": " << describe(c);
     }
     const Request parallel{halfPlane(LightKind::Rectangle), {64, 64}, Oracle::PovRay, 256};
     Certificate grid = certificateOf(parallel, renderBy(parallel, Wrapper::PlainGrid));
     grid.replayed = 0;
-    EXPECT_NE(rejection(requireCertified, grid, parallel.samples), "") << told(grid);
+    EXPECT_NE(rejection(requireCertified, grid, parallel.samples), "") << describe(grid);
 }
 
 TEST(HonestSeeds, AreAllWithinTheBounds) {
@@ -67,7 +67,7 @@ TEST(HonestSeeds, AreAllWithinTheBounds) {
     const area::AreaScene scene(request().snapshot, 2);
     const std::vector<glm::ivec2> pixels = certificatePoints(image, primary, certificatePointCount);
     for (const Certificate& seed : certificatesOfSeeds(scene, request(), primary, pixels, *c.honest, 200))
-        EXPECT_EQ(rejection(requireCertified, seed, request().samples), "") << told(seed);
+        EXPECT_EQ(rejection(requireCertified, seed, request().samples), "") << describe(seed);
 }
 
 } // namespace

@@ -104,8 +104,8 @@ TEST(SkyReference, ErrsLessWithMoreDirections) {
         double before = 1;
         for (const int samples : {128, 512, 2048}) {
             const Certificate c = measuredSky(under(light, overlappingPlates(), samples), 128).certificate;
-            EXPECT_EQ(rejection(requireSkyCertified, c, samples), "") << samples << ": " << told(c);
-            EXPECT_LT(c.rms, 0.75 * before) << samples << ": " << told(c);
+            EXPECT_EQ(rejection(requireSkyCertified, c, samples), "") << samples << ": " << describe(c);
+            EXPECT_LT(c.rms, 0.75 * before) << samples << ": " << describe(c);
             before = c.rms;
         }
     }
@@ -166,7 +166,7 @@ protected:
 
     [[nodiscard]] std::string rejectionOf(const povray::Render& image, const EnvironmentLight& light = sunInSky) const {
         const Certificate c = certifySky(scene_, light, image, primary_, request_.samples, 128, 2);
-        RecordProperty("certificate", told(c));
+        RecordProperty("certificate", describe(c));
         return rejection(requireSkyCertified, c, request_.samples);
     }
 
@@ -228,8 +228,8 @@ TEST_F(SabotagedSky, AnUnscaledWorldOfMillimetresIsRefused) {
             for (int column = 0; column < 4; ++column)
                 for (int row = 0; row < 3; ++row) placement.world[column][row] *= shrink;
     const MeasuredSky wrong = measuredSky(small, 128, {.largestScale = 1}), right = measuredSky(small, 128);
-    EXPECT_NE(rejection(requireSkyCertified, wrong.certificate, small.samples), "") << told(wrong.certificate);
-    EXPECT_EQ(rejection(requireSkyCertified, right.certificate, small.samples), "") << told(right.certificate);
+    EXPECT_NE(rejection(requireSkyCertified, wrong.certificate, small.samples), "") << describe(wrong.certificate);
+    EXPECT_EQ(rejection(requireSkyCertified, right.certificate, small.samples), "") << describe(right.certificate);
 }
 
 } // namespace

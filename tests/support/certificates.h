@@ -10,7 +10,7 @@
 namespace shadowbench::groundtruth {
 
 /// Its members, for messages.
-inline std::string told(const Certificate& certificate) {
+inline std::string describe(const Certificate& certificate) {
     std::string text;
     for (const auto& [key, value] : measured(certificate)) text += fmt::format("{} {:g}, ", key, value);
     return text;

@@ -164,14 +164,14 @@ TEST(Mutants, AResultHangsOnWhatItsProgramIsMadeOf) {
 }
 
 TEST(Mutants, OneWithoutScenesRunsOnThoseThatTheGateJudgesItsTechniquesOn) {
-    gate::Watchlist watchlist;
-    watchlist.scenes = {{"moving-caster", {"sm-history", "temporal-soft"}, {}, "trails"},
-                        {"colonnade", {"sm-cube"}, {}, "all sides"}};
+    gate::GateConfig config;
+    config.scenes = {{"moving-caster", {"sm-history", "temporal-soft"}, {}, "trails"},
+                     {"colonnade", {"sm-cube"}, {}, "all sides"}};
     Mutant withOwn = example();
     withOwn.scenes = {"simple"};
     std::vector<std::string> expected = standardScenes();
     expected.emplace_back("moving-caster");
-    const std::vector<Mutant> mutants = onTheGatesScenes({example(), withOwn}, watchlist);
+    const std::vector<Mutant> mutants = onTheGatesScenes({example(), withOwn}, config);
     EXPECT_EQ(mutants[0].scenes, expected);
     EXPECT_EQ(mutants[1].scenes, std::vector<std::string>{"simple"});
 }
@@ -237,8 +237,8 @@ TEST(Mutants, ARefusalIsADetectionAndOfABenignChangeAFalseRed) {
     EXPECT_TRUE(outcomeOf(mutant, recorded(base), {{}, "no camera"}).caughtInClass());
     mutant.means = Means::Gate;
     mutant.benign = true;
-    EXPECT_TRUE(outcomeOf(mutant, recorded(base), recorded(base)).asForetold());
-    EXPECT_FALSE(outcomeOf(mutant, recorded(base), recorded(otherTruth)).asForetold());
+    EXPECT_TRUE(outcomeOf(mutant, recorded(base), recorded(base)).asExpected());
+    EXPECT_FALSE(outcomeOf(mutant, recorded(base), recorded(otherTruth)).asExpected());
 }
 
 TEST(Mutants, TheReportCountsSharesAndNamesSurvivorsWithTheirReason) {
@@ -263,7 +263,8 @@ TEST(Mutants, TheReportCountsSharesAndNamesSurvivorsWithTheirReason) {
          outcomeOf(benign, recorded(base), recorded(base))},
         "commit c0ffee");
     for (const char* line :
-         {"in 1 techniques: 1 of 2 (50 %) caught in the class", "All faults and slowdowns: 3 of 4 (75 %) caught as foretold",
+         {"in 1 techniques: 1 of 2 (50 %) caught in the class",
+          "All faults and slowdowns: 3 of 4 (75 %) detected as expected",
           "Slowdowns: 1 of 1 (100 %) caught by instructions; of 1 % or more, 1 of 1", "+3.00 %",
           "**survivor**: equal to the bit", "Leak.IsAShare failed", "Benign changes: 0 of 1 (0 %) red", "| test | 1 | 1 |"})
         EXPECT_NE(report.find(line), std::string::npos) << line << "\n" << report;

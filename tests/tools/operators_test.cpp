@@ -19,7 +19,7 @@ std::string switchedBody(std::string_view source, std::vector<Point> points) {
 }
 
 /// "operation: after" of each.
-std::vector<std::string> told(const std::vector<Change>& changes) {
+std::vector<std::string> describe(const std::vector<Change>& changes) {
     std::vector<std::string> result;
     for (const Change& change : changes) result.push_back(change.operation + ": " + change.after);
     return result;
@@ -28,45 +28,45 @@ std::vector<std::string> told(const std::vector<Change>& changes) {
 using Texts = std::vector<std::string>;
 
 TEST(Operators, AComparisonIsNegatedAndShifted) {
-    EXPECT_EQ(told(changesOfBinary("a", "<", "b", Values::Unsigned, true)),
+    EXPECT_EQ(describe(changesOfBinary("a", "<", "b", Values::Unsigned, true)),
               (Texts{"negated comparison: a >= b", "shifted comparison: a <= b"}));
-    EXPECT_EQ(told(changesOfBinary("a", "==", "b", Values::Unsigned, true)), (Texts{"negated comparison: a != b"}));
+    EXPECT_EQ(describe(changesOfBinary("a", "==", "b", Values::Unsigned, true)), (Texts{"negated comparison: a != b"}));
 }
 
 TEST(Operators, OfAConditionEachTermIsDropped) {
-    EXPECT_EQ(told(changesOfBinary("a", "&&", "b", Values::Unsigned, true)),
+    EXPECT_EQ(describe(changesOfBinary("a", "&&", "b", Values::Unsigned, true)),
               (Texts{"dropped term: static_cast<bool>(a)", "dropped term: static_cast<bool>(b)"}));
 }
 
 TEST(Operators, ADifferenceLosesItsSignAsWell) {
-    EXPECT_EQ(told(changesOfBinary("a", "-", "b", Values::Floating, true)),
+    EXPECT_EQ(describe(changesOfBinary("a", "-", "b", Values::Floating, true)),
               (Texts{"dropped term: a", "swapped operands: b - a", "absolute value: std::abs(a - b)",
                      "absolute value: std::abs(a) - std::abs(b)"}));
-    EXPECT_EQ(told(changesOfBinary("a", "-", "b", Values::Unsigned, true)),
+    EXPECT_EQ(describe(changesOfBinary("a", "-", "b", Values::Unsigned, true)),
               (Texts{"dropped term: a", "swapped operands: b - a"}));
 }
 
 TEST(Operators, AProductOfRealNumbersIsATenthAsLarge) {
-    EXPECT_EQ(told(changesOfBinary("a", "*", "b", Values::Floating, true)),
+    EXPECT_EQ(describe(changesOfBinary("a", "*", "b", Values::Floating, true)),
               (Texts{"dropped term: a", "a tenth: a * b * 0.1f"}));
-    EXPECT_EQ(told(changesOfBinary("a", "*", "b", Values::Vector, false)), Texts{});
+    EXPECT_EQ(describe(changesOfBinary("a", "*", "b", Values::Vector, false)), Texts{});
 }
 
 TEST(Operators, TextsAreNotSubtracted) { EXPECT_TRUE(changesOfBinary("a", "+", "b", Values::Other, true).empty()); }
 
 TEST(Operators, ConstantsChange) {
-    EXPECT_EQ(told(changesOfLiteral("0", Values::Signed)), Texts{"changed constant: 0 + 1"});
-    EXPECT_EQ(told(changesOfLiteral("0.5f", Values::Floating)), Texts{"changed constant: 2 * 0.5f"});
-    EXPECT_EQ(told(changesOfLiteral("0.0", Values::Floating)), Texts{"changed constant: 0.0 + 1"});
-    EXPECT_EQ(told(changesOfLiteral("true", Values::Unsigned)), Texts{"changed constant: false"});
+    EXPECT_EQ(describe(changesOfLiteral("0", Values::Signed)), Texts{"changed constant: 0 + 1"});
+    EXPECT_EQ(describe(changesOfLiteral("0.5f", Values::Floating)), Texts{"changed constant: 2 * 0.5f"});
+    EXPECT_EQ(describe(changesOfLiteral("0.0", Values::Floating)), Texts{"changed constant: 0.0 + 1"});
+    EXPECT_EQ(describe(changesOfLiteral("true", Values::Unsigned)), Texts{"changed constant: false"});
 }
 
 TEST(Operators, ArgumentsOfOneTypeAreSwappedWhereTheirOrderCounts) {
-    EXPECT_EQ(told(changesOfCall("f", {"a", "b", "c"}, {true, false, false}, Values::Other, false)),
+    EXPECT_EQ(describe(changesOfCall("f", {"a", "b", "c"}, {true, false, false}, Values::Other, false)),
               Texts{"swapped arguments: f(b, a, c)"});
-    EXPECT_EQ(told(changesOfCall("std::min", {"a", "b"}, {true, false}, Values::Signed, true)),
+    EXPECT_EQ(describe(changesOfCall("std::min", {"a", "b"}, {true, false}, Values::Signed, true)),
               Texts{"other function: std::max(a, b)"});
-    EXPECT_EQ(told(changesOfCall("std::abs", {"a"}, {false}, Values::Floating, true)), Texts{"absolute value: a"});
+    EXPECT_EQ(describe(changesOfCall("std::abs", {"a"}, {false}, Values::Floating, true)), Texts{"absolute value: a"});
 }
 
 TEST(Operators, TheSwitchHoldsOuterAndInnerMutants) {

@@ -44,7 +44,7 @@ std::string lineOf(const Ended& ended) {
     if (!found.empty()) return found;
     std::istringstream printed(ended.output); // a gate says what it could not judge
     for (std::string line; std::getline(printed, line);)
-        if (line.find("not judged") != std::string::npos) found = line;
+        if (line.find("not compared") != std::string::npos) found = line;
     return found;
 }
 

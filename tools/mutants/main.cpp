@@ -86,14 +86,14 @@ private:
 
 void print(const std::vector<Mutant>& mutants) {
     for (const Mutant& mutant : mutants)
-        fmt::print("{:<36} {:<34} {:<22} {}\n", mutant.id, foretold(mutant),
+        fmt::print("{:<36} {:<34} {:<22} {}\n", mutant.id, expectedText(mutant),
                    fmt::format("{}", fmt::join(mutant.techniques, " ")), mutant.what);
 }
 
 /// A survivor or a false red with a reason is known; one without is a hole in the gate.
 ExitCode exitCode(const std::vector<Outcome>& outcomes) {
     for (const Outcome& outcome : outcomes)
-        if (!outcome.asForetold() && outcome.mutant.survives.empty()) return ExitCode::AccuracyRegression;
+        if (!outcome.asExpected() && outcome.mutant.survives.empty()) return ExitCode::AccuracyRegression;
     return ExitCode::Pass;
 }
 
@@ -108,7 +108,7 @@ ExitCode run(const Options& options) {
     const std::filesystem::path source = SOURCE_FOLDER;
     const std::vector<Mutant> all =
         onTheGatesScenes(readMutants(source / "tools/mutants/mutants.toml"),
-                         gate::readWatchlist(source / "harness/gate/bounds.toml", Profile::Gate));
+                         gate::readGateConfig(source / "harness/gate/bounds.toml", Profile::Gate));
     std::vector<Mutant> chosen = matching(all, options.only);
     if (!options.shard.empty()) chosen = shardOf(chosen, options.shard);
     if (options.list) {

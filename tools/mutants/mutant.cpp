@@ -105,19 +105,19 @@ std::vector<Mutant> readMutants(const std::filesystem::path& file) {
     return mutants;
 }
 
-std::vector<Mutant> onTheGatesScenes(std::vector<Mutant> mutants, const gate::Watchlist& watchlist) {
+std::vector<Mutant> onTheGatesScenes(std::vector<Mutant> mutants, const gate::GateConfig& config) {
     for (Mutant& mutant : mutants) {
         if (!mutant.makesRecords()) continue;
         if (mutant.scenes.empty()) {
             mutant.scenes = standardScenes();
-            for (const gate::Watch& watch : watchlist.scenes)
+            for (const gate::GateRule& watch : config.scenes)
                 if (std::ranges::all_of(mutant.techniques, [&](const std::string& t) { return watch.covers(t); }))
                     mutant.scenes.push_back(watch.scene);
         }
         if (mutant.isSlowdown() || mutant.sweep) continue;
         for (const std::string& scene : mutant.scenes)
             for (const std::string& variant : mutant.techniques)
-                if (watchlist.isByChance(scene, variant)) mutant.byChance.push_back(scene + " " + variant);
+                if (config.isByChance(scene, variant)) mutant.byChance.push_back(scene + " " + variant);
     }
     return mutants;
 }
@@ -159,7 +159,7 @@ std::string planted(const Mutant& mutant, std::string_view source) {
     return result.replace(at, mutant.find.size(), mutant.replace);
 }
 
-std::string foretold(const Mutant& mutant) {
+std::string expectedText(const Mutant& mutant) {
     if (mutant.benign) return "nothing";
     switch (mutant.means) {
     case Means::Gate:

@@ -1,7 +1,7 @@
 // Faults, slowdowns and benign changes planted in the source, as data (mutants.toml), and how each must be found.
 #pragma once
 
-#include "harness/gate/watchlist.h"
+#include "harness/gate/gate_config.h"
 #include "harness/records/compare.h"
 
 #include <filesystem>
@@ -50,7 +50,7 @@ std::vector<Mutant> readMutants(const std::filesystem::path& file);
 
 /// The mutants, each that names no scenes now with the standard ones and those that the gate judges all its techniques on;
 /// and with its cells that the gate measures with several seeds, unless instructions alone tell.
-std::vector<Mutant> onTheGatesScenes(std::vector<Mutant> mutants, const gate::Watchlist& watchlist);
+std::vector<Mutant> onTheGatesScenes(std::vector<Mutant> mutants, const gate::GateConfig& config);
 
 /// The mutants whose id matches one of the globs; all without a glob. Throws BadInput for a glob that matches none.
 std::vector<Mutant> matching(const std::vector<Mutant>& mutants, const std::vector<std::string>& globs);
@@ -62,7 +62,7 @@ std::vector<Mutant> shardOf(const std::vector<Mutant>& mutants, const std::strin
 std::string planted(const Mutant& mutant, std::string_view source);
 
 /// How a mutant must be found, as the list and the report say it: "leak", "refusal", "truth:simple/hard".
-std::string foretold(const Mutant& mutant);
+std::string expectedText(const Mutant& mutant);
 
 /// Verb and options of `shadowbench` that detect the mutant, or the name of the test; the same for mutants that share a
 /// base.

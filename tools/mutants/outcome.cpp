@@ -63,7 +63,7 @@ std::string faultRow(const Outcome& outcome) {
     const Mutant& mutant = outcome.mutant;
     const auto seen = strongest(outcome);
     return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", mutant.id, fmt::join(mutant.techniques, ", "),
-                       mutant.what, foretold(mutant), seenOf(outcome), seen ? excess(*seen) : "–", otherClasses(outcome),
+                       mutant.what, expectedText(mutant), seenOf(outcome), seen ? excess(*seen) : "–", otherClasses(outcome),
                        verdict(outcome));
 }
 
@@ -71,7 +71,7 @@ std::string faultRow(const Outcome& outcome) {
 std::string harnessRow(const Outcome& outcome) {
     const Mutant& mutant = outcome.mutant;
     return fmt::format("| {} | {} | {} | {} | {} | {} |\n", mutant.id, mutant.file.parent_path().string(), mutant.what,
-                       foretold(mutant), seenOf(outcome), verdict(outcome));
+                       expectedText(mutant), seenOf(outcome), verdict(outcome));
 }
 
 std::string benignRow(const Outcome& outcome) {
@@ -92,7 +92,7 @@ std::string slowdownRow(const Outcome& outcome) {
                        verdict(outcome));
 }
 
-std::vector<Outcome> those(const std::vector<Outcome>& outcomes, const auto& predicate) {
+std::vector<Outcome> select(const std::vector<Outcome>& outcomes, const auto& predicate) {
     std::vector<Outcome> result;
     std::ranges::copy_if(outcomes, std::back_inserter(result), predicate);
     return result;
@@ -100,7 +100,7 @@ std::vector<Outcome> those(const std::vector<Outcome>& outcomes, const auto& pre
 
 /// The word before the colon: all truths, and all tests, are one means.
 std::string meansOf(const Outcome& outcome) {
-    const std::string text = foretold(outcome.mutant);
+    const std::string text = expectedText(outcome.mutant);
     return text.substr(0, text.find(':'));
 }
 
@@ -110,7 +110,7 @@ std::string byClass(const std::vector<Outcome>& outcomes) {
         if (std::ranges::find(means, meansOf(outcome)) == means.end()) means.push_back(meansOf(outcome));
     std::string text = "\n| by | planted | caught by it |\n|---|--:|--:|\n";
     for (const std::string& each : means) {
-        const std::vector<Outcome> of = those(outcomes, [&](const Outcome& o) { return meansOf(o) == each; });
+        const std::vector<Outcome> of = select(outcomes, [&](const Outcome& o) { return meansOf(o) == each; });
         text += fmt::format("| {} | {} | {} |\n", each, of.size(), count(of, &Outcome::caughtInClass));
     }
     return text;
@@ -123,14 +123,14 @@ std::size_t techniqueCount(const std::vector<Outcome>& outcomes) {
     return ids.size();
 }
 
-std::string unforetold(const std::vector<Outcome>& outcomes) {
+std::string unexpected(const std::vector<Outcome>& outcomes) {
     std::string text;
     for (const Outcome& outcome : outcomes)
-        if (!outcome.asForetold())
+        if (!outcome.asExpected())
             text += fmt::format("* **{}**{}: {}\n", outcome.mutant.id,
                                 outcome.caught() ? fmt::format(" (told by {})", otherClasses(outcome)) : "",
                                 outcome.mutant.survives.empty() ? "not explained" : outcome.mutant.survives);
-    return text.empty() ? text : "\n## Not as foretold\n\n" + text;
+    return text.empty() ? text : "\n## Not as expected\n\n" + text;
 }
 
 bool isHarness(const Outcome& outcome) { return !outcome.mutant.file.string().starts_with("techniques/"); }
@@ -155,7 +155,7 @@ Outcome outcomeOf(const Mutant& mutant, const Trial& base, const Trial& head) {
     if (!mutant.makesRecords() || !head.refused.empty()) return outcome;
     for (Change& change : gate::compare(base.records, head.records).changes) {
         // Other truths, environments or metrics' code: never a silent pass.
-        if (change.direction == gate::Direction::Unjudged && outcome.refused.empty()) outcome.refused = change.sentence;
+        if (change.direction == gate::Direction::NotCompared && outcome.refused.empty()) outcome.refused = change.sentence;
         if (change.changeClass == Class::Instructions && change.base && change.head) {
             const double slowdown = *change.head / *change.base - 1;
             outcome.slowdown = std::max(outcome.slowdown.value_or(slowdown), slowdown);
@@ -177,12 +177,12 @@ std::optional<Change> strongest(const Outcome& outcome) {
 std::string mutantsReport(const std::vector<Outcome>& outcomes, const std::string& source) {
     const auto isSlowdown = [](const Outcome& o) { return o.mutant.isSlowdown(); };
     const auto isBenign = [](const Outcome& o) { return o.mutant.benign; };
-    const std::vector<Outcome> benign = those(outcomes, isBenign);
-    const std::vector<Outcome> planted = those(outcomes, std::not_fn(isBenign));
-    const std::vector<Outcome> slowdowns = those(planted, isSlowdown);
-    const std::vector<Outcome> faults = those(planted, std::not_fn(isSlowdown));
-    const std::vector<Outcome> techniques = those(faults, std::not_fn(isHarness));
-    const std::vector<Outcome> harness = those(faults, isHarness);
+    const std::vector<Outcome> benign = select(outcomes, isBenign);
+    const std::vector<Outcome> planted = select(outcomes, std::not_fn(isBenign));
+    const std::vector<Outcome> slowdowns = select(planted, isSlowdown);
+    const std::vector<Outcome> faults = select(planted, std::not_fn(isSlowdown));
+    const std::vector<Outcome> techniques = select(faults, std::not_fn(isHarness));
+    const std::vector<Outcome> harness = select(faults, isHarness);
 
     std::string text = fmt::format(
         "# Planted faults, slowdowns and benign changes\n\nMade by `mutants` ({}). Each is one replacement in one file "
@@ -191,16 +191,16 @@ std::string mutantsReport(const std::vector<Outcome>& outcomes, const std::strin
         "found when a golden reference is computed again (`truth`), by a test (`test`), or by what refuses to go on "
         "(`refusal`).\n\n",
         source);
-    text += fmt::format("* All faults and slowdowns: {} caught as foretold, {} by something.\n",
+    text += fmt::format("* All faults and slowdowns: {} detected as expected, {} by something.\n",
                         share(count(planted, &Outcome::caughtInClass), planted.size()),
                         share(count(planted, &Outcome::caught), planted.size()));
     text += fmt::format("* Faults in {} techniques: {} caught in the class they belong to, {} in any class.\n",
                         techniqueCount(techniques), share(count(techniques, &Outcome::caughtInClass), techniques.size()),
                         share(count(techniques, &Outcome::caught), techniques.size()));
-    text += fmt::format("* Faults in metrics, truth, records, gate, scenes and loader: {} caught as foretold.\n",
+    text += fmt::format("* Faults in metrics, truth, records, gate, scenes and loader: {} detected as expected.\n",
                         share(count(harness, &Outcome::caughtInClass), harness.size()));
     const std::vector<Outcome> noticeable =
-        those(slowdowns, [](const Outcome& o) { return o.slowdown.value_or(0) >= 0.01; });
+        select(slowdowns, [](const Outcome& o) { return o.slowdown.value_or(0) >= 0.01; });
     text += fmt::format("* Slowdowns: {} caught by instructions; of 1 % or more, {}.\n",
                         share(count(slowdowns, &Outcome::caughtInClass), slowdowns.size()),
                         share(count(noticeable, &Outcome::caughtInClass), noticeable.size()));
@@ -219,7 +219,7 @@ std::string mutantsReport(const std::vector<Outcome>& outcomes, const std::strin
     for (const Outcome& outcome : slowdowns) text += slowdownRow(outcome);
     text += "\n## Benign changes\n\n| change | technique | what | seen | verdict |\n|---|---|---|---|---|\n";
     for (const Outcome& outcome : benign) text += benignRow(outcome);
-    return text + unforetold(outcomes);
+    return text + unexpected(outcomes);
 }
 
 } // namespace shadowbench::mutants

@@ -16,9 +16,9 @@ struct Outcome {
     std::optional<double> slowdown;  // largest change of instructions, as a share of the base's
     std::string refused;             // the sentence with which program, comparison, truth or test refused; "": none did
 
-    [[nodiscard]] bool caughtInClass() const; // or by the means foretold
+    [[nodiscard]] bool caughtInClass() const; // or by the means expected
     [[nodiscard]] bool caught() const { return !worse.empty() || !refused.empty(); }
-    [[nodiscard]] bool asForetold() const { return mutant.benign ? !caught() : caughtInClass(); }
+    [[nodiscard]] bool asExpected() const { return mutant.benign ? !caught() : caughtInClass(); }
 };
 
 Outcome outcomeOf(const Mutant& mutant, const Trial& base, const Trial& head);
@@ -30,7 +30,7 @@ std::optional<gate::Change> strongest(const Outcome& outcome);
 std::string verdict(const Outcome& outcome);
 
 /// Markdown: shares caught over all and by class, tables of faults, of slowdowns and of benign changes, and what did not end
-/// as foretold, with its reason.
+/// as expected, with its reason.
 /// `source` says what the records were made from.
 std::string mutantsReport(const std::vector<Outcome>& outcomes, const std::string& source);
 

@@ -108,12 +108,12 @@ Data worstOf(const std::vector<Change>& changes, const std::vector<ComparedCell>
     for (const Change& change : worst) {
         Data data;
         data.set("is", std::string(gate::name(change.direction)));
-        data.set("sentence", shown(change.sentence, sentenceRoom));
+        data.set("sentence", truncate(change.sentence, sentenceRoom));
         const auto cell = std::ranges::find_if(cells, [&](const ComparedCell& c) {
             return c.head.record.scene == change.scene && c.head.record.variant == change.variant;
         });
         if (cell != cells.end() && shownCells.insert(&*cell).second) {
-            const std::string title = fmt::format("{} on {}", shown(change.variant), shown(change.scene));
+            const std::string title = fmt::format("{} on {}", truncate(change.variant), truncate(change.scene));
             if (const std::optional<Data> shownPictures = pictures(*cell, title, site)) {
                 data.set("to", cellAddress(cell->head, cell->base ? &*cell->base : nullptr));
                 data.set("pictures", *shownPictures);
@@ -125,8 +125,8 @@ Data worstOf(const std::vector<Change>& changes, const std::vector<ComparedCell>
 }
 
 Table classTable(const std::vector<Change>& changes) {
-    constexpr std::array directions{Direction::Worse,  Direction::Unjudged, Direction::Unclear,
-                                    Direction::Waived, Direction::Better,   Direction::Same};
+    constexpr std::array directions{Direction::Worse,  Direction::NotCompared, Direction::Unclear,
+                                    Direction::Waived, Direction::Better,      Direction::Same};
     std::map<gate::Class, std::map<Direction, int>> counts;
     for (const Change& change : changes) ++counts[change.changeClass][change.direction];
     Table table{.id = "classes", .caption = "By class", .columns = {{.title = "class", .number = false}}, .rows = {}};
@@ -169,7 +169,7 @@ Data sentences(const std::vector<std::string>& lines) {
     Data list{Data::type::list};
     for (const std::string& line : lines) {
         Data entry;
-        entry.set("sentence", shown(line, sentenceRoom));
+        entry.set("sentence", truncate(line, sentenceRoom));
         list << entry;
     }
     return list;
@@ -187,17 +187,18 @@ void addGatePage(const gate::GateResult& result, const gate::GateOptions& option
     data.set("kind", result.code() == ExitCode::Pass           ? "reproduced"
                      : result.code() == ExitCode::Inconclusive ? "unmeasured"
                                                                : "refuted");
-    data.set("head", shown(result.head));
-    data.set("base", shown(result.base));
-    data.set("counts", fmt::format("{} figures are worse, {} not judged, {} unclear, {} waived, {} better, {} the same; {}.",
-                                   count(Direction::Worse), count(Direction::Unjudged), count(Direction::Unclear),
-                                   count(Direction::Waived), count(Direction::Better), count(Direction::Same),
-                                   shown(gate::text(result.presence), sentenceRoom)));
+    data.set("head", truncate(result.head));
+    data.set("base", truncate(result.base));
+    data.set("counts",
+             fmt::format("{} figures are worse, {} not compared, {} unclear, {} waived, {} better, {} the same; {}.",
+                         count(Direction::Worse), count(Direction::NotCompared), count(Direction::Unclear),
+                         count(Direction::Waived), count(Direction::Better), count(Direction::Same),
+                         truncate(gate::text(result.presence), sentenceRoom)));
     data.set("table", site.table(address, changeTable(result.changes, options)));
     data.set("classes", site.table(address, classTable(result.changes)));
     data.set("worst", worstOf(result.changes, cells, site));
     data.set("loosened", sentences(result.loosened));
-    data.set("unjudged", sentences(result.unjudged));
+    data.set("notCompared", sentences(result.notCompared));
     data.set("notes", sentences(result.notes));
     site.add({address, verdictText(result.code()), render("gate.html", data)});
 }

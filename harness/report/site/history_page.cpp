@@ -85,9 +85,9 @@ void addHistoryPage(const Findings& f, SiteWriter& site) {
         const std::string name = "charts/history-" + slug(fmt::format("{}-{}", scene, metric));
         writeChart(site, name, history::chart(f, metric, scene));
         Data entry;
-        entry.set("heading", fmt::format("{} on {}", metric, shown(scene)));
+        entry.set("heading", fmt::format("{} on {}", metric, truncate(scene)));
         entry.set("chart", site.chart(address, {.name = name,
-                                                .title = fmt::format("{} on {}, by commit", metric, shown(scene)),
+                                                .title = fmt::format("{} on {}, by commit", metric, truncate(scene)),
                                                 .text = "The figures are in the table below.",
                                                 .kind = "lines",
                                                 .table = series.id,

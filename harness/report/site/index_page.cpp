@@ -116,8 +116,9 @@ public:
                      "the scenes",
              .key = "cost"}};
         for (const std::string& scene : scenes_)
-            table.columns.push_back(
-                {.title = shown(scene), .hint = "Error; sorted by its multiple of the tolerance", .key = shown(scene)});
+            table.columns.push_back({.title = truncate(scene),
+                                     .hint = "Error; sorted by its multiple of the tolerance",
+                                     .key = truncate(scene)});
         std::vector<std::string> variants;
         for (const Record& record : records_)
             if (!isLevelOfDetail(record) && std::ranges::find(variants, record.variant) == variants.end())
@@ -202,13 +203,13 @@ void addIndexPage(const std::vector<Record>& records, const std::string& command
     data.set("answers", site.table(address, answers(records, images)));
     data.set("all", site.table(address, Matrix(records, images).table()));
     data.set("measured", !records.empty());
-    data.set("commit", shown(report::commitsOf(records)));
-    data.set("environment", shown(report::environmentsOf(records)));
+    data.set("commit", truncate(report::commitsOf(records)));
+    data.set("environment", truncate(report::environmentsOf(records)));
     constexpr std::size_t longestCommand = 8000; // bytes; one that is longer is no use to a reader
-    data.set("command", command.size() > longestCommand ? shown(command) : command);
+    data.set("command", command.size() > longestCommand ? truncate(command) : command);
     data.set("data", std::filesystem::exists(site.folder() / "results.jsonl"));
-    data.set("time", records.empty() ? "" : shown(records.front().time));
-    data.set("profile", records.empty() ? "" : shown(records.front().profile));
+    data.set("time", records.empty() ? "" : truncate(records.front().time));
+    data.set("profile", records.empty() ? "" : truncate(records.front().profile));
     site.add({address, "Which shadow technique?", render("index.html", data)});
 }
 

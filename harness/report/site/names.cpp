@@ -10,7 +10,7 @@ std::string cellAddress(const Record& record) {
     return fmt::format("cells/{}.html#{}", slug(record.scene), slug(record.variant));
 }
 
-std::string shown(const std::string& text, std::size_t most) {
+std::string truncate(const std::string& text, std::size_t most) {
     if (text.size() <= most) return text;
     std::size_t end = most;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end; // a character stays whole

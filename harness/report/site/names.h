@@ -20,6 +20,6 @@ inline constexpr std::size_t nameRoom = 160, sentenceRoom = 4000; // bytes
 
 /// Text as people see it: the first `most` bytes of a longer one, then how many there are. By default for names; sentences
 /// have more room.
-std::string shown(const std::string& text, std::size_t most = nameRoom);
+std::string truncate(const std::string& text, std::size_t most = nameRoom);
 
 } // namespace shadowbench::site

@@ -18,7 +18,7 @@ namespace shadowbench::site {
 namespace {
 
 /// "512², 60 frames; error: mismatching pixels; tolerance: mismatch 0.5 %; truth: exact (polygon)".
-std::string described(const std::vector<Record>& records, const std::string& scene) {
+std::string describe(const std::vector<Record>& records, const std::string& scene) {
     const Record& first = records[report::ofScene(records, scene).front()];
     std::string text = fmt::format("{} pixels, {} frames", report::imageSize(first), first.frames);
     if (const std::string metric = report::headlineMetric(records, scene); !metric.empty())
@@ -34,7 +34,7 @@ std::string namesOf(const std::vector<Record>& records, const std::vector<std::s
     std::string text;
     for (std::size_t i = 0; i < std::min(indices.size(), most); ++i) {
         const auto place = report::place(records[indices[i]]);
-        text += fmt::format("{}{}", text.empty() ? "" : ", ", shown(records[indices[i]].variant));
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", truncate(records[indices[i]].variant));
         if (place) text += fmt::format(" ({:.2f} ×)", place->cost);
     }
     return indices.size() > most ? fmt::format("{} and {} more", text, indices.size() - most) : text;
@@ -69,8 +69,8 @@ void setAnswer(Data& data, const std::vector<Record>& records, const Choice& cho
     const Record& record = records[*choice.take];
     const auto place = report::place(record);
     const std::string weakness = report::admittedFailure(record.technique);
-    data.set("take", shown(record.variant));
-    data.set("name", shown(factsOf(record.technique).title));
+    data.set("take", truncate(record.variant));
+    data.set("name", truncate(factsOf(record.technique).title));
     data.set("errs", errorText(record));
     data.set("timed", place.has_value());
     data.set("cost", place ? fmt::format("{:.2f}", place->cost) : "");
@@ -101,7 +101,7 @@ public:
         Chart chart{.name = "pareto",
                     .title = "Accuracy against cost.",
                     .text = fmt::format("Error against cost of every technique on {}; the figures are in the table below.",
-                                        shown(scene_)),
+                                        truncate(scene_)),
                     .kind = "scatter",
                     .table = "errors",
                     .options = {{"x", "cost"}, {"y", "error"}}};
@@ -162,7 +162,7 @@ Data lodPictures(const std::vector<Record>& records, const std::string& scene, c
     for (const std::size_t i : report::ofScene(records, scene)) {
         if (!isLevelOfDetail(records[i])) continue;
         if (const std::string address = picture(images, records[i], "transition", site); !address.empty())
-            list << pictureData(address, shown(records[i].variant), "");
+            list << pictureData(address, truncate(records[i].variant), "");
     }
     return list;
 }
@@ -174,8 +174,8 @@ void addScenePage(const std::vector<Record>& records, const std::string& scene, 
     const std::string address = sceneAddress(scene);
     const SceneCharts charts(records, scene, site);
     Data data;
-    data.set("scene", shown(scene));
-    data.set("described", shown(described(records, scene), sentenceRoom));
+    data.set("scene", truncate(scene));
+    data.set("described", truncate(describe(records, scene), sentenceRoom));
     setAnswer(data, records, choiceFor(records, scene), images, site);
     data.set("pareto", charts.place(drawn, charts.pareto()));
     data.set("errors", site.table(address, errorTable(records, scene, images)));

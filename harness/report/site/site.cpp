@@ -39,7 +39,7 @@ std::vector<Record> ofOneSeed(const std::vector<Record>& records) {
 
 /// Records of one scene that were measured at another profile or size than its first ones stand apart, as a scene of their
 /// own: "basic, paper, 700²". Their errors and costs are not those of the others.
-std::vector<Record> apart(std::vector<Record> records) {
+std::vector<Record> splitMixedRuns(std::vector<Record> records) {
     std::map<std::string, const Record*> firsts;
     std::vector<std::string> names;
     for (const Record& record : records) {
@@ -81,7 +81,7 @@ std::filesystem::path writeSite(const Sources& sources, const std::filesystem::p
     std::vector<Record> measured = shown;
     std::erase_if(measured, [](const Record& record) { return record.sweep.has_value(); });
     const std::string command = measured.empty() ? "" : report::runCommand(measured);
-    measured = apart(std::move(measured));
+    measured = splitMixedRuns(std::move(measured));
     if (sources.standing) measured = report::standing(std::move(measured));
     const std::vector<Sweep> sweeps = sweepsOf(shown);
     SiteWriter site(folder, navigationOf(sources, measured, sweeps));

@@ -28,12 +28,12 @@ SiteWriter::SiteWriter(std::filesystem::path folder, std::vector<Link> navigatio
 void SiteWriter::add(const Page& page) {
     const std::string root = rootFrom(page.address);
     Data data, links{Data::type::list}, scripts{Data::type::list}, styles{Data::type::list};
-    data.set("title", shown(page.title));
+    data.set("title", truncate(page.title));
     data.set("root", root);
     data.set("main", page.main);
     for (const Link& link : navigation_) {
         Data entry;
-        entry.set("name", shown(link.title));
+        entry.set("name", truncate(link.title));
         entry.set("address", root + link.address);
         entry.set("here", link.address == page.address);
         links << entry;
@@ -69,8 +69,8 @@ std::string SiteWriter::chart(const std::string& address, const Chart& chart) co
     Data data, options{Data::type::list};
     data.set("file", rootFrom(address) + chart.name);
     data.set("drawn", !chart.name.empty());
-    data.set("title", shown(chart.title));
-    data.set("alternative", shown(chart.text));
+    data.set("title", truncate(chart.title));
+    data.set("alternative", truncate(chart.text));
     data.set("interactive", !chart.kind.empty());
     data.set("kind", chart.kind);
     data.set("table", chart.table);

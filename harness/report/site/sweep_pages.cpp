@@ -15,11 +15,11 @@
 namespace shadowbench::site {
 namespace {
 
-std::string titleOf(const Sweep& sweep) { return fmt::format("{} over {}", shown(sweep.scene), shown(sweep.axis)); }
+std::string titleOf(const Sweep& sweep) { return fmt::format("{} over {}", truncate(sweep.scene), truncate(sweep.axis)); }
 
 std::string axisLabel(const Sweep& sweep) {
     const SweepStep& step = *sweep.records.front().sweep;
-    return shown(step.unit.empty() ? step.axis : fmt::format("{} [{}]", step.axis, step.unit));
+    return truncate(step.unit.empty() ? step.axis : fmt::format("{} [{}]", step.axis, step.unit));
 }
 
 bool isLogarithmic(const std::string& axis) {
@@ -155,7 +155,7 @@ void addSweepList(const std::vector<Sweep>& sweeps, SiteWriter& site) {
         std::size_t broken = 0;
         for (const Row& row : curves.rows) {
             const Cell& last = row.cells.back();
-            if (last.text == "holds") holding.push_back(shown(row.cells.front().text));
+            if (last.text == "holds") holding.push_back(truncate(row.cells.front().text));
             broken += curves.columns.back().title == "breaks at" && last.value ? 1 : 0;
         }
         const std::size_t most = 6, named = std::min(holding.size(), most);

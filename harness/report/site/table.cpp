@@ -22,14 +22,14 @@ Data columnData(const Column& column) {
 
 Data cellData(const Cell& cell, const Column& column, const std::string& root) {
     Data data;
-    data.set("text", shown(cell.text, column.prose ? sentenceRoom : nameRoom));
+    data.set("text", truncate(cell.text, column.prose ? sentenceRoom : nameRoom));
     data.set("value", cell.value && std::isfinite(*cell.value) ? fmt::format("{}", *cell.value) : std::string());
     data.set("valued", cell.value.has_value());
     data.set("linked", !cell.address.empty());
     data.set("address", root + cell.address);
     data.set("kind", cell.kind + (column.number ? " number" : ""));
     data.set("noted", !cell.note.empty());
-    data.set("note", shown(cell.note, sentenceRoom));
+    data.set("note", truncate(cell.note, sentenceRoom));
     return data;
 }
 
@@ -38,7 +38,7 @@ Data rowData(const Row& row, const Table& table, const std::string& root) {
     for (const auto& [name, value] : row.marks) {
         Data mark;
         mark.set("name", name);
-        mark.set("mark", shown(value));
+        mark.set("mark", truncate(value));
         marks << mark;
     }
     data.set("marks", marks);
@@ -152,7 +152,7 @@ std::string csvOf(const Table& table) {
     for (const Row& row : table.rows) {
         std::vector<std::string> cells;
         for (const Cell& cell : row.cells)
-            cells.push_back(cell.value ? report::written(*cell.value) : cell.text == "–" ? "" : report::quoted(cell.text));
+            cells.push_back(cell.value ? report::csvText(*cell.value) : cell.text == "–" ? "" : report::quoted(cell.text));
         text += report::csvLine(cells);
     }
     return text;
@@ -177,7 +177,7 @@ std::string latexOf(const Table& table, bool brief) {
     }
     std::string text = "% needs: \\usepackage[utf8]{inputenc} \\usepackage{textcomp,booktabs,graphicx}\n"
                        "\\begin{table}\n  \\centering\n";
-    text += fmt::format("  \\caption{{{}}}\n", latexText(shown(table.caption)));
+    text += fmt::format("  \\caption{{{}}}\n", latexText(truncate(table.caption)));
     text += fmt::format("  \\resizebox{{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}}{{!}}{{%\n"
                         "  \\begin{{tabular}}{{{}}}\n    \\toprule\n    {} \\\\\n    \\midrule\n",
                         kinds, titles);
@@ -187,7 +187,7 @@ std::string latexOf(const Table& table, bool brief) {
             line += (line.empty() ? "" : " & ") +
                     (row.cells[i].text.empty()
                          ? "{}"
-                         : latexText(shown(row.cells[i].text, table.columns[i].prose ? sentenceRoom : nameRoom)));
+                         : latexText(truncate(row.cells[i].text, table.columns[i].prose ? sentenceRoom : nameRoom)));
         text += fmt::format("    {} \\\\\n", line);
     }
     return text + "    \\bottomrule\n  \\end{tabular}}\n\\end{table}\n";
@@ -199,7 +199,7 @@ std::string markdownOf(const Table& table) {
     for (const Row& row : table.rows) {
         std::vector<std::string>& cells = plain.rows.emplace_back();
         for (std::size_t i = 0; i < row.cells.size(); ++i)
-            cells.push_back(shown(row.cells[i].text, table.columns[i].prose ? sentenceRoom : nameRoom));
+            cells.push_back(truncate(row.cells[i].text, table.columns[i].prose ? sentenceRoom : nameRoom));
     }
     return fmt::format("{}\n", report::markdown(plain));
 }

@@ -101,14 +101,14 @@ void addTruthPage(const std::vector<Record>& records, const std::string& scene, 
         Data entry;
         entry.set("source", "../" + picture.address);
         entry.set("caption", picture.title);
-        entry.set("text", fmt::format("True visibility on {}: {}", shown(scene), picture.title));
+        entry.set("text", fmt::format("True visibility on {}: {}", truncate(scene), picture.title));
         list << entry;
     }
-    data.set("scene", shown(scene));
+    data.set("scene", truncate(scene));
     data.set("there", "../" + sceneAddress(scene));
     data.set("pictures", list);
     data.set("table", site.table(address, table));
-    site.add({address, "Truth of " + shown(scene), render("truth.html", data)});
+    site.add({address, "Truth of " + truncate(scene), render("truth.html", data)});
 }
 
 } // namespace

@@ -73,7 +73,7 @@ Json asJson(const std::optional<double>& number) {
 }
 
 Json asJson(const Check& check, const Finding& finding) {
-    Json json{{"says", check.says}, {"test", described(check, finding)}, {"outcome", name(finding.outcome)}};
+    Json json{{"says", check.says}, {"test", describe(check, finding)}, {"outcome", name(finding.outcome)}};
     json["cases"] = Json::array();
     for (const std::vector<Sample>& samples : finding.cases) {
         Json ofCase = Json::array();
@@ -111,7 +111,7 @@ Json asJson(const Judgement& judgement) {
 std::vector<std::string> describedFindings(const Judgement& judgement) {
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < judgement.findings.size(); ++i)
-        lines.push_back(described(judgement.claim->checks[i], judgement.findings[i]));
+        lines.push_back(describe(judgement.claim->checks[i], judgement.findings[i]));
     return lines;
 }
 

@@ -10,7 +10,7 @@
 namespace shadowbench {
 namespace {
 
-std::string shown(double number) { return std::isinf(number) ? "none" : fmt::format("{:.4g}", number); }
+std::string asText(double number) { return std::isinf(number) ? "none" : fmt::format("{:.4g}", number); }
 
 /// What a figure is, part by part: its metric, the variant, …, where it is taken.
 std::vector<std::string> partsOf(const Figure& figure) {
@@ -30,7 +30,7 @@ std::string joined(const std::vector<std::string>& parts) {
     return text;
 }
 
-std::string described(const Figure& figure) { return joined(partsOf(figure)); }
+std::string describe(const Figure& figure) { return joined(partsOf(figure)); }
 
 /// The parts of `parts` that differ from `others`, or those that do not.
 std::vector<std::string> parted(std::vector<std::string> parts, const std::vector<std::string>& others, bool differ) {
@@ -50,7 +50,7 @@ using Side = std::optional<double> Sample::*;
 
 /// "58 to 209", or the one number that all are.
 std::string range(const std::vector<double>& sorted) {
-    const std::string least = shown(sorted.front()), most = shown(sorted.back());
+    const std::string least = asText(sorted.front()), most = asText(sorted.back());
     return least == most ? least : fmt::format("{} to {}", least, most);
 }
 
@@ -71,7 +71,7 @@ std::string spread(const std::vector<Sample>& samples, Side side, double Sample:
     double halfWidth = seedsWidth;
     for (const Sample& sample : samples)
         halfWidth = std::hypot(halfWidth, sample.*width / static_cast<double>(samples.size()));
-    return halfWidth == 0 ? shown(mean) : fmt::format("{} ± {:.2g}", shown(mean), halfWidth);
+    return halfWidth == 0 ? asText(mean) : fmt::format("{} ± {:.2g}", asText(mean), halfWidth);
 }
 
 /// The mean over seeds of what is at a place.
@@ -79,7 +79,7 @@ std::string placeOf(const std::vector<Sample>& samples, std::size_t place) {
     std::vector<double> numbers;
     for (const Sample& sample : samples)
         if (sample.places[place]) numbers.push_back(*sample.places[place]);
-    return numbers.empty() ? "missing" : shown(metrics::meanInterval(numbers).mean);
+    return numbers.empty() ? "missing" : asText(metrics::meanInterval(numbers).mean);
 }
 
 std::string sign(const Check& check) { return check.atMost ? "≤" : "≥"; }
@@ -119,12 +119,12 @@ std::string describedOne(const Check& check, const std::vector<Sample>& samples)
     const Case& place = check.cases.front();
     const std::string found = comparison(check, samples);
     if (!check.growsOver.empty())
-        return fmt::format("{} at {} {:g} = {} grows", described(place.left), place.left.axis,
+        return fmt::format("{} at {} {:g} = {} grows", describe(place.left), place.left.axis,
                            fmt::join(check.growsOver, ", "), found);
-    if (!check.published.empty()) return fmt::format("{}: {}", described(place.left), found);
-    if (!place.right) return fmt::format("{} = {}", described(place.left), found);
-    return fmt::format("{} = {} {} {:g} × {} = {}", described(place.left), spread(samples, &Sample::left), sign(check),
-                       check.factor, described(*place.right), spread(samples, &Sample::right, &Sample::rightWidth));
+    if (!check.published.empty()) return fmt::format("{}: {}", describe(place.left), found);
+    if (!place.right) return fmt::format("{} = {}", describe(place.left), found);
+    return fmt::format("{} = {} {} {:g} × {} = {}", describe(place.left), spread(samples, &Sample::left), sign(check),
+                       check.factor, describe(*place.right), spread(samples, &Sample::right, &Sample::rightWidth));
 }
 
 /// Of several cases: what all have in common, and then each by what it has alone.
@@ -159,7 +159,7 @@ std::string table(const Check& check, const Finding& finding) {
 
 } // namespace
 
-std::string described(const Check& check, const Finding& finding) {
+std::string describe(const Check& check, const Finding& finding) {
     const std::string text =
         check.cases.size() == 1 ? describedOne(check, finding.cases.front()) : describedAll(check, finding);
     return fmt::format("{}{}: {}{}", text, seedsOf(finding), outcome(finding), table(check, finding));

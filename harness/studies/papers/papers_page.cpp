@@ -10,7 +10,7 @@
 namespace shadowbench {
 namespace {
 
-std::string shown(const std::optional<double>& number) { return number ? fmt::format("{:.4g}", *number) : "–"; }
+std::string asText(const std::optional<double>& number) { return number ? fmt::format("{:.4g}", *number) : "–"; }
 
 std::optional<double> quotient(const std::optional<double>& number, const std::optional<double>& of) {
     return number && of && *of != 0 ? std::optional(*number / *of) : std::nullopt;
@@ -64,15 +64,15 @@ std::string markdown(const PaperTable& table, const std::vector<Record>& records
         head += fmt::format(" {} |", c.column.title);
         head += multiple ? fmt::format(" × {} | ours × {} |", c.column.per, c.column.per) : " ours |";
         rule += multiple ? "---:|---:|---:|" : "---:|---:|";
-        last += fmt::format("{} {} |", multiple ? " | |" : " |", shown(correlation(c)));
+        last += fmt::format("{} {} |", multiple ? " | |" : " |", asText(correlation(c)));
     }
     std::string text = head + "\n" + rule + "\n";
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
         text += fmt::format("| {} | {} |", table.rows[row].title, table.rows[row].variant);
         for (const Compared& c : columns) {
-            text += fmt::format(" {} |", shown(c.published[row]));
-            if (!c.column.per.empty()) text += fmt::format(" {} |", shown(c.theirs[row]));
-            text += fmt::format(" {} |", shown(c.ours[row]));
+            text += fmt::format(" {} |", asText(c.published[row]));
+            if (!c.column.per.empty()) text += fmt::format(" {} |", asText(c.theirs[row]));
+            text += fmt::format(" {} |", asText(c.ours[row]));
         }
         text += "\n";
     }

@@ -56,7 +56,7 @@ std::optional<std::size_t> coarserThan(const CasterGroup& group, std::size_t lev
     return std::nullopt;
 }
 
-GroupLevel described(const CasterGroup& group, std::size_t level) {
+GroupLevel describe(const CasterGroup& group, std::size_t level) {
     GroupLevel result{group.object, group.from, group.until, group.placements.size(), {}, level, {}};
     for (const auto& mesh : group.levels) result.chain.push_back(mesh->triangles.size());
     return result;
@@ -140,7 +140,7 @@ private:
         result.triangles = totalCost(costs, levels_);
         result.finestTriangles = totalCost(costs, casters_.finest());
         for (std::size_t group = 0; group < levels_.size(); ++group) {
-            GroupLevel described = recommend::described(casters_.groups()[group], levels_[group]);
+            GroupLevel described = recommend::describe(casters_.groups()[group], levels_[group]);
             if (const auto coarser = coarserThan(casters_.groups()[group], levels_[group]))
                 described.coarser = CoarserLevel{*coarser, errorsOf(with(group, *coarser)), {}};
             result.groups.push_back(std::move(described));

@@ -14,23 +14,23 @@ namespace {
 using nlohmann::ordered_json;
 
 /// Three digits: a tolerance may be missed by little.
-std::string shown(const std::string& metric, double value) {
+std::string asText(const std::string& metric, double value) {
     return report::isShare(metric) ? fmt::format("{:.3g} %", 100 * value) : fmt::format("{:.3g}", value);
 }
 
 /// The errors that have a bound.
-std::string shown(const Errors& errors, const std::vector<Bound>& bounds) {
+std::string asText(const Errors& errors, const std::vector<Bound>& bounds) {
     std::vector<std::string> parts;
     for (const Bound& bound : bounds)
         if (const auto found = errors.find(bound.metric); found != errors.end())
-            parts.push_back(bound.metric + " " + shown(bound.metric, found->second));
+            parts.push_back(bound.metric + " " + asText(bound.metric, found->second));
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string shown(const std::vector<Bound>& bounds) {
+std::string asText(const std::vector<Bound>& bounds) {
     Errors errors;
     for (const Bound& bound : bounds) errors[bound.metric] = bound.most;
-    return shown(errors, bounds);
+    return asText(errors, bounds);
 }
 
 std::string distances(const GroupLevel& group) {
@@ -44,7 +44,7 @@ bool castsNothing(const GroupLevel& group) { return group.chain[group.level] == 
 std::string groupTable(const CasterRecommendation& c) {
     report::TextTable table{{"casters", "distance", "instances", "levels", "cast at", "triangles", "one level coarser"}, {}};
     for (const GroupLevel& group : c.groups) {
-        const std::string coarser = group.coarser         ? shown(group.coarser->verified, c.tolerance)
+        const std::string coarser = group.coarser         ? asText(group.coarser->verified, c.tolerance)
                                     : castsNothing(group) ? "there is none"
                                                           : "none in the chain";
         table.rows.push_back({group.object, distances(group), fmt::format("{}", group.instances),
@@ -67,7 +67,7 @@ std::size_t endsOfChains(const CasterRecommendation& c) {
 
 std::string verification(const CasterRecommendation& c) {
     std::string line = fmt::format("{} by {}: at these levels {}", c.verified ? "verified" : "NOT VERIFIED", c.verifier,
-                                   shown(c.verifiedErrors, c.tolerance));
+                                   asText(c.verifiedErrors, c.tolerance));
     if (c.verified && coarserLevels(c) > 0) line += ", with any one group a level coarser above tolerance";
     if (const std::size_t ends = endsOfChains(c); ends > 0)
         line +=
@@ -82,12 +82,13 @@ std::string text(const CasterRecommendation& c) {
         return 100 - 100 * static_cast<double>(triangles) / static_cast<double>(c.finestTriangles);
     };
     std::string lines = fmt::format(" coarsest shadow casters within {} of their finest levels · {} · frame {}\n",
-                                    shown(c.tolerance), c.profile, c.frame);
+                                    asText(c.tolerance), c.profile, c.frame);
     lines += groupTable(c);
-    lines += fmt::format(" triangles: {} of {}, {:.0f} % saved, at {} ({}; {} of {} choices judged)\n", c.triangles,
-                         c.finestTriangles, saved(c.triangles), shown(c.errors, c.tolerance), c.oracle, c.tried, c.possible);
+    lines +=
+        fmt::format(" triangles: {} of {}, {:.0f} % saved, at {} ({}; {} of {} choices judged)\n", c.triangles,
+                    c.finestTriangles, saved(c.triangles), asText(c.errors, c.tolerance), c.oracle, c.tried, c.possible);
     lines += fmt::format(" cast at the levels that are drawn: {} triangles, {:.0f} % saved, at {}: {} tolerance\n",
-                         c.drawnTriangles, saved(c.drawnTriangles), shown(c.drawnErrors, c.tolerance),
+                         c.drawnTriangles, saved(c.drawnTriangles), asText(c.drawnErrors, c.tolerance),
                          within(c.drawnErrors, c.tolerance) ? "within" : "above");
     lines += fmt::format(" {}\n", verification(c));
     lines +=
@@ -103,7 +104,7 @@ std::string leastTable(const std::string& what, const std::string& unit, const s
     report::TextTable table{{"technique", unit, "error"}, {}};
     for (const Least& least : all)
         table.rows.push_back(
-            {least.variant, fmt::format("{:g}", least.amount), shown(tolerances.front().metric, least.error)});
+            {least.variant, fmt::format("{:g}", least.amount), asText(tolerances.front().metric, least.error)});
     return heading + "\n" + report::aligned(table);
 }
 
@@ -111,7 +112,7 @@ std::string cheapestLine(const std::optional<Cheapest>& technique, const std::ve
     const std::string heading = fmt::format(" cheapest technique within {}", report::formatBounds(tolerances));
     if (!technique) return heading + ": none\n";
     return fmt::format("{}: {}, at {} and {:.2f} frames of sm-uniform, {}\n", heading, technique->variant,
-                       shown(tolerances.front().metric, technique->error), technique->cost,
+                       asText(tolerances.front().metric, technique->error), technique->cost,
                        technique->moving ? "the dearer of standing and in motion" : "standing");
 }
 

@@ -39,7 +39,7 @@ PixelCertificate certificateOf(const char* id, const Reference& means, int point
     return certifyPixels(scene, means, labels, points, 2, {}, firstSet);
 }
 
-std::string told(const PixelCertificate& certificate) {
+std::string describe(const PixelCertificate& certificate) {
     std::string text;
     for (const auto& [key, value] : measured(certificate)) text += fmt::format("{} {:g}, ", key, value);
     return text;
@@ -52,7 +52,7 @@ TEST(PixelCertificate, AcceptsAreasOfTheLightWhereItIs) {
         const PixelCertificate found = certificateOf(id, meansOf(shown(id)));
         EXPECT_EQ(found.contradicting, 0) << id;
         EXPECT_LT(found.rms, 0.5 * found.independent) << id;
-        EXPECT_NO_THROW(requirePixelsCertified(found)) << id << ": " << told(found);
+        EXPECT_NO_THROW(requirePixelsCertified(found)) << id << ": " << describe(found);
     }
 }
 
@@ -61,7 +61,7 @@ TEST(PixelCertificate, AcceptsThemWhateverTheRays) {
     for (std::uint16_t seed = 1; seed <= 20; ++seed) {
         const auto firstSet = static_cast<std::uint16_t>(seed * pixelCertificateSets);
         const PixelCertificate found = certificateOf("windmills", means, 48, firstSet);
-        EXPECT_NO_THROW(requirePixelsCertified(found)) << seed << ": " << told(found);
+        EXPECT_NO_THROW(requirePixelsCertified(found)) << seed << ": " << describe(found);
     }
 }
 
@@ -75,7 +75,7 @@ TEST(PixelCertificate, RejectsALightMovedByAHundredthOfItsDistance) {
         else
             light.direction = glm::normalize(glm::normalize(light.direction) + aside);
         const PixelCertificate found = certificateOf(id, meansOf(scene));
-        EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << told(found);
+        EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << describe(found);
     }
 }
 
@@ -94,7 +94,7 @@ Reference moved(const Reference& means, double pixels) {
 TEST(PixelCertificate, RejectsAnImageThatIsMovedByATenthOfAPixel) {
     for (const char* id : ids) {
         const PixelCertificate found = certificateOf(id, moved(meansOf(shown(id)), 0.1));
-        EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << told(found);
+        EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << describe(found);
     }
 }
 
@@ -102,7 +102,7 @@ TEST(PixelCertificate, RejectsAnImageThatIsMovedByATenthOfAPixel) {
 TEST(PixelCertificate, RejectsAnImageThatIsMovedByAFiftiethOfAPixel) {
     for (const char* id : {"dueling-frusta", "simple", "colonnade"}) {
         const PixelCertificate found = certificateOf(id, moved(meansOf(shown(id)), 0.02));
-        EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << told(found);
+        EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << describe(found);
     }
 }
 
@@ -129,7 +129,7 @@ TEST(PixelCertificate, RejectsErrorsOfTwiceWhatItsRaysErrBy) {
     const PixelCertificate found = certificateOf("simple", means);
     EXPECT_LT(found.rms, 0.012);
     EXPECT_GT(found.rms, 2 * honest.rms);
-    EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << told(found);
+    EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << describe(found);
 }
 
 // 1,024 rays of a share of ½ lie within 0.105 of it, by Bernstein's inequality at 10⁻⁵ over all points.
@@ -138,7 +138,7 @@ TEST(PixelCertificate, CountsPointsThatNoRaysCouldGive) {
     for (float& share : means.visibility)
         if (share > 0 && share < 1) share += share < 0.5F ? 0.3F : -0.3F;
     const PixelCertificate found = certificateOf("windmills", means);
-    EXPECT_NEAR(found.impossible, 0.75 * found.points, 0.05 * found.points) << told(found);
+    EXPECT_NEAR(found.impossible, 0.75 * found.points, 0.05 * found.points) << describe(found);
 }
 
 TEST(PixelCertificate, IsInTheProvenanceOfPixelAreas) {

@@ -40,7 +40,7 @@ TEST(Bounds, AreBrokenOnTheWrongSideOnly) {
 TEST(Bounds, OnAMetricThatIsMissingAreNotJudged) {
     const std::vector<Change> changes = judgeBounds({scoredRecord()}, {bound("sm-uniform", "penumbra_rmse", 1, true)});
     ASSERT_EQ(changes.size(), 1U);
-    EXPECT_EQ(changes[0].direction, Direction::Unjudged);
+    EXPECT_EQ(changes[0].direction, Direction::NotCompared);
     EXPECT_EQ(changes[0].changeClass, Class::Penumbra);
 }
 
@@ -81,14 +81,14 @@ TEST(Bounds, ThatMeetNothingAreNotJudgedWhereAllWasMeasured) {
     ASSERT_EQ(changes.size(), 2U);
     EXPECT_EQ(changes[0].direction, Direction::Same);
     EXPECT_EQ(changes[1].sentence, "still-to-come on dueling-frusta: the bound on leak met no result");
-    EXPECT_EQ(changes[1].direction, Direction::Unjudged);
+    EXPECT_EQ(changes[1].direction, Direction::NotCompared);
 }
 
-class WatchlistFile : public testing::Test {
+class GateConfigFile : public testing::Test {
 protected:
-    Watchlist read(const std::string& text) {
+    GateConfig read(const std::string& text) {
         writeFile(file_, text);
-        return readWatchlist(file_, Profile::Gate);
+        return readGateConfig(file_, Profile::Gate);
     }
     std::string complaint(const std::string& text) {
         try {
@@ -103,11 +103,11 @@ protected:
     std::filesystem::path file_ = folder_.path() / "bounds.toml";
 };
 
-TEST_F(WatchlistFile, HoldsBoundsSweepsAndCellsOfCost) {
-    const Watchlist list = read("[[bound]]\nscene = \"trees\"\ntechniques = [\"volume-*\"]\nmetric = \"mismatch\"\nbelow = "
-                                "0.1\nreason = \"r\"\n[[sweep]]\nscene = \"trees\"\naxis = \"map\"\nvalues = [512, "
-                                "256]\ntechniques = [\"sm-uniform\"]\nreason = \"r\"\n[[time]]\nscene = "
-                                "\"trees\"\ntechniques = [\"*\"]\nexcept = [\"lod-*\"]\nreason = \"r\"\n");
+TEST_F(GateConfigFile, HoldsBoundsSweepsAndCellsOfCost) {
+    const GateConfig list = read("[[bound]]\nscene = \"trees\"\ntechniques = [\"volume-*\"]\nmetric = \"mismatch\"\nbelow = "
+                                 "0.1\nreason = \"r\"\n[[sweep]]\nscene = \"trees\"\naxis = \"map\"\nvalues = [512, "
+                                 "256]\ntechniques = [\"sm-uniform\"]\nreason = \"r\"\n[[time]]\nscene = "
+                                 "\"trees\"\ntechniques = [\"*\"]\nexcept = [\"lod-*\"]\nreason = \"r\"\n");
     ASSERT_EQ(list.bounds.size(), 1U);
     EXPECT_TRUE(list.bounds[0].below);
     ASSERT_EQ(list.sweeps.size(), 1U);
@@ -118,7 +118,7 @@ TEST_F(WatchlistFile, HoldsBoundsSweepsAndCellsOfCost) {
     EXPECT_TRUE(list.unknownScenes({}).empty());
 }
 
-TEST_F(WatchlistFile, NamesWhatIsWrongWithIt) {
+TEST_F(GateConfigFile, NamesWhatIsWrongWithIt) {
     const std::string begin = "[[bound]]\nscene = \"trees\"\ntechniques = [\"sm-unifrom\"]\nmetric = \"mismatch\"\n";
     EXPECT_NE(complaint(begin + "below = 1\nreason = \"r\"\n").find("sm-uniform"), std::string::npos);
     const std::string good = "[[bound]]\nscene = \"trees\"\ntechniques = [\"pcf\"]\nmetric = \"mismatch\"\n";
@@ -127,7 +127,7 @@ TEST_F(WatchlistFile, NamesWhatIsWrongWithIt) {
     EXPECT_EQ(complaint(good + "below = 1\nreason = \"r\"\n"), "none");
 }
 
-TEST_F(WatchlistFile, NamesWhatNoListMayHold) {
+TEST_F(GateConfigFile, NamesWhatNoListMayHold) {
     const std::string watch = "scene = \"trees\"\ntechniques = [\"pcf\"]\nreason = \"r\"\n";
     const std::vector<std::pair<std::string, std::string>> faults{
         {"[[bounds]]\n" + watch, "bounds: unknown key (did you mean \"bound\"?)"},
@@ -147,11 +147,11 @@ TEST_F(WatchlistFile, NamesWhatNoListMayHold) {
     }
 }
 
-TEST_F(WatchlistFile, KnowsTheScenesThatNobodyHas) {
+TEST_F(GateConfigFile, KnowsTheScenesThatNobodyHas) {
     const auto entry = [](const std::string& kind, const std::string& scene, const std::string& more = "") {
         return "[[" + kind + "]]\nscene = \"" + scene + "\"\ntechniques = [\"pcf\"]\nreason = \"r\"\n" + more;
     };
-    const Watchlist list =
+    const GateConfig list =
         read(entry("scene", "a") + entry("bound", "b", "metric = \"leak\"\nbelow = 1\n") +
              entry("sweep", "c", "axis = \"near-plane\"\n") + entry("count", "d") + entry("time", "e") + entry("time", "a") +
              entry("time", "trees") + entry("seeds", "seeds are measured where scenes are chosen"));
@@ -159,17 +159,17 @@ TEST_F(WatchlistFile, KnowsTheScenesThatNobodyHas) {
     EXPECT_TRUE(list.unknownScenes({"a", "b", "c", "d", "e"}).empty());
 }
 
-TEST_F(WatchlistFile, SaysWhereChancePlaysAPart) {
-    const Watchlist list = read("[[seeds]]\nscene = \"trees\"\ntechniques = [\"sm-history\", \"vsm\"]\n"
-                                "except = [\"vsm\"]\nreason = \"r\"\n");
+TEST_F(GateConfigFile, SaysWhereChancePlaysAPart) {
+    const GateConfig list = read("[[seeds]]\nscene = \"trees\"\ntechniques = [\"sm-history\", \"vsm\"]\n"
+                                 "except = [\"vsm\"]\nreason = \"r\"\n");
     EXPECT_TRUE(list.isByChance("trees", "sm-history"));
     EXPECT_FALSE(list.isByChance("trees", "sm-history:m=15")) << "a name stands for one variant";
     EXPECT_FALSE(list.isByChance("trees", "vsm"));
     EXPECT_FALSE(list.isByChance("simple", "sm-history"));
 }
 
-TEST(Watch, OfATechniqueStillToComeCoversNothing) {
-    const Watch watch{"trees", {"still-to-come", "sm-*", "pcf:kernel=7"}, {"sm-psm"}, "r"};
+TEST(GateRule, OfATechniqueStillToComeCoversNothing) {
+    const GateRule watch{"trees", {"still-to-come", "sm-*", "pcf:kernel=7"}, {"sm-psm"}, "r"};
     EXPECT_FALSE(watch.covers("still-to-come"));
     EXPECT_EQ(watch.named(), std::vector<std::string>{"pcf:kernel=7"}) << "neither a glob nor what this build lacks";
     EXPECT_TRUE(watch.covers("sm-uniform:map=512"));
@@ -177,13 +177,13 @@ TEST(Watch, OfATechniqueStillToComeCoversNothing) {
     EXPECT_FALSE(watch.covers("sm-psm"));
 }
 
-TEST_F(WatchlistFile, TheCommittedOneIsSound) {
-    const Watchlist list = readWatchlist(std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml", Profile::Gate);
+TEST_F(GateConfigFile, TheCommittedOneIsSound) {
+    const GateConfig list = readGateConfig(std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml", Profile::Gate);
     EXPECT_FALSE(list.bounds.empty());
     EXPECT_TRUE(list.unknownScenes({}).empty());
 }
 
-TEST(GatePlan, TheWatchlistsScenesComeWithTheirTechniquesUnlessTheUserNamesScenes) {
+TEST(GatePlan, TheConfigsScenesComeWithTheirTechniquesUnlessTheUserNamesScenes) {
     GateOptions options;
     options.bounds = std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml";
     options.techniques = {"sm-cube", "pcf"};
@@ -231,10 +231,10 @@ TEST(GateCode, WhatCouldNotBeJudgedComesBeforeAccuracyAndThatBeforeCost) {
     change.changeClass = Class::Leak;
     result.changes.push_back(change);
     EXPECT_EQ(result.code(), ExitCode::AccuracyRegression);
-    result.unjudged.emplace_back("something");
+    result.notCompared.emplace_back("something");
     EXPECT_EQ(result.code(), ExitCode::Inconclusive);
-    result.unjudged.clear();
-    change.direction = Direction::Unjudged;
+    result.notCompared.clear();
+    change.direction = Direction::NotCompared;
     result.changes.push_back(change);
     EXPECT_EQ(result.code(), ExitCode::Inconclusive);
 }

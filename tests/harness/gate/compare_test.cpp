@@ -80,7 +80,7 @@ TEST(Compare, GradedErrorsAreComparedInUnitsOfTheTruthsOwn) {
     EXPECT_EQ(onlyWorseClass(base, head), Class::Penumbra);
 }
 
-TEST(Compare, LevelsOfDetailAreWatched) {
+TEST(Compare, LevelsOfDetailAreCompared) {
     const Record base = lodRecord(); // its walk pops less than lod-full: −0.0002
     EXPECT_TRUE(worse(base, base).empty());
     Record head = base;
@@ -116,28 +116,28 @@ TEST(Compare, HalfAPerCentOfInstructionsIsTheLimit) {
 }
 
 /// What could not be judged.
-std::vector<Change> unjudged(const Record& base, const Record& head) {
+std::vector<Change> notCompared(const Record& base, const Record& head) {
     std::vector<Change> changes = compare({base}, {drawnAnew(head)}).changes;
-    std::erase_if(changes, [](const Change& c) { return c.direction != Direction::Unjudged; });
+    std::erase_if(changes, [](const Change& c) { return c.direction != Direction::NotCompared; });
     return changes;
 }
 
 TEST(Compare, AMetricThatTheHeadLacksIsNotJudged) {
     Record head = hardRecord();
     test::clear(head, "stability.flicker");
-    ASSERT_EQ(unjudged(hardRecord(), head).size(), 1U) << "the mean, whose class it is";
-    EXPECT_EQ(unjudged(hardRecord(), head)[0].changeClass, Class::Flicker);
-    EXPECT_TRUE(unjudged(head, hardRecord()).empty()) << "a new one";
+    ASSERT_EQ(notCompared(hardRecord(), head).size(), 1U) << "the mean, whose class it is";
+    EXPECT_EQ(notCompared(hardRecord(), head)[0].changeClass, Class::Flicker);
+    EXPECT_TRUE(notCompared(head, hardRecord()).empty()) << "a new one";
     head = hardRecord();
     head.figures.erase("tiles");
-    EXPECT_EQ(unjudged(hardRecord(), head).size(), 1U);
+    EXPECT_EQ(notCompared(hardRecord(), head).size(), 1U);
 }
 
 TEST(Compare, NoGhostIsTheBestHalfLife) {
     Record with = hardRecord();
     with.values["stability.ghost_half_life"] = 3;
     EXPECT_TRUE(worse(with, hardRecord()).empty());
-    EXPECT_TRUE(unjudged(with, hardRecord()).empty());
+    EXPECT_TRUE(notCompared(with, hardRecord()).empty());
     EXPECT_EQ(onlyWorseClass(hardRecord(), with), Class::Flicker);
     Record withoutMotion = hardRecord();
     test::clear(withoutMotion, "stability");
@@ -153,12 +153,12 @@ TEST(Compare, AnErrorThatIsRestlessAtTheEndConvergesAfterIt) {
     Record restless = steady;
     restless.values["stability.convergence"].reset();
     EXPECT_EQ(onlyWorseClass(steady, restless), Class::Flicker);
-    EXPECT_TRUE(unjudged(restless, steady).empty());
+    EXPECT_TRUE(notCompared(restless, steady).empty());
     EXPECT_TRUE(worse(restless, steady).empty());
     steady.values["stability.convergence"] = 59;
     EXPECT_TRUE(worse(steady, restless).empty()) << "frame 61 of 60 is within a frame and 5 %";
     restless.values.list("stability.by_frame.changed").clear();
-    EXPECT_EQ(unjudged(steady, restless).size(), 1U) << "nobody measured when";
+    EXPECT_EQ(notCompared(steady, restless).size(), 1U) << "nobody measured when";
 }
 
 TEST(Compare, WhatSomeSeedsOfTheBaseLackIsNotJudged) {
@@ -189,8 +189,8 @@ TEST(Compare, InstructionsCountedInDifferentEnvironmentsAreNotJudgedScoresAre) {
         Record head = softRecord();
         change(head.environment);
         head.values["accuracy.rmse"] = 0.04;
-        ASSERT_EQ(unjudged(softRecord(), head).size(), 1U);
-        EXPECT_EQ(unjudged(softRecord(), head)[0].metric, "cost.instructions");
+        ASSERT_EQ(notCompared(softRecord(), head).size(), 1U);
+        EXPECT_EQ(notCompared(softRecord(), head)[0].metric, "cost.instructions");
         EXPECT_EQ(onlyWorseClass(softRecord(), head), Class::Penumbra);
     }
 }
@@ -205,9 +205,9 @@ TEST(Compare, ScoresOfWhatIsNotComparableAreNotJudged) {
         Record head = hardRecord();
         change(head);
         EXPECT_TRUE(worse(hardRecord(), head).empty());
-        ASSERT_EQ(unjudged(hardRecord(), head).size(), 1U);
+        ASSERT_EQ(notCompared(hardRecord(), head).size(), 1U);
         EXPECT_EQ(verdictOf(compare({hardRecord()}, {head}).changes), ExitCode::Inconclusive);
-        EXPECT_NE(unjudged(hardRecord(), head)[0].sentence.find("cannot be compared: "), std::string::npos);
+        EXPECT_NE(notCompared(hardRecord(), head)[0].sentence.find("cannot be compared: "), std::string::npos);
     }
     Record older = hardRecord(); // which does not say
     older.environment.mesa.clear();
@@ -355,7 +355,7 @@ TEST(Compare, MetricsThatScoreOneImageAlikeAndAnotherUnlikeJudgeNothing) {
     head[1].values["aliasing.median"].reset(); // is not compared
     head[2].images = "2222";
     for (const Change& change : compare(base, head).changes)
-        EXPECT_EQ(change.direction == Direction::Unjudged, change.metric == "accuracy.leak" && change.variant != "alike")
+        EXPECT_EQ(change.direction == Direction::NotCompared, change.metric == "accuracy.leak" && change.variant != "alike")
             << change.sentence;
 }
 

@@ -22,7 +22,7 @@ Bound leakBelow(double value) { return {{"trees", {"pcf", "sm-uniform"}, {}, "a 
 Policy policyWith(const Bound& bound) {
     Policy policy;
     policy.standard = {"trees"};
-    policy.watchlist.bounds = {bound};
+    policy.config.bounds = {bound};
     return policy;
 }
 
@@ -44,16 +44,16 @@ TEST(GatePolicy, ALooserBoundIsListedAndAStricterOneIsNot) {
 }
 
 TEST(GatePolicy, ASweepThatAsksForLessIsListed) {
-    const Watch watch{"trees", {"pcf"}, {}, "a test"};
+    const GateRule watch{"trees", {"pcf"}, {}, "a test"};
     Policy base, head;
-    base.watchlist.sweeps = {{watch, "map", {512, 256}}};
+    base.config.sweeps = {{watch, "map", {512, 256}}};
     const auto listed = [&] { return loosened(base, head); };
-    head.watchlist = base.watchlist;
-    head.watchlist.sweeps[0].values = {512};
+    head.config = base.config;
+    head.config.sweeps[0].values = {512};
     EXPECT_EQ(listed(), std::vector<std::string>{"the base's [sweep] pcf on trees over map is gone or looser here"});
-    head.watchlist.sweeps[0] = {watch, "near-plane", {512, 256}};
+    head.config.sweeps[0] = {watch, "near-plane", {512, 256}};
     EXPECT_EQ(listed().size(), 1U);
-    head.watchlist.sweeps[0] = {{"simple", {"pcf"}, {}, "a test"}, "map", {512, 256}};
+    head.config.sweeps[0] = {{"simple", {"pcf"}, {}, "a test"}, "map", {512, 256}};
     EXPECT_EQ(listed().size(), 1U) << "another scene";
 }
 
@@ -69,16 +69,16 @@ TEST(GatePolicy, ABoundOnAnotherMetricOrSideKeepsNothing) {
 
 TEST(GatePolicy, OfAnotherProfileLeavesOutWhatScenesExpectOfTheGates) {
     const std::filesystem::path file = std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml";
-    EXPECT_LT(readPolicy(file, Profile::Standard).watchlist.bounds.size(),
-              readPolicy(file, Profile::Gate).watchlist.bounds.size());
+    EXPECT_LT(readPolicy(file, Profile::Standard).config.bounds.size(),
+              readPolicy(file, Profile::Gate).config.bounds.size());
 }
 
 TEST(GatePolicy, OfAProgramThatIsOlderThanAKindOfEntryHasNone) {
-    std::string json = toJson(Identity{"c0ffee", false, "9a55", policyWith(leakBelow(0.1))});
+    std::string json = toJson(BuildInfo{"c0ffee", false, "9a55", policyWith(leakBelow(0.1))});
     json.replace(json.find("\"waiver\""), 8, "\"a kind to come\"");
-    EXPECT_TRUE(identityFrom(json).policy.watchlist.waivers.empty());
-    EXPECT_EQ(identityFrom(json).policy.watchlist.bounds.size(), 1U);
-    EXPECT_THROW(identityFrom("no JSON"), BadInput);
+    EXPECT_TRUE(buildInfoFrom(json).policy.config.waivers.empty());
+    EXPECT_EQ(buildInfoFrom(json).policy.config.bounds.size(), 1U);
+    EXPECT_THROW(buildInfoFrom("no JSON"), BadInput);
 }
 
 TEST(GatePolicy, AnotherThingThatIsComparedOfAMetricIsListed) {
@@ -96,36 +96,35 @@ TEST(GatePolicy, AnotherThingThatIsComparedOfAMetricIsListed) {
 
 TEST(GatePolicy, EveryKindOfEntryThatIsGoneIsListedAndJudgesOn) {
     Policy base = policyWith(leakBelow(0.1));
-    const Watch watch{"trees", {"*"}, {}, "a test"};
-    base.watchlist.scenes = base.watchlist.counted = base.watchlist.timed = base.watchlist.seeds = {watch};
-    base.watchlist.sweeps = {{watch, "map", {}}};
-    base.watchlist.choices = {watch};
+    const GateRule watch{"trees", {"*"}, {}, "a test"};
+    base.config.scenes = base.config.counted = base.config.timed = base.config.seeds = {watch};
+    base.config.sweeps = {{watch, "map", {}}};
+    base.config.choices = {watch};
     const Union both = unite(base, Policy());
     EXPECT_EQ(both.loosened.size(), 8U) << "and the standard scene";
     EXPECT_EQ(both.policy.standard, base.standard);
-    EXPECT_EQ(both.policy.watchlist.bounds.size(), 1U);
-    EXPECT_EQ(both.policy.watchlist.timed.size(), 1U);
-    EXPECT_EQ(both.policy.watchlist.choices.size(), 1U);
+    EXPECT_EQ(both.policy.config.bounds.size(), 1U);
+    EXPECT_EQ(both.policy.config.timed.size(), 1U);
+    EXPECT_EQ(both.policy.config.choices.size(), 1U);
     EXPECT_TRUE(unite(both.policy, both.policy).loosened.empty());
 }
 
 TEST(GatePolicy, IsReadAsItIsWrittenAndMayNameWhatThisBuildLacks) {
-    Identity identity{"c0ffee", true, "9a55", policyWith(leakBelow(0.1))};
-    identity.policy.watchlist.bounds[0].metric = "a-metric-to-come";
-    identity.policy.watchlist.bounds[0].cells.techniques = {"a-technique-to-come"};
-    identity.policy.rules.limits["accuracy.to_come"] = {
-        metrics::TruthError::Rms, 2, "accuracy.pixels.lit", 0.1, 0.2, true, 1};
-    identity.policy.time.floor = 0.02;
-    const Identity read = identityFrom(toJson(identity));
-    EXPECT_EQ(toJson(read), toJson(identity));
-    EXPECT_THROW(identityFrom("{}"), BadInput);
+    BuildInfo build{"c0ffee", true, "9a55", policyWith(leakBelow(0.1))};
+    build.policy.config.bounds[0].metric = "a-metric-to-come";
+    build.policy.config.bounds[0].cells.techniques = {"a-technique-to-come"};
+    build.policy.rules.limits["accuracy.to_come"] = {metrics::TruthError::Rms, 2, "accuracy.pixels.lit", 0.1, 0.2, true, 1};
+    build.policy.time.floor = 0.02;
+    const BuildInfo read = buildInfoFrom(toJson(build));
+    EXPECT_EQ(toJson(read), toJson(build));
+    EXPECT_THROW(buildInfoFrom("{}"), BadInput);
     EXPECT_EQ(read.policy.rules.limits.at("accuracy.to_come").of, "accuracy.pixels.lit");
-    EXPECT_TRUE(unite(read.policy, Policy()).policy.watchlist.bounds.empty());
+    EXPECT_TRUE(unite(read.policy, Policy()).policy.config.bounds.empty());
 }
 
 TEST(GatePolicy, OfThisBuildIsThatOfTheCommittedFile) {
     const Policy file = readPolicy(std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml", Profile::Gate);
-    const Policy own = ownIdentity().policy;
+    const Policy own = ownBuildInfo().policy;
     EXPECT_TRUE(loosened(own, file).empty());
     EXPECT_TRUE(loosened(file, own).empty());
     EXPECT_FALSE(own.standard.empty());
@@ -144,7 +143,7 @@ protected:
 
 TEST_F(GateUnion, TheBasesScenesAndVariantsAreJudgedToo) {
     Policy base;
-    base.watchlist.scenes = {{"colonnade", {"pcf"}, {}, "a test"}};
+    base.config.scenes = {{"colonnade", {"pcf"}, {}, "a test"}};
     const JudgedCells cells(options_, base, {"pcf:kernel=5,map=333", "sm-uniform"});
     EXPECT_TRUE(cells.chooses("colonnade", "pcf"));
     EXPECT_TRUE(cells.chooses("trees", techniques::parseVariant("pcf:kernel=5,map=333").name));
@@ -163,10 +162,10 @@ TEST_F(GateUnion, ARenamedSceneOrTechniqueIsNamed) {
 
 TEST_F(GateUnion, TheScenesOfTheBasesChoicesAreJudgedOrNamed) {
     Policy base;
-    base.watchlist.choices = {{"choices.toml", {"pcf"}, {}, "a test"}};
+    base.config.choices = {{"choices.toml", {"pcf"}, {}, "a test"}};
     ASSERT_EQ(JudgedCells(options_, base, {}).gone.size(), 1U);
     EXPECT_EQ(JudgedCells(options_, base, {}).gone[0].scene, "choices.toml");
-    EXPECT_EQ(JudgedCells(options_, base, {}).gone[0].direction, Direction::Unjudged);
+    EXPECT_EQ(JudgedCells(options_, base, {}).gone[0].direction, Direction::NotCompared);
     std::filesystem::copy_file(std::filesystem::path(SOURCE_FOLDER) / "harness/gate/scenes/choices-point.toml",
                                folder_.path() / "choices.toml");
     const JudgedCells cells(options_, base, {});
@@ -177,7 +176,7 @@ TEST_F(GateUnion, TheScenesOfTheBasesChoicesAreJudgedOrNamed) {
 
 TEST_F(GateUnion, ASceneOfTwoEntriesIsMeasuredOnce) {
     Policy base;
-    base.watchlist.scenes = {{"colonnade", {"pcf"}, {}, "a test"}, {"colonnade", {"pcf", "sm-uniform"}, {}, "a test"}};
+    base.config.scenes = {{"colonnade", {"pcf"}, {}, "a test"}, {"colonnade", {"pcf", "sm-uniform"}, {}, "a test"}};
     const JudgedCells cells(options_, base, {});
     ASSERT_EQ(std::ranges::count(cells.scenes, "colonnade", &JudgedScene::id), 1);
     const auto scene = std::ranges::find(cells.scenes, "colonnade", &JudgedScene::id);
@@ -219,8 +218,8 @@ TEST(Waivers, AcceptWhatIsOfTheirCellsAndClassThroughTheirLastDay) {
     };
     EXPECT_TRUE(waived("trees", "pcf", Class::Leak, Direction::Worse, "2026-05-31"));
     EXPECT_FALSE(waived("trees", "pcf", Class::Leak, Direction::Worse, "2026-06-01"));
-    EXPECT_TRUE(waived("trees", "pcf", Class::Leak, Direction::Unjudged, "2026-01-01"));
-    EXPECT_TRUE(waived("trees", "gone:map=3", Class::Leak, Direction::Unjudged, "2026-01-01"));
+    EXPECT_TRUE(waived("trees", "pcf", Class::Leak, Direction::NotCompared, "2026-01-01"));
+    EXPECT_TRUE(waived("trees", "gone:map=3", Class::Leak, Direction::NotCompared, "2026-01-01"));
     EXPECT_FALSE(waived("simple", "pcf", Class::Leak, Direction::Worse, "2026-01-01"));
     EXPECT_FALSE(waived("trees", "esm", Class::Leak, Direction::Worse, "2026-01-01"));
     EXPECT_FALSE(waived("trees", "pcf", Class::Edge, Direction::Worse, "2026-01-01"));
@@ -238,22 +237,22 @@ TEST(Waivers, ThatAcceptNothingAreNamed) {
 
 TEST(Waivers, OfTheHeadAloneAreListed) {
     Policy with;
-    with.watchlist.waivers = {leaksUntilMay};
+    with.config.waivers = {leaksUntilMay};
     ASSERT_EQ(loosened(Policy(), with).size(), 1U);
     EXPECT_TRUE(loosened(Policy(), with)[0].starts_with(
         "this build accepts, and its base does not, leak of pcf*, gone:map=3 on tre*"));
     EXPECT_TRUE(loosened(with, with).empty());
     EXPECT_TRUE(loosened(with, Policy()).empty());
-    EXPECT_TRUE(unite(with, Policy()).policy.watchlist.waivers.empty()) << "the head is held to more";
-    EXPECT_EQ(identityFrom(toJson(Identity{"c0ffee", false, "9a55", with})).policy.watchlist.waivers[0].expires,
+    EXPECT_TRUE(unite(with, Policy()).policy.config.waivers.empty()) << "the head is held to more";
+    EXPECT_EQ(buildInfoFrom(toJson(BuildInfo{"c0ffee", false, "9a55", with})).policy.config.waivers[0].expires,
               "2026-05-31");
 }
 
 TEST(Waivers, AreReadFromTheFileOfBounds) {
     const auto read = [](const std::string& day, const std::string& what) {
-        return parseWatchlist("[[waiver]]\nscene = \"*\"\ntechniques = [\"gone\"]\nclass = \"" + what +
-                                  "\"\nreason = \"a test\"\nexpires = \"" + day + "\"\n",
-                              "bounds.toml", Profile::Gate);
+        return parseGateConfig("[[waiver]]\nscene = \"*\"\ntechniques = [\"gone\"]\nclass = \"" + what +
+                                   "\"\nreason = \"a test\"\nexpires = \"" + day + "\"\n",
+                               "bounds.toml", Profile::Gate);
     };
     EXPECT_EQ(read("2026-12-31", "false shadow").waivers.at(0).what, "false shadow");
     EXPECT_THROW(read("31.12.2026", "leak"), BadInput);
@@ -319,7 +318,7 @@ TEST(GateCounts, HoldEveryTechnique) {
     std::set<std::string> counted;
     for (const JudgedScene& scene : cells.scenes)
         for (const std::string& name : scene.variants)
-            for (const Watch& watch : cells.policy.watchlist.counted)
+            for (const GateRule& watch : cells.policy.config.counted)
                 if (watch.scene == scene.id && watch.covers(name)) counted.insert(techniques::parseVariant(name).entry->id);
     for (const techniques::Entry& entry : techniques::catalog()) EXPECT_TRUE(counted.contains(entry.id)) << entry.id;
 }

@@ -39,9 +39,9 @@ TEST(GateReport, SaysTheVerdictInWords) {
     EXPECT_TRUE(contains(last(resultOf({worse("trees", "pcf")})), "gate: accuracy or stability regression"));
     EXPECT_TRUE(contains(last(resultOf({worse("trees", "pcf", Class::Work)})), "gate: cost regression"));
     GateResult unsure = resultOf({});
-    unsure.unjudged = {"pcf on trees was not measured"};
+    unsure.notCompared = {"pcf on trees was not measured"};
     EXPECT_TRUE(contains(last(unsure), "gate: inconclusive"));
-    EXPECT_TRUE(contains(gateReport(unsure, optionsOf()), "not judged:\n  pcf on trees was not measured\n"));
+    EXPECT_TRUE(contains(gateReport(unsure, optionsOf()), "not compared:\n  pcf on trees was not measured\n"));
     EXPECT_TRUE(gateComment(resultOf({}), optionsOf()).starts_with("## shadowbench: pass\n\nHead decaf, base v1"));
 }
 
@@ -93,7 +93,7 @@ TEST(GateReport, CommandsCanBePastedIntoAShell) {
 std::vector<Change> oneOfEach() {
     std::vector<Change> changes;
     for (const Direction direction : {Direction::Better, Direction::Same, Direction::Worse, Direction::Unclear,
-                                      Direction::Unjudged, Direction::Waived}) {
+                                      Direction::NotCompared, Direction::Waived}) {
         changes.push_back(worse("trees", "pcf"));
         changes.back().direction = direction;
         changes.back().sentence = "change " + std::to_string(changes.size());
@@ -106,9 +106,10 @@ Comparison comparisonOf(const std::vector<Change>& changes) { return {changes, {
 TEST(ChangesReport, ListsTheWorstFirstAndCountsTheRest) {
     EXPECT_EQ(
         changesReport(comparisonOf(oneOfEach())),
-        "worse      leak          change 3\nnot judged leak          change 5\nunclear    leak          change 4\n"
-        "waived     leak          change 6\nbetter     leak          change 1\n1 worse, 1 better, 1 the same, 1 unclear, "
-        "1 waived, 1 not judged; 1 of 2 expected results compared; failed: pcf on trees\n");
+        "worse        leak          change 3\nnot compared leak          change 5\nunclear      leak          change 4\n"
+        "waived       leak          change 6\nbetter       leak          change 1\n1 worse, 1 better, 1 the same, 1 "
+        "unclear, "
+        "1 waived, 1 not compared; 1 of 2 expected results compared; failed: pcf on trees\n");
     EXPECT_EQ(changesReport({}), "0 worse, 0 better, 0 the same; 0 of 0 expected results compared\n");
 }
 
@@ -134,7 +135,7 @@ TEST(GateComment, HasFortyLinesHoweverMuchIsWorse) {
             result.changes.push_back(change);
         }
         result.loosened.emplace_back("the base's bound is gone");
-        result.unjudged.emplace_back("not measured");
+        result.notCompared.emplace_back("not measured");
     }
     const std::string comment = gateComment(result, optionsOf());
     EXPECT_LE(std::ranges::count(comment, '\n'), 40) << comment;
@@ -144,8 +145,9 @@ TEST(GateComment, HasFortyLinesHoweverMuchIsWorse) {
 }
 
 TEST(Annotations, AreOneForEachResultAndCauseAndWarnOfWhatIsUnclearOrNotJudged) {
-    EXPECT_EQ(annotations(oneOfEach()), "::error title=leak is worse::change 3\n::warning title=leak is not judged::change "
-                                        "5\n::warning title=leak is unclear::change 4\n");
+    EXPECT_EQ(annotations(oneOfEach()),
+              "::error title=leak is worse::change 3\n::warning title=leak is not compared::change "
+              "5\n::warning title=leak is unclear::change 4\n");
     EXPECT_EQ(annotations({worse("trees", "pcf"), worse("trees", "pcf")}),
               "::error title=leak is worse::pcf on trees leaks, and 1 more of leak\n");
 }

@@ -35,7 +35,7 @@ Record times(Record record, const char* path, double factor) {
     return record;
 }
 
-TEST(FalseGreens, EveryScoreIsWatched) {
+TEST(FalseGreens, EveryScoreIsCompared) {
     for (const auto& [metric, factor] : std::vector<std::pair<const char*, double>>{{"accuracy.ssim", 0.5},
                                                                                     {"accuracy.bad8", 3},
                                                                                     {"accuracy.mae", 2},
@@ -48,7 +48,7 @@ TEST(FalseGreens, EveryScoreIsWatched) {
     EXPECT_EQ(verdict(hardRecord(), times(hardRecord(), "accuracy.edge_error.signed", -1)), ExitCode::AccuracyRegression);
 }
 
-TEST(FalseGreens, WorkAndFiguresAreWatched) {
+TEST(FalseGreens, WorkAndFiguresAreCompared) {
     for (const char* metric :
          std::vector<const char*>{"cost.work.fragments", "cost.work.draws", "cost.work.passes", "cost.work.bytes"})
         EXPECT_EQ(verdict(hardRecord(), times(hardRecord(), metric, 10)), ExitCode::CostRegression);
@@ -90,7 +90,7 @@ TEST(FalseGreens, MetricsThatScoreTheSameImagesDifferentlyAreNoImprovement) {
     const std::vector<Change> changes = compare({hardRecord()}, {rescored(hardRecord(), 0.5)}).changes;
     EXPECT_EQ(verdictOf(changes), ExitCode::Inconclusive);
     EXPECT_EQ(std::ranges::count(changes, Direction::Better, &Change::direction), 0);
-    EXPECT_EQ(std::ranges::count(changes, Direction::Unjudged, &Change::direction), 4) << "each is listed";
+    EXPECT_EQ(std::ranges::count(changes, Direction::NotCompared, &Change::direction), 4) << "each is listed";
 }
 
 TEST(FalseGreens, MetricsThatScoreTheSameImagesAlikeAreTheSameCode) {
@@ -114,10 +114,10 @@ Record againstAreas(const std::string& key, const std::string& content) {
     return record;
 }
 
-std::set<std::string> unjudgedMetrics(const std::vector<Change>& changes) {
+std::set<std::string> metricsNotCompared(const std::vector<Change>& changes) {
     std::set<std::string> metrics;
     for (const Change& change : changes)
-        if (change.direction == Direction::Unjudged) metrics.insert(change.metric);
+        if (change.direction == Direction::NotCompared) metrics.insert(change.metric);
     return metrics;
 }
 
@@ -126,14 +126,14 @@ TEST(FalseGreens, WhatAnotherTruthOfPixelAreasJudgedIsNotCompared) {
     const std::set<std::string> byAreas{"accuracy.pixel_area.rmse", "stability.flicker.mean"};
     for (Record head : {againstAreas("other", "aaaa"), againstAreas("c0de", "bbbb")}) {
         head.values["stability.flicker.mean"] = 0.0005;
-        EXPECT_EQ(unjudgedMetrics(compare({base}, {head}).changes), byAreas);
+        EXPECT_EQ(metricsNotCompared(compare({base}, {head}).changes), byAreas);
         EXPECT_EQ(verdict(base, head), ExitCode::Inconclusive);
         head.values["accuracy.leak"] = 0.1;
         const std::vector<Change> changes = compare({base}, {test::drawnAnew(head)}).changes;
         EXPECT_EQ(std::ranges::count(changes, Direction::Worse, &Change::direction), 1) << "labels have their own truth";
     }
     Record older = hardRecord(); // its flicker was measured against labels
-    EXPECT_EQ(unjudgedMetrics(compare({older}, {base}).changes), std::set<std::string>{"stability.flicker.mean"});
+    EXPECT_EQ(metricsNotCompared(compare({older}, {base}).changes), std::set<std::string>{"stability.flicker.mean"});
     EXPECT_EQ(verdict(base, againstAreas("c0de", "aaaa")), ExitCode::Pass);
     EXPECT_EQ(verdict(base, againstAreas("c0de", "")), ExitCode::Pass) << "older records do not say";
 }
@@ -143,7 +143,7 @@ TEST(FalseGreens, WhatAnotherSoftTruthJudgedIsNotCompared) {
     Record head = base;
     head.softReference->key = "other";
     head.values["accuracy.rmse"] = 0.1;
-    EXPECT_EQ(unjudgedMetrics(compare({base}, {head}).changes), std::set<std::string>{"accuracy.rmse"});
+    EXPECT_EQ(metricsNotCompared(compare({base}, {head}).changes), std::set<std::string>{"accuracy.rmse"});
     head.values["accuracy.leak"] = 0.1;
     EXPECT_EQ(verdict(base, head), ExitCode::Inconclusive) << "before what is worse";
 }
@@ -159,9 +159,9 @@ TEST(FalseGreens, ImagesScoredByAnotherTruthSayNothingOfMetricsCode) {
     head[0].pixelReference->key = "other";
     head[0].values["stability.flicker.mean"] = 0.0005;
     head[2].images = "2222";
-    EXPECT_EQ(unjudgedMetrics(compare({base[1], base[2]}, {head[1], head[2]}).changes), std::set<std::string>());
+    EXPECT_EQ(metricsNotCompared(compare({base[1], base[2]}, {head[1], head[2]}).changes), std::set<std::string>());
     for (const Change& change : compare(base, head).changes)
-        EXPECT_EQ(change.direction == Direction::Unjudged,
+        EXPECT_EQ(change.direction == Direction::NotCompared,
                   change.variant == "other-truth" &&
                       (change.metric == "stability.flicker.mean" || change.metric == "accuracy.pixel_area.rmse"))
             << change.sentence;
@@ -202,7 +202,7 @@ TEST(FalseGreens, JUnitShowsWhatCouldNotBeJudged) {
     head.reference->key = "other";
     const std::string xml = junit(compare({hardRecord()}, {head}).changes, {"a technique no longer exists"});
     EXPECT_NE(xml.find("failures=\"0\" errors=\"1\" skipped=\"0\""), std::string::npos) << xml;
-    EXPECT_NE(xml.find("<error message=\"status is not judged\">"), std::string::npos) << xml;
+    EXPECT_NE(xml.find("<error message=\"status is not compared\">"), std::string::npos) << xml;
     EXPECT_NE(xml.find("<testsuite name=\"gate\""), std::string::npos) << xml;
     const Change unclear{"trees", "pcf", "time.ratio", Class::Time, 1, 1.02, 0.01, Direction::Unclear, "perhaps slower"};
     EXPECT_NE(junit({unclear}).find("<skipped message=\"time is unclear\">perhaps slower"), std::string::npos);
@@ -220,7 +220,7 @@ TEST(FalseReds, AChangedSceneHidesNoOtherCell) {
     changed.reference->key = "other";
     slower.values["accuracy.leak"] = 0.1;
     const std::vector<Change> changes = compare({softRecord(), hardRecord()}, {changed, test::drawnAnew(slower)}).changes;
-    EXPECT_EQ(std::ranges::count(changes, Direction::Unjudged, &Change::direction), 1);
+    EXPECT_EQ(std::ranges::count(changes, Direction::NotCompared, &Change::direction), 1);
     EXPECT_EQ(std::ranges::count(changes, Direction::Worse, &Change::direction), 1);
 }
 
@@ -282,14 +282,14 @@ Direction statusOf(const std::vector<Record>& base, const std::vector<Record>& h
 TEST(FalseGreens, AbsenceIsNotTheSame) {
     const Record failed = test::unscored(Status::Error, "the shader fails"),
                  none = test::unscored(Status::NotApplicable, "needs an area light");
-    EXPECT_EQ(statusOf({hardRecord()}, {failed}), Direction::Unjudged);
-    EXPECT_EQ(statusOf({failed}, {hardRecord()}), Direction::Unjudged) << "no improvement";
-    EXPECT_EQ(statusOf({failed}, {failed}), Direction::Unjudged);
-    EXPECT_EQ(statusOf({hardRecord()}, {none}), Direction::Unjudged);
-    EXPECT_EQ(statusOf({hardRecord(), softRecord()}, {hardRecord()}), Direction::Unjudged);
-    EXPECT_EQ(statusOf({hardRecord()}, {hardRecord(), softRecord()}), Direction::Unjudged) << "the base is not whole";
-    EXPECT_EQ(statusOf({hardRecord()}, {hardRecord(), hardRecord()}), Direction::Unjudged) << "which of the two?";
-    EXPECT_EQ(statusOf({hardRecord(), hardRecord()}, {hardRecord()}), Direction::Unjudged);
+    EXPECT_EQ(statusOf({hardRecord()}, {failed}), Direction::NotCompared);
+    EXPECT_EQ(statusOf({failed}, {hardRecord()}), Direction::NotCompared) << "no improvement";
+    EXPECT_EQ(statusOf({failed}, {failed}), Direction::NotCompared);
+    EXPECT_EQ(statusOf({hardRecord()}, {none}), Direction::NotCompared);
+    EXPECT_EQ(statusOf({hardRecord(), softRecord()}, {hardRecord()}), Direction::NotCompared);
+    EXPECT_EQ(statusOf({hardRecord()}, {hardRecord(), softRecord()}), Direction::NotCompared) << "the base is not whole";
+    EXPECT_EQ(statusOf({hardRecord()}, {hardRecord(), hardRecord()}), Direction::NotCompared) << "which of the two?";
+    EXPECT_EQ(statusOf({hardRecord(), hardRecord()}, {hardRecord()}), Direction::NotCompared);
     EXPECT_EQ(statusOf({none}, {none}), Direction::Same);
     EXPECT_EQ(statusOf({none}, {hardRecord()}), Direction::Same) << "new";
     EXPECT_EQ(statusOf({hardRecord()}, {test::expectedFailure()}), Direction::Same) << "it is scored";
@@ -327,7 +327,7 @@ TEST(FalseGreens, EqualImagesHaveEqualScores) {
     for (const double factor : {0.5, 2.0}) {
         const auto changes = compare({hardRecord()}, {times(hardRecord(), "accuracy.leak", factor)}).changes;
         EXPECT_EQ(verdictOf(changes), ExitCode::Inconclusive) << "the code has one hash";
-        EXPECT_EQ(std::ranges::count(changes, Direction::Unjudged, &Change::direction), 1);
+        EXPECT_EQ(std::ranges::count(changes, Direction::NotCompared, &Change::direction), 1);
     }
     EXPECT_EQ(verdictOf(compare({hardRecord()}, {times(hardRecord(), "cost.work.fragments", 0.5)}).changes), ExitCode::Pass)
         << "less work for the same image is an improvement";

@@ -76,6 +76,8 @@ TEST(Motion, OfCastersIsTheLargestAngleOfACornerOfTheirBounds) {
     EXPECT_NEAR(wall.motion(), glm::degrees(std::atan(1 / distance)), 1e-3) << "the corner in the axis moves by a metre";
     wall.now.batches.back().placements = {{shifted(1), shifted(0), 1}};
     EXPECT_NEAR(wall.motion(), glm::degrees(std::atan(1 / distance)), 1e-3) << "from the axis";
+    wall.now.batches.back().placements = {{shifted(0), shifted(1), 1}};
+    EXPECT_NEAR(wall.motion(), glm::degrees(std::atan(1 / distance)), 1e-3) << "to the axis";
 }
 
 TEST(Motion, OfNothingIsNone) {

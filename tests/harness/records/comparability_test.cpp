@@ -12,7 +12,7 @@ using test::hardRecord;
 using Change = std::function<void(Environment&)>;
 
 /// What tells the environment of a record from the same with `change`; "" if nothing does.
-std::string differenceOf(const Change& change, Surroundings what) {
+std::string differenceOf(const Change& change, EnvironmentScope what) {
     Environment other = hardRecord().environment;
     change(other);
     return difference(hardRecord().environment, other, what).value_or("");
@@ -30,7 +30,7 @@ TEST(Environments, DifferInWhatDraws) {
         {[](Environment& e) { e.vectorBits = 512; }, R"(vector_bits is "256" and "512")"},
         {[](Environment& e) { e.mesa = "other"; }, R"(mesa is "libosmesa6 22.3.6-1, libllvm15 15.0.6-4" and "other")"}};
     for (const auto& [change, sentence] : changes)
-        for (const Surroundings what : {Surroundings::OfScores, Surroundings::OfCounts, Surroundings::All})
+        for (const EnvironmentScope what : {EnvironmentScope::OfScores, EnvironmentScope::OfCounts, EnvironmentScope::All})
             EXPECT_EQ(differenceOf(change, what), sentence);
 }
 
@@ -41,13 +41,13 @@ TEST(Environments, DifferInWhatCountsOnlyWhereCountsAreCompared) {
          R"(cpu_features is "family 6, model 85, stepping 7, features 77aa" and "other")"},
         {[](Environment& e) { e.libraries = "other"; }, R"(libraries is "libc 2.36, libstdc++6 12.2.0-14" and "other")"}};
     for (const auto& [change, sentence] : changes) {
-        EXPECT_EQ(differenceOf(change, Surroundings::OfScores), "");
-        EXPECT_EQ(differenceOf(change, Surroundings::OfCounts), sentence);
-        EXPECT_EQ(differenceOf(change, Surroundings::All), sentence);
+        EXPECT_EQ(differenceOf(change, EnvironmentScope::OfScores), "");
+        EXPECT_EQ(differenceOf(change, EnvironmentScope::OfCounts), sentence);
+        EXPECT_EQ(differenceOf(change, EnvironmentScope::All), sentence);
     }
     const Change compiler = [](Environment& e) { e.compiler = "GCC 13"; };
-    EXPECT_EQ(differenceOf(compiler, Surroundings::OfCounts), "");
-    EXPECT_EQ(differenceOf(compiler, Surroundings::All), R"(compiler is "GCC 12.2.0" and "GCC 13")");
+    EXPECT_EQ(differenceOf(compiler, EnvironmentScope::OfCounts), "");
+    EXPECT_EQ(differenceOf(compiler, EnvironmentScope::All), R"(compiler is "GCC 12.2.0" and "GCC 13")");
 }
 
 TEST(Environments, DoNotDifferInWhatOneOfThemDoesNotState) {
@@ -55,12 +55,12 @@ TEST(Environments, DoNotDifferInWhatOneOfThemDoesNotState) {
         e.cpuFeatures = e.mesa = e.libraries = e.platform = e.vendor = e.driver = "";
         e.valgrind.reset();
     };
-    EXPECT_EQ(differenceOf(older, Surroundings::All), "");
+    EXPECT_EQ(differenceOf(older, EnvironmentScope::All), "");
     Environment counted = hardRecord().environment, other = counted;
     counted.valgrind = "3.19.0";
-    EXPECT_FALSE(difference(counted, other, Surroundings::All)) << "one counted nothing";
+    EXPECT_FALSE(difference(counted, other, EnvironmentScope::All)) << "one counted nothing";
     other.valgrind = "3.20.0";
-    EXPECT_EQ(difference(counted, other, Surroundings::OfCounts), R"(valgrind is "3.19.0" and "3.20.0")");
+    EXPECT_EQ(difference(counted, other, EnvironmentScope::OfCounts), R"(valgrind is "3.19.0" and "3.20.0")");
 }
 
 TEST(Environments, OfImagesThatOthersDrewAreAllOne) {
@@ -68,9 +68,9 @@ TEST(Environments, OfImagesThatOthersDrewAreAllOne) {
     one.gl = other.gl = notDrawnHere;
     one.renderer = "engine 1";
     other.renderer = "engine 2"; // its next version is what is compared
-    EXPECT_FALSE(difference(one, other, Surroundings::OfScores));
+    EXPECT_FALSE(difference(one, other, EnvironmentScope::OfScores));
     other.gl = hardRecord().environment.gl;
-    EXPECT_TRUE(difference(one, other, Surroundings::OfScores));
+    EXPECT_TRUE(difference(one, other, EnvironmentScope::OfScores));
 }
 
 TEST(CountingEnvironment, NamesAllThatCountsDependOn) {

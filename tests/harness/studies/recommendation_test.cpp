@@ -143,6 +143,26 @@ TEST(Questions, AreNamed) {
               "there is no question \"mapp\" (did you mean \"map\"?); the questions are casters, technique, map, samples");
 }
 
+/// Plates under a light straight above 10 m × 10 m of ground, which an eye looks straight down on from below them: regular
+/// polygons of 16 m² at level 0, 9 m² at level 1 and 1 m² at level 2, whose shadows cover 16 %, 9 % and 1 % of what is seen.
+std::string platesText(const std::string& places,
+                       const std::string& light = "kind = \"directional\", direction = [0, -1, 0]") {
+    std::string levels;
+    for (const auto& [sides, area, until] : {std::tuple{16, 16, "\nuntil = 4"}, {8, 9, "\nuntil = 8"}, {4, 1, ""}})
+        levels += fmt::format("[[object.levels]]\nmesh = {{ column = {{ radius = {:.6f}, height = 0.2, sides = {} }} }}{}\n",
+                              std::sqrt(area / (0.5 * sides * std::sin(2 * std::numbers::pi / sides))), sides, until);
+    return "title = \"Plates\"\nsize = 50\n"
+           "camera = { eye = [0, 5, 0], target = [0, 0, 0], up = [0, 0, -1], fovy = 90, near = 0.5, far = 20 }\n"
+           "light = { " +
+           light + " }\n[[object]]\nmesh = { plane = { half = 9.1 } }\n[[object]]\nname = \"plates\"\nplace = [" + places +
+           "]\n" + levels + "[tolerance]\nmismatch = 0.09\n";
+}
+
+Scene plates(const std::string& text) { return parseScene(text, "plates.toml", Profile::Gate); }
+
+const std::string onePlate = "{ at = [0.013, 9, 0.017] }",
+                  twoPlates = "{ at = [2.513, 7, 0.017] }, { at = [-2.487, 12, 0.017] }";
+
 /// Records of a run in a file that goes with it.
 class Recorded : public testing::Test {
 protected:
@@ -174,7 +194,6 @@ protected:
         return options;
     }
 
-private:
     std::filesystem::path folder_ =
         std::filesystem::temp_directory_path() / fmt::format("shadowbench_recommendation_{}", getpid());
 };
@@ -204,6 +223,23 @@ TEST_F(Recorded, TheCheapestWithinToleranceIsNamedAndWhatTheLeastMapIs) {
     EXPECT_EQ(recommend(options).scenes.front().maps.front().amount, 2048);
     options.casters.tolerance = {"0"};
     EXPECT_FALSE(recommend(options).scenes.front().technique);
+}
+
+TEST_F(Recorded, CastersOfASceneFileComeBesideTheTechnique) {
+    Record one = record("a", "", 0.01, 2);
+    one.scene = "plates";
+    RecommendOptions options = asked({one}, {Question::Casters, Question::Technique});
+    writeFile(folder_ / "plates.toml", platesText(onePlate));
+    options.scenes = {(folder_ / "plates.toml").string()};
+    options.casters.tolerance = {"0.09"};
+    const Recommendations found = recommend(options);
+    EXPECT_EQ(found.code, ExitCode::Pass);
+    ASSERT_EQ(found.scenes.size(), 1U);
+    ASSERT_TRUE(found.scenes.front().casters);
+    EXPECT_EQ(found.scenes.front().casters->groups.front().level, 1U);
+    EXPECT_TRUE(found.scenes.front().casters->verified);
+    ASSERT_TRUE(found.scenes.front().technique);
+    EXPECT_EQ(found.scenes.front().technique->variant, "a");
 }
 
 TEST_F(Recorded, SamplesAreCounted) {
@@ -251,28 +287,10 @@ TEST_F(Recorded, WithoutRecordsOrToleranceThereIsNoAnswer) {
               std::string::npos);
 }
 
-/// Plates under a light straight above 10 m × 10 m of ground, which an eye looks straight down on from below them: regular
-/// polygons of 16 m² at level 0, 9 m² at level 1 and 1 m² at level 2, whose shadows cover 16 %, 9 % and 1 % of what is seen.
-Scene plates(const std::string& places, const std::string& light = "kind = \"directional\", direction = [0, -1, 0]") {
-    std::string levels;
-    for (const auto& [sides, area, until] : {std::tuple{16, 16, "\nuntil = 4"}, {8, 9, "\nuntil = 8"}, {4, 1, ""}})
-        levels += fmt::format("[[object.levels]]\nmesh = {{ column = {{ radius = {:.6f}, height = 0.2, sides = {} }} }}{}\n",
-                              std::sqrt(area / (0.5 * sides * std::sin(2 * std::numbers::pi / sides))), sides, until);
-    return parseScene("title = \"Plates\"\nsize = 50\n"
-                      "camera = { eye = [0, 5, 0], target = [0, 0, 0], up = [0, 0, -1], fovy = 90, near = 0.5, far = 20 }\n"
-                      "light = { " +
-                          light +
-                          " }\n[[object]]\nmesh = { plane = { half = 9.1 } }\n[[object]]\nname = \"plates\"\nplace = [" +
-                          places + "]\n" + levels + "[tolerance]\nmismatch = 0.09\n",
-                      "plates.toml", Profile::Gate);
-}
-
-const std::string onePlate = "{ at = [0.013, 9, 0.017] }",
-                  twoPlates = "{ at = [2.513, 7, 0.017] }, { at = [-2.487, 12, 0.017] }";
 constexpr double rounding = 0.015; // half of the pixels along the outline of the largest plate
 
 TEST(Casters, AreGroupedByDistanceAndCastWhereTheyStand) {
-    const Scene scene = plates(twoPlates + ", { at = [0, 9, 0] }");
+    const Scene scene = plates(platesText(twoPlates + ", { at = [0, 9, 0] }"));
     const Casters casters(scene, 0, ownBands(scene));
     ASSERT_EQ(casters.groups().size(), 2U); // 3.2 and 4 m: up to 4 m; 7.4 m
     EXPECT_EQ(casters.groups()[0].placements.size(), 2U);
@@ -287,7 +305,7 @@ TEST(Casters, AreGroupedByDistanceAndCastWhereTheyStand) {
 }
 
 TEST(HardChoices, ErrByWhatNoOtherCasterCovers) {
-    const Scene scene = plates(twoPlates);
+    const Scene scene = plates(platesText(twoPlates));
     const Casters casters(scene, 0, ownBands(scene));
     const Receivers ground = receivers(snapshot(scene, 0), scene.size, casters);
     const HardChoices choices(casters, ground, rayOracle(ground));
@@ -300,7 +318,7 @@ TEST(HardChoices, ErrByWhatNoOtherCasterCovers) {
 }
 
 TEST(Oracles, LabelPlatesAlike) {
-    const Scene scene = plates(twoPlates);
+    const Scene scene = plates(platesText(twoPlates));
     const Casters casters(scene, 0, ownBands(scene));
     const Receivers ground = receivers(snapshot(scene, 0), scene.size, casters);
     const Shadow rays = rayOracle(ground).shadow(casters.cast(casters.finest()));
@@ -313,7 +331,7 @@ TEST(Oracles, LabelPlatesAlike) {
 TEST(CasterRecommendation, OfAPlateIsTheCoarsestWithinTolerance) {
     std::vector<double> progress;
     const CasterRecommendation r =
-        recommendCasters(plates(onePlate), {}, [&](double done, std::string_view) { progress.push_back(done); });
+        recommendCasters(plates(platesText(onePlate)), {}, [&](double done, std::string_view) { progress.push_back(done); });
     ASSERT_EQ(r.groups.size(), 1U);
     const GroupLevel& group = r.groups.front();
     EXPECT_EQ(group.object, "plates");
@@ -338,7 +356,8 @@ TEST(CasterRecommendation, OfAPlateIsTheCoarsestWithinTolerance) {
 // Under 4 m × 4 m of light as far above a plate as the plate is above the ground, the plate's penumbra reaches 2 m to either
 // side of its edge, where it is half lit.
 TEST(CasterRecommendation, UnderAnAreaLightIsOfWhatIsVisible) {
-    const Scene scene = plates(onePlate, "kind = \"rectangle\", centre = [0.013, 18, 0.017], u = [4, 0, 0], v = [0, 0, 4]");
+    const Scene scene =
+        plates(platesText(onePlate, "kind = \"rectangle\", centre = [0.013, 18, 0.017], u = [4, 0, 0], v = [0, 0, 4]"));
     CasterOptions options;
     options.tolerance = {"rmse=0.01"};
     options.lightSamples = 16;

@@ -195,6 +195,15 @@ TEST(Axes, OfMapsHaveEveryPowerOfTwo) {
     EXPECT_EQ(sides.back(), 64);
 }
 
+TEST(Axes, OfBiasesGrowBySteadyFactors) {
+    for (const auto& [axis, first, factor] : {std::tuple{"units", 4.0, 4.0}, {"factor", 0.25, 2.0}}) {
+        const std::vector<double> biases = axisNamed(axis).valuesFor(loadScene("dueling-frusta", Profile::Gate));
+        EXPECT_EQ(biases[0], 0) << axis;
+        EXPECT_EQ(biases[1], first) << axis;
+        for (std::size_t i = 2; i < biases.size(); ++i) EXPECT_EQ(biases[i], factor * biases[i - 1]) << axis;
+    }
+}
+
 TEST(Sweep, IsOfTechniquesThatHaveTheParameter) {
     SweepOptions options;
     options.scene = "dueling-frusta";

@@ -48,7 +48,7 @@ public:
     ScenePage(const fs::path& images, const std::string& scene, fs::path site)
         : site_(std::move(site)), names_(keptTruths(images, scene)) {
         shown_.slug = slug(scene);
-        shown_.title = shown(scene);
+        shown_.title = truncate(scene);
         for (const std::string& name : names_) addTruth(name, truthFile(images, scene, name));
     }
 
@@ -75,7 +75,7 @@ private:
         const fs::path folder = cellFolder(from.images, from.record.scene, from.record.variant);
         const Image<float> v = readChannel(folder / "visibility.exr", "V");
         ShownCell cell{
-            slug(from.name), shown(from.name), errorOf(from.record), truthOf(from.record, names_), {}, {}, {}, {}};
+            slug(from.name), truncate(from.name), errorOf(from.record), truthOf(from.record, names_), {}, {}, {}, {}};
         const KeptTruth& truth = truths_.at(cell.truth);
         if (!v.sameSize(truth.visibility)) return {};
         cell.data = writeScript(cell.slug, {{"V", valuesOf(v)}});
@@ -188,7 +188,7 @@ void writeCells(const std::vector<Record>& records, const fs::path& images, Site
         std::ranges::stable_partition(cells, [](const RunCell& cell) { return !report::isBaseline(cell.record); });
         for (const RunCell& other : others)
             if (!cells.empty() && other.record.scene == scene) cells.push_back(other);
-        if (!cells.empty() && writeCellPage(cells, {"Table and charts of " + shown(scene), sceneAddress(scene)}, site))
+        if (!cells.empty() && writeCellPage(cells, {"Table and charts of " + truncate(scene), sceneAddress(scene)}, site))
             any = true;
     }
     if (any) writeViewer(site);

@@ -71,11 +71,11 @@ inline bool has(const std::vector<std::string>& sentences, const std::string& pa
     return all(sentences).find(part) != std::string::npos;
 }
 
-/// The sentences of what was not judged, a line each.
-inline std::string unjudged(const GateResult& result) {
-    std::string text = all(result.unjudged);
+/// The sentences of what was not compared, a line each.
+inline std::string notCompared(const GateResult& result) {
+    std::string text = all(result.notCompared);
     for (const Change& change : result.changes)
-        if (change.direction == Direction::Unjudged) text += change.sentence + "\n";
+        if (change.direction == Direction::NotCompared) text += change.sentence + "\n";
     return text;
 }
 

@@ -16,11 +16,11 @@ TEST_F(GateOfStandIns, EqualRecordsPass) {
     fs::create_symlink(head_.program(), path("link"));
     options_.head = path("link");
     const GateResult result = gate(options_);
-    EXPECT_EQ(result.code(), ExitCode::Pass) << all(result.unjudged);
+    EXPECT_EQ(result.code(), ExitCode::Pass) << all(result.notCompared);
     EXPECT_EQ(result.base, base_.program());
     EXPECT_GT(result.changes.size(), 20U);
     EXPECT_TRUE(result.pictures.empty());
-    EXPECT_TRUE(result.unjudged.empty());
+    EXPECT_TRUE(result.notCompared.empty());
 }
 
 TEST_F(GateOfStandIns, AWorseHeadIsARegressionWithPicturesOfBoth) {
@@ -43,7 +43,7 @@ TEST_F(GateOfStandIns, AgainstRecordsOnlyTheHeadIsDrawnAndNoTimeJudged) {
     EXPECT_TRUE(result.pictures[0].base.empty());
     EXPECT_FALSE(result.pictures[0].baseRecord);
     EXPECT_TRUE(has(result.notes, "this build's policy alone judges"));
-    EXPECT_TRUE(has(result.notes, "time is not judged: the base is a file of records"));
+    EXPECT_TRUE(has(result.notes, "time is not compared: the base is a file of records"));
 }
 
 TEST_F(GateOfStandIns, RecordsOfOtherCellsAreNotCompared) {
@@ -53,7 +53,7 @@ TEST_F(GateOfStandIns, RecordsOfOtherCellsAreNotCompared) {
     compareWith({otherProfile, otherSeed, otherScene, standInRecord("none")});
     const GateResult result = gate(options_);
     EXPECT_EQ(result.code(), ExitCode::Inconclusive);
-    EXPECT_TRUE(has(result.unjudged, "no cell is scored in both")) << all(result.unjudged);
+    EXPECT_TRUE(has(result.notCompared, "no cell is scored in both")) << all(result.notCompared);
     EXPECT_EQ(result.presence.isNew, std::vector<std::string>{"pcf on tiny"});
     EXPECT_EQ(result.presence.compared, 0U);
 }
@@ -68,7 +68,7 @@ TEST_F(GateOfStandIns, TheSameCommitAgainstItsRecordsDecidesNothingUnlessThatIsM
 TEST_F(GateOfStandIns, InstructionsAreJudgedWhereTheBaseHasThem) {
     options_.instructions = true;
     compareWith({standInRecord("pcf")});
-    EXPECT_TRUE(has(gate(options_).notes, "instructions are not judged: the base's records hold none"));
+    EXPECT_TRUE(has(gate(options_).notes, "instructions are not compared: the base's records hold none"));
     Record before = standInRecord("pcf"), now = headRecord();
     before.values["cost.instructions"] = 1e6;
     now.values["cost.instructions"] = 1.1e6;
@@ -77,7 +77,7 @@ TEST_F(GateOfStandIns, InstructionsAreJudgedWhereTheBaseHasThem) {
     head_.measures({now});
     const GateResult result = gate(options_);
     EXPECT_EQ(result.code(), ExitCode::CostRegression);
-    EXPECT_FALSE(has(result.notes, "instructions are not judged"));
+    EXPECT_FALSE(has(result.notes, "instructions are not compared"));
     EXPECT_TRUE(result.pictures.empty()) << "of a cost there is nothing to see";
 }
 
@@ -86,7 +86,7 @@ TEST_F(GateOfStandIns, ACellThatFailsOrIsMissingIsNamed) {
     failed.status = Status::Error;
     failed.reason = "the primary hits differ";
     head_.measures({failed});
-    EXPECT_NE(unjudged(gate(options_)).find("pcf on tiny cannot be compared: it is error: the primary hits differ\n"),
+    EXPECT_NE(notCompared(gate(options_)).find("pcf on tiny cannot be compared: it is error: the primary hits differ\n"),
               std::string::npos);
     const StandIn other(folder_.path(), "other");
     options_.head = other.program();
@@ -101,7 +101,7 @@ TEST_F(GateOfStandIns, AFailureOfTheBaseIsNoImprovement) {
     base_.measures({failed});
     const GateResult result = gate(options_);
     EXPECT_EQ(result.code(), ExitCode::Inconclusive);
-    EXPECT_NE(unjudged(result).find("pcf on tiny cannot be compared: it is error before: the shader fails\n"),
+    EXPECT_NE(notCompared(result).find("pcf on tiny cannot be compared: it is error before: the shader fails\n"),
               std::string::npos);
 }
 
@@ -111,7 +111,7 @@ TEST_F(GateOfStandIns, WhatTheBaseDoesNotKnowIsNewAndPasses) {
     head_.measures({headRecord("none"), headRecord("pcf")});
     options_.techniques = {"none", "pcf"};
     const GateResult result = gate(options_);
-    EXPECT_EQ(result.code(), ExitCode::Pass) << unjudged(result);
+    EXPECT_EQ(result.code(), ExitCode::Pass) << notCompared(result);
     EXPECT_EQ(result.presence.isNew, std::vector<std::string>{"pcf on tiny"});
 }
 
@@ -121,7 +121,7 @@ TEST_F(GateOfStandIns, LeavesTheHeadsRecordsAsABaseForLater) {
     options_.base = path("out/results.jsonl");
     options_.aa = true;
     const GateResult accepted = gate(options_);
-    EXPECT_EQ(accepted.code(), ExitCode::Pass) << unjudged(accepted);
+    EXPECT_EQ(accepted.code(), ExitCode::Pass) << notCompared(accepted);
 }
 
 TEST_F(GateOfStandIns, AWaiverAcceptsAndTheHeadsIsListedFirst) {
@@ -130,7 +130,7 @@ TEST_F(GateOfStandIns, AWaiverAcceptsAndTheHeadsIsListedFirst) {
                                "reason = \"a test\"\nexpires = \"9999-12-31\"\n";
     bounds(waiver);
     const GateResult result = gate(options_);
-    EXPECT_EQ(result.code(), ExitCode::Pass) << unjudged(result);
+    EXPECT_EQ(result.code(), ExitCode::Pass) << notCompared(result);
     EXPECT_EQ(std::ranges::count(result.changes, Direction::Waived, &Change::direction), 1);
     EXPECT_TRUE(has(result.loosened, "this build accepts, and its base does not, leak of pcf on tiny"));
     EXPECT_TRUE(result.pictures.empty());
@@ -139,7 +139,7 @@ TEST_F(GateOfStandIns, AWaiverAcceptsAndTheHeadsIsListedFirst) {
 }
 
 TEST_F(GateOfStandIns, ALooserAllowanceOfTheHeadIsListedAndTheBasesJudges) {
-    Identity before{"c0ffee", false, "base", readPolicy(options_.bounds, Profile::Gate)};
+    BuildInfo before{"c0ffee", false, "base", readPolicy(options_.bounds, Profile::Gate)};
     before.policy.rules.limits.at("accuracy.leak").relative = 0;
     before.policy.rules.limits.at("accuracy.leak").pixels = 0;
     base_.is(before);
@@ -175,7 +175,7 @@ TEST_F(GateOfStandIns, OfAllCellsAreThoseThatRecordsHaveOfTheStandardScenes) {
     EXPECT_TRUE(fs::exists(path("own-cache"))) << "what the head has of them was measured there";
     EXPECT_EQ(std::ranges::count(result.presence.gone, "gone on dueling-frusta"), 1);
     EXPECT_EQ(std::ranges::count(result.presence.gone, "gone on near-plane"), 0);
-    EXPECT_NE(unjudged(result).find("pcf on dueling-frusta was not measured"), std::string::npos);
+    EXPECT_NE(notCompared(result).find("pcf on dueling-frusta was not measured"), std::string::npos);
 }
 
 TEST_F(GateOfStandIns, OfAllTechniquesAreThoseThatRecordsHaveOfTheScenesThatAreNamed) {
@@ -189,7 +189,7 @@ TEST_F(GateOfStandIns, OfAllTechniquesAreThoseThatRecordsHaveOfTheScenesThatAreN
 }
 
 TEST_F(GateOfStandIns, CommitsThatMakeTheSameProgramPassUnlessThePolicyDiffers) {
-    Identity before{"c0ffeec0ffeec0ffee", false, "same", readPolicy(options_.bounds, Profile::Gate)}, now = before;
+    BuildInfo before{"c0ffeec0ffeec0ffee", false, "same", readPolicy(options_.bounds, Profile::Gate)}, now = before;
     now.commit = "decafdecafdecaf";
     base_.is(before);
     head_.is(now);
@@ -198,20 +198,20 @@ TEST_F(GateOfStandIns, CommitsThatMakeTheSameProgramPassUnlessThePolicyDiffers) 
     EXPECT_TRUE(has(same.notes, "commits c0ffeec0ffee and decafdecafde make the same program")) << all(same.notes);
     EXPECT_EQ(base_.calls("run"), 0);
 
-    before.policy.watchlist.bounds = {{{"tiny", {"pcf"}, {}, "a test"}, "leak", 1e-6, true}};
+    before.policy.config.bounds = {{{"tiny", {"pcf"}, {}, "a test"}, "leak", 1e-6, true}};
     base_.is(before);
     const GateResult stricter = gate(options_);
     EXPECT_EQ(stricter.code(), ExitCode::AccuracyRegression) << "the base's bound judges";
     EXPECT_TRUE(has(stricter.loosened, "the base's [bound] pcf on tiny: leak below 1e-06 is gone or looser here"));
 
-    before.policy.watchlist.bounds.clear();
+    before.policy.config.bounds.clear();
     base_.is(before);
     bounds("[[bound]]\nscene = \"tiny\"\ntechniques = [\"pcf\"]\nmetric = \"leak\"\nbelow = 1e-6\nreason = \"a test\"\n");
     EXPECT_EQ(gate(options_).code(), ExitCode::AccuracyRegression) << "the head's bound judges";
 }
 
 TEST_F(GateOfStandIns, OneCommitWithChangesIsAnotherProgramThanWithout) {
-    Identity before{"c0ffeec0ffeec0ffee", false, "same", readPolicy(options_.bounds, Profile::Gate)}, now = before;
+    BuildInfo before{"c0ffeec0ffeec0ffee", false, "same", readPolicy(options_.bounds, Profile::Gate)}, now = before;
     base_.is(before);
     head_.is(now);
     EXPECT_NE(complaint().find("base and head are one program"), std::string::npos) << "one commit";
@@ -237,7 +237,7 @@ TEST_F(GateOfStandIns, WhatTheBaseShowsAndThisBuildDoesNotHaveIsUnjudged) {
     options_.techniques.clear();
     const GateResult result = gate(options_);
     EXPECT_EQ(result.code(), ExitCode::Inconclusive);
-    EXPECT_NE(unjudged(result).find("gone, which the base shows, no longer exists"), std::string::npos);
+    EXPECT_NE(notCompared(result).find("gone, which the base shows, no longer exists"), std::string::npos);
 }
 
 TEST_F(GateOfStandIns, ABoundOnASceneThatNobodyHasIsNoted) {
@@ -295,8 +295,8 @@ TEST_F(GateOfStandIns, ABaseOfRecordsWithoutSweepsJudgesNone) {
     head_.measures(swept(headRecord(), 1));
     compareWith({standInRecord("pcf")});
     const GateResult without = gate(options_);
-    EXPECT_TRUE(has(without.notes, "not judged, for the base's records hold nothing of them: break points"));
-    EXPECT_EQ(without.code(), ExitCode::Pass) << all(without.unjudged);
+    EXPECT_TRUE(has(without.notes, "not compared, for the base's records hold nothing of them: break points"));
+    EXPECT_EQ(without.code(), ExitCode::Pass) << all(without.notCompared);
     compareWith(swept(standInRecord("pcf"), 0.1));
     EXPECT_EQ(gate(options_).code(), ExitCode::AccuracyRegression);
 }

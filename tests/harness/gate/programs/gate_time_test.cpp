@@ -57,7 +57,7 @@ TEST_F(TimeOfStandIns, WhatStaysUncertainAndCouldNotBeToldIsNotJudged) {
                                   std::string("d=$((500 + 20 * (start / 2 % 48)))\n") +
                                   readFile(head_.program().parent_path() / "time-frames.sh"));
     const auto [direction, sentence] = judged();
-    EXPECT_EQ(direction, Direction::Unjudged) << sentence;
+    EXPECT_EQ(direction, Direction::NotCompared) << sentence;
     EXPECT_NE(sentence.find("% or more would have been told"), std::string::npos) << sentence;
 }
 
@@ -67,13 +67,13 @@ TEST_F(TimeOfStandIns, OnAMachineThatIsNotSteadyNothingIsJudged) {
                                   readFile(base_.program().parent_path() / "time-frames.sh"));
     head_.takes("100", "100");
     const auto [direction, sentence] = judged();
-    EXPECT_EQ(direction, Direction::Unjudged) << sentence;
+    EXPECT_EQ(direction, Direction::NotCompared) << sentence;
     EXPECT_NE(sentence.find("the machine is not steady enough"), std::string::npos) << sentence;
 }
 
 TEST_F(TimeOfStandIns, WithoutATimedCellThereIsANote) {
     base_.lists("techniques", R"([{"id": "none", "variants": [""], "parameters": []}])"); // it does not know the cell
-    EXPECT_TRUE(has(gate(options_).notes, "time is not judged: none of the chosen cells is timed"));
+    EXPECT_TRUE(has(gate(options_).notes, "time is not compared: none of the chosen cells is timed"));
 }
 
 } // namespace

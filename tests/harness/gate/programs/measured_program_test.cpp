@@ -55,10 +55,10 @@ TEST_F(AMeasuredProgram, ShowsItsVariantsInItsOrder) {
 }
 
 TEST_F(AMeasuredProgram, SaysWhatItIsIfItIsNewEnough) {
-    ASSERT_TRUE(measured().identity());
-    EXPECT_EQ(measured().identity()->program, "one");
+    ASSERT_TRUE(measured().build());
+    EXPECT_EQ(measured().build()->program, "one");
     standIn_.does("policy", "echo 'there is no verb policy' >&2; exit 2\n");
-    EXPECT_FALSE(measured().identity());
+    EXPECT_FALSE(measured().build());
 }
 
 TEST_F(AMeasuredProgram, IsMeasuredOnce) {

@@ -83,7 +83,7 @@ exit "$(cat "$here/code")"
     [[nodiscard]] std::filesystem::path program() const { return folder_ / "shadowbench"; }
 
     // What it answers from now on.
-    void is(const Identity& identity) const { writeFile(folder_ / "identity.json", toJson(identity)); }
+    void is(const BuildInfo& build) const { writeFile(folder_ / "identity.json", toJson(build)); }
     void lists(const std::string& what, const std::string& json) const { writeFile(folder_ / (what + ".json"), json); }
     void measures(const std::vector<Record>& records) const { writeRecords(folder_ / "records.jsonl", records); }
     void endsWith(int code) const { writeFile(folder_ / "code", std::to_string(code)); }

@@ -30,11 +30,11 @@ TEST(Slug, KeepsWhatIsSafeAndTellsApartWhatIsNot) {
     }
 }
 
-TEST(Shown, CutsLongNamesBetweenCharacters) {
-    EXPECT_EQ(shown("short"), "short");
+TEST(Truncate, CutsLongNamesBetweenCharacters) {
+    EXPECT_EQ(truncate("short"), "short");
     std::string name = fmt::format("{:a>159}", "");
     for (int i = 0; i < 100; ++i) name += "é";
-    const std::string text = shown(name);
+    const std::string text = truncate(name);
     EXPECT_TRUE(has(text, "… (359 bytes)")) << text;
     EXPECT_LT(text.size(), 200U);
     EXPECT_EQ(text.find("…"), 159U) << text; // no half of the é

@@ -11,7 +11,7 @@
 namespace shadowbench::gate {
 
 /// Techniques on one scene; patterns as `run --technique` takes them.
-struct Watch {
+struct GateRule {
     std::string scene;                    // id
     std::vector<std::string> techniques;  // variants, or globs over ids
     std::vector<std::string> except = {}; // these of them are left out
@@ -29,15 +29,15 @@ struct Watch {
 
 /// A score that a technique must keep on a scene, whatever the base does.
 struct Bound {
-    Watch cells;
+    GateRule cells;
     std::string metric; // its name for bounds
     double value = 0;
     bool below = true; // false: an expected failure, which must lie above
 };
 
 /// A curve whose break points are compared.
-struct WatchedSweep {
-    Watch cells;
+struct SweepRule {
+    GateRule cells;
     std::string axis;
     std::vector<double> values; // empty: the axis' own
 };
@@ -45,7 +45,7 @@ struct WatchedSweep {
 /// A change for the worse, or a result that is gone, that is accepted until a day.
 struct Waiver {
     std::string scene;                   // id, or a glob over ids
-    std::vector<std::string> techniques; // as Watch has them, also of techniques that no longer exist
+    std::vector<std::string> techniques; // as GateRule has them, also of techniques that no longer exist
     std::string what;                    // the class of change: "leak", "status" of what is not compared …
     std::string reason, expires;         // "2026-12-31": the last day on which it holds
 
@@ -56,14 +56,14 @@ struct Waiver {
 /// (harness/records/compare.cpp).
 inline constexpr std::uint32_t seedsOfChance = 8;
 
-struct Watchlist {
-    std::vector<Watch> scenes; // judged beside the standard ones when the user names none
+struct GateConfig {
+    std::vector<GateRule> scenes; // judged beside the standard ones when the user names none
     std::vector<Bound> bounds;
-    std::vector<WatchedSweep> sweeps;
-    std::vector<Watch> counted; // instructions
-    std::vector<Watch> timed;   // in pairs
-    std::vector<Watch> seeds;   // measured with several seeds, for what chance does to them
-    std::vector<Watch> choices; // every two choices of their parameters together; the scene is a file beside the bounds
+    std::vector<SweepRule> sweeps;
+    std::vector<GateRule> counted; // instructions
+    std::vector<GateRule> timed;   // in pairs
+    std::vector<GateRule> seeds;   // measured with several seeds, for what chance does to them
+    std::vector<GateRule> choices; // every two choices of their parameters together; the scene is a file beside the bounds
     std::vector<Waiver> waivers;
 
     /// Whether chance plays a part in a variant, by its canonical name, on a scene.
@@ -75,9 +75,9 @@ struct Watchlist {
 
 /// Throws BadInput, with file and line, for what is no such file: unknown keys, metrics, axes or techniques, a missing
 /// reason. A scene may be one that only its user has: see `unknownScenes`.
-Watchlist readWatchlist(const std::filesystem::path& file, Profile profile);
+GateConfig readGateConfig(const std::filesystem::path& file, Profile profile);
 
 /// The same of its text; `file` is its name in errors.
-Watchlist parseWatchlist(const std::string& text, const std::string& file, Profile profile);
+GateConfig parseGateConfig(const std::string& text, const std::string& file, Profile profile);
 
 } // namespace shadowbench::gate

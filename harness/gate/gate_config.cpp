@@ -1,4 +1,4 @@
-#include "harness/gate/watchlist.h"
+#include "harness/gate/gate_config.h"
 
 #include "base/error.h"
 #include "base/files.h"
@@ -30,8 +30,8 @@ std::vector<std::string> readPatterns(const TomlValue& list) {
     return patterns;
 }
 
-Watch readWatch(const TomlValue& entry) {
-    Watch watch{entry.get("scene").text(), readPatterns(entry.get("techniques")), {}, entry.get("reason").text()};
+GateRule readGateRule(const TomlValue& entry) {
+    GateRule watch{entry.get("scene").text(), readPatterns(entry.get("techniques")), {}, entry.get("reason").text()};
     if (watch.reason.empty()) entry.get("reason").fail("is empty; say it in a few words");
     if (const auto except = entry.find("except")) watch.except = readPatterns(*except);
     return watch;
@@ -41,13 +41,13 @@ Bound readBound(const TomlValue& entry) {
     entry.only({"scene", "techniques", "except", "reason", "metric", "below", "above"});
     const auto below = entry.find("below"), above = entry.find("above");
     if (below.has_value() == above.has_value()) entry.fail("has either \"below\" or \"above\"");
-    return {readWatch(entry), entry.get("metric").oneOf(metrics::boundedMetrics()), (below ? *below : *above).positive(),
+    return {readGateRule(entry), entry.get("metric").oneOf(metrics::boundedMetrics()), (below ? *below : *above).positive(),
             below.has_value()};
 }
 
-WatchedSweep readSweep(const TomlValue& entry) {
+SweepRule readSweep(const TomlValue& entry) {
     entry.only({"scene", "techniques", "except", "reason", "axis", "values"});
-    WatchedSweep sweep{readWatch(entry), entry.get("axis").text(), {}};
+    SweepRule sweep{readGateRule(entry), entry.get("axis").text(), {}};
     try {
         axisNamed(sweep.axis);
     } catch (const Error& error) {
@@ -58,9 +58,9 @@ WatchedSweep readSweep(const TomlValue& entry) {
     return sweep;
 }
 
-Watch readPlainWatch(const TomlValue& entry) {
+GateRule readPlainRule(const TomlValue& entry) {
     entry.only({"scene", "techniques", "except", "reason"});
-    return readWatch(entry);
+    return readGateRule(entry);
 }
 
 Waiver readWaiver(const TomlValue& entry) {
@@ -110,11 +110,11 @@ bool anyMatches(const std::vector<std::string>& patterns, const std::string& var
 
 } // namespace
 
-bool Watch::covers(const std::string& variant) const { return anyMatches(techniques, variant) && !excludes(variant); }
+bool GateRule::covers(const std::string& variant) const { return anyMatches(techniques, variant) && !excludes(variant); }
 
-bool Watch::excludes(const std::string& variant) const { return anyMatches(except, variant); }
+bool GateRule::excludes(const std::string& variant) const { return anyMatches(except, variant); }
 
-std::vector<std::string> Watch::named() const {
+std::vector<std::string> GateRule::named() const {
     std::vector<std::string> names;
     for (const std::string& pattern : techniques)
         if (!isGlob(pattern))
@@ -129,18 +129,18 @@ bool Waiver::covers(const std::string& id, const std::string& variant) const {
     return fnmatch(scene.c_str(), id.c_str(), 0) == 0 && std::ranges::any_of(techniques, names);
 }
 
-bool Watchlist::isByChance(const std::string& scene, const std::string& variant) const {
-    return std::ranges::any_of(seeds, [&](const Watch& w) { return w.scene == scene && w.covers(variant); });
+bool GateConfig::isByChance(const std::string& scene, const std::string& variant) const {
+    return std::ranges::any_of(seeds, [&](const GateRule& w) { return w.scene == scene && w.covers(variant); });
 }
 
-std::vector<std::string> Watchlist::unknownScenes(const std::vector<std::string>& known) const {
+std::vector<std::string> GateConfig::unknownScenes(const std::vector<std::string>& known) const {
     const std::vector<std::string> builtin = builtinScenes();
     std::vector<std::string> named;
-    for (const Watch& watch : scenes) named.push_back(watch.scene);
+    for (const GateRule& watch : scenes) named.push_back(watch.scene);
     for (const Bound& bound : bounds) named.push_back(bound.cells.scene);
-    for (const WatchedSweep& sweep : sweeps) named.push_back(sweep.cells.scene);
-    for (const Watch& watch : counted) named.push_back(watch.scene);
-    for (const Watch& watch : timed) named.push_back(watch.scene);
+    for (const SweepRule& sweep : sweeps) named.push_back(sweep.cells.scene);
+    for (const GateRule& watch : counted) named.push_back(watch.scene);
+    for (const GateRule& watch : timed) named.push_back(watch.scene);
     std::ranges::sort(named);
     named.erase(std::unique(named.begin(), named.end()), named.end());
     std::erase_if(named, [&](const std::string& scene) {
@@ -149,19 +149,19 @@ std::vector<std::string> Watchlist::unknownScenes(const std::vector<std::string>
     return named;
 }
 
-Watchlist readWatchlist(const std::filesystem::path& file, Profile profile) {
-    return parseWatchlist(readFile(file), file.string(), profile);
+GateConfig readGateConfig(const std::filesystem::path& file, Profile profile) {
+    return parseGateConfig(readFile(file), file.string(), profile);
 }
 
-Watchlist parseWatchlist(const std::string& text, const std::string& file, Profile profile) {
+GateConfig parseGateConfig(const std::string& text, const std::string& file, Profile profile) {
     const TomlSource source{file, profileNames(), std::string(name(profile))};
     const toml::table table = parseToml(text, source.file);
     const TomlValue root(source, "", table);
     root.only({"scene", "bound", "sweep", "count", "time", "seeds", "choices", "waiver"});
-    return {readList(root, "scene", readPlainWatch),   readList(root, "bound", readBound),
-            readList(root, "sweep", readSweep),        readList(root, "count", readPlainWatch),
-            readList(root, "time", readPlainWatch),    readList(root, "seeds", readPlainWatch),
-            readList(root, "choices", readPlainWatch), readList(root, "waiver", readWaiver)};
+    return {readList(root, "scene", readPlainRule),   readList(root, "bound", readBound),
+            readList(root, "sweep", readSweep),       readList(root, "count", readPlainRule),
+            readList(root, "time", readPlainRule),    readList(root, "seeds", readPlainRule),
+            readList(root, "choices", readPlainRule), readList(root, "waiver", readWaiver)};
 }
 
 } // namespace shadowbench::gate
