@@ -97,9 +97,9 @@ TEST(GhostHalfLife, IsAbsentWithoutHistoryOrGhostAndWhereNothingFades) {
 TEST(GhostHalfLife, OfAShadowThatComesBackTooDarkIsWhereALineIsHalf) {
     Shown shown;
     shown.add(20, 0);
-    shown.add(40, 0.8);
-    for (int i = 0; i < 3; ++i) shown.add(40, -0.25); // shares of 0.8 and −0.2: no exponential passes through both
-    EXPECT_NEAR(shown.halfLife().value_or(-1), (0.8 - 0.4) / (0.8 + 0.2), 1e-6);
+    shown.add(40, 0.6);
+    for (int i = 0; i < 3; ++i) shown.add(40, -0.25); // shares of 0.6 and −0.15: no exponential passes through both
+    EXPECT_NEAR(shown.halfLife().value_or(-1), (0.6 - 0.3) / (0.6 + 0.15), 1e-6);
 }
 
 TEST(GhostHalfLife, IsOfPixelsWithAllTheirNeighbours) {
