@@ -140,7 +140,7 @@ NoiseChanges distributionChanges(const std::vector<Noisy>& series, const NoiseRu
         std::ranges::sort(byChance, std::greater{});
         const std::optional<double> least = leastFound(found, byChance, rule);
         const auto most = static_cast<std::size_t>(mostByChance(rule));
-        if (whole && !byChance.empty()) result.leastRatio = byChance[most];
+        if (whole && byChance.size() > most) result.leastRatio = byChance[most];
         std::vector<Part> next;
         for (std::size_t i = 0; least && i < parts.size(); ++i) {
             const auto& [of, first, end] = parts[i];
