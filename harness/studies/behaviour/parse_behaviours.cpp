@@ -17,7 +17,7 @@ Asserted parseAsserted(const Json& json, const std::string& technique, const std
 }
 
 Behaviour parseBehaviour(const Json& json) {
-    const bool named = json.is_object() && json.contains("technique") && json["technique"].is_string();
+    const bool named = json.contains("technique") && json["technique"].is_string();
     const std::string what = "behaviours: " + (named ? json["technique"].get<std::string>() : "one without technique");
     const JsonMembers members(json, what, {"technique", "strength", "failure"});
     const std::string technique = members.text("technique");

@@ -56,7 +56,7 @@ void turnLight(Scene& scene, const glm::dvec3& to) {
     const glm::dvec3 offset = towardsLight(scene), from = glm::normalize(offset);
     light.centre = scene.camera.target + glm::length(offset) * to;
     const glm::dvec3 axis = glm::cross(from, to);
-    if (!light.isArea() || glm::length(axis) < 1e-12) return;
+    if (glm::length(axis) < 1e-12) return;
     const double angle = std::atan2(glm::length(axis), glm::dot(from, to));
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1), angle, glm::normalize(axis));
     light.u = glm::dvec3(turn * glm::dvec4(light.u, 0));

@@ -270,6 +270,26 @@ TEST(Compare, ANumberThatWas0ChangesByNoPercentage) {
     EXPECT_EQ(changes[0].sentence, "sm-history:base=lispsm on dueling-frusta: accuracy.leak 0 → 0.0004");
 }
 
+TEST(Compare, ASentenceHasThreeDigitsOrAsManyAsShowTheChangeAndThePercentage) {
+    const auto sentence = [](double before, double now) {
+        Record base = hardRecord(), head = hardRecord();
+        base.values["accuracy.leak"] = before;
+        head.values["accuracy.leak"] = now;
+        const std::vector<Change> changes = worse(base, head);
+        return changes.empty() ? "" : changes.front().sentence.substr(changes.front().sentence.find("leak "));
+    };
+    EXPECT_EQ(sentence(0.0123456, 0.0223456), "leak 0.0123 → 0.0223 (+81 %)");
+    EXPECT_EQ(sentence(0.2, 0.3), "leak 0.2 → 0.3 (+50 %)");
+    EXPECT_EQ(sentence(0.91151, 0.91249), "leak 0.9115 → 0.9125 (+0.108 %)");
+}
+
+TEST(Presence, WhatTheHeadLacksIsGoneOnce) {
+    const Record base = hardRecord();
+    const Comparison found =
+        compare({base, softRecord()}, {softRecord()}, ownRules(), {{{base.scene, base.variant, false}}});
+    EXPECT_EQ(text(found.presence), "1 of 2 expected results compared; gone: sm-history:base=lispsm on dueling-frusta");
+}
+
 TEST(Compare, MeaninglessIsDecidedByProgramsAndByWhatIsInBoth) {
     Record external = hardRecord(), unknown = hardRecord(), other = hardRecord();
     external.technique = external.variant = "external:engine";

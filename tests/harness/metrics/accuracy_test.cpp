@@ -69,6 +69,16 @@ TEST(ReceiverMask, ATinyImageMayDisagreeInAFewPixelsThatLieOnAnEdge) {
     EXPECT_FALSE(aligned({{12, 3}, {12, 4}, {12, 5}, {12, 6}, {12, 7}})) << "a camera beside the truth's";
 }
 
+TEST(ReceiverMask, ASurfaceOfOnePixelLiesOnAnEdgeOnlyWhereANeighbourShowsWhatIsDrawn) {
+    Reference truth = vertical.truth(24, 24);
+    truth.id(20, 3) = 2;
+    metrics::Drawn drawn{truth.id, truth.position};
+    drawn.position(20, 3) *= 1.01F;
+    EXPECT_FALSE(metrics::receiverMask(truth, drawn, glm::dvec3(0)).aligned);
+    drawn.id(20, 3) = 1;
+    EXPECT_TRUE(metrics::receiverMask(truth, drawn, glm::dvec3(0)).aligned);
+}
+
 TEST(HardAccuracy, OfTheTruthItselfHasNoErrorAtAll) {
     const Reference truth = HalfPlane{{0.8, 0.6}, 20.3}.truth(size, size);
     const metrics::LabelErrors a = metrics::labelErrors({truth.visibility, truth, everything(truth)});
@@ -173,6 +183,7 @@ TEST(Accuracy, EveryMetricRefusesImagesOfAnotherSize) {
     EXPECT_THROW(metrics::grain(frame), InternalError);
     EXPECT_THROW(metrics::unresolved(frame), InternalError);
     EXPECT_THROW(metrics::ssim(frame), InternalError);
+    EXPECT_THROW(metrics::pictureCorrectness(frame), InternalError);
 }
 
 TEST(EdgeError, OfAShiftByOnePixelIsOnePixelWithItsSign) {
@@ -421,6 +432,22 @@ TEST(Ssim, OfConstantImagesIsTheTermOfTheMeansAndTurnsWithTheImage) {
     EXPECT_NEAR(along, down, 1e-9);
 }
 
+// Around a lone lit pixel whose weight in a window is w, the means are w and 0, the variances w − w² and 0 (eqs. 13 to 16).
+TEST(Ssim, OfALonePixelFallsOffWithTheGaussianOfOneAndAHalfPixels) {
+    const Reference dark = truthOf(size, size, [](glm::dvec2) { return 0; });
+    Image<float> v = dark.visibility;
+    v(16, 16) = 1;
+    double all = 0, sum = 0;
+    const auto gauss = [](int x) { return std::exp(-x * x / (2 * 1.5 * 1.5)); };
+    for (int x = -5; x <= 5; ++x) all += gauss(x);
+    for (int y = -5; y <= 5; ++y)
+        for (int x = -5; x <= 5; ++x) {
+            const double w = gauss(x) * gauss(y) / (all * all), c1 = 1e-4, c2 = 9e-4;
+            sum += 1 - c1 / (w * w + c1) * c2 / (w - w * w + c2);
+        }
+    EXPECT_NEAR(*metrics::ssim({v, dark, everything(dark)}), 1 - sum / (size * size), 1e-9);
+}
+
 TEST(PenumbraRmse, IsOfThePenumbraAloneAndTheDilatedOneOfTwoPixelsMore) {
     // Penumbra: the columns 14 … 17 (V* = 1/8, 3/8, 5/8, 7/8); with two more on each side 8 columns.
     const Reference truth = truthOf(size, size, [](glm::dvec2 p) { return vertical.ramp(p, 4); });
@@ -560,6 +587,17 @@ TEST(Grain, IsOfGradedPixelsOfOneSurfaceOnly) {
     const Reference plain = truthOf(4, 4, [](glm::dvec2) { return 0.5; });
     for (const float full : {0.0F, 1.0F})
         EXPECT_FALSE(metrics::grain({Image<float>(4, 4, full), plain, everything(plain)}).noise) << full;
+}
+
+TEST(Grain, OfAPlateauIsUpToOneStepOfAByte) {
+    const Reference truth = truthOf(2, 2, [](glm::dvec2) { return 0.5; });
+    const auto plateau = [&](float step) {
+        Image<float> v(2, 2, 0.25F);
+        v(1, 1) += step;
+        return *metrics::grain({v, truth, everything(truth)}).plateau;
+    };
+    EXPECT_EQ(plateau(0.998F / 255), 1);
+    EXPECT_EQ(plateau(1.002F / 255), 0);
 }
 
 TEST(Unresolved, IsTheShareOfTheMaskWithinThreeSigma) {

@@ -188,5 +188,17 @@ TEST(Flip, IsTheSameInEitherOrder) {
 
 TEST(Flip, TheDefaultIsThePapersDisplay) { EXPECT_NEAR(flipPixelsPerDegree, 67.0206, 1e-4); }
 
+// The widest filter of colours reaches three standard deviations, 3 √(0.04 / 2π²)° (Section 4.1.2), which is further than
+// that of features.
+TEST(Flip, OfOnePixelReachesAsFarAsTheWidestFilter) {
+    const Picture grey(48, 48, glm::vec3(0.5F));
+    Picture other = grey;
+    other(24, 24) = {0, 0, 1};
+    const Image<float> map = flip(flipPicture(grey, 60), flipPicture(other, 60));
+    const int furthest = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / (2 * pi * pi)) * 60));
+    EXPECT_GT(map(24 + furthest, 24), 0);
+    EXPECT_EQ(map(24 + furthest + 1, 24), 0);
+}
+
 } // namespace
 } // namespace shadowbench::metrics

@@ -35,6 +35,12 @@ TEST(ShadedPicture, OfALitPlaneThatFacesTheLightIsItsColourAndAFifthOfItInShadow
     EXPECT_EQ(shown(1, 2), glm::vec3(0)) << "background";
 }
 
+TEST(ShadedPicture, IsLitFromWhereTheLightStands) {
+    Three three;
+    three.drawn.position(0, 0) = {2 * std::sqrt(3.0F), 0, 0}; // 60° off the light
+    EXPECT_NEAR(shading(three.snapshot, three.drawn, three.normals).direct(0, 0).x, 0.8 * 0.5, 1e-6);
+}
+
 TEST(ShadedPicture, IsLitFromADirectionAndNotFromBehind) {
     Three three;
     three.snapshot.light.kind = LightKind::Directional;

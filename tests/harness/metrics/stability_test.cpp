@@ -1,4 +1,5 @@
 // Reprojection, flicker, flips and convergence on a camera that moves over a plane.
+#include "base/error.h"
 #include "harness/metrics/pixels.h"
 #include "tests/support/metrics_images.h"
 
@@ -105,6 +106,25 @@ TEST(Warp, LeavesOutWhatAnotherSurfaceOrDepthHidBefore) {
     EXPECT_TRUE(std::isnan(warp(11, 11).x));
     EXPECT_TRUE(std::isnan(warp(31, 31).x));
     EXPECT_FALSE(std::isnan(warp(20, 20).x));
+}
+
+TEST(Warp, RefusesReferencesOfDifferentSizes) {
+    const Camera camera = cameraAt(0);
+    const Reference truth = frameOf(camera, litDisk);
+    const Image<std::uint32_t> ids(size.x + 1, size.y);
+    const Image<glm::vec3> positions(size.x, size.y + 1);
+    const auto refused = [&](const Reference& now, const Reference& before, glm::ivec2 image) {
+        EXPECT_THROW(static_cast<void>(metrics::warp(snapshotOf(camera, camera), image, now, before)), InternalError);
+    };
+    Reference other = truth;
+    other.id = ids;
+    refused(truth, other, size);
+    other = truth;
+    other.position = positions;
+    refused(truth, other, size);
+    refused(other, truth, size);
+    refused(truth, truth, {size.x + 1, size.y});
+    refused(truth, truth, {size.x, size.y + 1});
 }
 
 TEST(Warp, LeavesOutTheBackground) {

@@ -58,6 +58,22 @@ TEST(BehaviourTable, HasTheFiguresOfTheRecords) {
         << text;
 }
 
+TEST(BehaviourTable, WritesTenThousandAndMoreInFull) {
+    std::string json = one;
+    json.replace(json.find("accuracy.mismatch"), 17, "cost.time.median");
+    const auto figure = [&](double ms) {
+        Record record = test::hardRecord();
+        record.scene = "s";
+        record.variant = "sm-uniform";
+        record.values["cost.time.median"] = ms;
+        const std::string text = behaviourTable(parseBehaviours(json), {record}, Markup::Markdown);
+        const std::size_t start = text.find("| s | ") + 6;
+        return text.substr(start, text.find(" |", start) - start);
+    };
+    EXPECT_EQ(figure(12345), "time.median 12345");
+    EXPECT_EQ(figure(9876), "time.median 9.88e+03");
+}
+
 TEST(BehaviourTable, IsEscapedForLatex) {
     const std::string text = behaviourTable(parseBehaviours(one), {}, Markup::Latex);
     EXPECT_NE(text.find("a\\_b & Suite.\\allowbreak{}Name & s & mismatch –"), std::string::npos) << text;

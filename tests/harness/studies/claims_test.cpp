@@ -400,6 +400,8 @@ TEST(Claims, AParagraphSaysWhatTheDocumentHasWhatWeHaveAndWhatWasRuledOut) {
     const nlohmann::json refuted = asJson({with("a", 0.1)}), reproduced = asJson({with("a", 0.001)});
     EXPECT_EQ(refuted["paragraph"], paragraphOf(judge(parsed.front(), {with("a", 0.1)})));
     EXPECT_FALSE(reproduced.contains("paragraph"));
+    EXPECT_FALSE(reproduced.contains("no interval"));
+    EXPECT_TRUE(asJson({})["checks"][0]["cases"].is_array());
     EXPECT_EQ(refuted["replay"], "Suite.Name");
     const nlohmann::json& sample = refuted["checks"][0]["cases"][0][0];
     EXPECT_EQ(sample["left"], 0.1);

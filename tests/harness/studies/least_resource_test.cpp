@@ -79,5 +79,14 @@ TEST(VariantsOver, AmountsCoverTheRange) {
     EXPECT_THROW(variantsOver(Resource::Samples, {"volume-zfail"}), BadInput);
 }
 
+TEST(LeastMap, IsOfOneSettingOfTheOtherParameters) {
+    std::vector<Record> records{mapRecord("a", 512, 0.001), mapRecord("a", 1024, 0.001), mapRecord("a", 512, 0.9),
+                                mapRecord("a", 1024, 0.9)};
+    for (const int i : {2, 3}) records[i].parameters[1].second = "none"; // the bias
+    const auto least = leastMaps(records);
+    ASSERT_EQ(least.size(), 1U);
+    EXPECT_EQ(least[0].amount, 512);
+}
+
 } // namespace
 } // namespace shadowbench::recommend

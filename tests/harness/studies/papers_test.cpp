@@ -110,5 +110,13 @@ TEST(Papers, TheProgramsOwnNameWhatRecordsCanHave) {
                 }
 }
 
+TEST(Papers, MultiplesAreOfAnyUnitButZero) {
+    const std::vector<PaperPage> pages = parsePaperPages(table);
+    const std::string one = paperPage(pages.front(), {with("a", 0.5), with("b", 1)}, {});
+    EXPECT_NE(one.find("| A | a | 1 | 0.5 | 30 | 3 | 0.5 |"), std::string::npos) << one;
+    const std::string none = paperPage(pages.front(), {with("a", 0.5), with("b", 0)}, {});
+    EXPECT_NE(none.find("| A | a | 1 | 0.5 | 30 | 3 | – |"), std::string::npos) << none;
+}
+
 } // namespace
 } // namespace shadowbench

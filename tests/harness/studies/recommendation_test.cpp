@@ -304,6 +304,16 @@ TEST(Casters, AreGroupedByDistanceAndCastWhereTheyStand) {
     EXPECT_EQ(casters.castAlone(1, 0).batches.size(), 2U);
 }
 
+TEST(Casters, ChainsThatAUserAsksForFall) {
+    const Scene scene = plates(platesText(twoPlates));
+    for (const std::vector<int>& chain : {std::vector{12, 60}, {60, 60}, {60}, {60, 3}})
+        EXPECT_NE(test::messageOf([&] {
+                      withChains(scene, {{"plates", chain}});
+                  }).find("falling numbers"),
+                  std::string::npos)
+            << chain.back();
+}
+
 TEST(HardChoices, ErrByWhatNoOtherCasterCovers) {
     const Scene scene = plates(platesText(twoPlates));
     const Casters casters(scene, 0, ownBands(scene));

@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
+#include <map>
 
 namespace shadowbench {
 namespace {
@@ -195,6 +196,16 @@ TEST(Axes, OfMapsHaveEveryPowerOfTwo) {
     EXPECT_EQ(sides.back(), 64);
 }
 
+TEST(Axes, OfScenesGoFromHarmlessToHard) {
+    const Scene scene = loadScene("dueling-frusta", Profile::Gate);
+    for (const auto& [axis, values] :
+         std::map<std::string, std::vector<double>>{{"light-elevation", {85, 75, 60, 45, 30, 20, 15, 10, 7, 5}},
+                                                    {"sun-size", {40, 20, 5}},
+                                                    {"still-frames", {1, 2, 4, 8, 15, 30, 60, 120, 240}},
+                                                    {"tessellation", {4, 3, 2, 1, 0}}})
+        EXPECT_EQ(axisNamed(axis).valuesFor(scene), values) << axis;
+}
+
 TEST(Axes, OfBiasesGrowBySteadyFactors) {
     for (const auto& [axis, first, factor] : {std::tuple{"units", 4.0, 4.0}, {"factor", 0.25, 2.0}}) {
         const std::vector<double> biases = axisNamed(axis).valuesFor(loadScene("dueling-frusta", Profile::Gate));
@@ -216,6 +227,8 @@ TEST(Sweep, IsOfTechniquesThatHaveTheParameter) {
     const std::string refused = test::messageOf([&] { sweep(options); });
     EXPECT_NE(refused.find("map"), std::string::npos) << refused;
     EXPECT_EQ(refused.find("none of"), std::string::npos) << refused;
+    options.axis = "near-plane"; // of the scene: for every technique
+    EXPECT_EQ(test::messageOf([&] { sweep(options); }).find("none of"), std::string::npos);
 }
 
 TEST(Sweep, TheBreakPointIsTheFirstValueInOrderBeyondTheTolerance) {
