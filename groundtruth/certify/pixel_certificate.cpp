@@ -74,8 +74,8 @@ Compared compared(const hard::ExactScene& scene, const Reference& means, glm::iv
         sets[set] = scene.meanByRays(size, pixel, means.id(pixel.x, pixel.y), pixelCertificateRays,
                                      static_cast<std::uint16_t>(firstSet + set));
     Compared result;
-    result.seen = std::ranges::all_of(sets, [](const auto& set) { return set.seen > 0; });
-    if (!result.seen) return result;
+    if (std::ranges::any_of(sets, [](const auto& set) { return set.seen <= 0; })) return result;
+    result.seen = true;
     constexpr double count = pixelCertificateSets;
     double mean = 0, squares = 0, rays = 0;
     for (const auto& set : sets) mean += set.mean / count;

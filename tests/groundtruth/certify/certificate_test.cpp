@@ -3,8 +3,10 @@
 #include "base/random.h"
 #include "groundtruth/certify/certificate.h"
 #include "groundtruth/certify/sky_certificate.h"
+#include "groundtruth/cgal/hard/exact.h"
 #include "groundtruth/povray/uncertainty.h"
 #include "tests/support/certificates.h"
+#include "tests/support/povray_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,7 +139,31 @@ TEST(Certificate, LeavesOutPointsThatSeeTheLightEdgeOn) {
     const ExactFraction none = [](glm::ivec2) { return VisibleFraction{0, 1}; };
     const Certificate c = certify(honest(), ground(), samples, 512, 1, none);
     EXPECT_EQ(c.points, 0);
+    for (const double mean : {c.bias, c.rms, c.rmsHalf, c.rmsQuarter, c.independent, c.replayed}) EXPECT_EQ(mean, 0);
     requireCertified(c, samples);
+}
+
+/// A render of a ground without occluders in which each pixel lacks `missing` of 64 samples, against the exact oracle.
+Certificate ofOpenGround(double lightHeight, int missing) {
+    Request request{halfPlane(LightKind::Rectangle), {16, 16}};
+    request.samples = 64;
+    request.snapshot.batches.resize(1);
+    const PrimaryHits primary = hard::primaryHits(request.snapshot, request.size);
+    request.snapshot.light.centre.y = lightHeight;
+    const Image<float> visible(16, 16, static_cast<float>(64 - missing) / 64);
+    return certify(request, {visible, visible, visible, Image<std::uint8_t>(16, 16, 1), 1}, primary, 256, 1);
+}
+
+TEST(Certificate, WithoutPointsThatAreExactlyPartlyLitHasNoHonestRenders) {
+    const Certificate lacking = ofOpenGround(3, 1);
+    EXPECT_EQ(lacking.penumbra, 256) << "for the render";
+    EXPECT_DOUBLE_EQ(lacking.bias, -1.0 / 64);
+    EXPECT_DOUBLE_EQ(lacking.replayed, 1);
+    EXPECT_FALSE(lacking.honest);
+    const Certificate edgeOn = ofOpenGround(0, 0); // the light lies in the ground
+    EXPECT_EQ(edgeOn.points, 0);
+    EXPECT_EQ(edgeOn.replayed, 0);
+    EXPECT_FALSE(edgeOn.honest);
 }
 
 TEST(Certificate, RejectsAFullyLitPixelThatIsInTheUmbra) {

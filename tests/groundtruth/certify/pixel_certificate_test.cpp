@@ -3,7 +3,10 @@
 #include "base/error.h"
 #include "groundtruth/oracle.h"
 #include "scene/load/load.h"
+#include "tests/support/message_of.h"
+#include "tests/support/povray_scene.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -139,6 +142,54 @@ TEST(PixelCertificate, CountsPointsThatNoRaysCouldGive) {
         if (share > 0 && share < 1) share += share < 0.5F ? 0.3F : -0.3F;
     const PixelCertificate found = certificateOf("windmills", means);
     EXPECT_NEAR(found.impossible, 0.75 * found.points, 0.05 * found.points) << describe(found);
+}
+
+/// Of a ground that is lit everywhere, said to be lit by `share`; a pixel sees what lies below the ground.
+PixelCertificate ofLitGround(float share) {
+    Snapshot snapshot = halfPlane(LightKind::Rectangle);
+    snapshot.light = snapshot.light.centreOnly();
+    snapshot.batches[1] = placed(box({1, 1, 1}), at({0, -3, 0}), 2);
+    Reference means;
+    means.visibility = Image<float>(8, 8, share);
+    means.sigma = Image<float>(8, 8);
+    means.surface = Image<Surface>(8, 8, Surface::Receiver);
+    means.id = Image<std::uint32_t>(8, 8, 1);
+    means.id(3, 5) = 2;
+    return certifyPixels(hard::ExactScene(snapshot), means, means, pixelCertificatePoints, 1);
+}
+
+// By Bernstein, 1,024 rays that are lit by a share 1 − d each are all lit once in 256/10⁻⁵ only where
+// d = √(2 d (1 − d) L / 1024) + 2 L / 3072, L = ln(2 · 256/10⁻⁵): where d is 0.0534.
+TEST(PixelCertificate, IsThatOfHand) {
+    const PixelCertificate possible = ofLitGround(1 - 0.053F), impossible = ofLitGround(1 - 0.054F);
+    EXPECT_EQ(possible.points, 63) << "no ray meets what one sees";
+    EXPECT_EQ(possible.impossible, 0);
+    EXPECT_EQ(impossible.impossible, 63);
+    EXPECT_NEAR(possible.bias, -0.053, 1e-7);
+    EXPECT_NEAR(possible.rms, 0.053, 1e-7);
+    EXPECT_NEAR(possible.largest, 0.053, 1e-7);
+    EXPECT_NEAR(possible.independent, std::sqrt(0.053 * 0.947 / 1024), 1e-7);
+    EXPECT_NEAR(possible.excess, 0.053 * 0.053, 1e-7) << "all sets of rays say the same";
+}
+
+TEST(PixelCertificate, IsRefusedWithTheFirstBoundThatItBreaks) {
+    const auto refused = [](const PixelCertificate& certificate) {
+        return test::messageOf<Inconclusive>([&] { requirePixelsCertified(certificate); });
+    };
+    PixelCertificate c;
+    c.points = 31; // too few for the bounds of the mean error and the excess
+    c.independent = 0.02;
+    c.rms = 0.014;
+    EXPECT_NO_THROW(requirePixelsCertified(c));
+    c.rms = 0.016;
+    EXPECT_NE(refused(c).find("the rms error over 31 pixels is 0.0160, more than 0.75 times the 0.0200 of independent rays"),
+              std::string::npos);
+    c.impossible = 1;
+    c.largest = 0.25;
+    EXPECT_NE(refused(c).find("1 of 31 pixels are further from their rays than rays can be, by up to 0.2500"),
+              std::string::npos);
+    c.contradicting = 2;
+    EXPECT_NE(refused(c).find("2 pixels are fully lit or shadowed against their exact label"), std::string::npos);
 }
 
 TEST(PixelCertificate, IsInTheProvenanceOfPixelAreas) {

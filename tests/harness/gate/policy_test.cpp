@@ -114,11 +114,15 @@ TEST(GatePolicy, IsReadAsItIsWrittenAndMayNameWhatThisBuildLacks) {
     build.policy.config.bounds[0].metric = "a-metric-to-come";
     build.policy.config.bounds[0].cells.techniques = {"a-technique-to-come"};
     build.policy.rules.limits["accuracy.to_come"] = {metrics::TruthError::Rms, 2, "accuracy.pixels.lit", 0.1, 0.2, true, 1};
-    build.policy.time.floor = 0.02;
+    build.policy.time = {0.02, 0.07, 0.3, 0.002};
     const BuildInfo read = buildInfoFrom(toJson(build));
     EXPECT_EQ(toJson(read), toJson(build));
     EXPECT_THROW(buildInfoFrom("{}"), BadInput);
     EXPECT_EQ(read.policy.rules.limits.at("accuracy.to_come").of, "accuracy.pixels.lit");
+    EXPECT_EQ(read.policy.time.floor, 0.02);
+    EXPECT_EQ(read.policy.time.wallFloor, 0.07);
+    EXPECT_EQ(read.policy.time.mustTell, 0.3);
+    EXPECT_EQ(read.policy.time.alpha, 0.002);
     EXPECT_TRUE(unite(read.policy, Policy()).policy.config.bounds.empty());
 }
 

@@ -107,6 +107,13 @@ TEST(DistributionChanges, FewOrEqualFiguresShowNothing) {
     EXPECT_EQ(changesOf(std::vector<double>(30, 4.2), single(30)), Positions{});
 }
 
+TEST(DistributionChanges, NoRatioIsWantedWhereNoFigureVaries) {
+    NoiseRule rule;
+    rule.orders = 19; // none may be as far apart
+    const NoiseChanges found = distributionChanges({{std::vector<double>(9, 4.2), single(9)}}, rule);
+    EXPECT_EQ(found.leastRatio, NoiseChanges().leastRatio);
+}
+
 /// In how many of 1,000 series of 20 figures anything is found.
 int found(std::size_t step, double shift, double alpha, const std::function<double(Random&)>& draw) {
     NoiseRule rule;

@@ -32,7 +32,7 @@ protected:
     }
     std::string commit(const std::string& subject, int second) {
         Command command{*findProgram("git"), {"-c", "user.name=a", "-c", "user.email=a@b", "commit", "-q"}, folder_.path()};
-        command.arguments.insert(command.arguments.end(), {"--allow-empty", "-m", subject});
+        command.arguments.insert(command.arguments.end(), {"--allow-empty", "--allow-empty-message", "-m", subject});
         command.environment = ownEnvironment();
         command.environment->push_back("GIT_COMMITTER_DATE=2026-11-21T23:21:3" + std::to_string(second) + "Z");
         if (runProcess(command, [](std::string_view) {}).exitCode != 0) throw InternalError("git commit failed");
@@ -54,6 +54,8 @@ TEST_F(RepositoryOfFour, KnowsDateAndSubjectOfItsCommits) {
     }
 }
 
+TEST_F(RepositoryOfFour, ACommitMayHaveNoSubject) { EXPECT_EQ(repository_->subject(commit("", 4)), ""); }
+
 TEST_F(RepositoryOfFour, PutsAncestorsFirst) {
     EXPECT_EQ(repository_->inOrder({third_, first_, second_}), (std::vector{first_, second_, third_}));
     EXPECT_FALSE(repository_->inOrder({third_, std::string(40, 'a')}));
@@ -64,7 +66,7 @@ TEST_F(RepositoryOfFour, SaysWhatTheHeadHasAndTheBaseHasNot) {
     EXPECT_EQ(repository_->between(first_, third_), (std::vector{second_, third_}));
     EXPECT_EQ(repository_->between(aside_, third_), (std::vector{second_, third_})) << "of another branch";
     EXPECT_EQ(repository_->middle(first_, third_), second_);
-    for (const auto& [base, head] : {std::pair{std::string("main"), third_}, std::pair{first_, std::string("main")}}) {
+    for (const auto& [base, head] : {std::pair{std::string("branch"), third_}, std::pair{first_, std::string("main")}}) {
         EXPECT_TRUE(repository_->between(base, head).empty());
         EXPECT_EQ(repository_->middle(base, head), "");
     }

@@ -72,16 +72,21 @@ TEST_F(AMeasuredProgram, IsMeasuredOnce) {
     EXPECT_EQ(progress_, std::vector<std::string>{"tiny 1/3  pcf"}) << "of its lines those that are progress";
 }
 
-TEST_F(AMeasuredProgram, IsMeasuredAgainWhereSomebodyChangedItsRecords) {
+TEST_F(AMeasuredProgram, IsMeasuredAgainWhereSomebodyChangedOrRemovedItsRecords) {
+    const auto kept = [&] {
+        for (const auto& entry : fs::recursive_directory_iterator(folder_.path() / "cache"))
+            if (entry.path().filename() == "results.jsonl") return entry.path();
+        return fs::path();
+    };
     (void)measure(step_);
-    for (const auto& entry : fs::recursive_directory_iterator(folder_.path() / "cache"))
-        if (entry.path().filename() == "results.jsonl") {
-            std::vector<Record> records = readRecords(entry.path());
-            records[0].values["accuracy.leak"] = 0.5;
-            writeRecords(entry.path(), records);
-        }
+    std::vector<Record> records = readRecords(kept());
+    records[0].values["accuracy.leak"] = 0.5;
+    writeRecords(kept(), records);
     EXPECT_EQ(measure(step_).records.at(0).values["accuracy.leak"], standInRecord("pcf").values["accuracy.leak"]);
     EXPECT_EQ(standIn_.calls("run"), 2);
+    fs::remove(kept());
+    EXPECT_EQ(measure(step_).records.size(), 1U);
+    EXPECT_EQ(standIn_.calls("run"), 3);
 }
 
 TEST_F(AMeasuredProgram, IsMeasuredAgainForOtherInputsAndWithOtherPrograms) {

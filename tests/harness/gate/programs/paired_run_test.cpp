@@ -53,6 +53,21 @@ TEST(PairedSamples, ThatAreNoneAreNeverEnough) {
     EXPECT_EQ(judgeTime({}, {}, 1, 1), TimeVerdict::Unclear);
 }
 
+TEST(PairedSamples, CountTwoRoundsAsOneAndWithoutWhatAllThreeShare) {
+    const auto round = [](double machine, double head) {
+        const timing::FrameTime equal{std::exp(machine), 1}, other{std::exp(machine + head), 1};
+        return PairedRound{equal, other, equal};
+    };
+    // The head lies 0, 0 and 6 above the others and so 0, 0 and 4 above the mean of the three: of 0, 0, 0, 2, 2 and 4, the
+    // median of the means of pairs is 1; of the others it is −½.
+    const std::vector<RestartTimes> times = restartTimes(
+        {1, {{round(3, 0), round(-5, 0), round(0, 0), round(1, 0), round(2, 6), round(-1, 6)}}}, &timing::FrameTime::cpu);
+    ASSERT_EQ(times.size(), 1U);
+    EXPECT_NEAR(times[0].base, -0.5, 1e-12);
+    EXPECT_NEAR(times[0].head, 1, 1e-12);
+    EXPECT_NEAR(times[0].control, -0.5, 1e-12);
+}
+
 TEST(PairedSamples, SayThatAHeadWaitsOnlyWhereEqualProgramsDoNot) {
     const TimedCell cell{"simple", "pcf"};
     EXPECT_TRUE(judgeSamples(cell, samplesOf(100, 120, 100), {}, 1).waits);
