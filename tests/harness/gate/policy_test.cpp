@@ -117,6 +117,7 @@ TEST(GatePolicy, IsReadAsItIsWrittenAndMayNameWhatThisBuildLacks) {
     build.policy.time = {0.02, 0.07, 0.3, 0.002};
     const BuildInfo read = buildInfoFrom(toJson(build));
     EXPECT_EQ(toJson(read), toJson(build));
+    EXPECT_TRUE(toJson(build).starts_with("{\n \"commit\": \"c0ffee\",\n")) << "for people, too";
     EXPECT_THROW(buildInfoFrom("{}"), BadInput);
     EXPECT_EQ(read.policy.rules.limits.at("accuracy.to_come").of, "accuracy.pixels.lit");
     EXPECT_EQ(read.policy.time.floor, 0.02);

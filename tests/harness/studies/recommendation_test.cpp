@@ -361,6 +361,7 @@ TEST(CasterRecommendation, OfAPlateIsTheCoarsestWithinTolerance) {
     EXPECT_TRUE(std::ranges::is_sorted(progress));
     EXPECT_GE(progress.front(), 0);
     EXPECT_LT(progress.back(), 1);
+    EXPECT_TRUE(std::ranges::any_of(progress, [](double done) { return done > 0.3 && done < 0.7; })) << "of the search";
 }
 
 // Under 4 m × 4 m of light as far above a plate as the plate is above the ground, the plate's penumbra reaches 2 m to either
@@ -371,7 +372,12 @@ TEST(CasterRecommendation, UnderAnAreaLightIsOfWhatIsVisible) {
     CasterOptions options;
     options.tolerance = {"rmse=0.01"};
     options.lightSamples = 16;
-    const CasterRecommendation strict = recommendCasters(scene, options);
+    std::vector<double> progress;
+    const CasterRecommendation strict = recommendCasters(scene, options, [&](double done, std::string_view what) {
+        if (what.starts_with("casters at levels")) progress.push_back(done);
+    });
+    ASSERT_GE(progress.size(), 2U);
+    EXPECT_NEAR(progress[1] - progress[0], (0.7 - 0.3) / 4, 1e-9) << "one of four levels";
     EXPECT_EQ(strict.oracle, "area");
     EXPECT_EQ(strict.verifier, "rays from 16 points of the light");
     EXPECT_EQ(strict.groups.front().level, 0U);

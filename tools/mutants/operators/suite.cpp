@@ -99,12 +99,17 @@ double killedShare(const std::vector<OperatorMutant>& mutants) {
 
 std::string operatorsReport(const std::vector<OperatorMutant>& mutants, const std::map<std::string, std::string>& why,
                             const std::string& source) {
+    const auto explained = std::ranges::count_if(
+        mutants, [&](const OperatorMutant& mutant) { return mutant.end != End::Killed && why.contains(mutant.id); });
+    const auto others = static_cast<double>(mutants.size()) - static_cast<double>(explained);
     std::string text =
-        fmt::format("# Operator mutants of what judges\n\nMade by `operator_mutants` ({}): {:.1f} % of {} mutants are "
-                    "killed by the unit tests of the part that they change.\n\n| part | mutants | killed | not reached | "
+        fmt::format("# Operator mutants of metrics, records and gate\n\nMade by `operator_mutants` ({}): {:.1f} % of {} "
+                    "mutants are killed by the unit tests of the part that they change; of those without a reason below, "
+                    "{:.1f} %.\n\n| part | mutants | killed | not reached | "
                     "share killed |\n"
                     "|---|--:|--:|--:|--:|\n",
-                    source, 100 * killedShare(mutants), mutants.size());
+                    source, 100 * killedShare(mutants), mutants.size(),
+                    others > 0 ? 100 * killedShare(mutants) * static_cast<double>(mutants.size()) / others : 100);
     for (std::size_t judge = 0; judge < judges().size(); ++judge) {
         const auto killed = count(mutants, judge, End::Killed), missed = count(mutants, judge, End::NotReached);
         const auto all = killed + missed + count(mutants, judge, End::Survives);
