@@ -102,7 +102,7 @@ std::string report(const Runs& runs) {
     std::string text =
         fmt::format("# Seeds of one program against each other\n\n{} seeds of {} results each, commit {} "
                     "(`benchmarks/seed_splits`). Eight "
-                    "seeds are the base, eight others the head; red is a comparison with anything worse or not judged.\n\n"
+                    "seeds are the base, eight others the head; red is a comparison with anything worse or not compared.\n\n"
                     "| drawn anew | comparisons | red |\n|---|--:|--:|\n| both halves of sixteen | {} | {} |\n| the head's "
                     "seeds alone | {} | "
                     "{} |\n",

@@ -105,9 +105,9 @@ public:
         frames_.show(frames_.scored());
     }
 
-    Outcome judge(Means means, const Image<float>& drawn, const Fault& fault) {
+    Outcome judge(Definition definition, const Image<float>& drawn, const Fault& fault) {
         const Image<float> v = fault.made(drawn);
-        const metrics::Mask& mask = frames_.mask(means == Means::Hard ? Truth::Hard : Truth::Soft);
+        const metrics::Mask& mask = frames_.mask(definition == Definition::Hard ? Truth::Hard : Truth::Soft);
         if (fault.name != "as-drawn" && v.width() == drawn.width()) {
             bool same = true;
             for (std::size_t i = 0; i < v.size() && same; ++i) same = mask.scored[i] == 0 || v[i] == drawn[i];
@@ -115,7 +115,8 @@ public:
         }
         const std::filesystem::path file = folder_.path() / "image.exr";
         writeExr(file, {{"Y", &v}});
-        ForeignRow row{.id = "faulty", .means = means, .encoding = encodingOf(fault), .frames = {{frames_.scored(), file}}};
+        ForeignRow row{
+            .id = "faulty", .definition = definition, .encoding = encodingOf(fault), .frames = {{frames_.scored(), file}}};
         std::vector<std::string> warnings;
         try {
             if (fault.name == "srgb-undone") // the file is right, and read as sRGB
@@ -127,10 +128,10 @@ public:
         return warnings.empty() ? Outcome{'.', ""} : Outcome{'W', warnings.front()};
     }
 
-    std::string evidence(Means means, const Image<float>& drawn, const Fault& fault) {
+    std::string evidence(Definition definition, const Image<float>& drawn, const Fault& fault) {
         const Image<float> v = fault.made(drawn);
         if (v.width() != drawn.width()) return "";
-        const bool labels = means == Means::Hard;
+        const bool labels = definition == Definition::Hard;
         const Truth truth = labels ? Truth::Hard : Truth::Soft;
         const metrics::ScoredFrame frame{v, frames_.truth(truth), frames_.mask(truth)};
         const ShiftEvidence e = shiftEvidence(frame, labels);
@@ -145,12 +146,12 @@ public:
         return text;
     }
 
-    [[nodiscard]] Means meansOf(const Record& record) const {
+    [[nodiscard]] Definition definitionOf(const Record& record) const {
         for (const auto& [key, value] : record.parameters)
-            if (record.technique.starts_with(externalPrefix) && key == "means") return meansNamed(value);
+            if (record.technique.starts_with(externalPrefix) && key == "means") return definitionNamed(value);
         const techniques::Answer answer = techniques::parseVariant(record.variant).entry->answer;
-        if (scene_.light.isEnvironment()) return Means::Irradiance;
-        return answer == techniques::Answer::Soft ? Means::Area : Means::Hard;
+        if (scene_.light.isEnvironment()) return Definition::Irradiance;
+        return answer == techniques::Answer::Soft ? Definition::Area : Definition::Hard;
     }
 
 private:
@@ -210,16 +211,17 @@ private:
     }
 
     void printRow(Judge& judge, const Record& record, const Image<float>& drawn) {
-        const Means means = judge.meansOf(record);
+        const Definition definition = judge.definitionOf(record);
         std::string letters, details;
         for (const Fault& fault : faults_) {
-            const Outcome outcome = judge.judge(means, drawn, fault);
+            const Outcome outcome = judge.judge(definition, drawn, fault);
             letters += outcome.letter;
             ++counts_[fault.name][outcome.letter];
             const bool isNews = fault.name == "as-drawn" ? outcome.letter != '.' : outcome.letter == 'W';
             if (!outcome.said.empty() && (options_.sentences || isNews))
                 details += fmt::format("      {}: {}\n", fault.name, outcome.said.substr(outcome.said.find("exr ") + 4));
-            if (options_.evidence) details += fmt::format("      {}: {}\n", fault.name, judge.evidence(means, drawn, fault));
+            if (options_.evidence)
+                details += fmt::format("      {}: {}\n", fault.name, judge.evidence(definition, drawn, fault));
         }
         fmt::print("  {} {}\n{}", letters, record.variant, details);
         std::fflush(stdout);

@@ -13,7 +13,7 @@ namespace {
 struct CompareOptions {
     std::filesystem::path base, head, junit, summary;
     bool annotations = false;
-    bool aa = false; // one program on both sides is meant
+    bool sameProgram = false; // one program on both sides is meant
 };
 
 /// A record file, or the folder that a run wrote it to.
@@ -23,10 +23,10 @@ std::vector<Record> recordsAt(const std::filesystem::path& place) {
 
 ExitCode compareAndPrint(const CompareOptions& options) {
     const std::vector<Record> base = recordsAt(options.base), head = recordsAt(options.head);
-    const gate::GateResult compared = gate::comparedRecords(base, head, options.aa);
+    const gate::GateResult compared = gate::comparedRecords(base, head, options.sameProgram);
     if (!compared.notCompared.empty()) throw Inconclusive(compared.notCompared.front());
     fmt::print("{}", gate::changesReport(compared));
-    if (!options.aa && gate::sameProgram(base, head)) fmt::print("both commits make the same program\n");
+    if (!options.sameProgram && gate::sameProgram(base, head)) fmt::print("both commits make the same program\n");
     if (options.annotations) fmt::print("{}", gate::annotations(compared.changes));
     if (!options.junit.empty()) writeFile(options.junit, gate::junit(compared.changes));
     if (!options.summary.empty()) writeFile(options.summary, gate::gateComment(compared, {}));
@@ -48,7 +48,7 @@ void addCompare(CLI::App& app, Action& action) {
     verb->add_option("--summary", options->summary,
                      "Write the verdict and the worst there, in 40 lines of Markdown at most");
     verb->add_flag("--annotations", options->annotations, "Print what is worse as CI annotations too");
-    verb->add_flag("--aa", options->aa, "Both are records of one program, on purpose");
+    verb->add_flag("--same-program", options->sameProgram, "Both are records of one program, on purpose");
     verb->callback([&action, options] { action = [options] { return compareAndPrint(*options); }; });
 }
 

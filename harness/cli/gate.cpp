@@ -87,7 +87,8 @@ void addGate(CLI::App& app, Action& action) {
     verb->add_option("--summary", files->summary,
                      "Write the verdict and the worst there, in 40 lines of Markdown at most (a comment)");
     verb->add_flag("--annotations", files->annotations, "Print what is worse as CI annotations, too");
-    verb->add_flag("--aa", options->aa, "Base and head are one program, on purpose: does the gate stay silent?");
+    verb->add_flag("--same-program", options->sameProgram,
+                   "Base and head are one program, on purpose: does the gate stay silent?");
     verb->add_flag("--quiet", options->quiet, "No progress");
     verb->callback([&action, options, files, profile, cost] {
         action = [options, files, profile, cost] {

@@ -14,11 +14,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
+#include <map>
 #include <new>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace shadowbench {
 namespace {
@@ -36,6 +38,19 @@ void requireKnownVerb(const CLI::App& app, const std::vector<std::string>& words
                                didYouMean(words.front(), names), fmt::join(names, ", ")));
 }
 
+/// Options that had another name are still read by it, with a line that says the new one.
+void renameFormerOptions(std::vector<std::string>& words) {
+    static const std::map<std::string, std::string, std::less<>> now{
+        {"--aa", "--same-program"}, {"--as-it-is", "--force"}, {"--means", "--definition"}};
+    for (std::string& word : words) {
+        const std::size_t end = std::min(word.find('='), word.size());
+        const auto found = now.find(word.substr(0, end));
+        if (found == now.end()) continue;
+        fmt::print(stderr, "shadowbench: {} is now called {}\n", found->first, found->second);
+        word.replace(0, end, found->second);
+    }
+}
+
 ExitCode dispatch(int argc, char** argv) {
     CLI::App app("shadowbench scores real-time shadow techniques against proven ground truth.", "shadowbench");
     app.require_subcommand(1);
@@ -50,9 +65,12 @@ ExitCode dispatch(int argc, char** argv) {
         add(app, action);
     addDocuments(app, action);
 
-    requireKnownVerb(app, {argv + std::min(argc, 1), argv + argc});
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    requireKnownVerb(app, words);
+    renameFormerOptions(words);
+    std::ranges::reverse(words); // as CLI11 takes them
     try {
-        app.parse(argc, argv);
+        app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw BadInput(error.what());
         std::ostringstream asked; // --help or --version

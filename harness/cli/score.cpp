@@ -20,10 +20,10 @@ using Files = std::vector<std::filesystem::path>;
 
 /// The command line's own words, checked by `rowOf`.
 struct ScoreWords {
-    std::string scene, means, channel, id = "image", renderer, depthIs = "z", profile = "gate";
+    std::string scene, definition, channel, id = "image", renderer, depthIs = "z", profile = "gate";
     Files images, lit, unlit, hits, depth;
     std::vector<int> frames;
-    bool linear = false, srgb = false, history = false, leaveOutEdges = false, asItIs = false, quiet = false;
+    bool linear = false, srgb = false, history = false, leaveOutEdges = false, force = false, quiet = false;
     std::filesystem::path out = "results/score", cache;
 };
 
@@ -60,14 +60,14 @@ std::optional<std::filesystem::path> beside(const Files& files, std::size_t i, s
 foreign::ForeignRow rowOf(const ScoreWords& words, const Scene& scene) {
     foreign::ForeignRow row;
     row.id = words.id;
-    row.means = foreign::meansNamed(words.means);
+    row.definition = foreign::definitionNamed(words.definition);
     if (words.linear) row.encoding = foreign::Encoding::Linear;
     if (words.srgb) row.encoding = foreign::Encoding::Srgb;
     row.channel = words.channel;
     row.depth = words.depthIs == "z" ? foreign::Depth::AlongView : foreign::Depth::FromEye;
     row.remembers = words.history;
     row.leaveOutEdges = words.leaveOutEdges;
-    row.asItIs = words.asItIs;
+    row.force = words.force;
     row.renderer = words.renderer;
     const std::vector<int> frames = framesOf(words, scene);
     const std::size_t images = words.images.size();
@@ -137,10 +137,11 @@ void addScore(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("score", "Scores images of another renderer against the truth");
     verb->footer(
         "Examples:\n  shadowbench export stacked-plates --out plates      (what to render: plates/scene.gltf, scene.json)\n"
-        "  shadowbench score --scene stacked-plates --image plates.exr --means hard --name my-engine --out results/mine\n"
+        "  shadowbench score --scene stacked-plates --image plates.exr --definition hard --name my-engine --out "
+        "results/mine\n"
         "  shadowbench score --scene stacked-plates --image shadows.png --lit no-shadows.png --unlit no-light.png --srgb "
-        "--means hard\n"
-        "  shadowbench score --scene windmills --image out/frame-*.exr --means hard --out results/mine\n"
+        "--definition hard\n"
+        "  shadowbench score --scene windmills --image out/frame-*.exr --definition hard --out results/mine\n"
         "Exits with 2, and scores nothing, when an image is damaged, of another size, or looks black, flipped, shifted, of\n"
         "another frame or wrongly encoded; what is only suspected is a warning. docs/score.md has one example end to end.");
     verb->add_option("--scene", words->scene, "Scene id or file")->required();
@@ -149,7 +150,7 @@ void addScore(CLI::App& app, Action& action) {
         ->required();
     verb->add_option("--frame", words->frames,
                      "Which frame each image is of (default: as frame-60.exr says, else the scored ones in their order)");
-    verb->add_option("--means", words->means, "What the images show")
+    verb->add_option("--definition", words->definition, "What the images show")
         ->required()
         ->type_name("TEXT:{hard,area,irradiance,solid-angle}");
     verb->add_option("--lit", words->lit,
@@ -171,8 +172,7 @@ void addScore(CLI::App& app, Action& action) {
     verb->add_option("--renderer", words->renderer, "What drew the images, with its version and device, for the record");
     verb->add_flag("--history", words->history, "The renderer keeps a history from frame to frame: look for ghosts");
     verb->add_flag("--leave-out-edges", words->leaveOutEdges, "Score nothing where geometry has edges");
-    verb->add_flag("--as-it-is", words->asItIs,
-                   "Score what looks black, flipped, shifted or wrongly encoded, with a warning");
+    verb->add_flag("--force", words->force, "Score what looks black, flipped, shifted or wrongly encoded, with a warning");
     addProfileOption(*verb, words->profile);
     verb->add_option("--out", words->out, "Folder of records and report; rows that it already holds stay")
         ->capture_default_str();

@@ -6,23 +6,23 @@
 
 namespace shadowbench::foreign {
 
-std::string_view name(Means means) {
-    switch (means) {
-    case Means::Hard:
+std::string_view name(Definition definition) {
+    switch (definition) {
+    case Definition::Hard:
         return "hard";
-    case Means::Area:
+    case Definition::Area:
         return "area";
-    case Means::Irradiance:
+    case Definition::Irradiance:
         return "irradiance";
-    case Means::SolidAngle:
+    case Definition::SolidAngle:
         return "solid-angle";
     }
     return "";
 }
 
-Means meansNamed(std::string_view word) {
-    for (const Means means : allMeans)
-        if (name(means) == word) return means;
+Definition definitionNamed(std::string_view word) {
+    for (const Definition definition : allDefinitions)
+        if (name(definition) == word) return definition;
     throw BadInput(fmt::format("images mean hard, area, irradiance or solid-angle, not \"{}\" (docs/score.md, \"What the "
                                "numbers mean\")",
                                word));

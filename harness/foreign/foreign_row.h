@@ -11,15 +11,16 @@
 namespace shadowbench::foreign {
 
 /// What the numbers of an image say of a receiver (docs/score.md, "What the numbers mean").
-enum class Means {
+enum class Definition {
     Hard,       // lit or not, from the light's centre; between 0 and 1 where edges are smoothed
     Area,       // the visible share of an area light
     Irradiance, // the share of the irradiance that arrives: of a Lambertian light, or of an environment
     SolidAngle, // the visible share of the light's solid angle
 };
-inline constexpr Means allMeans[] = {Means::Hard, Means::Area, Means::Irradiance, Means::SolidAngle};
-std::string_view name(Means means);      // "hard", "area", "irradiance", "solid-angle"
-Means meansNamed(std::string_view word); // throws BadInput naming all
+inline constexpr Definition allDefinitions[] = {Definition::Hard, Definition::Area, Definition::Irradiance,
+                                                Definition::SolidAngle};
+std::string_view name(Definition definition);      // "hard", "area", "irradiance", "solid-angle"
+Definition definitionNamed(std::string_view word); // throws BadInput naming all
 
 /// How files keep numbers.
 enum class Encoding {
@@ -48,14 +49,14 @@ enum class Depth {
 /// A row of the tables: images of one scene by one renderer with one setting.
 struct ForeignRow {
     std::string id; // lower-case letters, digits, ".", "_", "-": the record's technique is external:<id>
-    Means means = Means::Hard;
+    Definition definition = Definition::Hard;
     Encoding encoding = Encoding::OfFormat;
     std::vector<FrameFiles> frames; // the last still one, or it and all moving ones, in their order
     std::string channel{};          // of the images; "": the only one, or the grey of R, G and B
     Depth depth = Depth::AlongView;
     bool remembers = false;     // the renderer keeps a history: ghosts are looked for
     bool leaveOutEdges = false; // scores nothing where geometry has edges
-    bool asItIs = false;        // scores what looks flipped, shifted or wrongly encoded: warns, and refuses nothing
+    bool force = false;         // scores what looks flipped, shifted or wrongly encoded: warns, and refuses nothing
     std::string renderer{};     // what drew them, with its version and device, for the record's environment
     std::vector<std::pair<std::string, std::string>> parameters{}; // its settings, for the record
 };

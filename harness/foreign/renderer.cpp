@@ -16,9 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono;
 
-const std::vector<std::string> keys = {"id",       "title",   "source",     "command",  "means",
-                                       "encoding", "channel", "depth_is",   "history",  "leave_out_edges",
-                                       "as_it_is", "frames",  "time_limit", "settings", "environment"};
+const std::vector<std::string> keys = {"id",         "title",    "source",      "command",         "definition", "encoding",
+                                       "channel",    "depth_is", "history",     "leave_out_edges", "force",      "frames",
+                                       "time_limit", "settings", "environment", "means",           "as_it_is"};
 const std::vector<std::string> placeholders = {"scene", "frames", "out"};
 
 std::string textOf(const toml::node& entry) {
@@ -91,10 +91,17 @@ std::vector<std::pair<std::string, std::string>> variablesIn(const TomlValue& ta
     return variables;
 }
 
+/// `key`, or what it was called before 0.2.
+std::optional<TomlValue> entryNow(const TomlValue& entry, const char* key, const char* former) {
+    const std::optional<TomlValue> old = entry.find(former);
+    if (old) fmt::print(stderr, "{} is now called {}\n", former, key);
+    return old ? old : entry.find(key);
+}
+
 /// What the images say, and how.
 void readMeaning(const TomlValue& entry, Renderer& renderer) {
-    if (const auto value = entry.find("means"))
-        renderer.means = meansNamed(value->oneOf({"hard", "area", "irradiance", "solid-angle"}));
+    if (const auto value = entryNow(entry, "definition", "means"))
+        renderer.definition = definitionNamed(value->oneOf({"hard", "area", "irradiance", "solid-angle"}));
     if (const auto value = entry.find("encoding"))
         renderer.encoding = value->oneOf({"linear", "srgb"}) == "srgb" ? Encoding::Srgb : Encoding::Linear;
     if (const auto value = entry.find("channel")) renderer.channel = value->text();
@@ -102,7 +109,7 @@ void readMeaning(const TomlValue& entry, Renderer& renderer) {
         renderer.depth = value->oneOf({"z", "distance"}) == "distance" ? Depth::FromEye : Depth::AlongView;
     if (const auto value = entry.find("history")) renderer.remembers = value->boolean();
     if (const auto value = entry.find("leave_out_edges")) renderer.leaveOutEdges = value->boolean();
-    if (const auto value = entry.find("as_it_is")) renderer.asItIs = value->boolean();
+    if (const auto value = entryNow(entry, "force", "as_it_is")) renderer.force = value->boolean();
 }
 
 Renderer rendererIn(const TomlValue& entry) {

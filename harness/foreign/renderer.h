@@ -18,11 +18,11 @@ struct Renderer {
     // of the frames ("59,60,61") and the folder for images.
     std::vector<std::string> command;
     bool isShellLine = false; // the last word is a line for the shell, in which they are quoted
-    Means means = Means::Hard;
+    Definition definition = Definition::Hard;
     Encoding encoding = Encoding::OfFormat;
     std::string channel; // as ForeignRow::channel, and so are these
     Depth depth = Depth::AlongView;
-    bool remembers = false, leaveOutEdges = false, asItIs = false;
+    bool remembers = false, leaveOutEdges = false, force = false;
     bool moving = true; // it renders the moving frames too, not the last still one alone
     std::chrono::milliseconds limit{std::chrono::minutes(10)};
     std::vector<std::pair<std::string, std::string>> settings;    // parameters of its rows, sorted by name

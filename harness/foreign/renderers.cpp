@@ -27,7 +27,7 @@ techniques::Entry entryOf(const Renderer& renderer) {
     techniques::Entry entry{};
     entry.id = std::string(externalPrefix) + renderer.id;
     entry.title = renderer.title;
-    entry.answer = renderer.means == Means::Hard ? techniques::Answer::Filtered : techniques::Answer::Soft;
+    entry.answer = renderer.definition == Definition::Hard ? techniques::Answer::Filtered : techniques::Answer::Soft;
     return entry;
 }
 
@@ -40,14 +40,14 @@ std::vector<int> framesOf(const Scene& scene, const Renderer& renderer) {
 /// The row that the renderer gives, with the images that it wrote.
 ForeignRow rowOf(const Renderer& renderer, std::vector<FrameFiles> frames) {
     return {.id = renderer.id,
-            .means = renderer.means,
+            .definition = renderer.definition,
             .encoding = renderer.encoding,
             .frames = std::move(frames),
             .channel = renderer.channel,
             .depth = renderer.depth,
             .remembers = renderer.remembers,
             .leaveOutEdges = renderer.leaveOutEdges,
-            .asItIs = renderer.asItIs,
+            .force = renderer.force,
             .renderer = renderer.source,
             .parameters = renderer.settings};
 }
@@ -80,8 +80,8 @@ std::string contentOf(const Renderer& renderer) {
 /// for the options of `score`.
 std::string inWordsOfTheFile(std::string text, const fs::path& folder) {
     const std::vector<std::pair<std::string, std::string>> words{
-        {folder.string() + "/", ""},         {"--lit", "frame-…-lit"},   {"--unlit", "frame-…-unlit"},
-        {"--as-it-is", "`as_it_is = true`"}, {"--channel", "`channel`"}, {"--linear", "`encoding = \"linear\"`"},
+        {folder.string() + "/", ""},        {"--lit", "frame-…-lit"},   {"--unlit", "frame-…-unlit"},
+        {"--force", "`force = true`"},      {"--channel", "`channel`"}, {"--linear", "`encoding = \"linear\"`"},
         {"--srgb", "`encoding = \"srgb\"`"}};
     for (const auto& [option, key] : words)
         for (std::size_t at = text.find(option); at != std::string::npos; at = text.find(option, at + key.size()))

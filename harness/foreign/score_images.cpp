@@ -18,29 +18,29 @@ namespace shadowbench::foreign {
 namespace {
 
 /// The truth that a meaning claims, whether or not the light has it.
-Truth claimedTruth(const Light& light, Means means) {
-    switch (means) {
-    case Means::Hard:
+Truth claimedTruth(const Light& light, Definition definition) {
+    switch (definition) {
+    case Definition::Hard:
         return Truth::Hard;
-    case Means::Area:
+    case Definition::Area:
         return light.isArea() ? Truth::Soft : Truth::Area; // which other lights do not have
-    case Means::Irradiance:
+    case Definition::Irradiance:
         return light.isEnvironment() ? Truth::Soft : Truth::Irradiance;
-    case Means::SolidAngle:
+    case Definition::SolidAngle:
         return Truth::SolidAngle;
     }
     throw InternalError("images of an unknown meaning");
 }
 
 /// Throws BadInput when the scene's light has no such truth.
-Truth truthOf(const Scene& scene, Means means) {
-    const Truth truth = claimedTruth(scene.light, means);
+Truth truthOf(const Scene& scene, Definition definition) {
+    const Truth truth = claimedTruth(scene.light, definition);
     if (hasTruth(scene.light, truth)) return truth;
     std::vector<std::string_view> fitting;
-    for (const Means other : allMeans)
+    for (const Definition other : allDefinitions)
         if (hasTruth(scene.light, claimedTruth(scene.light, other))) fitting.push_back(name(other));
     throw BadInput(fmt::format("scene {} has a light of kind {}, of which images mean {}, not {}", scene.id,
-                               name(scene.light.kind), fmt::join(fitting, " or "), name(means)));
+                               name(scene.light.kind), fmt::join(fitting, " or "), name(definition)));
 }
 
 void requireId(const std::string& id) {
@@ -61,7 +61,7 @@ std::vector<int> framesOf(const ForeignRow& row) {
 /// Whether pixel areas are among a row's truths: under an area light they are for moving frames.
 bool usesPixelAreas(const Scene& scene, const ForeignRow& row) {
     const bool moves = row.frames.size() > 1;
-    return shadowbench::usesPixelAreas(scene, truthOf(scene, row.means)) && (moves || !scene.light.isArea());
+    return shadowbench::usesPixelAreas(scene, truthOf(scene, row.definition)) && (moves || !scene.light.isArea());
 }
 
 /// Whether hard shadows have smoothed edges: some receiver is neither lit nor shadowed.
@@ -75,7 +75,7 @@ bool isGraded(const Image<float>& v, const metrics::Mask& mask) {
 class RowScores {
 public:
     RowScores(SceneFrames& frames, const ForeignRow& row, std::vector<std::string>& warnings)
-        : frames_(frames), row_(row), warnings_(warnings), truth_(truthOf(frames.scene(), row.means)),
+        : frames_(frames), row_(row), warnings_(warnings), truth_(truthOf(frames.scene(), row.definition)),
           receivers_(frames, row) {}
 
     Record record(CellImages* shown) {
@@ -140,8 +140,8 @@ private:
         for (const Finding& finding : oddities(compared, row_.encoding, others)) {
             const std::string sentence =
                 fmt::format("image {} (frame {}) {}", files.image.string(), files.frame, finding.sentence);
-            if (finding.certain && !row_.asItIs)
-                throw BadInput(sentence + "; correct it, or say --as-it-is if it is what was meant");
+            if (finding.certain && !row_.force)
+                throw BadInput(sentence + "; correct it, or say --force if it is what was meant");
             const std::string kind = finding.sentence.substr(0, finding.sentence.find(':'));
             if (!kinds_.insert(kind).second) continue; // said of an earlier frame
             warn(sentence);
@@ -179,7 +179,7 @@ private:
 
 void requireScorable(const Scene& scene, const ForeignRow& row) {
     requireId(row.id);
-    truthOf(scene, row.means);
+    truthOf(scene, row.definition);
     const std::vector<int> given = framesOf(row), all = scoredFrames(scene);
     if (given == all || given == std::vector{all.front()}) return;
     throw BadInput(
@@ -189,7 +189,7 @@ void requireScorable(const Scene& scene, const ForeignRow& row) {
 }
 
 std::vector<std::pair<Truth, int>> truthsOf(const Scene& scene, const ForeignRow& row) {
-    const Truth truth = truthOf(scene, row.means);
+    const Truth truth = truthOf(scene, row.definition);
     const int still = scene.timeline.still - 1;
     std::vector<std::pair<Truth, int>> truths;
     for (const int frame : framesOf(row)) {
@@ -202,8 +202,8 @@ std::vector<std::pair<Truth, int>> truthsOf(const Scene& scene, const ForeignRow
 }
 
 std::string cellId(const Truths& truths, const Scene& scene, const ForeignRow& row) {
-    std::string inputs = fmt::format("schema 2\n{}\nexternal:{}\nmeans {}\nframes {}\n", scene.id, row.id, name(row.means),
-                                     fmt::join(framesOf(row), " "));
+    std::string inputs = fmt::format("schema 2\n{}\nexternal:{}\nmeans {}\nframes {}\n", scene.id, row.id,
+                                     name(row.definition), fmt::join(framesOf(row), " "));
     for (const auto& [key, value] : row.parameters) inputs += fmt::format("{} {}\n", key, value);
     for (const auto& [truth, frame] : truthsOf(scene, row)) inputs += truths.key(truth, frame) + "\n";
     return hash128(inputs).text();
@@ -213,7 +213,7 @@ Record blankRecord(const Truths& truths, const Scene& scene, const ForeignRow& r
     Record record = shadowbench::blankRecord(scene, 1);
     record.technique = std::string(externalPrefix) + row.id;
     record.variant = record.technique;
-    record.parameters = {{"means", std::string(name(row.means))}};
+    record.parameters = {{"means", std::string(name(row.definition))}};
     if (row.remembers) record.parameters.emplace_back("history", "yes");
     if (row.leaveOutEdges) record.parameters.emplace_back("edges", "left-out");
     record.parameters.insert(record.parameters.end(), row.parameters.begin(), row.parameters.end());

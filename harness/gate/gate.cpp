@@ -83,7 +83,7 @@ private:
         std::vector<Record> now = measure(head, "head", options_.instructions && counted, &before);
         std::ranges::move(measureSteps(head, "head", cells_.externalSteps()), std::back_inserter(now));
         judgeRecords(before, now, nullptr);
-        if (const auto why = whyMeaningless(before, now, options_.aa)) result_.notCompared.push_back(*why);
+        if (const auto why = whyMeaningless(before, now, options_.sameProgram)) result_.notCompared.push_back(*why);
         addPictures(nullptr, head);
     }
 
@@ -118,14 +118,14 @@ private:
 
     /// One program is never worse than itself: of one commit that is a mistake, of two it is all there is to say.
     bool isDecidedAlready(const MeasuredProgram& base, const MeasuredProgram& head) {
-        if (options_.aa) return false;
+        if (options_.sameProgram) return false;
         const auto &before = base.build(), &now = head.build();
         const bool same = base.content() == head.content() || (before && now && before->program == now->program);
         if (!same) return false;
         if (!before || !now || (before->commit == now->commit && before->dirty == now->dirty))
             throw Inconclusive(
                 fmt::format("base and head are one program ({}), so nothing would be judged; name another base, "
-                            "or say --aa if that is meant",
+                            "or say --same-program if that is meant",
                             result_.head));
         const Policy judged = readPolicy(options_.bounds, Profile::Gate);
         if (!loosened(before->policy, judged).empty() || !loosened(judged, before->policy).empty()) return false;
@@ -279,7 +279,7 @@ private:
 
 ExitCode GateResult::code() const { return notCompared.empty() ? verdictOf(changes) : ExitCode::Inconclusive; }
 
-GateResult comparedRecords(const std::vector<Record>& base, const std::vector<Record>& head, bool aa) {
+GateResult comparedRecords(const std::vector<Record>& base, const std::vector<Record>& head, bool sameProgram) {
     GateResult result;
     static_cast<Comparison&>(result) = compare(base, head);
     const auto nameOf = [](const std::vector<Record>& records) {
@@ -287,7 +287,7 @@ GateResult comparedRecords(const std::vector<Record>& base, const std::vector<Re
     };
     result.base = nameOf(base);
     result.head = nameOf(head);
-    if (const auto why = whyMeaningless(base, head, aa)) result.notCompared.push_back(*why);
+    if (const auto why = whyMeaningless(base, head, sameProgram)) result.notCompared.push_back(*why);
     return result;
 }
 

@@ -31,7 +31,7 @@ struct GateOptions {
     std::filesystem::path cache;                // empty: the default
     std::uint32_t seed = 1;
     bool instructions = true, time = true; // which costs are judged
-    bool aa = false;                       // base and head may be one program
+    bool sameProgram = false;              // base and head may be one program
     bool quiet = false;
 };
 
@@ -58,8 +58,9 @@ struct GateResult : Comparison {
 /// Throws BadInput for what the user named wrongly, Inconclusive when a program, tool or the base is missing or fails.
 GateResult gate(const GateOptions& options);
 
-/// Two sets of records as a gate's result: this build's rules judge. One program on both sides decides nothing, unless `aa`.
-GateResult comparedRecords(const std::vector<Record>& base, const std::vector<Record>& head, bool aa = false);
+/// Two sets of records as a gate's result: this build's rules judge. One program on both sides decides nothing, unless
+/// `sameProgram`.
+GateResult comparedRecords(const std::vector<Record>& base, const std::vector<Record>& head, bool sameProgram = false);
 
 /// The command that shows a change again. `base` as the user named it.
 std::string reproduction(const Change& change, const GateOptions& options);

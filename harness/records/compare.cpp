@@ -282,7 +282,7 @@ std::optional<std::string> whyMeaningless(const std::vector<Record>& base, const
     if (!sameProgramIsMeant && ours && known && before.size() == 1 && before == programsOf(head))
         return fmt::format(
             "both are records of one program, commit {}: compared with itself it is never worse; name records "
-            "of another, or say --aa if that is meant",
+            "of another, or say --same-program if that is meant",
             commit);
     std::set<CellKey> there;
     for (const Record& record : base)

@@ -44,8 +44,8 @@ public:
     }
 
     /// The row of these images: of all frames, or of the still one.
-    ForeignRow row(Means means, bool all = true) {
-        ForeignRow row{.id = "own", .means = means, .frames = {}};
+    ForeignRow row(Definition definition, bool all = true) {
+        ForeignRow row{.id = "own", .definition = definition, .frames = {}};
         for (const auto& [frame, v] : images_.frames) {
             const std::filesystem::path file = folder_.path() / fmt::format("frame-{}.exr", frame);
             writeExr(file, {{"V", &v}});
@@ -95,9 +95,9 @@ void expectSameScores(const Record& own, const Record& foreign, const std::vecto
     EXPECT_EQ(own.pixelReference.has_value(), foreign.pixelReference.has_value());
 }
 
-void expectSameBothWays(BothWays& scene, const std::string& variant, Means means) {
+void expectSameBothWays(BothWays& scene, const std::string& variant, Definition definition) {
     SCOPED_TRACE(variant);
-    const Record own = scene.own(variant), foreign = scene.scored(scene.row(means));
+    const Record own = scene.own(variant), foreign = scene.scored(scene.row(definition));
     expectSameScores(own, foreign, {"accuracy.", "stability."});
     EXPECT_EQ(own.images, foreign.images);
     EXPECT_EQ(foreign.technique, "external:own");
@@ -107,43 +107,45 @@ void expectSameBothWays(BothWays& scene, const std::string& variant, Means means
 
 TEST(ForeignCells, HardAndFilteredImagesScoreAsTheCellsDid) {
     for (const char* variant : {"sm-uniform", "volume-zfail", "pcf", "vsm"})
-        expectSameBothWays(underPoint(), variant, Means::Hard);
+        expectSameBothWays(underPoint(), variant, Definition::Hard);
     EXPECT_TRUE(underPoint().warnings().empty());
 }
 
 TEST(ForeignCells, SoftImagesAndHardOnesUnderAnAreaLightScoreAsTheCellsDid) {
-    expectSameBothWays(underArea(), "pcss", Means::Area);
-    expectSameBothWays(underArea(), "sm-uniform", Means::Hard);
+    expectSameBothWays(underArea(), "pcss", Definition::Area);
+    expectSameBothWays(underArea(), "sm-uniform", Definition::Hard);
 }
 
 TEST(ForeignCells, EachMeaningIsScoredAgainstItsOwnTruth) {
     BothWays& scene = underArea();
     scene.own("sm-uniform");
-    const std::pair<Means, Truth> pairs[] = {{Means::Irradiance, Truth::Irradiance}, {Means::SolidAngle, Truth::SolidAngle}};
+    const std::pair<Definition, Truth> pairs[] = {{Definition::Irradiance, Truth::Irradiance},
+                                                  {Definition::SolidAngle, Truth::SolidAngle}};
     for (const auto& [shown, truth] : pairs) {
         scene.images().begin()->second = scene.cells().truths().at(truth, 2).visibility;
-        for (const auto& [means, other] : pairs) {
-            const Record record = scene.scored(scene.row(means, false));
+        for (const auto& [definition, other] : pairs) {
+            const Record record = scene.scored(scene.row(definition, false));
             EXPECT_EQ(record.reference->oracle, name(other));
-            EXPECT_EQ(*record.values["accuracy.rmse"] == 0, means == shown) << name(means) << " of " << name(shown);
+            EXPECT_EQ(*record.values["accuracy.rmse"] == 0, definition == shown)
+                << name(definition) << " of " << name(shown);
         }
     }
 }
 
 TEST(ForeignCells, OneFrameIsEnoughForAccuracy) {
     const Record own = underPoint().own("pcf");
-    const Record foreign = underPoint().scored(underPoint().row(Means::Hard, false));
+    const Record foreign = underPoint().scored(underPoint().row(Definition::Hard, false));
     expectSameScores(own, foreign, {"accuracy."});
     EXPECT_FALSE(foreign.values["stability.flicker.mean"]);
 }
 
 TEST(ForeignCells, PixelsAwayFromGeometrysEdgesAreScoredApart) {
     underPoint().own("sm-uniform");
-    const Record record = underPoint().scored(underPoint().row(Means::Hard));
+    const Record record = underPoint().scored(underPoint().row(Definition::Hard));
     const double inside = *record.values["off_geometry_edges.pixels"], all = *record.values["accuracy.pixels.labelled"];
     EXPECT_LT(inside, all);
     EXPECT_GT(inside, 0.9 * all);
-    ForeignRow row = underPoint().row(Means::Hard);
+    ForeignRow row = underPoint().row(Definition::Hard);
     row.leaveOutEdges = true;
     const Record without = underPoint().scored(row);
     EXPECT_EQ(without.values["accuracy.mismatch"], record.values["off_geometry_edges.mismatch"]);
@@ -153,7 +155,7 @@ TEST(ForeignCells, PixelsAwayFromGeometrysEdgesAreScoredApart) {
 /// A picture that shows no light where the shadows are wrong hides no error: what it leaves unknown is counted.
 TEST(ForeignCells, ReceiversThatAQuotientSaysNothingOfAreSeenOtherwise) {
     underPoint().own("sm-uniform");
-    ForeignRow row = underPoint().row(Means::Hard, false);
+    ForeignRow row = underPoint().row(Definition::Hard, false);
     const Record whole = underPoint().scored(row);
     const Image<float>& v = underPoint().images().begin()->second;
     const groundtruth::Reference& truth = underPoint().cells().truths().at(Truth::Hard, 2);
@@ -182,7 +184,7 @@ protected:
     std::string refusal(Change change) {
         Image<float>& v = underPoint().images().begin()->second;
         v = change(v);
-        return refusal(underPoint().row(Means::Hard));
+        return refusal(underPoint().row(Definition::Hard));
     }
     std::string refusal(const ForeignRow& row) {
         try {
@@ -210,24 +212,24 @@ TEST_F(Refused, AFlippedAShiftedAndABlackImage) {
              "looks upside down: mismatch falls from");
     expectIn(refusal([&](const Image<float>&) { return changed(right, 1, false); }), "looks shifted by (1, 0) pixels");
     expectIn(refusal([&](const Image<float>&) { return Image<float>(96, 96, 0); }), "is black");
-    ForeignRow row = underPoint().row(Means::Hard);
-    row.asItIs = true;
+    ForeignRow row = underPoint().row(Definition::Hard);
+    row.force = true;
     EXPECT_EQ(refusal(row), "");
     ASSERT_EQ(underPoint().warnings().size(), 1U);
     expectIn(underPoint().scored(row).reason, "frame 2 is black");
 }
 
 TEST_F(Refused, FramesThatAreNotScoredAndMeaningsThatTheLightHasNot) {
-    ForeignRow row = underPoint().row(Means::Hard);
-    row.means = Means::Area;
+    ForeignRow row = underPoint().row(Definition::Hard);
+    row.definition = Definition::Area;
     expectIn(refusal(row), "scene moving has a light of kind point, of which images mean hard, not area");
-    row = underPoint().row(Means::Hard);
+    row = underPoint().row(Definition::Hard);
     row.frames.pop_back();
     expectIn(refusal(row), "is scored on frame 2, or on all of 2, 3, 4, in this order");
-    row = underPoint().row(Means::Hard);
+    row = underPoint().row(Definition::Hard);
     row.id = "My Engine";
     expectIn(refusal(row), "is no name for a row");
-    row = underPoint().row(Means::Hard);
+    row = underPoint().row(Definition::Hard);
     std::swap(row.frames[1].image, row.frames[0].image);
     EXPECT_NE(refusal(row), "");
 }
@@ -246,7 +248,7 @@ TEST_F(Refused, ADepthOfAnotherCamera) {
     }
     writeExr(underPoint().file("z.exr"), {{"Z", &z}});
     writeExr(underPoint().file("distance.exr"), {{"Z", &distance}});
-    ForeignRow row = underPoint().row(Means::Hard, false);
+    ForeignRow row = underPoint().row(Definition::Hard, false);
     const Record without = underPoint().scored(row);
     row.frames[0].depth = underPoint().file("z.exr");
     const Record with = underPoint().scored(row);

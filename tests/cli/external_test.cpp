@@ -191,7 +191,7 @@ TEST_F(External, AStoppedRunLeavesNoProcessAndGoesOn) {
 }
 
 TEST_F(External, ShardsAndAWholeRunGiveTheSameRecords) {
-    write(entry("a", copies()) + entry("b", "exit 1") + entry("soft", "true", "means = \"area\""));
+    write(entry("a", copies()) + entry("b", "exit 1") + entry("soft", "true", "definition = \"area\""));
     const std::string choice = "--technique pcf --technique 'external:*'";
     EXPECT_EQ(run(choice).code, 5);
     EXPECT_EQ(record("external:soft")->status, Status::NotApplicable);
@@ -215,7 +215,7 @@ TEST_F(External, CompareAndGateJudgeTheNextVersionOfARenderer) {
     ASSERT_EQ(run("--technique 'external:*'").code, 0);
     EXPECT_EQ(shell("shadowbench compare " + before + " " + out_).code, 0);
     // A version without shadows has no boundary whose place could be compared.
-    write(entry("a", "cp " + images() + "/../none/frame-*.exr {out}", "as_it_is = true"));
+    write(entry("a", "cp " + images() + "/../none/frame-*.exr {out}", "force = true"));
     out_ = folder_ / "lost";
     ASSERT_EQ(run("--technique 'external:*'").code, 0);
     const Outcome lost = shell("shadowbench compare " + before + " " + out_);

@@ -45,11 +45,14 @@ TEST_F(Gate, InstructionCountsAreTheSameInEveryRunWhateverIsCountedBefore) {
         EXPECT_GT(a, 1e5) << one.variant; // a frame of 48² pixels, not an empty count
         EXPECT_FALSE(one.values["cost.time.median"]);
     }
-    EXPECT_EQ(compare("first", "second", "--aa").code, 5) << "the first has no pcf";
+    EXPECT_EQ(compare("first", "second", "--same-program").code, 5) << "the first has no pcf";
     std::vector<Record> both = second;
     std::erase_if(both, [](const Record& record) { return record.variant == "pcf"; });
     writeRecords(folder_ / "both/results.jsonl", both);
-    EXPECT_EQ(compare("first", "both", "--aa").code, 0);
+    EXPECT_EQ(compare("first", "both", "--same-program").code, 0);
+    const Outcome former = compare("first", "both", "--aa");
+    EXPECT_EQ(former.code, 0);
+    EXPECT_NE(former.output.find("--aa is now called --same-program"), std::string::npos) << former.output;
 }
 
 TEST_F(Gate, LevelsOfDetailAreCountedToo) {
@@ -61,7 +64,7 @@ TEST_F(Gate, LevelsOfDetailAreCountedToo) {
     ASSERT_TRUE(counted[0].values["cost.instructions"] && counted[1].values["cost.instructions"]);
     // Which of its two levels an instance shows, and so which of the two draws more, is up to the frame.
     EXPECT_NE(*counted[1].values["cost.instructions"], *counted[0].values["cost.instructions"]);
-    EXPECT_EQ(compare("lod", "lod", "--aa").code, 0);
+    EXPECT_EQ(compare("lod", "lod", "--same-program").code, 0);
 }
 
 TEST_F(Gate, WithoutValgrindAnInstructionCountIsInconclusive) {
@@ -80,20 +83,21 @@ TEST_F(Gate, AWorseMapIsAnAccuracyRegressionThatEveryFormNames) {
     worse[0].images = coarse.images;
     for (const metrics::Metric& line : metrics::linesOf("accuracy")) worse[0].values[line] = coarse.values[line];
     writeRecords(folder_ / "worse/results.jsonl", worse);
-    const Outcome outcome = compare(
-        "base", "worse", "--aa --annotations --junit " + (folder_ / "junit.xml") + " --summary " + (folder_ / "summary.md"));
+    const Outcome outcome = compare("base", "worse",
+                                    "--same-program --annotations --junit " + (folder_ / "junit.xml") + " --summary " +
+                                        (folder_ / "summary.md"));
     EXPECT_EQ(outcome.code, 4) << outcome.output;
     EXPECT_NE(outcome.output.find("::error title="), std::string::npos) << outcome.output;
     for (const char* file : {"junit.xml", "summary.md"})
         EXPECT_NE(readFile(folder_ / file).find("accuracy.mismatch"), std::string::npos) << file;
-    EXPECT_EQ(compare("base", "base", "--aa").code, 0);
+    EXPECT_EQ(compare("base", "base", "--same-program").code, 0);
     const Outcome twice = compare("base", "base");
     EXPECT_EQ(twice.code, 5) << twice.output;
     EXPECT_NE(twice.output.find("records of one program"), std::string::npos) << twice.output;
     std::vector<Record> renamed = records("base");
     renamed[0].scene = "another";
     writeRecords(folder_ / "renamed/results.jsonl", renamed);
-    EXPECT_EQ(compare("base", "renamed", "--aa").code, 5) << "nothing is in both";
+    EXPECT_EQ(compare("base", "renamed", "--same-program").code, 5) << "nothing is in both";
     EXPECT_EQ(compare("base", "nowhere").code, 2);
 }
 

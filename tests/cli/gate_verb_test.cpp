@@ -38,7 +38,7 @@ protected:
 };
 
 TEST_F(GateVerb, TheSameProgramPasses) {
-    const Outcome outcome = gate(PROGRAM, "--aa --cost instructions --technique sm-uniform");
+    const Outcome outcome = gate(PROGRAM, "--same-program --cost instructions --technique sm-uniform");
     EXPECT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("0 worse, 0 better"), std::string::npos) << outcome.output;
     EXPECT_NE(readFile(folder_ / "out/gate.html").find("Nothing is worse"), std::string::npos);
@@ -70,7 +70,7 @@ TEST_F(GateVerb, TheSameCommitTwiceDecidesNothing) {
     const Outcome outcome = gate(PROGRAM, "--technique sm-uniform --cost none");
     EXPECT_EQ(outcome.code, 5) << outcome.output;
     EXPECT_NE(outcome.output.find("base and head are one program"), std::string::npos) << outcome.output;
-    EXPECT_NE(outcome.output.find("--aa"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("--same-program"), std::string::npos) << outcome.output;
 }
 
 TEST_F(GateVerb, CommitsThatMakeTheSameProgramPassAndTheGateSaysSo) {
@@ -116,7 +116,7 @@ TEST_F(GateVerb, AHeadThatTakesLongerThanItsBaseIsACostRegression) {
 }
 
 TEST_F(GateVerb, ASelectionThatAppliesNowhereIsInconclusive) {
-    const Outcome outcome = gate(PROGRAM, "--aa --technique pcss --cost none"); // the scene has a point light
+    const Outcome outcome = gate(PROGRAM, "--same-program --technique pcss --cost none"); // the scene has a point light
     EXPECT_EQ(outcome.code, 5) << outcome.output;
     EXPECT_NE(outcome.output.find("no cell is scored in both"), std::string::npos) << outcome.output;
 }
@@ -127,7 +127,7 @@ TEST_F(GateVerb, AWorseHeadFailsWithPicturesAndACommandThatShowsItAgain) {
     records[0].values["accuracy.leak"] = *records[0].values["accuracy.leak"] - 0.05; // the base was better …
     records[0].images = "others";                                                    // … and drew something else
     writeRecords(base, records);
-    const Outcome outcome = gate(base, "--aa --technique sm-uniform:map=64 --cost none --annotations --junit " +
+    const Outcome outcome = gate(base, "--same-program --technique sm-uniform:map=64 --cost none --annotations --junit " +
                                            (folder_ / "junit.xml") + " --summary " + (folder_ / "summary.md"));
     EXPECT_EQ(outcome.code, 4) << outcome.output;
     EXPECT_NE(outcome.output.find("worse        leak"), std::string::npos) << outcome.output;
@@ -150,12 +150,12 @@ TEST_F(GateVerb, BoundsAndExpectedFailuresAreJudgedWhateverTheBaseIs) {
     const std::string base = recorded("--technique none");
     const std::string more = "--technique none --cost none --bounds ";
     EXPECT_EQ(shell("shadowbench gate --quiet --scene " + scene_ + " --cache " + (folder_ / "cache") + " --out " +
-                    (folder_ / "out") + " --aa --base " + base + " " + more + (folder_ / "kept.toml"))
+                    (folder_ / "out") + " --same-program --base " + base + " " + more + (folder_ / "kept.toml"))
                   .code,
               0);
     const Outcome broken =
         shell("shadowbench gate --quiet --scene " + scene_ + " --cache " + (folder_ / "cache") + " --out " +
-              (folder_ / "out") + " --aa --base " + base + " " + more + (folder_ / "broken.toml"));
+              (folder_ / "out") + " --same-program --base " + base + " " + more + (folder_ / "broken.toml"));
     EXPECT_EQ(broken.code, 4) << broken.output;
     EXPECT_NE(broken.output.find("must be below 0.5: test"), std::string::npos) << broken.output;
 }
@@ -171,7 +171,7 @@ TEST_F(GateVerb, WithoutABaseAToolOrATruthItIsInconclusive) {
     EXPECT_NE(valgrind.output.find("apt-get install valgrind"), std::string::npos) << valgrind.output;
     folder_.write("tiny.toml",
                   tinyScene("{ kind = \"rectangle\", centre = [1.7, 6.1, -2.3], u = [0.5, 0, 0], v = [0, 0, 0.5] }"));
-    const Outcome povray = shell("PATH=/nowhere " + command(PROGRAM, "--aa --technique pcss --cost none"));
+    const Outcome povray = shell("PATH=/nowhere " + command(PROGRAM, "--same-program --technique pcss --cost none"));
     EXPECT_EQ(povray.code, 5) << povray.output;
     EXPECT_NE(povray.output.find("povray"), std::string::npos) << povray.output;
     const Outcome bounds = gate(PROGRAM, "--technique none --cost none --bounds /nowhere/bounds.toml");
@@ -196,7 +196,7 @@ TEST_F(GateVerb, ARevisionIsBuiltOnceAndKept) {
                              "git tag v1")
                   .code,
               0);
-    const std::string more = "--aa --technique sm-uniform --cost none";
+    const std::string more = "--same-program --technique sm-uniform --cost none";
     const Outcome first = shell(inside + command("v1", more));
     EXPECT_EQ(first.code, 0) << first.output;
     EXPECT_NE(first.output.find("base v1 ("), std::string::npos) << first.output;
@@ -221,8 +221,9 @@ std::vector<double> killMoments() {
 }
 
 TEST_F(GateVerb, KilledAtAnyMomentItLeavesNothingPartialAndGoesOn) {
-    const std::string more = std::string("--aa --technique sm-uniform --technique pcf --technique volume-zfail --cost ") +
-                             (std::getenv("SHADOWBENCH_KILLS") != nullptr ? "instructions" : "none"); // a minute a kill
+    const std::string more =
+        std::string("--same-program --technique sm-uniform --technique pcf --technique volume-zfail --cost ") +
+        (std::getenv("SHADOWBENCH_KILLS") != nullptr ? "instructions" : "none"); // a minute a kill
     const auto start = std::chrono::steady_clock::now();
     const Outcome whole = gate(PROGRAM, more);
     ASSERT_EQ(whole.code, 0) << whole.output;

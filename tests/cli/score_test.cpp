@@ -30,7 +30,7 @@ protected:
         return own() + "/images/tiny/" + variant + "/" + file;
     }
     static Outcome score(const std::string& options, const std::string& out = "out") {
-        return shell("shadowbench score --quiet --means hard --scene " + scene_ + " --cache " + *folder_ / "cache" +
+        return shell("shadowbench score --quiet --definition hard --scene " + scene_ + " --cache " + *folder_ / "cache" +
                      " --out " + *folder_ / out + " " + options);
     }
     static std::vector<Record> records(const std::string& out = "out") {
@@ -114,7 +114,7 @@ TEST_F(Score, WhatCannotBeScoredIsOneLine) {
     expectIn(refusal("--image " + *folder_ / "half.exr"), "half the width and height");
     writeExr(*folder_ / "black.exr", {{"Y", &black}});
     expectIn(refusal("--image " + *folder_ / "black.exr"), "is black");
-    const Outcome all = score("--as-it-is --image " + *folder_ / "black.exr", "black");
+    const Outcome all = score("--force --image " + *folder_ / "black.exr", "black");
     EXPECT_EQ(all.code, 0);
     expectIn(all.output, "warning: ");
     expectIn(records("black")[0].reason, "is black");

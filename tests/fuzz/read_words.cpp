@@ -29,7 +29,7 @@ void readWords(std::string_view input) {
     isTaken([&] { truthNamed(text); });
     isTaken([&] { profileNamed(text); });
     isTaken([&] { axisNamed(text); });
-    isTaken([&] { foreign::meansNamed(text); });
+    isTaken([&] { foreign::definitionNamed(text); });
     isTaken([&] { timing::parseCallgrindDump(text); });
 }
 

@@ -67,7 +67,7 @@ Sandbox::Sandbox(fs::path program, const std::vector<Verb>& verbs)
     prepare(with({"--technique", "sm-uniform", "--images", "--out", "base"}));
     prepare(with({"--out", "half"}));
     prepare(with({"--technique", "sm-uniform", "--shard", "1/1", "--out", "parts"}));
-    prepare({"score", "--quiet", "--scene", "point.toml", "--image", "base/images/point/pcf/visibility.exr", "--means",
+    prepare({"score", "--quiet", "--scene", "point.toml", "--image", "base/images/point/pcf/visibility.exr", "--definition",
              "hard", "--name", "earlier", "--out", "rows", "--cache", "cache"});
     fs::copy(work_, before_, fs::copy_options::recursive);
     for (const Verb& verb : verbs) {

@@ -57,17 +57,17 @@ private:
                 "external:*", "--external", "engine.toml", "--out",       out,    "--cache",     cache};
     }
     static Words score(int row) {
-        return {"score",   "--quiet",
-                "--scene", "point.toml",
-                "--image", "base/images/point/pcf/visibility.exr",
-                "--means", "hard",
-                "--name",  fmt::format("row-{}", row),
-                "--out",   "rows",
-                "--cache", "cache"};
+        return {"score",        "--quiet",
+                "--scene",      "point.toml",
+                "--image",      "base/images/point/pcf/visibility.exr",
+                "--definition", "hard",
+                "--name",       fmt::format("row-{}", row),
+                "--out",        "rows",
+                "--cache",      "cache"};
     }
     static Words gate() {
         return {"gate",
-                "--aa",
+                "--same-program",
                 "--quiet",
                 "--cost",
                 "none",

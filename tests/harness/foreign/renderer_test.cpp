@@ -45,13 +45,13 @@ id = "three-pcf"
 title = "three.js, PCF"
 source = "three.js r160"
 command = ["./render", "--scene={scene}", "--frames", "{frames}", "--out", "{out}"]
-means = "irradiance"
+definition = "irradiance"
 encoding = "srgb"
 channel = "R"
 depth_is = "distance"
 history = true
 leave_out_edges = true
-as_it_is = true
+force = true
 frames = "still"
 time_limit = 2.5
 settings = { map = 1024, bias = 0.5, filter = "pcf", flat = true }
@@ -59,6 +59,7 @@ environment = { DISPLAY = ":7" }
 [[renderer]]
 id = "plain"
 command = "render {scene} > {out}/log"
+means = "area" # as it was called
 )");
     ASSERT_EQ(renderers.size(), 2U);
     const Renderer& r = renderers[0];
@@ -66,11 +67,11 @@ command = "render {scene} > {out}/log"
     EXPECT_EQ(r.title, "three.js, PCF");
     EXPECT_EQ(r.source, "three.js r160");
     EXPECT_EQ(r.command.size(), 6U);
-    EXPECT_EQ(r.means, Means::Irradiance);
+    EXPECT_EQ(r.definition, Definition::Irradiance);
     EXPECT_EQ(r.encoding, Encoding::Srgb);
     EXPECT_EQ(r.channel, "R");
     EXPECT_EQ(r.depth, Depth::FromEye);
-    EXPECT_TRUE(r.remembers && r.leaveOutEdges && r.asItIs);
+    EXPECT_TRUE(r.remembers && r.leaveOutEdges && r.force);
     EXPECT_FALSE(r.moving);
     EXPECT_EQ(r.limit, 2500ms);
     const std::vector<std::pair<std::string, std::string>> settings{
@@ -80,8 +81,8 @@ command = "render {scene} > {out}/log"
     EXPECT_EQ(r.folder, folder_.path());
     const Renderer& plain = renderers[1];
     EXPECT_EQ(plain.command, (std::vector<std::string>{"/bin/sh", "-c", "render {scene} > {out}/log"}));
-    EXPECT_TRUE(plain.isShellLine && plain.moving && !plain.asItIs);
-    EXPECT_EQ(plain.means, Means::Hard);
+    EXPECT_TRUE(plain.isShellLine && plain.moving && !plain.force);
+    EXPECT_EQ(plain.definition, Definition::Area);
     EXPECT_EQ(plain.encoding, Encoding::OfFormat);
     EXPECT_EQ(plain.limit, 10min);
 }
@@ -97,7 +98,8 @@ TEST_F(RenderersFile, TakesTheEntryForAnotherOneWhenItSaysSomethingElse) {
 TEST_F(RenderersFile, NamesLineAndKeyOfWhatIsWrong) {
     EXPECT_TRUE(refusalOf("encodin = \"linear\"").starts_with("r.toml:4: renderer[1].encodin: unknown key (did you mean"))
         << refusalOf("encodin = \"linear\"");
-    EXPECT_TRUE(contains(refusalOf("means = \"soft\""), "r.toml:4: renderer[1].means: expected one of hard, area,"));
+    EXPECT_TRUE(
+        contains(refusalOf("definition = \"soft\""), "r.toml:4: renderer[1].definition: expected one of hard, area,"));
     EXPECT_TRUE(contains(refusalOf("time_limit = 0"), "expected a number above 0"));
     EXPECT_TRUE(contains(refusalOf("settings = { map = [1] }"), "renderer[1].settings.map: expected a text, a number"));
     EXPECT_TRUE(contains(refusalOf("environment = { A = 1 }"), "renderer[1].environment.A: expected a text"));

@@ -61,7 +61,7 @@ TEST_F(GateOfStandIns, RecordsOfOtherCellsAreNotCompared) {
 TEST_F(GateOfStandIns, TheSameCommitAgainstItsRecordsDecidesNothingUnlessThatIsMeant) {
     compareWith({headRecord()});
     EXPECT_EQ(gate(options_).code(), ExitCode::Inconclusive);
-    options_.aa = true;
+    options_.sameProgram = true;
     EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
 }
 
@@ -119,7 +119,7 @@ TEST_F(GateOfStandIns, LeavesTheHeadsRecordsAsABaseForLater) {
     head_.measures({leaking(headRecord())});
     EXPECT_EQ(gate(options_).code(), ExitCode::AccuracyRegression);
     options_.base = path("out/results.jsonl");
-    options_.aa = true;
+    options_.sameProgram = true;
     const GateResult accepted = gate(options_);
     EXPECT_EQ(accepted.code(), ExitCode::Pass) << notCompared(accepted);
 }
@@ -152,9 +152,9 @@ TEST_F(GateOfStandIns, ALooserAllowanceOfTheHeadIsListedAndTheBasesJudges) {
 TEST_F(GateOfStandIns, TwoBuildsOfTheSameProgramDecideNothing) {
     options_.head = base_.program();
     EXPECT_NE(complaint().find("base and head are one program"), std::string::npos) << complaint();
-    options_.aa = true;
+    options_.sameProgram = true;
     EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
-    options_.aa = false;
+    options_.sameProgram = false;
     base_.does("policy", "exit 2\n");
     EXPECT_NE(complaint().find("base and head are one program"), std::string::npos)
         << "though they say nothing of themselves";
