@@ -17,7 +17,7 @@ std::set<std::string> judged(const ReferenceOptions& options) {
     std::set<std::string> scenes;
     const std::filesystem::path bounds = gate::GateOptions().bounds;
     if (std::filesystem::exists(bounds))
-        for (const gate::GateRule& watch : gate::readGateConfig(bounds, options.profile).scenes) scenes.insert(watch.scene);
+        for (const gate::GateRule& rule : gate::readGateConfig(bounds, options.profile).scenes) scenes.insert(rule.scene);
     else if (std::filesystem::exists(lockFile(options.golden)))
         for (const GoldenEntry& entry : readLock(options.golden).entries) scenes.insert(entry.name.scene);
     return scenes;

@@ -91,16 +91,17 @@ std::vector<std::pair<std::string, std::string>> variablesIn(const TomlValue& ta
     return variables;
 }
 
-/// `key`, or what it was called before 0.2.
-std::optional<TomlValue> entryNow(const TomlValue& entry, const char* key, const char* former) {
-    const std::optional<TomlValue> old = entry.find(former);
-    if (old) fmt::print(stderr, "{} is now called {}\n", former, key);
-    return old ? old : entry.find(key);
+/// The value of `key`, which is still read by its former name.
+std::optional<TomlValue> findRenamed(const TomlValue& entry, const char* key, const char* former) {
+    if (const auto value = entry.find(key)) return value;
+    const std::optional<TomlValue> value = entry.find(former);
+    if (value) fmt::print(stderr, "{} is now called {}\n", value->where(), key);
+    return value;
 }
 
 /// What the images say, and how.
 void readMeaning(const TomlValue& entry, Renderer& renderer) {
-    if (const auto value = entryNow(entry, "definition", "means"))
+    if (const auto value = findRenamed(entry, "definition", "means"))
         renderer.definition = definitionNamed(value->oneOf({"hard", "area", "irradiance", "solid-angle"}));
     if (const auto value = entry.find("encoding"))
         renderer.encoding = value->oneOf({"linear", "srgb"}) == "srgb" ? Encoding::Srgb : Encoding::Linear;
@@ -109,7 +110,7 @@ void readMeaning(const TomlValue& entry, Renderer& renderer) {
         renderer.depth = value->oneOf({"z", "distance"}) == "distance" ? Depth::FromEye : Depth::AlongView;
     if (const auto value = entry.find("history")) renderer.remembers = value->boolean();
     if (const auto value = entry.find("leave_out_edges")) renderer.leaveOutEdges = value->boolean();
-    if (const auto value = entryNow(entry, "force", "as_it_is")) renderer.force = value->boolean();
+    if (const auto value = findRenamed(entry, "force", "as_it_is")) renderer.force = value->boolean();
 }
 
 Renderer rendererIn(const TomlValue& entry) {

@@ -31,10 +31,10 @@ std::vector<std::string> readPatterns(const TomlValue& list) {
 }
 
 GateRule readGateRule(const TomlValue& entry) {
-    GateRule watch{entry.get("scene").text(), readPatterns(entry.get("techniques")), {}, entry.get("reason").text()};
-    if (watch.reason.empty()) entry.get("reason").fail("is empty; say it in a few words");
-    if (const auto except = entry.find("except")) watch.except = readPatterns(*except);
-    return watch;
+    GateRule rule{entry.get("scene").text(), readPatterns(entry.get("techniques")), {}, entry.get("reason").text()};
+    if (rule.reason.empty()) entry.get("reason").fail("is empty; say it in a few words");
+    if (const auto except = entry.find("except")) rule.except = readPatterns(*except);
+    return rule;
 }
 
 Bound readBound(const TomlValue& entry) {
@@ -136,11 +136,11 @@ bool GateConfig::isByChance(const std::string& scene, const std::string& variant
 std::vector<std::string> GateConfig::unknownScenes(const std::vector<std::string>& known) const {
     const std::vector<std::string> builtin = builtinScenes();
     std::vector<std::string> named;
-    for (const GateRule& watch : scenes) named.push_back(watch.scene);
+    for (const GateRule& rule : scenes) named.push_back(rule.scene);
     for (const Bound& bound : bounds) named.push_back(bound.cells.scene);
     for (const SweepRule& sweep : sweeps) named.push_back(sweep.cells.scene);
-    for (const GateRule& watch : counted) named.push_back(watch.scene);
-    for (const GateRule& watch : timed) named.push_back(watch.scene);
+    for (const GateRule& rule : counted) named.push_back(rule.scene);
+    for (const GateRule& rule : timed) named.push_back(rule.scene);
     std::ranges::sort(named);
     named.erase(std::unique(named.begin(), named.end()), named.end());
     std::erase_if(named, [&](const std::string& scene) {

@@ -53,16 +53,16 @@ std::vector<std::string> namesOf(const GateOptions& options) {
 
 bool isExternal(const std::string& variant) { return variant.starts_with(externalPrefix); }
 
-/// Those of `variants` that a watch of `scene` covers; all of them if no watch names any of the scenes.
-std::vector<std::string> coveredOf(const std::vector<GateRule>& watches, const std::vector<JudgedScene>& scenes,
+/// Those of `variants` that a rule of `scene` covers; all of them if no rule names any of the scenes.
+std::vector<std::string> coveredOf(const std::vector<GateRule>& rules, const std::vector<JudgedScene>& scenes,
                                    const std::string& scene, const std::vector<std::string>& variants) {
     const auto isJudged = [&](const GateRule& w) {
         return std::ranges::find(scenes, w.scene, &JudgedScene::id) != scenes.end();
     };
-    if (std::ranges::none_of(watches, isJudged)) return variants;
+    if (std::ranges::none_of(rules, isJudged)) return variants;
     std::vector<std::string> result;
     for (const std::string& variant : variants)
-        if (std::ranges::any_of(watches, [&](const GateRule& w) { return w.scene == scene && w.covers(variant); }))
+        if (std::ranges::any_of(rules, [&](const GateRule& w) { return w.scene == scene && w.covers(variant); }))
             result.push_back(variant);
     return result;
 }
@@ -143,7 +143,7 @@ JudgedCells::JudgedCells(const GateOptions& options, const std::optional<Policy>
     };
     for (const std::string& scene : options.scenes.empty() ? policy.standard : options.scenes) addCovered(scene, nullptr);
     if (options.scenes.empty()) {
-        for (const GateRule& watch : policy.config.scenes) addCovered(watch.scene, &watch);
+        for (const GateRule& rule : policy.config.scenes) addCovered(rule.scene, &rule);
         addChoices(options, chosen);
     }
     addCounted(chosen);
@@ -160,10 +160,10 @@ void JudgedCells::addScene(const std::string& argument, std::vector<std::string>
 }
 
 void JudgedCells::addCounted(const std::vector<std::string>& chosen) {
-    for (const GateRule& watch : policy.config.counted) {
-        const auto scene = std::ranges::find(scenes, watch.scene, &JudgedScene::id);
+    for (const GateRule& rule : policy.config.counted) {
+        const auto scene = std::ranges::find(scenes, rule.scene, &JudgedScene::id);
         if (scene == scenes.end()) continue;
-        for (const std::string& variant : watch.named()) {
+        for (const std::string& variant : rule.named()) {
             const bool isOfChosen = std::ranges::any_of(
                 chosen, [&](const std::string& other) { return techniqueOf(other) == techniqueOf(variant); });
             if (isOfChosen && std::ranges::find(scene->variants, variant) == scene->variants.end())
@@ -189,22 +189,22 @@ std::vector<std::string> JudgedCells::chosenVariants(const GateOptions& options,
 }
 
 void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::string>& chosen) {
-    for (const GateRule& watch : policy.config.choices) {
-        const std::string file = (options.bounds.parent_path() / watch.scene).string();
+    for (const GateRule& rule : policy.config.choices) {
+        const std::string file = (options.bounds.parent_path() / rule.scene).string();
         if (!fs::exists(file)) {
-            gone.push_back(goneOf(watch.scene, "*", "on which the base judges choices, no longer exists"));
+            gone.push_back(goneOf(rule.scene, "*", "on which the base judges choices, no longer exists"));
             continue;
         }
         const Scene scene = loadScene(file, profile);
         std::vector<std::string> variants;
         const auto isChosen = [&](const std::string& id) {
-            return watch.covers(id) &&
+            return rule.covers(id) &&
                    std::ranges::any_of(chosen, [&](const std::string& v) { return techniqueOf(v) == id; });
         };
         for (const techniques::Entry& entry : techniques::catalog())
             if (isChosen(entry.id))
                 for (std::string& variant : pairwiseVariants(entry))
-                    if (!watch.excludes(variant) && belongsTo(scene, variant)) variants.push_back(std::move(variant));
+                    if (!rule.excludes(variant) && belongsTo(scene, variant)) variants.push_back(std::move(variant));
         addScene(file, std::move(variants), true);
     }
 }

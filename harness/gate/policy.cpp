@@ -20,12 +20,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // The shape of each entry, once.
-void fields(auto&& visit, auto& watch) requires requires { watch.except; }
+void fields(auto&& visit, auto& rule) requires requires { rule.except; }
 {
-    visit("scene", watch.scene);
-    visit("techniques", watch.techniques);
-    visit("except", watch.except);
-    visit("reason", watch.reason);
+    visit("scene", rule.scene);
+    visit("techniques", rule.techniques);
+    visit("except", rule.except);
+    visit("reason", rule.reason);
 }
 void fields(auto&& visit, auto& bound) requires requires { bound.below; }
 {
@@ -159,7 +159,7 @@ void keepLoosened(std::vector<Entry>& base, const std::vector<Entry>& head) {
     });
 }
 
-std::string text(const GateRule& watch) { return fmt::format("{} on {}", fmt::join(watch.techniques, ", "), watch.scene); }
+std::string text(const GateRule& rule) { return fmt::format("{} on {}", fmt::join(rule.techniques, ", "), rule.scene); }
 std::string text(const Bound& bound) {
     return fmt::format("{}: {} {} {}", text(bound.cells), bound.metric, bound.below ? "below" : "above", bound.value);
 }

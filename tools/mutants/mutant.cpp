@@ -110,9 +110,9 @@ std::vector<Mutant> onTheGatesScenes(std::vector<Mutant> mutants, const gate::Ga
         if (!mutant.makesRecords()) continue;
         if (mutant.scenes.empty()) {
             mutant.scenes = standardScenes();
-            for (const gate::GateRule& watch : config.scenes)
-                if (std::ranges::all_of(mutant.techniques, [&](const std::string& t) { return watch.covers(t); }))
-                    mutant.scenes.push_back(watch.scene);
+            for (const gate::GateRule& rule : config.scenes)
+                if (std::ranges::all_of(mutant.techniques, [&](const std::string& t) { return rule.covers(t); }))
+                    mutant.scenes.push_back(rule.scene);
         }
         if (mutant.isSlowdown() || mutant.sweep) continue;
         for (const std::string& scene : mutant.scenes)

@@ -128,18 +128,18 @@ TEST_F(GateConfigFile, NamesWhatIsWrongWithIt) {
 }
 
 TEST_F(GateConfigFile, NamesWhatNoListMayHold) {
-    const std::string watch = "scene = \"trees\"\ntechniques = [\"pcf\"]\nreason = \"r\"\n";
+    const std::string rule = "scene = \"trees\"\ntechniques = [\"pcf\"]\nreason = \"r\"\n";
     const std::vector<std::pair<std::string, std::string>> faults{
-        {"[[bounds]]\n" + watch, "bounds: unknown key (did you mean \"bound\"?)"},
+        {"[[bounds]]\n" + rule, "bounds: unknown key (did you mean \"bound\"?)"},
         {"[[scene]]\nscene = \"trees\"\ntechniques = []\nreason = \"r\"\n", "names no technique"},
         {"[[scene]]\nscene = \"trees\"\ntechniques = [\"pcf\"]\nreason = \"\"\n", "is empty; say it in a few words"},
-        {"[[time]]\n" + watch + "except = [\"no-such\"]\n", "no-such"},
-        {"[[count]]\n" + watch + "limit = 2\n", "limit: unknown key"},
-        {"[[sweep]]\n" + watch, "axis"},
-        {"[[sweep]]\n" + watch + "axis = \"near-plan\"\n", "near-plane"},
-        {"[[sweep]]\n" + watch + "axis = \"near-plane\"\nvalues = [\"a\"]\n", "values"},
-        {"[[bound]]\n" + watch + "metric = \"leek\"\nbelow = 1\n", "leak"},
-        {"[[bound]]\n" + watch + "metric = \"leak\"\nbelow = -1\n", "below"},
+        {"[[time]]\n" + rule + "except = [\"no-such\"]\n", "no-such"},
+        {"[[count]]\n" + rule + "limit = 2\n", "limit: unknown key"},
+        {"[[sweep]]\n" + rule, "axis"},
+        {"[[sweep]]\n" + rule + "axis = \"near-plan\"\n", "near-plane"},
+        {"[[sweep]]\n" + rule + "axis = \"near-plane\"\nvalues = [\"a\"]\n", "values"},
+        {"[[bound]]\n" + rule + "metric = \"leek\"\nbelow = 1\n", "leak"},
+        {"[[bound]]\n" + rule + "metric = \"leak\"\nbelow = -1\n", "below"},
         {"[[time]\n", "bounds.toml"}};
     for (const auto& [text, part] : faults) {
         EXPECT_NE(complaint(text).find(part), std::string::npos) << text << complaint(text);
@@ -169,12 +169,12 @@ TEST_F(GateConfigFile, SaysWhereChancePlaysAPart) {
 }
 
 TEST(GateRule, OfATechniqueStillToComeCoversNothing) {
-    const GateRule watch{"trees", {"still-to-come", "sm-*", "pcf:kernel=7"}, {"sm-psm"}, "r"};
-    EXPECT_FALSE(watch.covers("still-to-come"));
-    EXPECT_EQ(watch.named(), std::vector<std::string>{"pcf:kernel=7"}) << "neither a glob nor what this build lacks";
-    EXPECT_TRUE(watch.covers("sm-uniform:map=512"));
-    EXPECT_TRUE(watch.excludes("sm-psm"));
-    EXPECT_FALSE(watch.covers("sm-psm"));
+    const GateRule rule{"trees", {"still-to-come", "sm-*", "pcf:kernel=7"}, {"sm-psm"}, "r"};
+    EXPECT_FALSE(rule.covers("still-to-come"));
+    EXPECT_EQ(rule.named(), std::vector<std::string>{"pcf:kernel=7"}) << "neither a glob nor what this build lacks";
+    EXPECT_TRUE(rule.covers("sm-uniform:map=512"));
+    EXPECT_TRUE(rule.excludes("sm-psm"));
+    EXPECT_FALSE(rule.covers("sm-psm"));
 }
 
 TEST_F(GateConfigFile, TheCommittedOneIsSound) {

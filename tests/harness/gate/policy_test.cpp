@@ -44,14 +44,14 @@ TEST(GatePolicy, ALooserBoundIsListedAndAStricterOneIsNot) {
 }
 
 TEST(GatePolicy, ASweepThatAsksForLessIsListed) {
-    const GateRule watch{"trees", {"pcf"}, {}, "a test"};
+    const GateRule rule{"trees", {"pcf"}, {}, "a test"};
     Policy base, head;
-    base.config.sweeps = {{watch, "map", {512, 256}}};
+    base.config.sweeps = {{rule, "map", {512, 256}}};
     const auto listed = [&] { return loosened(base, head); };
     head.config = base.config;
     head.config.sweeps[0].values = {512};
     EXPECT_EQ(listed(), std::vector<std::string>{"the base's [sweep] pcf on trees over map is gone or looser here"});
-    head.config.sweeps[0] = {watch, "near-plane", {512, 256}};
+    head.config.sweeps[0] = {rule, "near-plane", {512, 256}};
     EXPECT_EQ(listed().size(), 1U);
     head.config.sweeps[0] = {{"simple", {"pcf"}, {}, "a test"}, "map", {512, 256}};
     EXPECT_EQ(listed().size(), 1U) << "another scene";
@@ -96,10 +96,10 @@ TEST(GatePolicy, AnotherThingThatIsComparedOfAMetricIsListed) {
 
 TEST(GatePolicy, EveryKindOfEntryThatIsGoneIsListedAndJudgesOn) {
     Policy base = policyWith(leakBelow(0.1));
-    const GateRule watch{"trees", {"*"}, {}, "a test"};
-    base.config.scenes = base.config.counted = base.config.timed = base.config.seeds = {watch};
-    base.config.sweeps = {{watch, "map", {}}};
-    base.config.choices = {watch};
+    const GateRule rule{"trees", {"*"}, {}, "a test"};
+    base.config.scenes = base.config.counted = base.config.timed = base.config.seeds = {rule};
+    base.config.sweeps = {{rule, "map", {}}};
+    base.config.choices = {rule};
     const Union both = unite(base, Policy());
     EXPECT_EQ(both.loosened.size(), 8U) << "and the standard scene";
     EXPECT_EQ(both.policy.standard, base.standard);
@@ -323,8 +323,8 @@ TEST(GateCounts, HoldEveryTechnique) {
     std::set<std::string> counted;
     for (const JudgedScene& scene : cells.scenes)
         for (const std::string& name : scene.variants)
-            for (const GateRule& watch : cells.policy.config.counted)
-                if (watch.scene == scene.id && watch.covers(name)) counted.insert(techniques::parseVariant(name).entry->id);
+            for (const GateRule& rule : cells.policy.config.counted)
+                if (rule.scene == scene.id && rule.covers(name)) counted.insert(techniques::parseVariant(name).entry->id);
     for (const techniques::Entry& entry : techniques::catalog()) EXPECT_TRUE(counted.contains(entry.id)) << entry.id;
 }
 
