@@ -69,6 +69,7 @@ Launch::Launch(const Command& c, const std::string& mark) : command(c) {
                                  std::string("PATH=") + (path != nullptr ? path : "/usr/bin:/bin")});
     for (const std::string& name : c.inherited)
         if (const char* value = std::getenv(name.c_str())) variables.push_back(name + "=" + value);
+    if (c.threads) variables.push_back(fmt::format("SHADOWBENCH_THREADS={}", *c.threads));
     if (!mark.empty()) variables.push_back(mark);
     for (std::string& word : words) argv.push_back(word.data());
     for (std::string& variable : variables) envp.push_back(variable.data());

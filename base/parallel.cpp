@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <system_error>
@@ -10,7 +11,24 @@
 
 namespace shadowbench {
 
-int hardwareThreads() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+namespace {
+
+int threadsAtStart() {
+    const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const char* most = std::getenv("SHADOWBENCH_THREADS");
+    return most == nullptr ? machine : std::clamp(std::atoi(most), 1, machine); // NOLINT(cert-err34-c): no number is 0
+}
+
+std::atomic<int>& threads() {
+    static std::atomic<int> count{threadsAtStart()};
+    return count;
+}
+
+} // namespace
+
+int availableThreads() { return threads(); }
+
+void shareThreads(int processes) { threads() = std::max(1, threads() / processes); }
 
 void inParallel(int count, int threads, const std::function<void(int)>& work) { inParallel(count, threads, {}, {}, work); }
 

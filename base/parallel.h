@@ -10,8 +10,13 @@
 
 namespace shadowbench {
 
-/// How many threads the machine runs at once; at least 1.
-int hardwareThreads();
+/// How many threads this process may run at once, at least 1: all that the machine does, at most SHADOWBENCH_THREADS where
+/// the environment has it; in one of several processes, its share of them. Every other count of threads or workers comes
+/// from here, so that programs × processes × threads are no more than the machine runs.
+int availableThreads();
+
+/// From now on this process is one of `processes` that share what it had.
+void shareThreads(int processes);
 
 /// Calls `work(i)` once for each 0 ≤ i < count, in this order as threads become free; the calling thread is one of the
 /// `threads` (≥ 1), of which there are fewer where the system has no more. Where a call throws, no more are begun, and the

@@ -32,6 +32,7 @@ struct Command {
     // All variables that the child sees, as NAME=value; none: HOME and TMPDIR, a language of C, and our PATH.
     std::optional<std::vector<std::string>> environment = {};
     std::vector<std::string> inherited = {};        // names of further variables that it has as this process has them
+    std::optional<int> threads = {};                // of our own program: SHADOWBENCH_THREADS (base/parallel.h)
     std::optional<std::uintmax_t> outputLimit = {}; // bytes of standard output and error; the group is killed after them
     // When the user interrupts, the group is told to end (SIGTERM) and has this long to leave nothing half done.
     std::chrono::milliseconds grace{0};

@@ -3,6 +3,7 @@
 #include "base/descriptor.h"
 #include "base/error.h"
 #include "base/interrupts.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -78,10 +79,11 @@ Progress progressThrough(int socket) {
 
 /// The worker's half: receives the numbers of items and answers each. What is thrown here ends the worker, after which it
 /// clears up nothing: the copies of the parent's objects would clear up what is the parent's.
-[[noreturn]] void answerItems(int socket, pid_t parent, const SharedWork& work) noexcept {
+[[noreturn]] void answerItems(int socket, pid_t parent, int workers, const SharedWork& work) noexcept {
     DeferredInterrupts::startAsWorker();
     prctl(PR_SET_PDEATHSIG, SIGTERM); // not SIGKILL: the tools that it runs have folders to remove
     if (getppid() != parent) _exit(1);
+    shareThreads(workers);
     std::size_t item = noMore;
     while (receiveAll(socket, &item, sizeof item) && item != noMore) {
         try {
@@ -98,7 +100,7 @@ Progress progressThrough(int socket) {
 
 class Worker {
 public:
-    explicit Worker(const SharedWork& work) : Worker(work, makeSockets()) {}
+    Worker(const SharedWork& work, int workers) : Worker(work, workers, makeSockets()) {}
     ~Worker() {
         if (process_ > 0) end(SIGTERM);
     }
@@ -131,11 +133,11 @@ public:
     }
 
 private:
-    Worker(const SharedWork& work, std::pair<Descriptor, Descriptor> ends) : socket_(std::move(ends.first)) {
+    Worker(const SharedWork& work, int workers, std::pair<Descriptor, Descriptor> ends) : socket_(std::move(ends.first)) {
         std::fflush(nullptr); // or what is buffered would be written by the worker as well
         const pid_t parent = getpid();
         process_ = fork();
-        if (process_ == 0) answerItems(ends.second.get(), parent, work);
+        if (process_ == 0) answerItems(ends.second.get(), parent, workers, work);
         const int reason = errno;
         if (process_ < 0)
             throw InternalError("starting another process failed: " + std::generic_category().message(reason),
@@ -158,10 +160,11 @@ private:
 
 class Sharing {
 public:
-    explicit Sharing(const SharedWork& work) : work_(work) {}
+    Sharing(const SharedWork& work, int workers)
+        : work_(work), count_(static_cast<int>(std::min(static_cast<std::size_t>(workers), work.items))) {}
 
-    void all(int workers) {
-        for (int i = 0; i < workers && next_ < work_.items; ++i) startWorker();
+    void all() {
+        for (int i = 0; i < count_; ++i) startWorker();
         while (!workers_.empty()) {
             std::vector<pollfd> watched;
             for (const auto& worker : workers_) watched.push_back({worker->socket(), POLLIN, 0});
@@ -173,7 +176,7 @@ public:
 
 private:
     void startWorker() {
-        workers_.push_back(std::make_unique<Worker>(work_));
+        workers_.push_back(std::make_unique<Worker>(work_, count_));
         giveNext(*workers_.back());
     }
 
@@ -204,13 +207,14 @@ private:
     }
 
     const SharedWork& work_;
+    int count_; // of workers
     std::size_t next_ = 0;
     std::vector<std::unique_ptr<Worker>> workers_;
 };
 
 } // namespace
 
-void shareAmongProcesses(int workers, const SharedWork& work) { Sharing(work).all(workers); }
+void shareAmongProcesses(int workers, const SharedWork& work) { Sharing(work, workers).all(); }
 
 void checkInOwnProcess(const std::function<void()>& check) {
     std::optional<Error> failure;

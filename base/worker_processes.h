@@ -29,8 +29,8 @@ struct SharedWork {
 
 /// Does every item once, in rising order as workers become free, and returns when all are finished or lost. The workers are
 /// copies of this process as it is when they are started (fork), which therefore must not hold a GL context and must run no
-/// other thread; they end with it. One that has ended before its time is replaced. Throws InternalError when none can be
-/// started, and what `finished` and `lost` throw.
+/// other thread; they end with it, and share its threads (base/parallel.h). One that has ended before its time is replaced.
+/// Throws InternalError when none can be started, and what `finished` and `lost` throw.
 void shareAmongProcesses(int workers, const SharedWork& work);
 
 /// Calls `check` in such a process and throws here what it throws, as an Error of the same code and sentence: for questions

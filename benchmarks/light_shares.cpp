@@ -72,8 +72,8 @@ public:
     explicit Comparison(const Named& named)
         : snapshot_(named.snapshot), size_(named.size),
           triangles_(std::make_shared<const geometry::SceneTriangles>(snapshot_)),
-          primary_(hard::ExactScene(snapshot_, triangles_, hardwareThreads()).primaryHits(size_)),
-          exact_(snapshot_, triangles_, hardwareThreads()), rays_(snapshot_, hardwareThreads(), true) {}
+          primary_(hard::ExactScene(snapshot_, triangles_, availableThreads()).primaryHits(size_)),
+          exact_(snapshot_, triangles_, availableThreads()), rays_(snapshot_, availableThreads(), true) {}
 
     /// Three quarters of them where the light is partly visible, as far as 20 times as many pixels hold that many.
     [[nodiscard]] std::vector<Compared> chosen(int count) const {
@@ -163,7 +163,7 @@ void compare(const Named& named, const Options& options, std::array<Beyond, 3>& 
     const auto start = std::chrono::steady_clock::now();
     const Comparison comparison(named);
     std::vector<Compared> points = comparison.chosen(options.points);
-    inParallel(static_cast<int>(points.size()), hardwareThreads(),
+    inParallel(static_cast<int>(points.size()), availableThreads(),
                [&](int i) { comparison.sample(points[static_cast<std::size_t>(i)], options.samples); });
     std::array<Beyond, 3> here;
     double apart = 0;

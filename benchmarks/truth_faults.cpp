@@ -44,20 +44,20 @@ class Judge {
 public:
     explicit Judge(Request request)
         : request_(std::move(request)), triangles_(std::make_shared<const geometry::SceneTriangles>(request_.snapshot)),
-          primary_(hard::ExactScene(request_.snapshot, triangles_, hardwareThreads()).primaryHits(request_.size)),
-          scene_(request_.snapshot, triangles_, hardwareThreads()) {}
+          primary_(hard::ExactScene(request_.snapshot, triangles_, availableThreads()).primaryHits(request_.size)),
+          scene_(request_.snapshot, triangles_, availableThreads()) {}
 
     [[nodiscard]] povray::Render render(Wrapper wrapper) const {
         const TemporaryFolder folder;
         povray::Options options;
-        options.threads = hardwareThreads();
+        options.threads = availableThreads();
         options.program = writeWrapper(folder.path(), wrapper, request_.snapshot.light, request_.samples,
                                        povray::scaleOf(request_.snapshot));
         return povray::render(request_.snapshot, request_.size, request_.samples, options);
     }
 
     [[nodiscard]] Certificate certificate(const povray::Render& image) const {
-        return certify(scene_, request_, image, primary_, certificatePointCount, hardwareThreads());
+        return certify(scene_, request_, image, primary_, certificatePointCount, availableThreads());
     }
 
     void printHonest(const povray::Render& image, int seeds) const {
@@ -82,11 +82,11 @@ public:
         for (int set = 1; set <= sets; ++set) {
             const TemporaryFolder folder;
             povray::Options options;
-            options.threads = hardwareThreads();
+            options.threads = availableThreads();
             options.program = writeWrapperOfSet(folder.path(), request_.snapshot.light, request_.samples,
                                                 povray::scaleOf(request_.snapshot), static_cast<std::uint32_t>(set));
             const povray::Render image = povray::render(request_.snapshot, request_.size, request_.samples, options);
-            const Certificate c = certify(scene_, request_, image, primary_, certificatePointCount, hardwareThreads(), {},
+            const Certificate c = certify(scene_, request_, image, primary_, certificatePointCount, availableThreads(), {},
                                           static_cast<std::uint32_t>(set));
             passed += refusal(c, request_.samples) == "certified" ? 1 : 0;
         }

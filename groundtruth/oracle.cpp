@@ -67,7 +67,7 @@ double lightMismatch(const Request& request, const Triangles& triangles, const P
     Snapshot centre = request.snapshot;
     centre.light = centre.light.centreOnly();
     Reference exact = unlabelled(primary);
-    hard::ExactScene(centre, triangles, hardwareThreads()).labelByRays(request.size, primary, exact, progress);
+    hard::ExactScene(centre, triangles, availableThreads()).labelByRays(request.size, primary, exact, progress);
 
     std::size_t differing = 0;
     for (std::size_t i = 0; i < visible.size(); ++i) {
@@ -89,9 +89,9 @@ void requireAligned(const Request& request, const povray::Render& image, const s
 Reference softReference(const Request& request, const Progress& progress) {
     const auto triangles = std::make_shared<const geometry::SceneTriangles>(request.snapshot);
     const PrimaryHits primary =
-        hard::ExactScene(request.snapshot, triangles, hardwareThreads()).primaryHits(request.size, part(progress, 0, 0.05));
+        hard::ExactScene(request.snapshot, triangles, availableThreads()).primaryHits(request.size, part(progress, 0, 0.05));
     const povray::Render image = povray::render(request.snapshot, request.size, request.samples,
-                                                {.threads = hardwareThreads()}, part(progress, 0.05, 0.85));
+                                                {.threads = availableThreads()}, part(progress, 0.05, 0.85));
 
     Reference reference = unlabelled(primary);
     reference.provenance.oracle = "povray";
@@ -102,9 +102,9 @@ Reference softReference(const Request& request, const Progress& progress) {
         {"scale", image.scale}};
     requireAligned(request, image, reference.provenance.measured);
 
-    const area::AreaScene scene(request.snapshot, triangles, hardwareThreads());
+    const area::AreaScene scene(request.snapshot, triangles, availableThreads());
     const Certificate certificate =
-        certify(scene, request, image, primary, certificatePointCount, hardwareThreads(), part(progress, 0.9, 1));
+        certify(scene, request, image, primary, certificatePointCount, availableThreads(), part(progress, 0.9, 1));
     requireCertified(certificate, request.samples);
     reference.provenance.measured.merge(measured(certificate));
 
@@ -123,9 +123,9 @@ area::Share shareOf(Oracle oracle) {
 Reference areaReference(const Request& request, const Progress& progress) {
     const auto triangles = std::make_shared<const geometry::SceneTriangles>(request.snapshot);
     const PrimaryHits primary =
-        hard::ExactScene(request.snapshot, triangles, hardwareThreads()).primaryHits(request.size, part(progress, 0, 0.05));
+        hard::ExactScene(request.snapshot, triangles, availableThreads()).primaryHits(request.size, part(progress, 0, 0.05));
     Reference reference = unlabelled(primary);
-    area::AreaScene(request.snapshot, triangles, hardwareThreads())
+    area::AreaScene(request.snapshot, triangles, availableThreads())
         .label(request.size, primary, reference, part(progress, 0.05, 1), shareOf(request.oracle));
     reference.provenance.oracle = name(request.oracle);
     return reference;
@@ -175,7 +175,7 @@ Reference byPlan(const Request& request, const PrimaryHits& primary, const std::
 }
 
 Reference hardReference(const Request& request, const Progress& progress) {
-    const hard::ExactScene scene(request.snapshot, hardwareThreads());
+    const hard::ExactScene scene(request.snapshot, availableThreads());
     const PrimaryHits primary = scene.primaryHits(request.size, part(progress, 0, 0.3));
     if (request.oracle == Oracle::Rays) return byRays(request, scene, primary, part(progress, 0.3, 1));
 
@@ -205,13 +205,13 @@ Reference hardReference(const Request& request, const Progress& progress) {
 
 /// C*: the mean of exact visibility over each pixel's square.
 Reference pixelAreaReference(const Request& request, const Progress& progress) {
-    const hard::ExactScene scene(request.snapshot, hardwareThreads());
+    const hard::ExactScene scene(request.snapshot, availableThreads());
     const PrimaryHits primary = scene.primaryHits(request.size, part(progress, 0, 0.1));
     const Reference labels = byRays(request, scene, primary, part(progress, 0.1, 0.3));
     Reference reference = labels;
     scene.averageOverPixels(request.size, primary, reference, part(progress, 0.3, 0.8));
     const PixelCertificate certificate =
-        certifyPixels(scene, reference, labels, pixelCertificatePoints, hardwareThreads(), part(progress, 0.8, 1));
+        certifyPixels(scene, reference, labels, pixelCertificatePoints, availableThreads(), part(progress, 0.8, 1));
     requirePixelsCertified(certificate);
     reference.provenance.oracle = "pixel-areas";
     reference.provenance.measured = measured(certificate);

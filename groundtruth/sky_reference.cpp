@@ -22,7 +22,7 @@ void leaveOutUnlit(const Image<double>& unoccluded, Image<Surface>& surface) {
 } // namespace
 
 MeasuredSky measuredSky(const Request& request, int points, const povray::SkyRecipe& recipe, const Progress& progress) {
-    const int threads = hardwareThreads();
+    const int threads = availableThreads();
     const auto triangles = std::make_shared<const geometry::SceneTriangles>(request.snapshot);
     PrimaryHits primary =
         hard::ExactScene(request.snapshot, triangles, threads).primaryHits(request.size, part(progress, 0, 0.02));

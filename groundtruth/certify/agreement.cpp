@@ -48,7 +48,7 @@ Image<std::uint8_t> labelled(const Reference& reference) {
 
 std::optional<Agreement> polygonAndRays(const Request& request, const Progress& progress) {
     if (request.snapshot.light.isArea() || request.snapshot.light.isEnvironment()) return std::nullopt;
-    const hard::ExactScene scene(request.snapshot, hardwareThreads());
+    const hard::ExactScene scene(request.snapshot, availableThreads());
     PrimaryHits primary = scene.primaryHits(request.size, progress);
     const std::vector<hard::PlanarReceiver> planes = scene.planarReceivers(primary);
     if (planes.empty()) return std::nullopt;
@@ -73,7 +73,7 @@ std::optional<Agreement> polygonAndRays(const Request& request, const Progress& 
 /// Plan-view scenes only.
 std::optional<Agreement> planAndPolygon(const Request& request, const Progress& progress) {
     if (request.snapshot.light.kind != LightKind::Point) return std::nullopt;
-    const hard::ExactScene scene(request.snapshot, hardwareThreads());
+    const hard::ExactScene scene(request.snapshot, availableThreads());
     const PrimaryHits primary = scene.primaryHits(request.size, progress);
     const std::vector<hard::PlanarReceiver> floors = plan::planReceivers(request.snapshot, scene.planarReceivers(primary));
     if (floors.empty()) return std::nullopt;

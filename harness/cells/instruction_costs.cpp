@@ -43,7 +43,7 @@ public:
           version_(timing::valgrindVersion()) {}
 
     void runAll() {
-        inParallel(static_cast<int>(jobs_.size()), hardwareThreads(),
+        inParallel(static_cast<int>(jobs_.size()), availableThreads(),
                    [this](int i) { fillIn(jobs_[static_cast<std::size_t>(i)]); });
     }
 

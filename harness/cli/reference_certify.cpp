@@ -47,7 +47,7 @@ Certificate certificateOf(const groundtruth::Request& request, int points, Progr
                                             line.show(share < 0.5 ? 0 : 1, share < 0.5 ? 2 * share : 2 * share - 1, what);
                                         })
             .certificate;
-    const int threads = hardwareThreads();
+    const int threads = availableThreads();
     const groundtruth::PrimaryHits primary = groundtruth::hard::primaryHits(request.snapshot, request.size);
     const groundtruth::povray::Render image =
         groundtruth::povray::render(request.snapshot, request.size, request.samples, {.threads = threads}, step(0));

@@ -36,11 +36,12 @@ std::string surroundings() {
     return countingEnvironment(e) + (findProgram("valgrind") ? "\n" + timing::valgrindVersion() : "");
 }
 
-/// The exit code and the last line; `onLine` sees all of them.
+/// The exit code and the last line; `onLine` sees all of them. It is one of `programs` that run at once.
 std::pair<int, std::string> runToEnd(const fs::path& program, const std::vector<std::string>& arguments,
-                                     const OnLine& onLine) {
+                                     const OnLine& onLine, int programs = 1) {
     const TemporaryFolder folder;
     Command command{program, arguments, folder.path()};
+    command.threads = std::max(1, availableThreads() / programs);
     command.limit = longestStep;
     command.cpuLimit = longestStep;
     command.memoryLimit = std::uintmax_t{64} << 30U; // of addresses: Valgrind reserves far more than it uses
@@ -154,13 +155,14 @@ std::vector<std::string> MeasuredProgram::variants() const {
     return variants;
 }
 
-int MeasuredProgram::run(const Step& step, const fs::path& out, const Progress& progress) const {
+int MeasuredProgram::run(const Step& step, const fs::path& out, int programs, const Progress& progress) const {
     std::vector<std::string> arguments = step.arguments;
     for (const std::string& technique : step.techniques) arguments.insert(arguments.end(), {"--technique", technique});
     arguments.insert(arguments.end(), {"--out", fs::absolute(out).string(), "--cache", cache_.string()});
-    const auto [code, last] = runToEnd(file_, arguments, [&](std::string_view line) {
+    const auto showProgress = [&](std::string_view line) {
         if (isProgress(line)) progress(0, line);
-    });
+    };
+    const auto [code, last] = runToEnd(file_, arguments, showProgress, programs);
     if (code < 0 || !fs::exists(out / step.records))
         throw Inconclusive(fmt::format("{} failed at {}: {}", file_.string(), step.name, last));
     return code;
@@ -174,7 +176,8 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
     std::size_t ended = 0;
     // Another gate that measures the same program does so for both.
     const FolderLock alone(records_, [&] { progress(0, "waiting for another gate that measures this program"); });
-    inParallel(static_cast<int>(steps.size()), hardwareThreads(), [&](int index) {
+    const int programs = std::min(static_cast<int>(steps.size()), availableThreads());
+    inParallel(static_cast<int>(steps.size()), programs, [&](int index) {
         const auto i = static_cast<std::size_t>(index);
         Step step = steps[i];
         const fs::path out = records_ / hash128(text(step)).text(), done = out / "done";
@@ -182,7 +185,7 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
         if (!fs::exists(done)) {
             const auto start = Clock::now();
             if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");
-            const int code = run(step, out, [&](double, std::string_view line) {
+            const int code = run(step, out, programs, [&](double, std::string_view line) {
                 const std::scoped_lock lock(mutex);
                 progress(static_cast<double>(ended) / static_cast<double>(steps.size()), line);
             });

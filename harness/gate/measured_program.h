@@ -66,7 +66,7 @@ public:
 
     /// Runs one step in `out`, whatever was run before, and returns its exit code: not 0 when some of its cells failed,
     /// which have records that say so. Throws Inconclusive when it left no records.
-    int run(const Step& step, const std::filesystem::path& out, const Progress& progress) const;
+    int run(const Step& step, const std::filesystem::path& out, int programs, const Progress& progress) const;
 
 private:
     struct Technique {

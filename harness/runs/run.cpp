@@ -123,7 +123,7 @@ private:
     [[nodiscard]] const Scene& sceneOf(std::size_t cell) const { return scenes_[cell / variants_.size()]; }
     [[nodiscard]] const techniques::Variant& variantOf(std::size_t cell) const { return variants_[cell % variants_.size()]; }
     [[nodiscard]] std::string nameOf(std::size_t cell) const { return sceneOf(cell).id + " " + variantOf(cell).name; }
-    [[nodiscard]] int workers() const { return options_.jobs > 0 ? options_.jobs : hardwareThreads(); }
+    [[nodiscard]] int workers() const { return options_.jobs > 0 ? options_.jobs : availableThreads(); }
 
     /// What cells of `scene` share in this process: made for the first, kept until another scene is asked for.
     SceneCells& cellsOf(const Scene& scene) {

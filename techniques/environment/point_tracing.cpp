@@ -14,7 +14,7 @@ namespace {
 void forEachPoint(const SurfacePoints& points, const std::function<void(std::size_t begin, std::size_t end)>& work) {
     constexpr std::size_t part = 256;
     const std::size_t count = points.points.size();
-    inParallel(static_cast<int>((count + part - 1) / part), hardwareThreads(), [&](int i) {
+    inParallel(static_cast<int>((count + part - 1) / part), availableThreads(), [&](int i) {
         const std::size_t begin = static_cast<std::size_t>(i) * part;
         work(begin, std::min(begin + part, count));
     });

@@ -51,7 +51,7 @@ TEST(InParallel, ThrowsWhatWasThrownAndBeginsNoMore) {
         if (i == 3) throw std::runtime_error("the fourth");
     };
     try {
-        inParallel(1'000'000, hardwareThreads(), work);
+        inParallel(1'000'000, availableThreads(), work);
         FAIL() << "nothing was thrown";
     } catch (const std::runtime_error& error) {
         EXPECT_STREQ(error.what(), "the fourth");

@@ -55,6 +55,15 @@ protected:
     std::string said_;       // its last line
 };
 
+TEST_F(RunningAProgram, TellsAProgramOfOursHowManyThreadsItMayRun) {
+    Command command = script("echo ${SHADOWBENCH_THREADS:-all}");
+    run(command);
+    EXPECT_EQ(said_, "all");
+    command.threads = 3;
+    run(command);
+    EXPECT_EQ(said_, "3");
+}
+
 TEST_F(RunningAProgram, TellsHowItEnded) {
     EXPECT_EQ(run(script("exit 3")).exitCode, 3);
     EXPECT_EQ(run(script("kill -SEGV $$")).signal, SIGSEGV);

@@ -2,8 +2,10 @@
 
 #include "base/error.h"
 #include "base/interrupts.h"
+#include "base/parallel.h"
 #include "base/temporary_folder.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -40,6 +42,19 @@ TEST(WorkerProcesses, DoEveryItemOnce) {
         for (const auto& [item, answer] : outcome.answers) EXPECT_EQ(answer, std::to_string(item * item));
         EXPECT_TRUE(outcome.lost.empty());
     }
+}
+
+TEST(WorkerProcesses, ShareTheThreadsOfTheProcessThatStartsThem) {
+    const int here = availableThreads();
+    for (const int workers : {1, 2, 3}) {
+        Outcome outcome;
+        shareAmongProcesses(
+            workers, outcome.work(2, [](std::size_t, const Progress&) { return std::to_string(availableThreads()); }));
+        const int running = std::min(workers, 2); // there is no work for a third
+        for (const auto& [item, answer] : outcome.answers)
+            EXPECT_EQ(answer, std::to_string(std::max(1, here / running))) << workers;
+    }
+    EXPECT_EQ(availableThreads(), here);
 }
 
 TEST(WorkerProcesses, HaveNothingToDoWithoutItems) {

@@ -60,7 +60,7 @@ TEST_P(RandomAreaScene, FastAndExactAgree) {
     EXPECT_GE(pixels.size(), 85U);
 
     std::vector<VisibleFraction> fast(pixels.size()), exact(pixels.size());
-    inParallel(static_cast<int>(pixels.size()), hardwareThreads(), [&](int i) {
+    inParallel(static_cast<int>(pixels.size()), availableThreads(), [&](int i) {
         const auto index = static_cast<std::size_t>(i);
         fast[index] = area.fraction(pixels[index], size, primary);
         exact[index] = area.exactFraction(pixels[index], size, primary);

@@ -30,7 +30,7 @@ inline std::vector<Certificate> certificatesOfSeeds(const area::AreaScene& scene
                                                     const HonestBounds& honest, int seeds) {
     const area::LightPoints points(request.snapshot.light.kind, seedSets(request.samples, seeds));
     std::vector<area::SampledFraction> found(pixels.size());
-    inParallel(static_cast<int>(pixels.size()), hardwareThreads(), [&](int i) {
+    inParallel(static_cast<int>(pixels.size()), availableThreads(), [&](int i) {
         const auto index = static_cast<std::size_t>(i);
         found[index] = scene.sampledFraction(pixels[index], request.size, primary, points);
     });

@@ -28,7 +28,7 @@ Shadow shadowOf(const Reference& labels) {
 
 Reference byRays(const Snapshot& casters, const Receivers& receivers) {
     Reference labels;
-    ExactScene(casters, hardwareThreads()).labelByRays(receivers.size, receivers.primary, labels);
+    ExactScene(casters, availableThreads()).labelByRays(receivers.size, receivers.primary, labels);
     return labels;
 }
 
@@ -85,7 +85,7 @@ ShadowOracle polygonOracle(const Receivers& receivers, std::size_t mostTriangles
                 const std::vector<Snapshot> all = parts(casters, receivers, mostTriangles);
                 Shadow shadow;
                 std::mutex one;
-                inParallel(static_cast<int>(all.size()), hardwareThreads(), [&](int i) {
+                inParallel(static_cast<int>(all.size()), availableThreads(), [&](int i) {
                     Shadow part = shadowOf(byPolygons(all[static_cast<std::size_t>(i)], receivers));
                     const std::scoped_lock lock(one);
                     shadow = shadow.labelled.empty() ? std::move(part) : joined(shadow, part);
@@ -99,11 +99,12 @@ ShadowOracle rayOracle(const Receivers& receivers) {
 }
 
 ShadowOracle areaOracle(const Receivers& receivers) {
-    return {"area", [&receivers](const Snapshot& casters) {
-                Reference fractions;
-                groundtruth::area::AreaScene(casters, hardwareThreads()).label(receivers.size, receivers.primary, fractions);
-                return shadowOf(fractions);
-            }};
+    return {
+        "area", [&receivers](const Snapshot& casters) {
+            Reference fractions;
+            groundtruth::area::AreaScene(casters, availableThreads()).label(receivers.size, receivers.primary, fractions);
+            return shadowOf(fractions);
+        }};
 }
 
 ShadowOracle sampledOracle(const Receivers& receivers, int samples) {

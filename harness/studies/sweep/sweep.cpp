@@ -81,7 +81,7 @@ public:
         work.lost = [&](std::size_t i, const std::string& how) {
             throw InternalError(fmt::format("the process that scored {} at {:g} {}", axis_.id, values_[i], how));
         };
-        shareAmongProcesses(hardwareThreads(), work);
+        shareAmongProcesses(availableThreads(), work);
         line.show(static_cast<int>(values_.size()), 0, "");
         for (std::vector<Record>& curve : curves_) {
             const std::optional<double> point = breakPoint(curve);

@@ -51,7 +51,7 @@ std::vector<float> chosenCoefficients(std::span<const StoredTransfer> vectors, s
     std::iota(ascending.begin(), ascending.end(), std::size_t{0});
     std::ranges::sort(ascending, {}, [&](std::size_t i) { return chosen[i]; });
     std::vector<float> result(chosen.size() * vectors.size());
-    inParallelParts(vectors.size(), hardwareThreads(), [&](std::size_t begin, std::size_t end) {
+    inParallelParts(vectors.size(), availableThreads(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t vector = begin; vector < end; ++vector) {
             const StoredTransfer& from = vectors[vector];
             std::size_t at = 0;
@@ -68,7 +68,7 @@ std::vector<float> chosenCoefficients(std::span<const StoredTransfer> vectors, s
 std::vector<float> unshadowedIrradiance(std::span<const PointPatch> patches, std::span<const DirectionSample> directions,
                                         std::span<const double> texels) {
     std::vector<float> result(patches.size());
-    inParallelParts(patches.size(), hardwareThreads(), [&](std::size_t begin, std::size_t end) {
+    inParallelParts(patches.size(), availableThreads(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t patch = begin; patch < end; ++patch) {
             double sum = 0;
             for (const DirectionSample& sample : directions)

@@ -52,7 +52,7 @@ std::vector<float> firstMeans(const VectorList& vectors, std::size_t clusters) {
 }
 
 void assign(const VectorList& vectors, const VectorList& means, std::vector<std::uint32_t>& cluster) {
-    inParallelParts(vectors.size(), hardwareThreads(), [&](std::size_t begin, std::size_t end) {
+    inParallelParts(vectors.size(), availableThreads(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             float least = std::numeric_limits<float>::max();
             for (std::size_t k = 0; k < means.size(); ++k) {
@@ -193,7 +193,7 @@ ClusteredVectors clusteredPca(std::span<const float> values, std::size_t dimensi
     result.weights.resize(result.components * vectors.size());
     result.bases.resize(count * (result.components + 1) * dimensions);
     std::vector<double> errors(count);
-    inParallel(static_cast<int>(count), hardwareThreads(), [&](int i) {
+    inParallel(static_cast<int>(count), availableThreads(), [&](int i) {
         const auto k = static_cast<std::size_t>(i);
         errors[k] = fitCluster(vectors, members[k], VectorList{means, dimensions}[k], k, result);
     });

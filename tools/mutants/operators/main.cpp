@@ -64,7 +64,7 @@ std::vector<Source> sourcesOf(const TreeCopy& tree, const std::string& only) {
 void findMutants(const TreeCopy& tree, std::vector<Source>& sources) {
     tree.build("commit"); // after which it is known how files are compiled
     for (Source& source : sources) source.flags = syntaxFlags(tree.folder() / "build/release", tree.folder() / source.file);
-    inParallel(static_cast<int>(sources.size()), hardwareThreads(), [&](int i) {
+    inParallel(static_cast<int>(sources.size()), availableThreads(), [&](int i) {
         Source& source = sources[static_cast<std::size_t>(i)];
         source.mutants = mutantsOf(source.judge, source.file, source.text, pointsOf(source.text, source.flags));
     });
@@ -97,7 +97,7 @@ std::vector<OperatorMutant> draw(std::vector<Source>& sources, const Options& op
             drawn.push_back(*next);
         }
         const std::vector<std::size_t> list(touched.begin(), touched.end());
-        inParallel(static_cast<int>(list.size()), hardwareThreads(), [&](int i) {
+        inParallel(static_cast<int>(list.size()), availableThreads(), [&](int i) {
             while (leaveOutWhatDoesNotCompile(sources[list[static_cast<std::size_t>(i)]])) {
             }
         });
@@ -151,7 +151,7 @@ public:
             programs.insert(judges()[mutant.judge].programs.begin(), judges()[mutant.judge].programs.end());
         for (const std::string& program : programs)
             for (const std::string& test : testsOf(pathOf(program))) tests_.push_back({program, test, {}, {}});
-        inParallel(static_cast<int>(tests_.size()), hardwareThreads(), [&](int i) {
+        inParallel(static_cast<int>(tests_.size()), availableThreads(), [&](int i) {
             Test& test = tests_[static_cast<std::size_t>(i)];
             const std::filesystem::path marks = folder_ / fmt::format("{}.reached", i);
             writeFile(marks, std::string(::mutants::most, '\0'));
@@ -240,7 +240,7 @@ ExitCode run(const Options& options) {
     Tests tests(tree, folder);
     tests.runPlainly(mutants);
     say(fmt::format("{:5.0f} s  the tests pass without a mutant", secondsSince(start)));
-    inParallel(static_cast<int>(mutants.size()), hardwareThreads(), [&](int i) {
+    inParallel(static_cast<int>(mutants.size()), availableThreads(), [&](int i) {
         OperatorMutant& mutant = mutants[static_cast<std::size_t>(i)];
         tests.runWith(mutant);
         if (mutant.end != End::Killed)

@@ -58,7 +58,7 @@ public:
         for (const RunCell& cell : cells)
             if (hasImage(cell.record, cell.images) && seen_.insert(slug(cell.name)).second) chosen.push_back(&cell);
         std::vector<std::optional<ShownCell>> made(chosen.size());
-        inParallel(static_cast<int>(chosen.size()), hardwareThreads(), [&](int i) {
+        inParallel(static_cast<int>(chosen.size()), availableThreads(), [&](int i) {
             const auto index = static_cast<std::size_t>(i);
             made[index] = write(*chosen[index]);
         });
