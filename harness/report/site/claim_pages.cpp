@@ -157,13 +157,22 @@ void addClaimPage(const Judgement& judgement, const std::vector<Record>& records
 
 } // namespace
 
-void addClaimPages(const std::vector<Record>& all, const std::filesystem::path& images, SiteWriter& site) {
+std::vector<Judgement> decidedClaims(const std::vector<Record>& all) {
     std::vector<Judgement> judgements;
+    for (const Claim& claim : claims()) judgements.push_back(judge(claim, all));
+    const auto isDecided = [](const Judgement& judgement) {
+        return judgement.verdict != Verdict::NotMeasured && judgement.verdict != Verdict::NotTestable;
+    };
+    if (std::ranges::none_of(judgements, isDecided)) return {};
+    return judgements;
+}
+
+void addClaimPages(const std::vector<Judgement>& judgements, const std::vector<Record>& all,
+                   const std::filesystem::path& images, SiteWriter& site) {
     std::map<Verdict, int> counts;
-    for (const Claim& claim : claims()) {
-        judgements.push_back(judge(claim, all));
-        ++counts[judgements.back().verdict];
-        addClaimPage(judgements.back(), all, images, site);
+    for (const Judgement& judgement : judgements) {
+        ++counts[judgement.verdict];
+        addClaimPage(judgement, all, images, site);
     }
     std::vector<std::string> parts;
     for (const auto& [verdict, count] : counts) parts.push_back(fmt::format("{} {}", count, name(verdict)));

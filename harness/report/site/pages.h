@@ -32,8 +32,12 @@ void addSweepPage(const Sweep& sweep, SiteWriter& site);
 /// sweeps.html: all of them, and where techniques break.
 void addSweepList(const std::vector<Sweep>& sweeps, SiteWriter& site);
 
-/// claims.html and a page for each claim; judged by `all` records, those of sweeps included.
-void addClaimPages(const std::vector<Record>& all, const std::filesystem::path& images, SiteWriter& site);
+/// Every claim's verdict by `all` records, those of sweeps included; empty where they decide none.
+std::vector<Judgement> decidedClaims(const std::vector<Record>& all);
+
+/// claims.html and a page for each claim.
+void addClaimPages(const std::vector<Judgement>& judgements, const std::vector<Record>& all,
+                   const std::filesystem::path& images, SiteWriter& site);
 
 /// truth.html: the truths that records were scored against; a page for each scene.
 void addTruthPages(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site);

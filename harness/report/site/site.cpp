@@ -16,11 +16,11 @@
 namespace shadowbench::site {
 namespace {
 
-std::vector<Link> navigationOf(const Sources& sources, const std::vector<Record>& measured,
-                               const std::vector<Sweep>& sweeps) {
+std::vector<Link> navigationOf(const Sources& sources, const std::vector<Record>& measured, const std::vector<Sweep>& sweeps,
+                               bool claims) {
     std::vector<Link> links{{"Choose", "index.html"}};
     if (!sweeps.empty()) links.push_back({"Sweeps", "sweeps.html"});
-    links.push_back({"Claims", "claims.html"});
+    if (claims) links.push_back({"Claims", "claims.html"});
     if (!measured.empty()) links.push_back({"Truth", "truth.html"});
     if (sources.base) links.push_back({"Gate", "gate.html"});
     if (sources.findings) links.push_back({"History", "history.html"});
@@ -84,7 +84,8 @@ std::filesystem::path writeSite(const Sources& sources, const std::filesystem::p
     measured = splitMixedRuns(std::move(measured));
     if (sources.standing) measured = report::standing(std::move(measured));
     const std::vector<Sweep> sweeps = sweepsOf(shown);
-    SiteWriter site(folder, navigationOf(sources, measured, sweeps));
+    const std::vector<Judgement> claims = decidedClaims(sources.records);
+    SiteWriter site(folder, navigationOf(sources, measured, sweeps, !claims.empty()));
 
     const Comparison compared = comparisonOf(sources);
     writeCells(measured, sources.images, site, sources.sequences, compared.before()); // whose pictures other pages show, too
@@ -95,7 +96,7 @@ std::filesystem::path writeSite(const Sources& sources, const std::filesystem::p
         addScenePage(measured, scene, sources.images, report.charts, site);
     for (const Sweep& sweep : sweeps) addSweepPage(sweep, site);
     if (!sweeps.empty()) addSweepList(sweeps, site);
-    addClaimPages(sources.records, sources.images, site);
+    if (!claims.empty()) addClaimPages(claims, sources.records, sources.images, site);
     if (!measured.empty()) addTruthPages(measured, sources.images, site);
     if (sources.base) {
         gate::GateOptions options;

@@ -111,6 +111,13 @@ TEST_F(Site, OfTheSameRecordsIsTheSameBytes) {
     }
 }
 
+TEST_F(Site, HasNoClaimsWhereItsRecordsDecideNone) {
+    writeSite({.records = {hardScene().front()}}, folder());
+    EXPECT_FALSE(fs::exists(folder() / "claims.html"));
+    EXPECT_FALSE(fs::exists(folder() / "claims"));
+    EXPECT_FALSE(has(readFile(folder() / "index.html"), "claims.html"));
+}
+
 TEST_F(Site, ShowsHostileNamesAsText) {
     const std::string script = "\"'><script>alert(1)</script><img src=x onerror=alert(1)>", longest(1000000, 'x');
     std::vector<Record> records = hardScene();
