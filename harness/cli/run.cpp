@@ -5,7 +5,6 @@
 #include "harness/cli/options.h"
 #include "harness/cli/run_result.h"
 #include "harness/foreign/renderers.h"
-#include "harness/runs/measure_part.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -88,9 +88,9 @@ double errorOfOneGrey(const Compared& compared) {
 
 // Shifts.
 
-constexpr int farthest = 2;  // pixels that an image may be shifted by
-constexpr int squares = 8;   // of the image, along each side
-constexpr int enoughAre = 5; // squares that a shift must better
+constexpr int longestShift = 2; // pixels that an image may be shifted by
+constexpr int squares = 8;      // of the image, along each side
+constexpr int enoughAre = 5;    // squares that a shift must better
 
 /// Losses in each square of an image.
 using Losses = std::vector<double>;
@@ -98,11 +98,11 @@ using Losses = std::vector<double>;
 /// The scored pixels around which all are scored as far as an image may be shifted: geometry's edges say nothing there.
 Image<std::uint8_t> inner(const Image<std::uint8_t>& scored) {
     Image<std::uint8_t> result(scored.width(), scored.height());
-    for (int y = farthest; y < scored.height() - farthest; ++y)
-        for (int x = farthest; x < scored.width() - farthest; ++x) {
+    for (int y = longestShift; y < scored.height() - longestShift; ++y)
+        for (int x = longestShift; x < scored.width() - longestShift; ++x) {
             bool all = true;
-            for (int dy = -farthest; dy <= farthest && all; ++dy)
-                for (int dx = -farthest; dx <= farthest && all; ++dx) all = scored(x + dx, y + dy) != 0;
+            for (int dy = -longestShift; dy <= longestShift && all; ++dy)
+                for (int dx = -longestShift; dx <= longestShift && all; ++dx) all = scored(x + dx, y + dy) != 0;
             result(x, y) = all ? 1 : 0;
         }
     return result;
@@ -150,8 +150,8 @@ struct Moved {
 /// By as many whole pixels as leave the least; by none where none is better.
 Moved bestMoved(const Compared& compared, const Image<std::uint8_t>& pixels, const Losses& before) {
     Moved best{{0, 0}, before};
-    for (int y = -farthest; y <= farthest; ++y)
-        for (int x = -farthest; x <= farthest; ++x) {
+    for (int y = -longestShift; y <= longestShift; ++y)
+        for (int x = -longestShift; x <= longestShift; ++x) {
             Losses losses = lossesWith(compared, pixels, {x, y});
             if (sumOf(losses) < sumOf(best.losses)) best = {{x, y}, std::move(losses)};
         }

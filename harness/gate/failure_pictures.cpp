@@ -40,7 +40,7 @@ std::vector<Record> draw(const MeasuredProgram& program, const Failing& cells, c
         for (const auto& [id, variant] : cells)
             if (id == scene.id && program.knowsVariant(variant)) step.techniques.push_back(variant);
         if (step.techniques.empty()) continue;
-        program.run(step, out, progress);
+        program.run(step, out, 1, progress);
         for (Record& record : readRecords(out / step.records)) records.push_back(std::move(record));
     }
     return records;

@@ -17,7 +17,7 @@
 namespace shadowbench::gate {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // The shape of each entry, once.
 void fields(auto&& visit, auto& rule) requires requires { rule.except; }
@@ -79,21 +79,21 @@ void lists(auto&& visit, auto& config) {
     visit("waiver", config.waivers);
 }
 
-Json policyJson(const Policy& policy) {
-    Json json{{"standard", policy.standard}};
+OrderedJson policyJson(const Policy& policy) {
+    OrderedJson json{{"standard", policy.standard}};
     lists(
         [&](const char* key, const auto& list) {
-            Json& entries = json[key] = Json::array();
+            OrderedJson& entries = json[key] = OrderedJson::array();
             for (const auto& entry : list) {
-                Json& written = entries.emplace_back(Json::object());
+                OrderedJson& written = entries.emplace_back(OrderedJson::object());
                 fields([&](const char* name, const auto& member) { written[name] = member; }, entry);
             }
         },
         policy.config);
-    const auto into = [](Json& object) {
+    const auto into = [](OrderedJson& object) {
         return [&object](const char* name, const auto& member) { object[name] = member; };
     };
-    Json& rules = json["rules"] = Json::object();
+    OrderedJson& rules = json["rules"] = OrderedJson::object();
     auto number = into(rules);
     numbers(number, policy.rules);
     for (const auto& [path, limit] : policy.rules.limits) fields(into(rules["limits"][path]), limit);
@@ -101,17 +101,17 @@ Json policyJson(const Policy& policy) {
     return json;
 }
 
-Policy policyFrom(const Json& json) {
+Policy policyFrom(const OrderedJson& json) {
     Policy policy;
     json.at("standard").get_to(policy.standard);
     lists(
         [&](const char* key, auto& list) {
             if (!json.contains(key)) return; // a kind of entry that came later
-            for (const Json& entry : json.at(key))
+            for (const OrderedJson& entry : json.at(key))
                 fields([&](const char* name, auto& member) { entry.at(name).get_to(member); }, list.emplace_back());
         },
         policy.config);
-    const auto from = [](const Json& object) {
+    const auto from = [](const OrderedJson& object) {
         return [&object](const char* name, auto& member) {
             if (object.contains(name)) object.at(name).get_to(member);
         };
@@ -205,20 +205,20 @@ BuildInfo ownBuildInfo() {
 }
 
 std::string toJson(const BuildInfo& build) {
-    return Json{{"commit", build.commit},
-                {"dirty", build.dirty},
-                {"program", build.program},
-                {"policy", policyJson(build.policy)}}
+    return OrderedJson{{"commit", build.commit},
+                       {"dirty", build.dirty},
+                       {"program", build.program},
+                       {"policy", policyJson(build.policy)}}
                .dump(1) +
            "\n";
 }
 
 BuildInfo buildInfoFrom(const std::string& text) {
     try {
-        const Json json = Json::parse(boundedJson(text, "a program's policy"));
+        const OrderedJson json = OrderedJson::parse(boundedJson(text, "a program's policy"));
         return {json.at("commit").get<std::string>(), json.at("dirty").get<bool>(), json.at("program").get<std::string>(),
                 policyFrom(json.at("policy"))};
-    } catch (const Json::exception& error) {
+    } catch (const OrderedJson::exception& error) {
         throw BadInput(fmt::format("a program's policy cannot be read: {}", error.what()));
     }
 }

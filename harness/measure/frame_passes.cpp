@@ -9,7 +9,7 @@ namespace {
 
 // Of timing a frame's passes: parts of a frame, of which the whole is timed more often. A frame that takes longer than the
 // budget is timed once: so long a time varies little.
-constexpr int rounds = 5;
+constexpr int passRounds = 5;
 constexpr double budgetMilliseconds = 100;
 
 RenderFrame bareFramesOf(Stage& stage, const std::vector<techniques::BarePass>& passes) {
@@ -97,9 +97,9 @@ ComparedPasses countPasses(Stage& stage, Sequence& frames) {
 }
 
 void timePasses(ComparedPasses& counted, Stage& stage, Sequence& frames) {
-    timePasses(counted.own, framesOf(stage, frames), rounds, budgetMilliseconds);
+    timePasses(counted.own, framesOf(stage, frames), passRounds, budgetMilliseconds);
     if (!counted.declared.empty())
-        timePasses(counted.bare, bareFramesOf(stage, counted.declared), rounds, budgetMilliseconds);
+        timePasses(counted.bare, bareFramesOf(stage, counted.declared), passRounds, budgetMilliseconds);
 }
 
 OtherScreen measureOtherScreen(const Scene& scene, const techniques::Variant& variant, int frame, std::uint32_t seed) {

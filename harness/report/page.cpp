@@ -15,7 +15,7 @@
 namespace shadowbench::report {
 namespace {
 
-constexpr const char* legend = R"(## The columns
+constexpr const char* columnLegend = R"(## The columns
 
 | column | meaning |
 |:---|:---|
@@ -144,7 +144,7 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
     }
     if (const std::string passes = passCsv(records); !passes.empty()) writeFile(folder / "passes.csv", passes);
     writeFile(folder / "results.csv", csv(records));
-    writeFile(written.page, page + legend);
+    writeFile(written.page, page + columnLegend);
     return written;
 }
 

@@ -24,6 +24,7 @@ MeasuredCell parse(const std::string& text) {
     MeasuredCell cell;
     json.at("id").get_to(cell.id);
     cell.code = exitCode(json.at("exit_code"));
+    cell.transient = json.contains("transient");
     cell.record = parseRecord(json.at("record").dump());
     return cell;
 }
@@ -31,8 +32,8 @@ MeasuredCell parse(const std::string& text) {
 } // namespace
 
 std::string text(const MeasuredCell& cell) {
-    const Json json{
-        {"id", cell.id}, {"exit_code", static_cast<int>(cell.code)}, {"record", Json::parse(toJson(cell.record))}};
+    Json json{{"id", cell.id}, {"exit_code", static_cast<int>(cell.code)}, {"record", Json::parse(toJson(cell.record))}};
+    if (cell.transient) json["transient"] = true;
     return json.dump();
 }
 

@@ -14,6 +14,7 @@ struct MeasuredCell {
     std::string id; // ManifestCell::id; "" outside of manifests
     Record record;
     ExitCode code = ExitCode::Pass; // what a whole run would end with for it: other than Pass with an error record only
+    bool transient = false;         // an error that may not come again
 };
 
 /// As JSON on one line, and back. The latter throws BadInput when the text is none.

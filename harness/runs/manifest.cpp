@@ -56,14 +56,6 @@ ManifestCell parseCell(const std::string& line) {
     return cell;
 }
 
-std::vector<std::string> costsOf(const RunOptions& options) {
-    std::vector<std::string> cost;
-    if (options.measure.time) cost.emplace_back("time");
-    if (options.instructions) cost.emplace_back("instructions");
-    if (options.measure.otherScreen) cost.emplace_back("screen");
-    return cost;
-}
-
 /// `measured` is what tells one measurement of the cell from another: the record's cell id, or why there is none.
 std::string idOf(const ManifestCell& cell, const std::string& measured) {
     const std::string inputs = fmt::format("shard cell 1\n{}\n{}\n{}\nseed {}\ncost {}\n{}\n", cell.scene, cell.variant,
@@ -87,6 +79,25 @@ std::size_t number(std::string_view text) {
 }
 
 } // namespace
+
+std::vector<std::string> costsOf(const RunOptions& options) {
+    std::vector<std::string> cost;
+    if (options.measure.time) cost.emplace_back("time");
+    if (options.instructions) cost.emplace_back("instructions");
+    if (options.measure.otherScreen) cost.emplace_back("screen");
+    return cost;
+}
+
+bool hasCost(const Record& record, std::string_view kind) {
+    if (!wasScored(record.status) || isExternal(record)) return true;
+    if (kind == "time") return record.values["cost.time.median"] || record.values["lod.time.median"];
+    if (kind == "screen") return record.otherScreen || isLevelOfDetail(record);
+    return record.values["cost.instructions"].has_value();
+}
+
+bool hasCosts(const Record& record, const std::vector<std::string>& kinds) {
+    return std::ranges::all_of(kinds, [&](const std::string& kind) { return hasCost(record, kind); });
+}
 
 std::vector<ManifestCell> plannedCells(const RunOptions& options) {
     const Commit commit = builtFrom();

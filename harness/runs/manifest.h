@@ -1,12 +1,14 @@
 // The frozen list of what a run in parts will measure, one cell a line (JSON Lines): every part works from the same one.
 #pragma once
 
-#include "harness/runs/run.h"
+#include "harness/records/record.h"
+#include "harness/runs/run_options.h"
 
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shadowbench::shards {
@@ -26,6 +28,13 @@ struct ManifestCell {
 
     bool operator==(const ManifestCell&) const = default;
 };
+
+/// Whether a record has a kind of cost, or needs none: it is not scored, or another renderer's.
+bool hasCost(const Record& record, std::string_view kind);
+bool hasCosts(const Record& record, const std::vector<std::string>& kinds); // all of them
+
+/// The kinds that a run measures: ManifestCell::cost.
+std::vector<std::string> costsOf(const RunOptions& options);
 
 /// The cells of a run, scene by scene in the order of its records. Measures nothing and computes no truth; throws
 /// Inconclusive if a tool is missing that a cell's truth needs.

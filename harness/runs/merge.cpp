@@ -67,6 +67,8 @@ std::optional<Found> find(const std::vector<fs::path>& folders, const ManifestCe
             if (!measured) continue;
             const Found found{std::move(*measured), cellFile(folder, cell.id)};
             requireProgram(found, cell);
+            if (!hasCosts(found.cell.record, cell.cost))
+                throw BadInput(fmt::format("{} has scores, and not yet all costs", found.file.string()));
             if (kept) requireSameScores(*kept, found);
             if (!kept || isEarlier(found, *kept)) kept = found;
         } catch (const BadInput& error) {

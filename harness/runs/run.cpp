@@ -10,9 +10,8 @@
 #include "harness/cells/instruction_costs.h"
 #include "harness/cells/scene_cells.h"
 #include "harness/measure/callgrind.h"
-#include "harness/records/comparability.h"
 #include "harness/render/shared_shaders.h"
-#include "harness/runs/cell_file.h"
+#include "harness/runs/kept_cells.h"
 #include "scene/load/memory_need.h"
 #include "techniques/gl/context.h"
 
@@ -24,8 +23,10 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace shadowbench {
@@ -33,49 +34,21 @@ namespace {
 
 using shards::MeasuredCell;
 
-/// The records of an earlier run of this program into the same folder.
-std::vector<Record> earlierRecords(const RunOptions& options) {
-    const std::filesystem::path file = options.out / "results.jsonl";
-    if (!options.resume || !std::filesystem::exists(file)) return {};
-    std::vector<Record> records = readRecords(file);
-    std::erase_if(records, [](const Record& r) { return r.commit != builtFrom().hash || r.program != programHash(); });
-    return records;
-}
-
-/// A record as a line of results.jsonl.
-std::string lineOf(const Record& record) { return toJson(record) + "\n"; }
-
-std::vector<std::string> linesOf(const std::vector<Record>& records) {
-    std::vector<std::string> lines(records.size());
-    std::ranges::transform(records, lines.begin(), lineOf);
-    return lines;
-}
-
-bool isSameCell(const Record& a, const Record& b) {
-    return a.scene == b.scene && a.variant == b.variant && a.profile == b.profile;
-}
-
-/// Whether all times that are asked for have been taken; of other renderers none are.
-bool isTimed(const Record& record, const MeasureOptions& options) {
-    if (isExternal(record)) return true;
-    const bool own = record.values["cost.time.median"] || record.values["lod.time.median"];
-    return (own || !options.time) && (record.otherScreen || isLevelOfDetail(record) || !options.otherScreen);
-}
-
 /// Calls `work`; what it throws becomes the record of a failed cell.
 MeasuredCell runGuarded(const SceneCells& cells, const techniques::Variant& variant, Record record,
                         const std::function<void(Record&)>& work) {
+    const auto failed = [&](const Error& error) {
+        return MeasuredCell{"", cells.failed(variant, record.cell, error), error.code(), error.isTransient()};
+    };
     try {
         work(record);
-        return {"", std::move(record), ExitCode::Pass};
+        return {"", std::move(record)};
     } catch (const Error& error) {
-        return {"", cells.failed(variant, record.cell, error), error.code()};
+        return failed(error);
     } catch (const std::bad_alloc&) {
-        const InternalError error("there was not enough memory; run fewer cells at once with --jobs");
-        return {"", cells.failed(variant, record.cell, error), error.code()};
+        return failed(InternalError("there was not enough memory; run fewer cells at once with --jobs", Failure::Transient));
     } catch (const std::exception& unforeseen) { // of a library, such as of a thread that cannot be started
-        const InternalError error(unforeseen.what());
-        return {"", cells.failed(variant, record.cell, error), error.code()};
+        return failed(InternalError(unforeseen.what()));
     }
 }
 
@@ -83,10 +56,8 @@ class Runner {
 public:
     explicit Runner(const RunOptions& options)
         : options_(options), variants_(chosenVariants(options.techniques, options.measure.external.get())),
-          scenes_(chosenScenes(options.scenes, options.profile)), earlier_(earlierRecords(options)),
-          earlierLines_(linesOf(earlier_)),
-          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), known_(cellCount()),
-          lines_(cellCount()) {
+          scenes_(chosenScenes(options.scenes, options.profile)),
+          cache_(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache), known_(cellCount()) {
         if (options.instructions) timing::valgrindVersion(); // to fail before the long part
         requireContext();
         std::error_code failed;
@@ -96,15 +67,45 @@ public:
                                             options.out.string(), failed.message()));
     }
 
-    RunResult all() {
-        computeTruths();
-        scoreCells();
-        if (options_.measure.timed()) timeCells();
+    RunResult whole() {
+        RecordsFile kept(options_, cellCount());
+        std::vector<std::size_t> cells(cellCount());
+        std::iota(cells.begin(), cells.end(), std::size_t{0});
+        measure(cells, kept);
         if (options_.instructions) addInstructions();
         return {records(), code_};
     }
 
+    shards::Measured part(const std::vector<shards::ManifestCell>& manifest, shards::CellRange range) {
+        CellFiles kept(options_, manifest);
+        std::vector<std::size_t> open;
+        for (std::size_t cell = range.first; cell < range.last; ++cell)
+            if (!kept.isFinished(cell)) open.push_back(cell);
+        const std::size_t cells = range.last - range.first;
+        measure(open, kept);
+        try {
+            if (options_.instructions) addInstructions();
+        } catch (const Error& error) {
+            for (const std::size_t cell : open) {
+                if (!known_[cell] || shards::hasCost(*known_[cell], "instructions")) continue;
+                Record record = *known_[cell];
+                record.status = Status::Error;
+                record.reason = error.what();
+                keep(cell, {"", std::move(record), error.code(), error.isTransient()});
+            }
+        }
+        return {cells, cells - open.size(), std::move(errors_), std::move(transient_)};
+    }
+
 private:
+    void measure(const std::vector<std::size_t>& cells, KeptCells& kept) {
+        cells_ = cells;
+        kept_ = &kept;
+        computeTruths();
+        scoreCells();
+        if (options_.measure.timed()) timeCells();
+    }
+
     /// Fails before the long part where nothing draws. OSMesa needs no more than to be there; EGL is tried in a process of
     /// its own, since drivers of graphics processors do not outlive a fork.
     void requireContext() const {
@@ -143,13 +144,14 @@ private:
             int frame;
         };
         std::vector<Asked> asked;
-        for (const Scene& scene : scenes_) {
-            std::set<std::pair<Truth, int>> ofScene;
-            const SceneCells& cells = cellsOf(scene);
-            for (const techniques::Variant& variant : variants_)
-                if (!cells.notApplicable(variant)) ofScene.merge(missingTruths(cells, variant));
-            for (const auto& [truth, frame] : ofScene) asked.push_back({&scene, truth, frame});
+        std::set<std::tuple<std::size_t, Truth, int>> missing;
+        for (const std::size_t cell : cells_) {
+            const SceneCells& cells = cellsOf(sceneOf(cell));
+            if (cells.notApplicable(variantOf(cell))) continue;
+            for (const auto& [truth, frame] : cells.truthsOf(variantOf(cell)))
+                if (!cells.isKept(truth, frame)) missing.emplace(cell / variants_.size(), truth, frame);
         }
+        for (const auto& [scene, truth, frame] : missing) asked.push_back({&scenes_[scene], truth, frame});
         shared_.reset();
         if (asked.empty()) return;
         sayNeed(asked.size());
@@ -180,42 +182,36 @@ private:
         fmt::print(stderr,
                    "run: {} cells; {} truths are not in the cache and come first; each of up to {} processes takes {} of "
                    "memory or more, of {}\n",
-                   cellCount(), truths, workers(), inBytes(most), inBytes(memoryThere()));
-    }
-
-    [[nodiscard]] std::set<std::pair<Truth, int>> missingTruths(const SceneCells& cells,
-                                                                const techniques::Variant& variant) const {
-        std::set<std::pair<Truth, int>> missing;
-        for (const auto& [truth, frame] : cells.truthsOf(variant))
-            if (!cells.isKept(truth, frame)) missing.emplace(truth, frame);
-        return missing;
+                   cells_.size(), truths, workers(), inBytes(most), inBytes(memoryThere()));
     }
 
     /// Everything but costs that other programs would disturb, in as many processes as the machine runs at once.
     void scoreCells() {
-        ProgressLine line("cells", static_cast<int>(cellCount()), options_.quiet);
+        ProgressLine line("cells", static_cast<int>(cells_.size()), options_.quiet);
         int done = 0;
         SharedWork work;
-        work.items = cellCount();
-        work.work = [this](std::size_t cell, const Progress& progress) { return shards::text(scored(cell, progress)); };
+        work.items = cells_.size();
+        work.work = [this](std::size_t i, const Progress& progress) { return shards::text(scored(cells_[i], progress)); };
         work.leave = [this] {
             shared_.reset();
             context_.reset();
         };
-        work.progress = [&](std::size_t cell, double share, std::string_view what) {
+        work.progress = [&](std::size_t i, double share, std::string_view what) {
+            const std::size_t cell = cells_[i];
             line.show(done, share, what.empty() ? nameOf(cell) : fmt::format("{} {}", sceneOf(cell).id, what));
         };
-        work.finished = [&](std::size_t cell, const std::string& answer) {
+        work.finished = [&](std::size_t i, const std::string& answer) {
             ++done;
-            keep(cell, shards::measuredCell(answer));
+            keep(cells_[i], shards::measuredCell(answer));
         };
-        work.lost = [&](std::size_t cell, const std::string& how) {
+        std::map<std::size_t, std::string> lostCells;
+        work.lost = [&](std::size_t i, const std::string& how) {
             ++done;
-            lost_.emplace(cell, how);
+            lostCells.emplace(cells_[i], how);
         };
         shareAmongProcesses(workers(), work);
         line.show(done, 0, "");
-        for (const auto& [cell, how] : lost_) keep(cell, lostCell(cell, how));
+        for (const auto& [cell, how] : lostCells) keep(cell, lost(cell, how));
     }
 
     /// In a worker.
@@ -224,27 +220,29 @@ private:
         SceneCells& cells = cellsOf(sceneOf(cell));
         const techniques::Variant& variant = variantOf(cell);
         Record blank = cells.blank(variant);
-        if (blank.status == Status::NotApplicable) return {"", std::move(blank), ExitCode::Pass};
+        if (blank.status == Status::NotApplicable) return {"", std::move(blank)};
         return runGuarded(cells, variant, std::move(blank), [&](Record& record) {
             record.cell = cells.id(variant);
-            if (const Record* same = finishedAlready(record))
-                record = *same;
+            if (auto same = kept_->find(cell, record))
+                record = std::move(same->record);
             else
                 cells.score(variant, record, progress);
         });
     }
 
-    MeasuredCell lostCell(std::size_t cell, const std::string& how) {
+    MeasuredCell lost(std::size_t cell, const std::string& how) {
         makeContext();
-        const InternalError error(fmt::format("the process that rendered it {}", how));
-        return {"", cellsOf(sceneOf(cell)).failed(variantOf(cell), "", error), error.code()};
+        const InternalError error(fmt::format("the process that rendered it {}", how), Failure::Transient);
+        return {"", cellsOf(sceneOf(cell)).failed(variantOf(cell), "", error), error.code(), error.isTransient()};
     }
 
     /// One after the other: a frame's time wants the machine for itself.
     void timeCells() {
+        std::vector<std::string> times = shards::costsOf(options_);
+        std::erase(times, "instructions");
         std::vector<std::size_t> untimed;
-        for (std::size_t cell = 0; cell < known_.size(); ++cell)
-            if (wasScored(known_[cell]->status) && !isTimed(*known_[cell], options_.measure)) untimed.push_back(cell);
+        for (const std::size_t cell : cells_)
+            if (known_[cell] && !shards::hasCosts(*known_[cell], times)) untimed.push_back(cell);
         if (untimed.empty()) return;
         makeContext();
         ProgressLine line("times", static_cast<int>(untimed.size()), options_.quiet);
@@ -261,75 +259,65 @@ private:
         if (!context_) context_ = contextOfRun(cache_.folder(), false);
     }
 
-    /// The cell's record of an earlier run that need not be made again: no error, and drawn by the same rasteriser.
-    const Record* finishedAlready(const Record& cell) const {
-        const auto found = std::find_if(earlier_.begin(), earlier_.end(), [&](const Record& r) {
-            return r.status != Status::Error && r.cell == cell.cell &&
-                   (isExternal(r) || !gate::difference(r.environment, cell.environment, gate::EnvironmentScope::OfScores));
-        });
-        return found == earlier_.end() ? nullptr : &*found;
-    }
-
     void addInstructions() {
         InstructionOptions options{{}, options_.profile, options_.quiet};
         const std::vector<std::string> names = chosenSceneNames(options_.scenes);
         for (std::size_t i = 0; i < scenes_.size(); ++i) options.scenes[scenes_[i].id] = names[i];
         std::vector<Record> counted = records();
-        countInstructions(counted, options, [&] {
-            for (std::size_t cell = 0; cell < counted.size(); ++cell) lines_[cell] = lineOf(counted[cell]);
-            writeLines();
-        });
-        for (std::size_t cell = 0; cell < known_.size(); ++cell) known_[cell] = counted[cell];
-        const bool failed =
-            std::any_of(counted.begin(), counted.end(), [](const Record& r) { return r.status == Status::Error; });
-        if (failed && code_ == ExitCode::Pass) code_ = ExitCode::Internal;
+        const auto keepCounted = [&] {
+            auto record = counted.cbegin();
+            for (const std::size_t cell : cells_) {
+                if (!known_[cell]) continue;
+                const bool failed = record->status == Status::Error && known_[cell]->status != Status::Error;
+                if (failed || record->values["cost.instructions"] != known_[cell]->values["cost.instructions"])
+                    keep(cell, {"", *record, failed ? ExitCode::Internal : ExitCode::Pass});
+                ++record;
+            }
+        };
+        countInstructions(counted, options, keepCounted);
     }
 
-    /// Every finished cell is on disk before the next one is kept.
+    /// It is on disk before the next one is.
     void keep(std::size_t cell, MeasuredCell measured) {
-        if (measured.code != ExitCode::Pass && code_ == ExitCode::Pass) code_ = measured.code;
-        known_[cell] = std::move(measured.record);
-        lines_[cell] = lineOf(*known_[cell]);
-        for (std::size_t i = 0; i < earlier_.size(); ++i)
-            if (isSameCell(earlier_[i], *known_[cell])) earlierLines_[i].clear();
-        writeLines();
+        if (measured.code != ExitCode::Pass) {
+            (measured.transient ? transient_ : errors_)
+                .push_back(fmt::format("{} on {}: {}", variantOf(cell).name, sceneOf(cell).id, measured.record.reason));
+            if (code_ == ExitCode::Pass) code_ = measured.code;
+        }
+        known_[cell] = measured.record;
+        kept_->keep(cell, std::move(measured));
     }
-
-    /// Of the cells that are known, in order, and then what an earlier run has left of others: errors, too, which are made
-    /// again where they are chosen.
-    void writeLines() const {
-        std::string all;
-        for (const auto& lines : {std::cref(lines_), std::cref(earlierLines_)})
-            for (const std::string& line : lines.get()) all += line;
-        writeFile(resultsFile(), all);
-    }
-
-    [[nodiscard]] std::filesystem::path resultsFile() const { return options_.out / "results.jsonl"; }
 
     /// Of the cells that are known, in order.
     [[nodiscard]] std::vector<Record> records() const {
         std::vector<Record> records;
-        for (const std::optional<Record>& record : known_)
-            if (record) records.push_back(*record);
+        for (const std::size_t cell : cells_)
+            if (known_[cell]) records.push_back(*known_[cell]);
         return records;
     }
 
     RunOptions options_;
     std::vector<techniques::Variant> variants_;
     std::vector<Scene> scenes_;
-    std::vector<Record> earlier_;
-    std::vector<std::string> earlierLines_; // of the same, empty once they are made again
     groundtruth::Cache cache_;
+    std::vector<std::size_t> cells_; // that are measured, rising
+    KeptCells* kept_ = nullptr;
     std::vector<std::optional<Record>> known_; // of each cell, once it is known
-    std::vector<std::string> lines_;           // of the same: each is written many times, with every cell that follows
     ExitCode code_ = ExitCode::Pass;
-    std::map<std::size_t, std::string> lost_; // cells whose process ended, and how
-    std::unique_ptr<gl::Context> context_;    // of a worker, later of this process
+    std::vector<std::string> errors_, transient_; // a sentence for each cell that failed
+    std::unique_ptr<gl::Context> context_;        // of a worker, later of this process
     std::optional<std::pair<const Scene*, SceneCells>> shared_;
 };
 
 } // namespace
 
-RunResult run(const RunOptions& options) { return Runner(options).all(); }
+RunResult run(const RunOptions& options) { return Runner(options).whole(); }
+
+shards::Measured shards::measureCells(const RunOptions& options, const std::vector<ManifestCell>& manifest,
+                                      CellRange range) {
+    RunOptions alone = options;
+    if (alone.jobs == 0) alone.jobs = 1; // several parts share a machine
+    return Runner(alone).part(manifest, range);
+}
 
 } // namespace shadowbench

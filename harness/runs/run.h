@@ -2,28 +2,14 @@
 #pragma once
 
 #include "base/error.h"
-#include "harness/cells/scene_cells.h"
 #include "harness/records/record.h"
-#include "scene/scene.h"
+#include "harness/runs/manifest.h"
+#include "harness/runs/run_options.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace shadowbench {
-
-struct RunOptions {
-    std::vector<std::string> scenes;     // ids or files; empty: the standard scenes
-    std::vector<std::string> techniques; // variants or globs; empty: all
-    Profile profile = Profile::Gate;
-    std::filesystem::path out = "results/latest";
-    std::filesystem::path cache;
-    MeasureOptions measure; // of every cell
-    bool resume = false;
-    bool instructions = false; // counted of a steady frame, under Callgrind
-    int jobs = 0;              // processes that score cells at the same time; 0: as many as the machine runs at once
-    bool quiet = false;
-};
 
 struct RunResult {
     std::vector<Record> records;
@@ -35,4 +21,19 @@ struct RunResult {
 /// already holds of cells (same inputs, same program) is kept. Must be called without a GL context.
 RunResult run(const RunOptions& options);
 
+namespace shards {
+
+struct Measured {
+    std::size_t cells = 0;              // of the part
+    std::size_t kept = 0;               // that had a valid file
+    std::vector<std::string> errors;    // a sentence for each cell that ended in an error which would recur: a measurement
+    std::vector<std::string> transient; // for each that has no valid file and is worth a retry
+};
+
+/// Measures the cells of `range` that have no valid file yet, each into its own. A file is valid if it is this cell's, of
+/// this program, no error, and has all costs that are asked for. `manifest` is that of `options.out`. It judges nothing:
+/// `merge` does, once all are there. Throws InternalError when a file cannot be written.
+Measured measureCells(const RunOptions& options, const std::vector<ManifestCell>& manifest, CellRange range);
+
+} // namespace shards
 } // namespace shadowbench

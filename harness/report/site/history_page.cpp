@@ -14,7 +14,7 @@ namespace {
 using history::Findings;
 using history::Series;
 
-constexpr const char* address = "history.html";
+constexpr const char* historyAddress = "history.html";
 
 std::string commitAt(const Findings& f, std::size_t commit) { return history::shortHash(f.history.commits[commit].hash); }
 
@@ -86,19 +86,19 @@ void addHistoryPage(const Findings& f, SiteWriter& site) {
         writeChart(site, name, history::chart(f, metric, scene));
         Data entry;
         entry.set("heading", fmt::format("{} on {}", metric, truncate(scene)));
-        entry.set("chart", site.chart(address, {.name = name,
-                                                .title = fmt::format("{} on {}, by commit", metric, truncate(scene)),
-                                                .text = "The figures are in the table below.",
-                                                .kind = "lines",
-                                                .table = series.id,
-                                                .options = {{"xlabel", "commit"}, {"ylabel", metric}}}));
-        entry.set("table", site.table(address, series));
+        entry.set("chart", site.chart(historyAddress, {.name = name,
+                                                       .title = fmt::format("{} on {}, by commit", metric, truncate(scene)),
+                                                       .text = "The figures are in the table below.",
+                                                       .kind = "lines",
+                                                       .table = series.id,
+                                                       .options = {{"xlabel", "commit"}, {"ylabel", metric}}}));
+        entry.set("table", site.table(historyAddress, series));
         charts << entry;
     }
     data.set("span", history::summaryOf(f) + ".");
-    data.set("changes", site.table(address, changeTable(f)));
+    data.set("changes", site.table(historyAddress, changeTable(f)));
     data.set("charts", charts);
-    site.add({address, "History", render("history.html", data)});
+    site.add({historyAddress, "History", render("history.html", data)});
 }
 
 } // namespace shadowbench::site

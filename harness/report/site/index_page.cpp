@@ -16,7 +16,7 @@
 namespace shadowbench::site {
 namespace {
 
-constexpr const char* address = "index.html";
+constexpr const char* indexAddress = "index.html";
 
 Cell costCell(const Record& record) {
     const std::optional<report::FrameCost> cost = report::frameCost(record);
@@ -200,8 +200,8 @@ void addIndexPage(const std::vector<Record>& records, const std::string& command
                   SiteWriter& site) {
     Data data;
     data.set("lead", lead(records));
-    data.set("answers", site.table(address, answers(records, images)));
-    data.set("all", site.table(address, Matrix(records, images).table()));
+    data.set("answers", site.table(indexAddress, answers(records, images)));
+    data.set("all", site.table(indexAddress, Matrix(records, images).table()));
     data.set("measured", !records.empty());
     data.set("commit", truncate(report::commitsOf(records)));
     data.set("environment", truncate(report::environmentsOf(records)));
@@ -210,7 +210,7 @@ void addIndexPage(const std::vector<Record>& records, const std::string& command
     data.set("data", std::filesystem::exists(site.folder() / "results.jsonl"));
     data.set("time", records.empty() ? "" : truncate(records.front().time));
     data.set("profile", records.empty() ? "" : truncate(records.front().profile));
-    site.add({address, "Which shadow technique?", render("index.html", data)});
+    site.add({indexAddress, "Which shadow technique?", render("index.html", data)});
 }
 
 } // namespace shadowbench::site

@@ -77,6 +77,17 @@ TEST_F(Merge, KeepsTheManifestsOrderWhateverTheFolders) {
     EXPECT_EQ(lines(merge({b, a})), lines(merged));
 }
 
+/// A part that is killed between scoring and measuring costs leaves scores, which its next start goes on from.
+TEST_F(Merge, TakesACellWithoutAllItsCostsForMissing) {
+    manifest_[1].cost = {"time", "screen"};
+    const Merged merged = merge({folder("all", {0, 1, 2})});
+    ASSERT_EQ(merged.missing.size(), 1U);
+    EXPECT_TRUE(names(merged.missing.front(), {"cell 2", "has scores, and not yet all costs"})) << merged.missing.front();
+    EXPECT_TRUE(hasCosts(records_[1], {"time"}));
+    EXPECT_FALSE(hasCosts(records_[1], {"time", "screen"}));
+    EXPECT_FALSE(hasCost(records_[1], "instructions"));
+}
+
 TEST_F(Merge, NamesEveryMissingCell) {
     const Merged merged = merge({folder("a", {1})});
     ASSERT_EQ(merged.missing.size(), 2U);

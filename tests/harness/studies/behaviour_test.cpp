@@ -4,6 +4,7 @@
 #include "harness/studies/behaviour/behaviour.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
+#include "tests/support/message_of.h"
 #include "tests/support/records_examples.h"
 #include "tests/support/tests_of_the_tree.h"
 
@@ -44,6 +45,13 @@ const std::string one = R"([{"technique": "sm-uniform",
     "strength": {"says": "a_b", "test": "Suite.Name", "scene": "s", "metric": "accuracy.mismatch"},
     "failure": {"says": "c & d", "test": "Suite.Other", "scene": "s", "variant": "sm-uniform:bias=none",
                 "metric": "stability.by_frame.rmse[2]"}}])";
+
+TEST(Behaviours, WithoutATechniqueAreRejectedWithTheSentenceThatSaysSo) {
+    EXPECT_NE(test::messageOf([] { parseBehaviours(R"([{"strength": {}, "failure": {}}])"); }).find("one without technique"),
+              std::string::npos);
+    EXPECT_NE(test::messageOf([] { parseBehaviours(R"([{"technique": 1}])"); }).find("one without technique"),
+              std::string::npos);
+}
 
 TEST(BehaviourTable, HasTheFiguresOfTheRecords) {
     Record record = test::hardRecord();

@@ -10,6 +10,7 @@
 #include "tests/support/message_of.h"
 #include "tests/support/records_examples.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -43,6 +44,13 @@ double angleToEye(const Scene& scene) {
     const glm::dvec3 light =
         scene.light.kind == LightKind::Directional ? -scene.light.direction : scene.light.centre - scene.camera.target;
     return glm::degrees(std::atan2(glm::length(glm::cross(eye, light)), glm::dot(eye, light)));
+}
+
+TEST(Axes, ALightGoesFromAnEighthToTwiceItsSize) {
+    const std::vector<double> sizes = axisNamed("light-size").values;
+    EXPECT_EQ(sizes.front(), 0.125);
+    EXPECT_EQ(sizes.back(), 2);
+    EXPECT_NE(std::ranges::find(sizes, 1), sizes.end()) << "the scene's own";
 }
 
 TEST(Axes, ALightViewAngleOfZeroIsAMinersHeadlampAndOneOf180FacesTheCamera) {

@@ -74,11 +74,10 @@ private:
     TemporaryFolder folder_;
 };
 
-TEST(BothSite, HasAPageASceneAClaimAndATruthAndNoDeadLink) {
-    for (const char* file :
-         {"index.html", "scenes/dueling-frusta.html", "scenes/overlapping-occluders.html", "claims.html", "claims/K4.html",
-          "truth.html", "truth/dueling-frusta.html", "assets/d3.js", "pareto-dueling-frusta.svg",
-          "pareto-dueling-frusta.pdf", "tables/index-answers.tex", "report.md", "results.csv"})
+TEST(BothSite, HasAPageASceneAndATruthAndNoDeadLink) {
+    for (const char* file : {"index.html", "scenes/dueling-frusta.html", "scenes/overlapping-occluders.html", "truth.html",
+                             "truth/dueling-frusta.html", "assets/d3.js", "pareto-dueling-frusta.svg",
+                             "pareto-dueling-frusta.pdf", "tables/index-answers.tex", "report.md", "results.csv"})
         EXPECT_TRUE(fs::exists(bothSite() / file)) << file;
     EXPECT_EQ(deadLinks(bothSite()), std::set<std::string>());
 }
@@ -109,6 +108,15 @@ TEST_F(Site, OfTheSameRecordsIsTheSameBytes) {
         const fs::path twin = bothSite() / entry.path().lexically_relative(folder());
         EXPECT_EQ(readFile(entry.path()), readFile(twin)) << entry.path();
     }
+}
+
+TEST_F(Site, HasAPageOfEachClaimWhereItsRecordsDecideOne) {
+    Record history = hardCell("sm-history", 0.0009, 1.19);
+    history.figures["history_bytes"] = 8;
+    writeSite({.records = {history}}, folder());
+    EXPECT_TRUE(has(readFile(folder() / "claims.html"), "claims/K8.html"));
+    for (const char* claim : {"K4", "K8"}) EXPECT_TRUE(fs::exists(folder() / "claims" / (claim + std::string(".html"))));
+    EXPECT_EQ(deadLinks(folder()), std::set<std::string>());
 }
 
 TEST_F(Site, HasNoClaimsWhereItsRecordsDecideNone) {

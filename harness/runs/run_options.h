@@ -1,0 +1,26 @@
+// What a run measures, and where it leaves it.
+#pragma once
+
+#include "harness/cells/measure_options.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shadowbench {
+
+struct RunOptions {
+    std::vector<std::string> scenes;     // ids or files; empty: the standard scenes
+    std::vector<std::string> techniques; // variants or globs; empty: all
+    Profile profile = Profile::Gate;
+    std::filesystem::path out = "results/latest";
+    std::filesystem::path cache;
+    MeasureOptions measure; // of every cell
+    bool resume = false;
+    bool instructions = false; // counted of a steady frame, under Callgrind
+    int jobs = 0;              // processes that score cells at the same time; 0: as many as the machine runs at once
+    bool quiet = false;
+};
+
+} // namespace shadowbench
