@@ -80,6 +80,7 @@ TEST_F(Merge, KeepsTheManifestsOrderWhateverTheFolders) {
 /// A part that is killed between scoring and measuring costs leaves scores, which its next start goes on from.
 TEST_F(Merge, TakesACellWithoutAllItsCostsForMissing) {
     manifest_[1].cost = {"time", "screen"};
+    records_[1].otherScreen.reset();
     const Merged merged = merge({folder("all", {0, 1, 2})});
     ASSERT_EQ(merged.missing.size(), 1U);
     EXPECT_TRUE(names(merged.missing.front(), {"cell 2", "has scores, and not yet all costs"})) << merged.missing.front();
