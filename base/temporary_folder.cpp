@@ -2,6 +2,7 @@
 
 #include "base/descriptor.h"
 #include "base/error.h"
+#include "base/faults.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -67,7 +68,7 @@ TemporaryFolder::TemporaryFolder() {
     do {
         if (lock_ >= 0) ::close(lock_);
         path_ = makeFolder(parent);
-        lock_ = openFolder(path_);
+        lock_ = faults::fails(faults::Point::Open, path_.c_str()) ? -1 : openFolder(path_);
         if (lock_ < 0 && errno != ENOENT) failToMake(parent);
         // Where the file system has no locks, nobody can take the folder for abandoned either.
         flock(lock_, LOCK_EX);
