@@ -70,20 +70,20 @@ std::vector<Trial> killVerbs(Sandbox& sandbox, const std::vector<Verb>& verbs, c
 /// Does what `word` says; the report, and whether anything is faulty.
 std::pair<std::string, bool> report(const std::string& word, const Options& options, const std::string& command) {
     if (word == "together") {
-        const Together together = workTogether(options.program, options.processes);
-        return {togetherReport(together, command), !together.faults.empty()};
+        const Findings findings = workTogether(options.program, options.processes);
+        return {togetherReport(findings, command), !findings.faults.empty()};
     }
     const std::vector<Verb> verbs = verbsNamed(options.verbs);
     Sandbox sandbox(options.program, verbs);
-    const auto isFaulty = [](const auto& tried) { return !tried.faults.empty(); };
     if (word == "order") {
-        std::vector<WriteOrder> orders;
-        for (const Verb& verb : verbs) orders.push_back(writeOrderOf(sandbox, verb));
-        return {orderReport(orders, command), std::ranges::any_of(orders, isFaulty)};
+        Findings findings;
+        for (const Verb& verb : verbs) checkOrder(sandbox, verb, findings);
+        return {orderReport(findings, command), !findings.faults.empty()};
     }
     const bool kills = word == "kills";
     const std::vector<Trial> trials = (kills ? killVerbs : failCalls)(sandbox, verbs, options);
-    return {(kills ? killsReport : callsReport)(trials, command), std::ranges::any_of(trials, isFaulty)};
+    return {(kills ? killsReport : callsReport)(trials, command),
+            std::ranges::any_of(trials, [](const Trial& t) { return !t.faults.empty(); })};
 }
 
 int run(int argc, char** argv) {

@@ -36,16 +36,12 @@ std::string cell(const std::vector<Trial>& trials, const std::string& verb, cons
     return fmt::format("{}{}: {}", count, of > 0 ? fmt::format(" of {}", of) : "", fmt::join(parts, ", "));
 }
 
-std::string faultsOf(const Texts& faults) {
-    return "## Faults\n\n" + (faults.empty() ? "None.\n" : fmt::format("* {}\n", fmt::join(faults, "\n* ")));
-}
-
-std::string faultsOf(const std::vector<Trial>& trials) {
+Texts faultsOf(const std::vector<Trial>& trials) {
     Texts faults;
     for (const Trial& trial : trials)
         for (const std::string& fault : trial.faults)
             faults.push_back(fmt::format("{}, {} {}, {}: {}", trial.verb, trial.call, trial.number, trial.what, fault));
-    return faultsOf(faults);
+    return faults;
 }
 
 std::string table(const std::vector<Trial>& trials) {
@@ -80,49 +76,52 @@ std::ptrdiff_t faulty(const std::vector<Trial>& trials, const char* words = "") 
     });
 }
 
+std::string page(const char* title, const std::string& command, const std::string& body, const Texts& faults) {
+    return fmt::format("# {}\n\n`{}`\n\n{}\n## Faults\n\n{}", title, command, body,
+                       faults.empty() ? "None.\n" : fmt::format("* {}\n", fmt::join(faults, "\n* ")));
+}
+
 } // namespace
 
 std::string callsReport(const std::vector<Trial>& trials, const std::string& command) {
-    return fmt::format(
-        "# Failing calls\n\n`{}`\n\nIn each trial one call of the program fails: opens and pipes with EMFILE, writes with "
-        "ENOSPC, renames and flushes with EIO, forks and threads with EAGAIN; an allocation of our own code throws "
-        "`std::bad_alloc`. It went on (exit code 0, and the same records and files as undisturbed), or ended with a "
-        "documented code and a line. Faulty is a trial that ended otherwise, left a partial or temporary file, a temporary "
-        "folder or a process, lost a record, or after which the next run did not give what an undisturbed one gives.\n\n"
-        "{} trials, {} faulty.\n\n{}\n## What was said\n{}\n{}",
-        command, trials.size(), faulty(trials), table(trials), saidBy(trials), faultsOf(trials));
+    const std::string body = fmt::format(
+        "In each trial one call of the program fails: opens and pipes with EMFILE, writes with ENOSPC, renames and flushes "
+        "with EIO, forks and threads with EAGAIN; an allocation of our own code throws `std::bad_alloc`. It went on (exit "
+        "code 0, and the same records and files as undisturbed), or ended with a documented code and a line. Faulty is a "
+        "trial that ended otherwise, left a partial or temporary file, a temporary folder or a process, lost a record, or "
+        "after which the next run did not give what an undisturbed one gives.\n\n{} trials, {} faulty.\n\n{}\n"
+        "## What was said\n{}",
+        trials.size(), faulty(trials), table(trials), saidBy(trials));
+    return page("Failing calls", command, body, faultsOf(trials));
 }
 
 std::string killsReport(const std::vector<Trial>& trials, const std::string& command) {
-    return fmt::format(
-        "# Kills\n\n`{}`\n\nEach trial sends one signal, to the verb's process or to the one of its processes that makes a "
-        "call, at a call that is drawn by chance; then the verb is run again.\n\n"
-        "{} kills: {} left partial files, {} lost records, after {} the next run did not give what an "
-        "undisturbed one gives; {} faulty in all.\n\n{}\n{}",
-        command, trials.size(), faulty(trials, "is partial"), faulty(trials, "is lost"), faulty(trials, "the next run"),
-        faulty(trials), table(trials), faultsOf(trials));
+    const std::string body = fmt::format(
+        "Each trial sends one signal, to the verb's process or to the one of its processes that makes a call, at a call "
+        "that "
+        "is drawn by chance; then the verb is run again.\n\n{} kills: {} left partial files, {} lost records, after {} the "
+        "next run did not give what an undisturbed one gives; {} faulty in all.\n\n{}",
+        trials.size(), faulty(trials, "is partial"), faulty(trials, "is lost"), faulty(trials, "the next run"),
+        faulty(trials), table(trials));
+    return page("Kills", command, body, faultsOf(trials));
 }
 
-std::string orderReport(const std::vector<WriteOrder>& orders, const std::string& command) {
-    Texts faults;
-    std::string text = fmt::format(
-        "# What a power cut would leave\n\n`{}`\n\nOf each verb: every file gets its name by a rename, is flushed before "
-        "it, "
-        "and its folder after it. Pages, tables and charts, which the same command makes again of the records, need not be "
-        "flushed.\n\n| verb | flushed, renamed, folder flushed | made again | faults |\n|---|--:|--:|--:|\n",
-        command);
-    for (const WriteOrder& order : orders) {
-        text += fmt::format("| {} | {} | {} | {} |\n", order.verb, order.renames, order.madeAgain, order.faults.size());
-        for (const std::string& fault : order.faults) faults.push_back(order.verb + ": " + fault);
-    }
-    return text + "\n" + faultsOf(faults);
+std::string orderReport(const Findings& findings, const std::string& command) {
+    const std::string body =
+        fmt::format("Of each verb: every file gets its name by a rename, is flushed before it, and its folder after it. "
+                    "Pages, tables and "
+                    "charts, which the same command makes again of the records, need not be flushed.\n\n"
+                    "| verb | flushed, renamed, folder flushed | made again | faults |\n|---|--:|--:|--:|\n{}\n",
+                    fmt::join(findings.lines, "\n"));
+    return page("What a power cut would leave", command, body, findings.faults);
 }
 
-std::string togetherReport(const Together& together, const std::string& command) {
-    return fmt::format(
-        "# At the same time\n\n`{}`\n\nVerbs at once on one cache and one output: every one ends with 0, what "
-        "they write is whole at any moment, no record is lost.\n\n* {}\n\n{}",
-        command, fmt::join(together.facts, "\n* "), faultsOf(together.faults));
+std::string togetherReport(const Findings& findings, const std::string& command) {
+    const std::string body =
+        fmt::format("Verbs at once on one cache and one output: every one ends with 0, what they write is "
+                    "whole at any moment, no record is lost.\n\n* {}\n",
+                    fmt::join(findings.lines, "\n* "));
+    return page("At the same time", command, body, findings.faults);
 }
 
 } // namespace shadowbench::faults

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/launch.h"
+#include "groundtruth/store/cache.h"
 #include "harness/records/record.h"
 #include "harness/runs/merge.h"
 
@@ -51,13 +52,14 @@ int endOrphans(std::chrono::milliseconds patience) {
 
 bool isRecords(const std::string& file) { return file.ends_with("results.jsonl") || file.ends_with("sweep.jsonl"); }
 
+/// See Files.
 Texts contentOf(const fs::path& file) {
     Texts lines;
+    if (file.extension() == ".ref")
+        return {groundtruth::damage({file.stem().string().substr(0, 32), file, 0, {}}).value_or("a whole truth")};
     if (!isRecords(file)) {
-        constexpr std::size_t tail = 3; // bytes
         const std::string text = readFile(file);
-        return {fmt::format("{} lines, and {}", std::ranges::count(text, '\n'),
-                            text.substr(text.size() - std::min(tail, text.size())))};
+        return {fmt::format("{} lines, and {} bytes", std::ranges::count(text, '\n'), text.size() - text.rfind('\n') - 1)};
     }
     for (const Record& record : readRecords(file)) lines.push_back(toJson(shards::withoutTimings(record)));
     std::ranges::sort(lines);
@@ -108,6 +110,7 @@ Ended Sandbox::disturbed(const Verb& verb, const Wanted& wanted) {
     reset();
     new (plan_.get()) Plan{.wanted = wanted};
     prctl(PR_SET_CHILD_SUBREAPER, 1);
+    std::signal(SIGINT, SIG_DFL); // a shell lets what it starts in the background ignore it
     Texts variables{fmt::format("{}={}", variable, (folder_.path() / "plan").string())};
     if (wanted.point == Point::Allocation) variables.emplace_back("LD_PRELOAD=" FAILING_NEW);
     Ended ended = run(verb.words, variables);
@@ -190,8 +193,9 @@ Texts Sandbox::damage(const Verb& verb) const {
     const auto holds = [](const Files& files, const std::string& file, const Texts& content) {
         return files.contains(file) && std::ranges::includes(files.at(file), content);
     };
-    for (const auto& [file, content] : now)
-        if (!holds(before_, file, content) && !holds(after, file, content))
+    for (const auto& [file, content] : now) // others are what a killed verb goes on from
+        if ((before_.contains(file) || after.contains(file)) && !holds(before_, file, content) &&
+            !holds(after, file, content))
             sentences.push_back(fmt::format("{} is partial: {}", file, fmt::join(content, " ")));
     for (const auto& [file, content] : before_)
         if (isRecords(file) && !holds(now, file, content)) sentences.push_back("a record of " + file + " is lost");
@@ -199,8 +203,10 @@ Texts Sandbox::damage(const Verb& verb) const {
 }
 
 std::optional<std::string> Sandbox::difference(const Verb& verb) const {
-    const Files now = files();
-    for (const auto& [file, content] : expected_.at(verb.name)) {
+    const Files now = files(), &expected = expected_.at(verb.name);
+    for (const auto& [file, content] : now)
+        if (file.starts_with(verb.out()) && !expected.contains(file)) return file + " is left";
+    for (const auto& [file, content] : expected) {
         if (!file.starts_with(verb.out())) continue; // what is kept in the cache may be kept by another name
         if (!now.contains(file)) return file + " is missing";
         if (now.at(file) != content)

@@ -42,7 +42,7 @@ struct Ended {
 };
 
 /// What is in files, by their paths: of records, the lines without what differs from one measurement of a cell to the next,
-/// sorted; of others, how many lines they have, and their end.
+/// sorted; of kept truths, whether they are whole; of others, how many lines they have, and how many bytes after the last.
 using Files = std::map<std::string, Texts>;
 
 class Sandbox {

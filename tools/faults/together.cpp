@@ -34,7 +34,7 @@ public:
         const auto renders = callsOf("renders"), calls = callsOf("calls");
         start(Texts(static_cast<std::size_t>(processes), run("shared", "shared-cache")));
         const auto nowRenders = callsOf("renders"), nowCalls = callsOf("calls");
-        together.facts.push_back(fmt::format("{} runs of the same cells at once: POV-Ray rendered {} times (one run: {}), "
+        findings.lines.push_back(fmt::format("{} runs of the same cells at once: POV-Ray rendered {} times (one run: {}), "
                                              "another renderer was called {} times (one run: {})",
                                              processes, nowRenders, renders, nowCalls, calls));
         if (nowRenders != renders || nowCalls != calls) fault("work was done twice");
@@ -57,7 +57,7 @@ public:
         }
         start(all);
         const std::size_t rows = records("rows").size(), wanted = static_cast<std::size_t>(processes) + 1;
-        together.facts.push_back(
+        findings.lines.push_back(
             fmt::format("{} runs, scores and prunes, {} gates, merges and reports at once: {} of {} rows "
                         "of scores are there",
                         processes, (processes + 2) / 3, rows, wanted));
@@ -65,7 +65,7 @@ public:
         if (records("pruned") != records("alone")) fault("the records of runs beside prunes are not those of one run");
     }
 
-    Together together;
+    Findings findings;
 
 private:
     static std::string run(const std::string& out, const std::string& cache) {
@@ -91,7 +91,7 @@ private:
         reader.join();
         for (const std::string& sentence : sandbox_.leftovers()) fault(sentence);
         if (count > 1)
-            together.facts.push_back(fmt::format("{} times their records were read meanwhile, and were whole", reads));
+            findings.lines.push_back(fmt::format("{} times their records were read meanwhile, and were whole", reads));
     }
 
     bool isReadable(const std::string& folder) {
@@ -118,7 +118,7 @@ private:
 
     void fault(const std::string& sentence) {
         const std::scoped_lock lock(mutex_);
-        together.faults.push_back(sandbox_.shown(sentence));
+        findings.faults.push_back(sandbox_.shown(sentence));
     }
 
     Sandbox sandbox_;
@@ -127,11 +127,11 @@ private:
 
 } // namespace
 
-Together workTogether(const fs::path& program, int processes) {
+Findings workTogether(const fs::path& program, int processes) {
     Meeting meeting(program);
     meeting.runsShareTheirWork(processes);
     meeting.everythingAtOnce(processes);
-    return std::move(meeting.together);
+    return std::move(meeting.findings);
 }
 
 } // namespace shadowbench::faults

@@ -78,8 +78,9 @@ std::vector<std::uint64_t> spread(std::uint64_t of, std::uint64_t most) {
     return numbers;
 }
 
-WriteOrder writeOrderOf(Sandbox& sandbox, const Verb& verb) {
-    WriteOrder order{.verb = verb.name};
+void checkOrder(Sandbox& sandbox, const Verb& verb, Findings& findings) {
+    int lasting = 0, madeAgain = 0;
+    Texts faults;
     std::set<std::string> flushed, named, unflushed; // the last: names in a folder that is not flushed yet
     for (const auto& [point, path, from, isWanted] : sandbox.disturbed(verb, {}).passed) {
         if (path.starts_with('/') || path.starts_with("tmp/")) continue; // beside the sandbox, or removed in the end
@@ -90,15 +91,16 @@ WriteOrder writeOrderOf(Sandbox& sandbox, const Verb& verb) {
         if (point != "rename") continue;
         named.insert(path);
         const bool isFlushed = flushed.contains(from);
-        ++(isFlushed || !isMadeAgain(path) ? order.renames : order.madeAgain);
+        ++(isFlushed || !isMadeAgain(path) ? lasting : madeAgain);
         if (!isFlushed && isMadeAgain(path)) continue;
-        if (!isFlushed) order.faults.push_back(path + " is renamed before it is flushed");
+        if (!isFlushed) faults.push_back(path + " is renamed before it is flushed");
         unflushed.insert(path);
     }
-    for (const std::string& name : unflushed) order.faults.push_back(name + ": its folder is not flushed after its rename");
+    for (const std::string& name : unflushed) faults.push_back(name + ": its folder is not flushed after its rename");
     for (const auto& [file, content] : sandbox.files())
-        if (!sandbox.before().contains(file) && !named.contains(file)) order.faults.push_back(file + " is written in place");
-    return order;
+        if (!sandbox.before().contains(file) && !named.contains(file)) faults.push_back(file + " is written in place");
+    findings.lines.push_back(fmt::format("| {} | {} | {} | {} |", verb.name, lasting, madeAgain, faults.size()));
+    for (const std::string& fault : faults) findings.faults.push_back(verb.name + ": " + fault);
 }
 
 } // namespace shadowbench::faults

@@ -23,28 +23,21 @@ Trial disturb(Sandbox& sandbox, const Verb& verb, const Wanted& wanted, std::uin
 /// At most `most` of the numbers 1 … of, evenly, with the first and the last.
 std::vector<std::uint64_t> spread(std::uint64_t of, std::uint64_t most);
 
-/// Whether what a verb writes outlives a power cut: flushed before it gets its name, and the folder after.
-struct WriteOrder {
-    std::string verb;
-    int renames = 0;   // of files that must last
-    int madeAgain = 0; // of those that the same command makes again: pages, tables and charts
-    Texts faults{};    // a sentence each
-};
-WriteOrder writeOrderOf(Sandbox& sandbox, const Verb& verb);
-
-/// What came of many verbs at once on one cache and one output.
-struct Together {
-    Texts facts; // a sentence each, with its figures
-    Texts faults;
+/// What else is found out: lines of a page, and faults, a sentence each.
+struct Findings {
+    Texts lines, faults;
 };
 
-/// So many runs, scores, gates, merges, reports and prunes of the cache, at the same time.
-Together workTogether(const std::filesystem::path& program, int processes);
+/// Whether what a verb writes outlives a power cut: flushed before it gets its name, and the folder after. A row of a table.
+void checkOrder(Sandbox& sandbox, const Verb& verb, Findings& findings);
 
-/// Tables of verbs and calls, what was said, and all faults, in Markdown.
+/// So many runs, scores, gates, merges, reports and prunes of one cache and one output, at the same time.
+Findings workTogether(const std::filesystem::path& program, int processes);
+
+/// Pages in Markdown: tables of verbs and calls, what was said, and all faults.
 std::string callsReport(const std::vector<Trial>& trials, const std::string& command);
 std::string killsReport(const std::vector<Trial>& trials, const std::string& command);
-std::string orderReport(const std::vector<WriteOrder>& orders, const std::string& command);
-std::string togetherReport(const Together& together, const std::string& command);
+std::string orderReport(const Findings& findings, const std::string& command);
+std::string togetherReport(const Findings& findings, const std::string& command);
 
 } // namespace shadowbench::faults

@@ -63,7 +63,9 @@ TEST_F(Detection, OfAnEnd) {
 
 TEST_F(Detection, OfAFileThatIsWrittenInPlace) {
     Sandbox sandbox = sandboxWith(":");
-    EXPECT_EQ(writeOrderOf(sandbox, verb).faults, Texts{"out/file is written in place"});
+    Findings findings;
+    checkOrder(sandbox, verb, findings);
+    EXPECT_EQ(findings.faults, Texts{"write: out/file is written in place"});
 }
 
 TEST(Spread, HasTheFirstAndTheLast) {
