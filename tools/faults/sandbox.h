@@ -42,7 +42,7 @@ struct Ended {
 };
 
 /// What is in files, by their paths: of records, the lines without what differs from one measurement of a cell to the next,
-/// sorted; of kept truths, whether they are whole; of others, how many lines they have, and how many bytes after the last.
+/// sorted; of others, how many lines they have.
 using Files = std::map<std::string, Texts>;
 
 class Sandbox {
@@ -66,7 +66,7 @@ public:
     /// Temporary files and folders that are left, a sentence each.
     [[nodiscard]] Texts leftovers() const;
     /// Partial files, and records that were there before and are lost, a sentence each.
-    [[nodiscard]] Texts damage(const Verb& verb) const;
+    [[nodiscard]] Texts damage() const;
     /// Why what the verb left is not what it leaves undisturbed; nothing if it is.
     [[nodiscard]] std::optional<std::string> difference(const Verb& verb) const;
     /// A text without the sandbox's own path.

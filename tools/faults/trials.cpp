@@ -58,7 +58,7 @@ Trial disturb(Sandbox& sandbox, const Verb& verb, const Wanted& wanted, std::uin
     for (const char* word : {"terminate called", "Assertion", "filesystem error", "std::bad_alloc", "basic_"})
         if (ended.text.find(word) != std::string::npos) fault("it said: " + ended.text);
     if (ended.strays > 0) fault(fmt::format("{} processes are left", ended.strays));
-    for (const std::string& sentence : sandbox.damage(verb)) fault(sentence);
+    for (const std::string& sentence : sandbox.damage()) fault(sentence);
     if (wanted.signal != SIGKILL) // after which nobody can clear up
         for (const std::string& sentence : sandbox.leftovers()) fault(sentence);
     if (const auto differs = sandbox.difference(verb); ended.code == 0 && differs) fault("it ended with 0, but " + *differs);
@@ -67,7 +67,8 @@ Trial disturb(Sandbox& sandbox, const Verb& verb, const Wanted& wanted, std::uin
     const Ended next = sandbox.run(verb.words);
     if (next.code != 0) fault(fmt::format("the next run ended with {}: {}", next.code, next.text));
     if (const auto differs = sandbox.difference(verb)) fault("the next run: " + *differs);
-    for (const std::string& sentence : sandbox.leftovers()) fault("after the next run, " + sentence);
+    for (const Texts& sentences : {sandbox.damage(), sandbox.leftovers()})
+        for (const std::string& sentence : sentences) fault("after the next run, " + sentence);
     return trial;
 }
 

@@ -39,8 +39,8 @@ protected:
 TEST_F(Detection, OfNoHarmThereIsNoFault) { EXPECT_EQ(tried(":").faults, Texts{}); }
 
 TEST_F(Detection, OfAPartialFile) {
-    const Trial trial = tried("echo a >out/file; echo 'shadowbench: no space'; exit 1");
-    EXPECT_TRUE(has(trial, "out/file is partial"));
+    const Trial trial = tried("echo {\"a\": >out/file.json; echo 'shadowbench: no space'; exit 1");
+    EXPECT_TRUE(has(trial, "out/file.json is partial"));
     EXPECT_EQ(trial.said, "shadowbench: no space");
     EXPECT_EQ(trial.faults.size(), 1U);
 }
