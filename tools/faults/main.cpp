@@ -110,6 +110,7 @@ int run(int argc, char** argv) {
     kills->add_option("--seed", options.seed, "Of the random numbers")->capture_default_str();
     together->add_option("number", options.processes, "Of each at once")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
+    std::signal(SIGINT, SIG_DFL); // a shell lets what it starts in the background ignore it, and so would the verbs
 
     const std::string word = app.get_subcommands().front()->get_name();
     const std::string command = fmt::format("build/release/tools/faults/faults {}", // as it stands in the report

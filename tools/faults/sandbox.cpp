@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/interrupts.h"
 #include "base/launch.h"
 #include "groundtruth/store/cache.h"
 #include "harness/records/record.h"
@@ -127,7 +128,6 @@ Ended Sandbox::disturbed(const Verb& verb, const Wanted& wanted) {
     reset();
     new (plan_.get()) Plan{.wanted = wanted};
     prctl(PR_SET_CHILD_SUBREAPER, 1);
-    std::signal(SIGINT, SIG_DFL); // a shell lets what it starts in the background ignore it
     Texts variables{fmt::format("{}={}", variable, (folder_.path() / "plan").string())};
     if (wanted.point == Point::Allocation) variables.emplace_back("LD_PRELOAD=" FAILING_NEW);
     Ended ended = run(verb.words, variables);
@@ -168,10 +168,11 @@ Ended Sandbox::run(const std::string& words, const Texts& variables) const {
         Clock::now() + std::chrono::minutes(variables.empty() ? 30 : 5); // of many at once, most wait for others
     while (waitpid(pid, &status, WNOHANG) == 0) {
         std::this_thread::sleep_for(tick);
-        if (late || Clock::now() < end) continue;
+        if (late || (Clock::now() < end && !DeferredInterrupts::pending())) continue;
         late = true;
         kill(-pid, SIGKILL);
     }
+    if (DeferredInterrupts::pending()) throw Inconclusive("the trials were interrupted");
     const Finished finished = decoded(status);
     Ended ended{.code = late ? -1 : finished.signal != 0 ? 128 + finished.signal : finished.exitCode};
     ended.text.resize(static_cast<std::size_t>(lseek(output.get(), 0, SEEK_END)));

@@ -2,6 +2,7 @@
 #include "base/temporary_folder.h"
 #include "tools/faults/trials.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
