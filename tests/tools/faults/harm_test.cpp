@@ -13,7 +13,10 @@ namespace {
 
 class Faults : public testing::Test {
 protected:
-    static void SetUpTestSuite() { sandbox_ = std::make_unique<Sandbox>(PROGRAM, verbsNamed({"run", "merge", "score"})); }
+    static void SetUpTestSuite() {
+        std::signal(SIGINT, SIG_DFL); // a shell lets what it starts in the background ignore it, and so would the verbs
+        sandbox_ = std::make_unique<Sandbox>(PROGRAM, verbsNamed({"run", "merge", "score"}));
+    }
     static void TearDownTestSuite() { sandbox_.reset(); }
 
     static Verb verb(const std::string& name) { return verbsNamed({name}).front(); }
