@@ -1,6 +1,7 @@
 #include "base/descriptor.h"
 
 #include "base/error.h"
+#include "base/faults.h"
 
 #include <array>
 #include <cerrno>
@@ -19,7 +20,7 @@ bool isStillNamed(int descriptor, const std::filesystem::path& path) {
 
 std::pair<Descriptor, Descriptor> makeSockets() {
     std::array<int, 2> ends{};
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    if (faults::fails(faults::Point::Pipe) || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
         throw Inconclusive("cannot speak to another process: " + std::generic_category().message(errno));
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }

@@ -2,6 +2,7 @@
 
 #include "base/descriptor.h"
 #include "base/error.h"
+#include "base/faults.h"
 #include "base/interrupts.h"
 #include "base/limits.h"
 #include "base/live_files.h"
@@ -25,6 +26,8 @@
 
 namespace shadowbench {
 namespace fs = std::filesystem;
+using faults::fails;
+using faults::Point;
 namespace {
 
 [[noreturn]] void failToWrite(const fs::path& file, std::string_view reason, Failure failure) {
@@ -61,9 +64,9 @@ void removeLeftovers(const fs::path& folder) {
 
 /// Waits until what is in the file or folder is on the disk; 0, or why that failed.
 int flush(const fs::path& path, int flags) {
-    const Descriptor descriptor(::open(path.c_str(), flags | O_RDONLY | O_CLOEXEC));
+    const Descriptor descriptor(fails(Point::Open, path.c_str()) ? -1 : ::open(path.c_str(), flags | O_RDONLY | O_CLOEXEC));
     if (descriptor.get() < 0) return errno;
-    return ::fsync(descriptor.get()) == 0 ? 0 : errno;
+    return !fails(Point::Fsync, path.c_str()) && ::fsync(descriptor.get()) == 0 ? 0 : errno;
 }
 
 /// So that the names in `folder` outlive a power cut, too; 0, or why they may not. Some file systems cannot flush a folder,
@@ -94,6 +97,7 @@ public:
         const std::string stem = target.stem().string().substr(0, longestStem);
         const std::string name = (target.parent_path() / fmt::format(".{}{}{}{}", stem, mark, unique, extension)).string();
         do {
+            if (fails(Point::Open, name.c_str())) failToWrite(target, errno);
             std::string made = name;
             descriptor_ = Descriptor(::mkostemps(made.data(), static_cast<int>(extension.size()), O_CLOEXEC));
             if (descriptor_.get() < 0) failToWrite(target, errno);
@@ -112,7 +116,8 @@ public:
     /// `lasting`: it outlives a power cut, in which a file that was renamed before it was on the disk can be left empty.
     void moveToTarget(bool lasting) {
         if (const int failed = lasting ? flush(path_.text, 0) : 0; failed != 0) failToWrite(target_, failed);
-        if (::rename(path_.text.c_str(), target_.c_str()) != 0) failToWrite(target_, errno);
+        if (fails(Point::Rename, target_.c_str(), path_.text.c_str()) || ::rename(path_.text.c_str(), target_.c_str()) != 0)
+            failToWrite(target_, errno);
         path_.text.clear();
         live_.reset();
         if (const int failed = lasting ? flushFolder(target_.parent_path()) : 0; failed != 0) failToWrite(target_, failed);
@@ -127,9 +132,11 @@ private:
 };
 
 void writeWhole(const fs::path& path, const fs::path& target, std::string_view content) {
-    std::FILE* stream = std::fopen(path.c_str(), "wb");
+    std::FILE* stream = fails(Point::Open, path.c_str()) ? nullptr : std::fopen(path.c_str(), "wb");
     if (stream == nullptr) failToWrite(target, errno);
-    int failed = std::fwrite(content.data(), 1, content.size(), stream) == content.size() ? 0 : errno;
+    const bool written =
+        !fails(Point::Write, path.c_str()) && std::fwrite(content.data(), 1, content.size(), stream) == content.size();
+    int failed = written ? 0 : errno;
     if (std::fclose(stream) != 0 && failed == 0) failed = errno;
     if (failed != 0) failToWrite(target, failed);
 }
@@ -207,8 +214,11 @@ std::string readFile(const fs::path& file) {
     std::error_code failure;
     if (fs::is_directory(file, failure))
         throw BadInput(fmt::format("cannot read {}: it is a folder; name a file", file.string()));
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
+    std::ifstream stream;
+    if (!fails(Point::Open, file.c_str())) {
+        errno = 0;
+        stream.open(file, std::ios::binary);
+    }
     const std::uint64_t most = limitOf(Limit::TextMib) << 20U; // of a device there is no end
     std::string text;
     for (std::array<char, 1 << 16> block{}; stream.good();) {

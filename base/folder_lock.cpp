@@ -1,6 +1,7 @@
 #include "base/folder_lock.h"
 
 #include "base/error.h"
+#include "base/faults.h"
 #include "base/files.h"
 #include "base/interrupts.h"
 
@@ -39,7 +40,8 @@ FolderLock::FolderLock(const fs::path& folder, const std::function<void()>& onWa
     for (int attempt = 0; attempt < mostAttempts; ++attempt) {
         std::error_code failed;
         if (std::vector<fs::path> made = makeFolders(folder, failed); !made.empty()) made_ = std::move(made);
-        if (!failed) folder_ = Descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+        const bool fails = !failed && faults::fails(faults::Point::Open, folder.c_str());
+        if (!failed) folder_ = Descriptor(fails ? -1 : open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
         const int error = failed ? failed.value() : folder_.get() < 0 ? errno : 0;
         if (error == ENOENT) continue; // another process has removed it meanwhile
         if (error != 0) return;

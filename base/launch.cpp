@@ -1,6 +1,7 @@
 #include "base/launch.h"
 
 #include "base/error.h"
+#include "base/faults.h"
 #include "base/marked_processes.h"
 
 #include <array>
@@ -19,6 +20,8 @@
 #include <unistd.h>
 
 namespace shadowbench {
+using faults::fails;
+using faults::Point;
 namespace {
 
 std::string reason(int error) { return std::generic_category().message(error); }
@@ -50,12 +53,13 @@ int startError(int fd) {
 
 std::pair<Descriptor, Descriptor> makePipe() {
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Inconclusive("cannot start a program: " + reason(errno));
+    if (fails(Point::Pipe) || pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw Inconclusive("cannot start a program: " + reason(errno));
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
 Descriptor openNothing() {
-    Descriptor nothing(open("/dev/null", O_RDONLY | O_CLOEXEC));
+    Descriptor nothing(fails(Point::Open, "/dev/null") ? -1 : open("/dev/null", O_RDONLY | O_CLOEXEC));
     if (nothing.get() < 0) throw Inconclusive("cannot start a program: /dev/null: " + reason(errno));
     return nothing;
 }
@@ -67,8 +71,11 @@ Launch::Launch(const Command& c, const std::string& mark) : command(c) {
     variables = c.environment.value_or(
         std::vector<std::string>{"HOME=" + c.folder.string(), "TMPDIR=" + c.folder.string(), "LC_ALL=C",
                                  std::string("PATH=") + (path != nullptr ? path : "/usr/bin:/bin")});
-    for (const std::string& name : c.inherited)
+    const auto inherit = [&](const std::string& name) {
         if (const char* value = std::getenv(name.c_str())) variables.push_back(name + "=" + value);
+    };
+    for (const std::string& name : c.inherited) inherit(name);
+    inherit(faults::variable);
     if (c.threads) variables.push_back(fmt::format("SHADOWBENCH_THREADS={}", *c.threads));
     if (!mark.empty()) variables.push_back(mark);
     for (std::string& word : words) argv.push_back(word.data());
@@ -102,7 +109,7 @@ void Launch::exec(pid_t parent, int input, int output, int error, int failure) c
 pid_t start(const Launch& launch, int input, int output, int error) {
     auto [failure, failureEnd] = makePipe();
     const pid_t parent = getpid();
-    const pid_t pid = fork();
+    const pid_t pid = fails(Point::Fork, launch.argv.front()) ? -1 : fork();
     if (pid < 0) {
         const int reasonNumber = errno;
         throw Inconclusive(fmt::format("cannot start {}: {}", launch.command.program.string(), reason(reasonNumber)),

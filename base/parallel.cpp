@@ -1,7 +1,10 @@
 #include "base/parallel.h"
 
+#include "base/faults.h"
+
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
@@ -52,7 +55,10 @@ void inParallel(int count, int threads, const Progress& progress, std::string_vi
     {
         std::vector<std::jthread> others;
         try {
-            for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(loop, false);
+            for (int i = 1; i < std::min(threads, count); ++i) {
+                if (faults::fails(faults::Point::Thread)) throw std::system_error(errno, std::generic_category());
+                others.emplace_back(loop, false);
+            }
         } catch (const std::system_error&) { // the system has no more threads: those there are do the work
         }
         loop(true);

@@ -2,6 +2,7 @@
 
 #include "base/descriptor.h"
 #include "base/error.h"
+#include "base/faults.h"
 #include "base/interrupts.h"
 #include "base/launch.h"
 #include "base/marked_processes.h"
@@ -30,7 +31,8 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 /// A file in `folder` that is gone when nobody has it open.
 Descriptor openNameless(const std::filesystem::path& folder) {
-    Descriptor file(open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR));
+    const bool fails = faults::fails(faults::Point::Open, folder.c_str());
+    Descriptor file(fails ? -1 : open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR));
     if (file.get() < 0) throw Inconclusive(fmt::format("cannot start a program: {}: {}", folder.string(), reason(errno)));
     return file;
 }

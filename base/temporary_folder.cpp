@@ -2,6 +2,7 @@
 
 #include "base/descriptor.h"
 #include "base/error.h"
+#include "base/faults.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -22,8 +23,7 @@ constexpr std::string_view unique = "XXXXXX"; // replaced by mkdtemp
 
 int openFolder(const fs::path& folder) { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC); }
 
-[[noreturn]] void failToMake(const fs::path& parent) {
-    const int error = errno;
+[[noreturn]] void failToMake(const fs::path& parent, int error) {
     throw Inconclusive(fmt::format("cannot make a temporary folder in {}: {}; free some space or set TMPDIR",
                                    parent.string(), std::generic_category().message(error)),
                        failureOf(error));
@@ -31,7 +31,7 @@ int openFolder(const fs::path& folder) { return ::open(folder.c_str(), O_RDONLY 
 
 fs::path makeFolder(const fs::path& parent) {
     std::string name = (parent / prefix).string().append(unique);
-    if (mkdtemp(name.data()) == nullptr) failToMake(parent);
+    if (mkdtemp(name.data()) == nullptr) failToMake(parent, errno);
     return name;
 }
 
@@ -67,8 +67,11 @@ TemporaryFolder::TemporaryFolder() {
     do {
         if (lock_ >= 0) ::close(lock_);
         path_ = makeFolder(parent);
-        lock_ = openFolder(path_);
-        if (lock_ < 0 && errno != ENOENT) failToMake(parent);
+        lock_ = faults::fails(faults::Point::Open, path_.c_str()) ? -1 : openFolder(path_);
+        if (const int reason = errno; lock_ < 0 && reason != ENOENT) {
+            ::rmdir(path_.c_str()); // the destructor is not called
+            failToMake(parent, reason);
+        }
         // Where the file system has no locks, nobody can take the folder for abandoned either.
         flock(lock_, LOCK_EX);
     } while (!isStillNamed(lock_, path_)); // another process may have taken it for a dead one's

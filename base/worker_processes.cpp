@@ -2,6 +2,7 @@
 
 #include "base/descriptor.h"
 #include "base/error.h"
+#include "base/faults.h"
 #include "base/interrupts.h"
 #include "base/parallel.h"
 
@@ -136,7 +137,7 @@ private:
     Worker(const SharedWork& work, int workers, std::pair<Descriptor, Descriptor> ends) : socket_(std::move(ends.first)) {
         std::fflush(nullptr); // or what is buffered would be written by the worker as well
         const pid_t parent = getpid();
-        process_ = fork();
+        process_ = faults::fails(faults::Point::Fork) ? -1 : fork();
         if (process_ == 0) answerItems(ends.second.get(), parent, workers, work);
         const int reason = errno;
         if (process_ < 0)

@@ -1,6 +1,7 @@
 #include "base/confined/opened_files.h"
 
 #include "base/error.h"
+#include "base/faults.h"
 #include "base/limits.h"
 
 #include <algorithm>
@@ -52,7 +53,8 @@ std::vector<std::string> stepsOf(const fs::path& folder, const std::string& name
 
 OpenedFile openRegular(const fs::path& file, const std::string& doing) {
     // Without waiting for whoever would write into a pipe of that name.
-    Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    const bool fails = faults::fails(faults::Point::Open, file.c_str());
+    Descriptor descriptor(fails ? -1 : ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (descriptor.get() < 0) fail(file, std::strerror(errno), doing);
     return checked(std::move(descriptor), file, file.filename().string());
 }

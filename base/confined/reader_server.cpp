@@ -3,6 +3,7 @@
 #include "base/confined/handshake.h"
 #include "base/confined/passed_descriptors.h"
 #include "base/error.h"
+#include "base/faults.h"
 #include "base/launch.h"
 
 #include <array>
@@ -37,7 +38,7 @@ std::filesystem::path thisProgram() {
 /// Of whole messages: processes that are forked later share the server, and may ask at once.
 std::pair<Descriptor, Descriptor> makeRequestSockets() {
     std::array<int, 2> ends{};
-    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    if (faults::fails(faults::Point::Pipe) || ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
         throw Inconclusive("cannot start a reader: " + std::generic_category().message(errno), failureOf(errno));
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
@@ -104,7 +105,7 @@ struct Watched {
 
 /// Forks the process of one file.
 pid_t forkReader(pid_t server, const Descriptor& conversation, const std::function<void()>& serve) {
-    const pid_t process = ::fork();
+    const pid_t process = faults::fails(faults::Point::Fork) ? -1 : ::fork();
     if (process != 0) return process;
     dieWith(server);
     ::dup2(conversation.get(), theSocket);

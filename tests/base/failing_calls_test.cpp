@@ -73,6 +73,17 @@ TEST_F(FailingCalls, OfReadingAreSaid) {
               "cannot read " + file_.string() + ": Permission denied");
 }
 
+TEST_F(FailingCalls, OfATemporaryFolderLeaveNone) {
+    const std::string said = saidWhere(failingOpen(EMFILE, O_NOFOLLOW | O_DIRECTORY, O_NOFOLLOW | O_DIRECTORY), [&] {
+        ::setenv("TMPDIR", folder_.path().c_str(), 1);
+        const TemporaryFolder folder;
+        return std::string();
+    });
+    EXPECT_EQ(said, "cannot make a temporary folder in " + folder_.path().string() +
+                        ": Too many open files; free some space or set TMPDIR");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "the file that was there";
+}
+
 TEST_F(FailingCalls, OfSocketsAreSaid) {
     EXPECT_EQ(saidWhere({SCMP_SYS(socketpair), EMFILE},
                         [&] {

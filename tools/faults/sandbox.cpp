@@ -1,23 +1,36 @@
 #include "tools/faults/sandbox.h"
 
+#include "base/descriptor.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "base/process.h"
+#include "base/image_io.h"
+#include "base/interrupts.h"
+#include "base/launch.h"
+#include "groundtruth/store/cache.h"
 #include "harness/records/record.h"
 #include "harness/runs/merge.h"
-#include "tools/faults/whole_files.h"
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <set>
+#include <fstream>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
 
 namespace shadowbench::faults {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view shaderCache = "cache/shaders/"; // Mesa's own
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds tick{2};
 
 std::string sceneWith(const std::string& light) {
     return "# A box over a slab.\ntitle = \"Box\"\nsize = [32, 32]\nreference_samples = 16\n"
@@ -28,148 +41,194 @@ std::string sceneWith(const std::string& light) {
            "[[object]]\nmesh = { box = { size = [1.6, 0.4, 1.2] } }\nplace = [{ at = [0.13, 1.2, 0.21] }]\n";
 }
 
-/// Of records, what two measurements of one cell have in common.
-std::vector<std::string> comparable(const fs::path& records) {
-    std::vector<std::string> lines;
-    for (const Record& record : readRecords(records)) lines.push_back(toJson(shards::withoutTimings(record)));
+/// Waits for orphans to end, then kills them; how many there were to kill.
+int endOrphans(std::chrono::milliseconds patience) {
+    const auto end = Clock::now() + patience;
+    while (waitpid(-1, nullptr, WNOHANG) >= 0 && Clock::now() < end) std::this_thread::sleep_for(tick);
+    std::ifstream list(fmt::format("/proc/self/task/{}/children", gettid()));
+    int killed = 0;
+    for (pid_t child = 0; list >> child; ++killed) kill(child, SIGKILL);
+    while (killed > 0 && waitpid(-1, nullptr, 0) >= 0) {
+    }
+    return killed;
+}
+
+bool isRecords(const std::string& file) { return file.ends_with("results.jsonl") || file.ends_with("sweep.jsonl"); }
+
+/// See Files.
+Texts contentOf(const fs::path& file) {
+    if (!isRecords(file)) return {fmt::format("{} lines", std::ranges::count(readFile(file), '\n'))};
+    Texts lines;
+    for (const Record& record : readRecords(file)) lines.push_back(toJson(shards::withoutTimings(record)));
     std::ranges::sort(lines);
     return lines;
 }
 
-/// Files below `folder`, from it, but for temporary ones.
-std::vector<std::string> filesBelow(const fs::path& folder) {
-    std::vector<std::string> files;
-    if (!fs::exists(folder)) return files;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file() && !isTemporary(entry.path()))
-            files.push_back(entry.path().lexically_relative(folder).string());
-    std::ranges::sort(files);
-    return files;
+/// Whether a file is whole, by what its format says of its own end. Throws where a reader of the format says what is
+/// damaged.
+bool isWhole(const fs::path& file) {
+    static const std::map<std::string, std::string> ends{
+        {".html", "</html>"}, {".svg", "</svg>"}, {".pdf", "%%EOF"}, {".xml", ">"}};
+    const std::string kind = file.extension().string();
+    if (kind == ".exr" || kind == ".png") return readChannel(file, 0).size() > 0;
+    if (kind == ".ref") return !groundtruth::damage({file.stem().string().substr(0, 32), file, 0, {}});
+    std::string text = readFile(file);
+    if (kind == ".json" || kind == ".gltf") return nlohmann::json::accept(text);
+    if (kind == ".jsonl") { // each line by itself
+        std::istringstream lines(text);
+        bool whole = text.ends_with('\n');
+        for (std::string line; std::getline(lines, line);) whole = whole && nlohmann::json::accept(line);
+        return whole;
+    }
+    text.erase(text.find_last_not_of("\r\n") + 1);
+    return !text.empty() && (!ends.contains(kind) || text.ends_with(ends.at(kind)));
 }
 
 } // namespace
 
 Sandbox::Sandbox(fs::path program, const std::vector<Verb>& verbs)
     : program_(std::move(program)), work_(fs::canonical(folder_.path()) / "work"),
-      before_(fs::canonical(folder_.path()) / "before") {
+      kept_(fs::canonical(folder_.path()) / "kept") {
     fs::create_directories(work_ / "tmp");
+    writeFile(folder_.path() / "plan", "");
+    fs::resize_file(folder_.path() / "plan", sizeof(Plan));
+    plan_.reset(mapPlan((folder_.path() / "plan").c_str()));
+    if (!plan_) throw InternalError("cannot map a plan of faults");
     writeFile(work_ / "point.toml", sceneWith("{ kind = \"point\", centre = [1.7, 6.1, -2.3] }"));
     writeFile(work_ / "area.toml",
               sceneWith("{ kind = \"rectangle\", centre = [1.7, 6.1, -2.3], u = [0.9, 0, 0], v = [0, 0, 0.9] }"));
-    writeFile(work_ / "bounds.toml", "");
-    const std::vector<std::string> run{"run",        "--quiet", "--cost", "none",        "--scene",
-                                       "point.toml", "--cache", "cache",  "--technique", "pcf"};
-    const auto with = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words = run;
-        words.insert(words.end(), more.begin(), more.end());
-        return words;
+    writeFile(work_ / "bounds.toml", "# none\n");
+    const auto require = [&](const std::string& words) {
+        const Ended ended = run(words);
+        if (ended.code != 0)
+            throw InternalError(fmt::format("undisturbed, {} ends with {}: {}", words, ended.code, ended.text));
     };
-    prepare(with({"--technique", "sm-uniform", "--images", "--out", "base"}));
-    prepare(with({"--out", "half"}));
-    prepare(with({"--technique", "sm-uniform", "--shard", "1/1", "--out", "parts"}));
-    prepare({"score", "--quiet", "--scene", "point.toml", "--image", "base/images/point/pcf/visibility.exr", "--definition",
-             "hard", "--name", "earlier", "--out", "rows", "--cache", "cache"});
-    fs::copy(work_, before_, fs::copy_options::recursive);
+    const std::string pcf = "run --quiet --cost none --scene point.toml --cache cache --technique pcf ";
+    require(pcf + "--technique sm-uniform --images --out base");
+    require(pcf + "--out half");
+    require(pcf + "--technique sm-uniform --shard 1/1 --out parts");
+    require("score --quiet --scene point.toml --image base/images/point/pcf/visibility.exr --definition hard --name earlier "
+            "--cache cache --out rows");
+    fs::copy(work_, kept_, fs::copy_options::recursive);
+    before_ = files();
     for (const Verb& verb : verbs) {
         reset();
-        const Ended ended = runPlain(verb.arguments);
-        if (ended.code != 0)
-            throw InternalError(fmt::format("undisturbed, {} ends with {}: {}", verb.name, ended.code, ended.errors));
-        expected_[verb.name] = {verb.records.empty() ? std::vector<std::string>() : comparable(work_ / verb.records),
-                                filesBelow(work_ / verb.out)};
+        require(verb.words);
+        expected_[verb.name] = files();
     }
     reset();
 }
 
-void Sandbox::prepare(const std::vector<std::string>& arguments) const {
-    const Ended ended = runPlain(arguments);
-    if (ended.code != 0)
-        throw InternalError(fmt::format("{} ends with {}: {}", fmt::join(arguments, " "), ended.code, ended.errors));
-}
-
-void Sandbox::reset() {
+void Sandbox::reset() const {
     fs::remove_all(work_);
-    fs::copy(before_, work_, fs::copy_options::recursive);
+    fs::copy(kept_, work_, fs::copy_options::recursive);
 }
 
-std::vector<std::string> Sandbox::environment() const {
-    const char* path = std::getenv("PATH");
-    return {"HOME=" + work_.string(), "TMPDIR=" + (work_ / "tmp").string(), "LC_ALL=C",
-            "PATH=" + (work_ / "bin").string() + ":" + (path != nullptr ? path : "/usr/bin:/bin")};
-}
-
-Ended Sandbox::run(const Verb& verb, const Decide& decide, const std::vector<std::string>& variables) const {
-    Job job{.program = program_, .arguments = verb.arguments, .folder = work_, .variables = environment()};
-    job.variables.insert(job.variables.end(), variables.begin(), variables.end());
-    return supervise(job, decide);
-}
-
-Ended Sandbox::runPlain(const std::vector<std::string>& arguments) const {
-    Command command{.program = program_, .arguments = arguments, .folder = work_};
-    command.limit = std::chrono::minutes(30); // of which most may be a wait for the others
-    command.cpuLimit.reset();
-    command.openFiles.reset();
-    command.memoryLimit.reset();
-    command.environment = environment();
-    Ended ended;
-    const Finished finished = runProcess(command, [&](std::string_view line) { (ended.errors += line) += '\n'; });
-    ended.code = finished.signal != 0 ? 128 + finished.signal : finished.exitCode;
-    ended.late = finished.timedOut;
+Ended Sandbox::disturbed(const Verb& verb, const Wanted& wanted) {
+    reset();
+    new (plan_.get()) Plan{.wanted = wanted};
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+    Texts variables{fmt::format("{}={}", variable, (folder_.path() / "plan").string())};
+    if (wanted.point == Point::Allocation) variables.emplace_back("LD_PRELOAD=" FAILING_NEW);
+    Ended ended = run(verb.words, variables);
+    ended.strays = endOrphans(patience);
+    std::ranges::copy(plan_->counts, ended.counts.begin());
+    if (plan_->logged > plan_->log.size()) throw InternalError(verb.name + " comes to more points than a plan has room for");
+    std::istringstream lines(std::string(plan_->log.data(), plan_->logged));
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream fields(line);
+        std::string point, in, path, from;
+        for (std::string* field : {&point, &in, &path, &from}) std::getline(fields, *field, '\t');
+        const bool isWanted = point.starts_with('!');
+        const auto whole = [&](const std::string& p) { return shown((fs::path(in) / p).lexically_normal()); };
+        ended.passed.push_back({point.substr(isWanted ? 1 : 0), whole(path), whole(from), isWanted});
+    }
     return ended;
 }
 
-std::vector<std::string> Sandbox::damage(bool killed) const {
-    std::vector<std::string> sentences;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(work_)) {
-        const std::string file = entry.path().lexically_relative(work_).string();
-        if (!entry.is_regular_file() || file.starts_with(shaderCache) || file.starts_with("tmp/") || file == "bounds.toml")
-            continue;
-        if (isTemporary(entry.path())) {
-            if (!killed) sentences.push_back(file + " is left");
-        } else if (const auto what = partial(entry.path())) {
-            sentences.push_back(file + " is partial: " + *what);
-        }
+Ended Sandbox::run(const std::string& words, const Texts& variables) const {
+    Command command{.program = program_, .arguments = {}, .folder = work_};
+    std::istringstream stream(words);
+    for (std::string word; stream >> word;) command.arguments.push_back(word);
+    command.cpuLimit.reset();
+    command.openFiles.reset();
+    command.memoryLimit.reset();
+    const char* path = std::getenv("PATH");
+    command.environment =
+        Texts{"HOME=" + work_.string(), "TMPDIR=" + (work_ / "tmp").string(), "LC_ALL=C",
+              fmt::format("PATH={}:{}", (work_ / "bin").string(), path != nullptr ? path : "/usr/bin:/bin")};
+    command.environment->insert(command.environment->end(), variables.begin(), variables.end());
+    const Launch launch(command);
+    const Descriptor output(memfd_create("output", MFD_CLOEXEC));
+    // Not runProcess: it kills the whole group in the end, and so would hide a process that is left.
+    const pid_t pid = start(launch, openNothing().get(), output.get(), output.get());
+    int status = 0;
+    bool late = false;
+    const auto end =
+        Clock::now() + std::chrono::minutes(variables.empty() ? 30 : 5); // of many at once, most wait for others
+    while (waitpid(pid, &status, WNOHANG) == 0) {
+        std::this_thread::sleep_for(tick);
+        if (late || (Clock::now() < end && !DeferredInterrupts::pending())) continue;
+        late = true;
+        kill(-pid, SIGKILL);
     }
-    return sentences;
+    if (DeferredInterrupts::pending()) throw Inconclusive("the trials were interrupted");
+    const Finished finished = decoded(status);
+    Ended ended{.code = late ? -1 : finished.signal != 0 ? 128 + finished.signal : finished.exitCode};
+    ended.text.resize(static_cast<std::size_t>(lseek(output.get(), 0, SEEK_END)));
+    if (pread(output.get(), ended.text.data(), ended.text.size(), 0) < 0)
+        throw InternalError("cannot read what was printed");
+    return ended;
 }
 
-std::vector<std::string> Sandbox::leftFolders() const {
-    std::vector<std::string> left;
-    for (const fs::directory_entry& entry : fs::directory_iterator(work_ / "tmp"))
-        left.push_back("tmp/" + entry.path().filename().string() + " is left");
+Files Sandbox::files() const {
+    Files files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(work_)) {
+        const std::string file = entry.path().lexically_relative(work_).string();
+        const bool isOurs = !file.starts_with("tmp/") && !file.starts_with("cache/shaders/"); // the latter are Mesa's
+        if (!entry.is_regular_file() || isTemporary(file) || !isOurs) continue;
+        try {
+            files[file] = contentOf(entry.path());
+        } catch (const Error& error) {
+            files[file] = {error.what()};
+        }
+    }
+    return files;
+}
+
+Texts Sandbox::leftovers() const {
+    Texts left;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(work_)) {
+        const std::string file = entry.path().lexically_relative(work_).string();
+        if (file.starts_with("tmp/") || isTemporary(file)) left.push_back(file + " is left");
+    }
     return left;
 }
 
-std::optional<std::string> Sandbox::difference(const Verb& verb) const {
-    const Expected& expected = expected_.at(verb.name);
-    const std::vector<std::string> files = filesBelow(work_ / verb.out);
-    for (const std::string& file : expected.files)
-        if (!std::ranges::binary_search(files, file)) return verb.out + "/" + file + " is missing";
-    if (verb.records.empty()) return {};
-    try {
-        const std::vector<std::string> records = comparable(work_ / verb.records);
-        if (records.size() != expected.records.size())
-            return fmt::format("there are {} records, not {}", records.size(), expected.records.size());
-        for (std::size_t i = 0; i < records.size(); ++i)
-            if (records[i] != expected.records[i]) return "a record differs: " + records[i] + " from " + expected.records[i];
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
+Texts Sandbox::damage() const {
+    Texts sentences;
+    const Files now = files();
+    for (const auto& [file, content] : now) try {
+            if (!isWhole(work_ / file)) sentences.push_back(file + " is partial");
+        } catch (const Error& error) {
+            sentences.push_back(fmt::format("{} is partial: {}", file, error.what()));
+        }
+    for (const auto& [file, content] : before_)
+        if (isRecords(file) && (!now.contains(file) || !std::ranges::includes(now.at(file), content)))
+            sentences.push_back("a record of " + file + " is lost");
+    return sentences;
 }
 
-std::vector<std::string> Sandbox::lostRows(const Verb& verb) const {
-    std::set<std::string> there;
-    std::vector<std::string> lost;
-    if (verb.keeps.empty()) return lost;
-    try {
-        for (const Record& record : readRecords(work_ / verb.records)) there.insert(record.technique);
-    } catch (const Error& error) {
-        lost.emplace_back(error.what());
+std::optional<std::string> Sandbox::difference(const Verb& verb) const {
+    const Files now = files();
+    for (const auto& [file, content] : expected_.at(verb.name)) {
+        if (!file.starts_with(verb.out())) continue; // what is kept in the cache may be kept by another name
+        if (!now.contains(file)) return file + " is missing";
+        if (now.at(file) != content)
+            return fmt::format("{} is \"{}\" and should be \"{}\"", file, fmt::join(now.at(file), " "),
+                               fmt::join(content, " "));
     }
-    for (const std::string& row : verb.keeps)
-        if (!there.contains(row)) lost.push_back(fmt::format("the record of {} is lost", row));
-    return lost;
+    return {};
 }
 
 std::string Sandbox::shown(std::string text) const {

@@ -1,32 +1,49 @@
-// A folder in which verbs of the program are run, harmed, and run again: everything they need is there before, and what they
-// leave is checked.
+// A folder in which verbs of the program are run, disturbed, and run again: everything they need is there before, and what
+// they leave is checked.
 #pragma once
 
+#include "base/faults.h"
 #include "base/temporary_folder.h"
-#include "tools/faults/supervised.h"
 
+#include <chrono>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <sys/mman.h>
 #include <vector>
 
 namespace shadowbench::faults {
 
-/// A verb with what it is given. Files are named from the sandbox's folder, in which it starts.
+using Texts = std::vector<std::string>;
+
+/// A verb with its command line, which starts in the sandbox's folder and names its output last.
 struct Verb {
-    std::string name;
-    std::vector<std::string> arguments; // the verb's own name first
-    std::string out;                    // folder that it writes
-    std::string records;                // file of records in it; "": none
-    std::vector<std::string> keeps;     // rows, by technique, that are in the records before it starts
+    std::string name, words; // words: separated by spaces
+    [[nodiscard]] std::string out() const { return words.substr(words.rfind(' ') + 1) + "/"; }
 };
 
-/// The verbs that write, on a scene of a few pixels.
-std::vector<Verb> writingVerbs();
+/// The verbs that write, on a scene of a few pixels: those with these names; all for none.
+std::vector<Verb> verbsNamed(const Texts& names);
 
-/// The ones with these names, in the order of the names; all for none. Throws BadInput naming one that there is not.
-std::vector<Verb> verbsNamed(const std::vector<std::string>& names);
+/// A fault point that the program has come to (base/faults.h); of a relative path, from the sandbox's folder.
+struct Passed {
+    std::string point, path, from;
+    bool isWanted = false; // it failed, or a signal was sent
+};
+
+struct Ended {
+    int code = 0;       // or 128 + signal; −1: it was killed after its limit
+    std::string text{}; // that it printed
+    int strays = 0;     // processes that outlived it, and were killed
+    Counts counts{};
+    std::vector<Passed> passed{}; // all points but allocations
+};
+
+/// What is in files, by their paths: of records, the lines without what differs from one measurement of a cell to the next,
+/// sorted; of others, how many lines they have.
+using Files = std::map<std::string, Texts>;
 
 class Sandbox {
 public:
@@ -36,35 +53,39 @@ public:
 
     [[nodiscard]] const std::filesystem::path& folder() const { return work_; }
 
-    /// As it was before any verb was run.
-    void reset();
+    /// Runs a verb where none has been run before, with its fault points counted, and with the disturbance that is wanted;
+    /// until all processes that it has started have ended. This process becomes the parent of orphans, and should have no
+    /// other children.
+    Ended disturbed(const Verb& verb, const Wanted& wanted);
+    /// Runs a command line as a user does; as many as one likes at a time.
+    [[nodiscard]] Ended run(const std::string& words, const Texts& variables = {}) const;
 
-    [[nodiscard]] Ended run(const Verb& verb, const Decide& decide, const std::vector<std::string>& variables = {}) const;
-    /// Without a supervisor's ado, as many as one likes at a time.
-    [[nodiscard]] Ended runPlain(const std::vector<std::string>& arguments) const;
-
-    /// What is wrong with the files that are there, a sentence each: partial ones, and temporary ones unless `killed`.
-    [[nodiscard]] std::vector<std::string> damage(bool killed) const;
-    /// Temporary folders that are left.
-    [[nodiscard]] std::vector<std::string> leftFolders() const;
-    /// Why the verb's records and files are not those of an undisturbed run, but for times; nothing if they are.
+    [[nodiscard]] Files files() const;
+    /// What was there before any verb.
+    [[nodiscard]] const Files& before() const { return before_; }
+    /// Temporary files and folders that are left, a sentence each.
+    [[nodiscard]] Texts leftovers() const;
+    /// Partial files, and records that were there before and are lost, a sentence each.
+    [[nodiscard]] Texts damage() const;
+    /// Why what the verb left is not what it leaves undisturbed; nothing if it is.
     [[nodiscard]] std::optional<std::string> difference(const Verb& verb) const;
-    /// Which of the rows that were there before the verb are gone.
-    [[nodiscard]] std::vector<std::string> lostRows(const Verb& verb) const;
     /// A text without the sandbox's own path.
     [[nodiscard]] std::string shown(std::string text) const;
 
-private:
-    [[nodiscard]] std::vector<std::string> environment() const;
-    void prepare(const std::vector<std::string>& arguments) const;
+    std::chrono::milliseconds patience{20'000}; // for what a verb has started to end after it
 
+private:
+    void reset() const;
+
+    struct Unmap {
+        void operator()(Plan* plan) const { munmap(plan, sizeof(Plan)); }
+    };
     std::filesystem::path program_;
     TemporaryFolder folder_;
-    std::filesystem::path work_, before_; // the second: a copy of what is there before any verb is run
-    struct Expected {
-        std::vector<std::string> records, files;
-    };
-    std::map<std::string, Expected> expected_; // by verb
+    std::filesystem::path work_, kept_; // the second: a copy of what is there before any verb is run
+    std::unique_ptr<Plan, Unmap> plan_;
+    Files before_;
+    std::map<std::string, Files> expected_; // by verb
 };
 
 } // namespace shadowbench::faults

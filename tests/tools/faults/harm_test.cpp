@@ -1,8 +1,5 @@
 // A small fixed selection of what tools/faults tries: failing calls, kills, the order of writes, work at the same time.
-#include "tests/support/program.h"
-#include "tools/faults/kills.h"
-#include "tools/faults/together.h"
-#include "tools/faults/write_order.h"
+#include "tools/faults/trials.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -14,31 +11,27 @@
 namespace shadowbench::faults {
 namespace {
 
-/// Whether the caller has the time.
-bool wanted() { return std::getenv("SHADOWBENCH_FAULTS") != nullptr; }
-
 class Faults : public testing::Test {
 protected:
     static void SetUpTestSuite() {
-        if (wanted() && canSupervise()) sandbox_ = std::make_unique<Sandbox>(PROGRAM, verbsNamed({"run", "merge", "score"}));
+        std::signal(SIGINT, SIG_DFL); // a shell lets what it starts in the background ignore it, and so would the verbs
+        sandbox_ = std::make_unique<Sandbox>(PROGRAM, verbsNamed({"run", "merge", "score"}));
     }
     static void TearDownTestSuite() { sandbox_.reset(); }
-    void SetUp() override {
-        if (!wanted()) GTEST_SKIP() << "set SHADOWBENCH_FAULTS=1: on a busy machine this takes minutes";
-        if (!sandbox_) GTEST_SKIP() << "this system lets no program be supervised (seccomp)";
-    }
 
     static Verb verb(const std::string& name) { return verbsNamed({name}).front(); }
 
-    /// The middle one of the verb's calls of that kind.
-    static Trial failed(const std::string& verbName, Kind kind) {
-        const std::uint64_t count = countCalls(*sandbox_, verb(verbName))[kind];
-        EXPECT_GT(count, 0U) << verbName << " " << name(kind);
-        return failCall(*sandbox_, verb(verbName), kind, 1 + count / 2, count, false);
-    }
-    static void expectHarmless(const Trial& trial) {
+    static Trial expectHarmless(Trial trial) {
         EXPECT_TRUE(trial.faults.empty()) << trial.verb << ", " << trial.call << " " << trial.number << ", " << trial.what
                                           << ": " << fmt::format("{}", fmt::join(trial.faults, "\n"));
+        return trial;
+    }
+    /// A call of that kind, from the first (0) to the last (1).
+    static Trial failed(const std::string& name, Point point, double where, bool lasting = false) {
+        const std::uint64_t count = sandbox_->disturbed(verb(name), {}).counts.at(static_cast<std::size_t>(point));
+        EXPECT_GT(count, 0U) << name;
+        const auto number = 1 + static_cast<std::uint64_t>(where * static_cast<double>(count - 1));
+        return expectHarmless(disturb(*sandbox_, verb(name), {point, number, lasting}, count));
     }
 
     static std::unique_ptr<Sandbox> sandbox_;
@@ -47,41 +40,52 @@ protected:
 std::unique_ptr<Sandbox> Faults::sandbox_;
 
 TEST_F(Faults, AFailingCallIsALineAndTheNextRunGoesOn) {
-    const Trial rename = failed("run", Kind::Rename);
-    expectHarmless(rename);
+    const Trial rename = failed("run", Point::Rename, 0.5);
     EXPECT_EQ(rename.code, 1);
-    EXPECT_NE(rename.said.find("cannot write"), std::string::npos) << rename.said;
-    expectHarmless(failed("run", Kind::Fork));
-    expectHarmless(failed("merge", Kind::Write));
-    expectHarmless(failed("score", Kind::Fsync));
+    EXPECT_EQ(rename.what.find("rename half/"), 0U) << rename.what;
+    EXPECT_NE(rename.said.find("cannot write half/"), std::string::npos) << rename.said;
+    EXPECT_EQ(failed("run", Point::Fork, 0).code, 1);
+    EXPECT_EQ(failed("merge", Point::Open, 0).code, 2);
+    EXPECT_EQ(failed("score", Point::Fsync, 0.5).code, 1);
+}
+
+TEST_F(Faults, ADiskThatStaysFullIsALineAndTheNextRunGoesOn) {
+    const Trial full = failed("merge", Point::Write, 0.5, true);
+    EXPECT_EQ(full.code, 1);
+    EXPECT_NE(full.said.find("No space left on device"), std::string::npos) << full.said;
 }
 
 TEST_F(Faults, AFailingAllocationIsALineAndTheNextRunGoesOn) {
-    for (const std::uint64_t number : {64U, 4096U}) {
-        const auto trial = failAllocation(*sandbox_, verb("merge"), number);
-        ASSERT_TRUE(trial) << number;
-        expectHarmless(*trial);
-    }
+    const Trial trial = expectHarmless(disturb(*sandbox_, verb("merge"), {Point::Allocation, 4096}, 0));
+    EXPECT_TRUE(trial.reached);
+    EXPECT_EQ(trial.code, 1);
 }
 
 TEST_F(Faults, AKillLeavesWholeFilesAndEveryRecord) {
-    const std::uint64_t moments = countMoments(*sandbox_, verb("run"));
-    expectHarmless(killAt(*sandbox_, verb("run"), {SIGKILL, false, moments / 4}, moments));
-    expectHarmless(killAt(*sandbox_, verb("run"), {SIGTERM, true, moments / 3}, moments));
-    expectHarmless(killAt(*sandbox_, verb("score"), {SIGTERM, false, countMoments(*sandbox_, verb("score")) / 2}, moments));
+    const auto killed = [](const std::string& name, int signal, bool toFirst) {
+        const std::uint64_t moments = sandbox_->disturbed(verb(name), {}).passed.size();
+        return expectHarmless(
+            disturb(*sandbox_, verb(name), {.number = 1 + moments / 3, .signal = signal, .toFirst = toFirst}, moments));
+    };
+    EXPECT_EQ(killed("run", SIGKILL, true).code, 128 + SIGKILL);
+    EXPECT_EQ(killed("merge", SIGTERM, false).code, 128 + SIGTERM);
+    EXPECT_EQ(killed("score", SIGINT, true).code, 128 + SIGINT);
 }
 
 TEST_F(Faults, FilesAreFlushedBeforeTheyAreRenamedAndFoldersAfter) {
-    const WriteOrder order = writeOrderOf(*sandbox_, verb("run"));
-    EXPECT_TRUE(order.faults.empty()) << fmt::format("{}", fmt::join(order.faults, "\n"));
-    EXPECT_GT(order.renames, 2);
+    Findings findings;
+    checkOrder(*sandbox_, verb("run"), findings);
+    EXPECT_EQ(findings.faults, Texts{});
+    ASSERT_EQ(findings.lines.size(), 1U);
+    EXPECT_FALSE(findings.lines[0].starts_with("| run | 0 ")) << "no file is renamed";
 }
 
 TEST(FaultsAtOnce, OnOneCacheAndOneOutputNothingIsLostAndNothingDoneTwice) {
-    if (!wanted()) GTEST_SKIP() << "set SHADOWBENCH_FAULTS=1: on a busy machine this takes minutes";
-    const Together together = workTogether(PROGRAM, 3, [](const std::string&) {});
-    EXPECT_TRUE(together.faults.empty()) << fmt::format("{}", fmt::join(together.faults, "\n"));
-    EXPECT_FALSE(together.facts.empty());
+    if (std::getenv("SHADOWBENCH_FAULTS") == nullptr)
+        GTEST_SKIP() << "set SHADOWBENCH_FAULTS=1: on a busy machine this takes minutes";
+    const Findings findings = workTogether(PROGRAM, 3);
+    EXPECT_EQ(findings.faults, Texts{});
+    EXPECT_FALSE(findings.lines.empty());
 }
 
 } // namespace
