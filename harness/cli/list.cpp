@@ -34,7 +34,7 @@ std::string idsOf(const std::string& what, bool standard) {
         for (const techniques::Entry& entry : techniques::catalog()) all.push_back(entry.id);
     if (what == "scenes") all = standard ? standardScenes() : builtinScenes();
     if (what == "metrics")
-        for (const auto& metric : nlohmann::json::parse(catalogue(what, "json"))) all.push_back(metric.at("name"));
+        for (const auto& metric : nlohmann::json::parse(catalogue(what, "json"))) all.push_back(metric.at("id"));
     if (what == "limits")
         for (const LimitEntry& limit : limits()) all.emplace_back(limit.variable);
     return fmt::format("{}\n", fmt::join(all, "\n"));

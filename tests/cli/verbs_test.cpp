@@ -83,6 +83,12 @@ TEST(CommandLine, ListNamesEveryTechniqueWithItsParameters) {
     EXPECT_NE(shell("shadowbench list metrics --format md").output.find("| mismatch |"), std::string::npos);
 }
 
+TEST(CommandLine, ListPrintsIdsOneALine) {
+    for (const char* what : {"techniques", "scenes", "metrics", "limits"})
+        EXPECT_EQ(shell(std::string("shadowbench list --format ids ") + what).code, 0) << what;
+    EXPECT_TRUE(shell("shadowbench list metrics --format ids").output.starts_with("lod.pop\n"));
+}
+
 class Run : public testing::Test {
 protected:
     [[nodiscard]] std::string command(const std::string& options) const {
