@@ -178,7 +178,7 @@ std::string catalogue(const std::string& what, const std::string& format) {
     if (format == "md") return asMarkdown(all);
     std::string text;
     for (const Json& entry : all) text += asText(entry);
-    if (what == "techniques") text += "where each is good and where it breaks, with pictures: docs/techniques/<id>.md\n";
+    if (what == "techniques") text += "where each is good and where it breaks: docs/techniques/<id>.md\n";
     return text;
 }
 

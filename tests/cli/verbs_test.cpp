@@ -79,7 +79,7 @@ TEST(CommandLine, ListNamesEveryTechniqueWithItsParameters) {
     ASSERT_NE(pass, all.end());
     EXPECT_EQ((*pass)["figures"][0]["name"], "volume_triangles");
     EXPECT_NE(shell("shadowbench list techniques").output.find("figures.stencil_bytes: bytes"), std::string::npos);
-    EXPECT_TRUE(shell("shadowbench list techniques").output.ends_with("with pictures: docs/techniques/<id>.md\n"));
+    EXPECT_TRUE(shell("shadowbench list techniques").output.ends_with("where it breaks: docs/techniques/<id>.md\n"));
     EXPECT_NE(shell("shadowbench list scenes").output.find("dueling-frusta"), std::string::npos);
     EXPECT_NE(shell("shadowbench list metrics --format md").output.find("| mismatch |"), std::string::npos);
 }

@@ -20,15 +20,15 @@ using techniques::Answer;
 using techniques::Entry;
 
 constexpr const char* ruleOfShadows =
-    "*Pictures: visibility, and beside it the error, too dark in red and too bright in blue. The scenes are those of the "
-    "[published](../../results/published/report.md) and the [failure](../../results/failures/report.md) set on which the "
-    "error with all defaults has the least and the greatest ratio to that of `none` ([the "
-    "rule](../techniques.md#pages-of-techniques)).*\n";
+    "*By the error: of the scenes of the [published](../../results/published/report.md) and the "
+    "[failure](../../results/failures/report.md) set those on which the error with all defaults has the least and the "
+    "greatest ratio to that of `none` ([the rule](../techniques.md#pages-of-techniques)). A picture has visibility on its "
+    "left, and on its right the error, too dark in red and too bright in blue.*\n";
 
 constexpr const char* ruleOfLevels =
-    "*Pictures: one instance through its transition. The scenes are those of the "
-    "[published](../../results/published/report.md) set on which the pop with all defaults has the least and the greatest "
-    "ratio to that of `lod-switch` ([the rule](../techniques.md#pages-of-techniques)).*\n";
+    "*By the error: of the scenes of the [published](../../results/published/report.md) set those on which the pop with all "
+    "defaults has the least and the greatest ratio to that of `lod-switch` ([the "
+    "rule](../techniques.md#pages-of-techniques)). A picture has one instance through its transition.*\n";
 
 bool isLod(const Entry& entry) { return entry.answer == Answer::Colour; }
 
@@ -120,8 +120,9 @@ std::string assertedOf(const Entry& entry, const Asserted Behaviour::*which, con
                        markdownText(cells[3]), markdownText(cells[2]), cells[1]);
 }
 
-/// The error there, and the picture.
-std::string shown(const Entry& entry, const Place& place, const char* which, const std::vector<Record>& records) {
+/// The error there, and the picture where there is one.
+std::string shown(const Entry& entry, const Place& place, const std::filesystem::path& picture,
+                  const std::vector<Record>& records) {
     const Record& record = *place.record;
     const std::string metric = errorOf(entry);
     std::string text = fmt::format("`{}`, {} {}, {} of `{}`'s", record.scene, report::meaning(metric),
@@ -131,13 +132,15 @@ std::string shown(const Entry& entry, const Place& place, const char* which, con
         text += fmt::format("; {} the scene's tolerance ({})", *share <= 1 ? "within" : "beyond",
                             markdownText(report::formatBounds(limits)));
     if (record.status == Status::ExpectedFailure) text += ". The scene says: " + markdownText(record.reason);
-    return fmt::format("{}\n\n![{} on {}](../pictures/techniques/{}-{}.png)\n", text, entry.id, record.scene, entry.id,
-                       which);
+    text += "\n";
+    if (!std::filesystem::exists(picture)) return text;
+    return fmt::format("{}\n![{} on {}](../pictures/techniques/{})\n", text, entry.id, record.scene,
+                       picture.filename().string());
 }
 
 } // namespace
 
-std::string techniquePage(const Entry& entry, const std::vector<Record>& records) {
+std::string techniquePage(const Entry& entry, const std::vector<Record>& records, const std::filesystem::path& pictures) {
     const std::vector<Place> places = placesOf(entry, records);
     const auto good = std::ranges::min_element(places, {}, [](const Place& p) { return std::tuple(p.ratio(), -p.base); });
     const auto bad = std::ranges::max_element(places, {}, [](const Place& p) { return std::tuple(p.ratio(), p.base); });
@@ -147,16 +150,19 @@ std::string techniquePage(const Entry& entry, const std::vector<Record>& records
     std::string text = fmt::format("# {}\n\n`{}`\n\n{}\n{}", markdownText(entry.title), entry.id, listed(entry, records),
                                    parametersOf(entry));
     text += "\n## Where it is good\n\n" + assertedOf(entry, &Behaviour::strength, records) + "* **By the error**: ";
-    text += helps ? shown(entry, *good, "good", records) : places.empty() ? unrecorded : "on no scene of these records\n";
+    text += helps            ? shown(entry, *good, pictures / (entry.id + "-good.png"), records)
+            : places.empty() ? unrecorded
+                             : "on no scene of these records\n";
     text += "\n## Where it breaks\n\n" + assertedOf(entry, &Behaviour::failure, records) + "* **By the error**: ";
-    text += errs             ? shown(entry, *bad, "breaks", records)
+    text += errs             ? shown(entry, *bad, pictures / (entry.id + "-breaks.png"), records)
             : places.empty() ? unrecorded
                              : "on no other scene of these records\n";
     return fmt::format("{}\n{}", text, isLod(entry) ? ruleOfLevels : ruleOfShadows);
 }
 
 void writeTechniquePages(const std::vector<Record>& records, const std::filesystem::path& folder) {
-    for (const Entry& entry : techniques::catalog()) writeFile(folder / (entry.id + ".md"), techniquePage(entry, records));
+    for (const Entry& entry : techniques::catalog())
+        writeFile(folder / (entry.id + ".md"), techniquePage(entry, records, folder / "../pictures/techniques"));
 }
 
 } // namespace shadowbench
