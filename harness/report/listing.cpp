@@ -16,23 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string meaning(const techniques::Entry& entry) {
-    using techniques::EnvironmentAnswer;
-    if (entry.environment == EnvironmentAnswer::Only) return "soft shadows, environment lights";
-    const std::string lights = entry.environment == EnvironmentAnswer::Also ? "any light" : "any light but environments";
-    switch (entry.answer) {
-    case techniques::Answer::Hard:
-        return "hard shadows, " + lights;
-    case techniques::Answer::Filtered:
-        return "filtered hard shadows, " + lights;
-    case techniques::Answer::Soft:
-        return "soft shadows, area lights";
-    case techniques::Answer::Colour:
-        return "pictures of a walk past levels of detail";
-    }
-    return "";
-}
-
 Json techniquesAsJson() {
     Json all = Json::array();
     for (const techniques::Entry& entry : techniques::catalog()) {
@@ -49,7 +32,7 @@ Json techniquesAsJson() {
         all.push_back({{"id", entry.id},
                        {"title", entry.title},
                        {"source", fmt::format("{}, {}", techniques::title(entry.source.document), entry.source.where)},
-                       {"answer", meaning(entry)},
+                       {"answer", answerOf(entry)},
                        {"history", entry.temporal},
                        {"computed", entry.computed},
                        {"parameters", parameters},
@@ -168,6 +151,23 @@ std::string asMarkdown(const Json& all) {
 
 } // namespace
 
+std::string answerOf(const techniques::Entry& entry) {
+    using techniques::EnvironmentAnswer;
+    if (entry.environment == EnvironmentAnswer::Only) return "soft shadows, environment lights";
+    const std::string lights = entry.environment == EnvironmentAnswer::Also ? "any light" : "any light but environments";
+    switch (entry.answer) {
+    case techniques::Answer::Hard:
+        return "hard shadows, " + lights;
+    case techniques::Answer::Filtered:
+        return "filtered hard shadows, " + lights;
+    case techniques::Answer::Soft:
+        return "soft shadows, area lights";
+    case techniques::Answer::Colour:
+        return "pictures of a walk past levels of detail";
+    }
+    return "";
+}
+
 std::string catalogue(const std::string& what, const std::string& format) {
     if (what == "schema") return recordSchema();
     const Json all = what == "scenes"    ? scenesAsJson()
@@ -178,6 +178,7 @@ std::string catalogue(const std::string& what, const std::string& format) {
     if (format == "md") return asMarkdown(all);
     std::string text;
     for (const Json& entry : all) text += asText(entry);
+    if (what == "techniques") text += "where each is good and where it breaks: docs/techniques/<id>.md\n";
     return text;
 }
 

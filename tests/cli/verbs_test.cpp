@@ -79,8 +79,25 @@ TEST(CommandLine, ListNamesEveryTechniqueWithItsParameters) {
     ASSERT_NE(pass, all.end());
     EXPECT_EQ((*pass)["figures"][0]["name"], "volume_triangles");
     EXPECT_NE(shell("shadowbench list techniques").output.find("figures.stencil_bytes: bytes"), std::string::npos);
+    EXPECT_TRUE(shell("shadowbench list techniques").output.ends_with("where it breaks: docs/techniques/<id>.md\n"));
     EXPECT_NE(shell("shadowbench list scenes").output.find("dueling-frusta"), std::string::npos);
     EXPECT_NE(shell("shadowbench list metrics --format md").output.find("| mismatch |"), std::string::npos);
+}
+
+TEST(CommandLine, ListPrintsIdsOneALine) {
+    for (const char* what : {"techniques", "scenes", "metrics", "limits"})
+        EXPECT_EQ(shell(std::string("shadowbench list --format ids ") + what).code, 0) << what;
+    EXPECT_TRUE(shell("shadowbench list metrics --format ids").output.starts_with("lod.pop\n"));
+}
+
+TEST(CommandLine, ListWritesAPageForEachTechnique) {
+    const Folder folder;
+    const std::string records = folder.write("results.jsonl", "");
+    const Outcome written = shell("shadowbench list techniques --pages " + folder / "pages" + " --records " + records);
+    ASSERT_EQ(written.code, 0) << written.output;
+    for (const techniques::Entry& entry : techniques::catalog())
+        EXPECT_TRUE(fs::exists(folder / ("pages/" + entry.id + ".md"))) << entry.id;
+    EXPECT_EQ(shell("shadowbench list scenes --pages " + folder / "pages").code, 2);
 }
 
 class Run : public testing::Test {

@@ -27,6 +27,10 @@ const std::vector<Behaviour>& behaviours();
 /// Throws BadInput naming technique and key for what is no list of behaviours.
 std::vector<Behaviour> parseBehaviours(std::string_view json);
 
+/// What is seen, by which test, where, and the figure that `records` have for it: "–" where they have none. The variant is
+/// named where it is not the technique's defaults.
+std::vector<std::string> cellsOf(const std::string& technique, const Asserted& asserted, const std::vector<Record>& records);
+
 enum class Markup { Markdown, Latex };
 
 /// A row for each technique: its source, strength and failure, each with test, scene and the figure that `records` have for

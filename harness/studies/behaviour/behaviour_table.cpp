@@ -41,14 +41,6 @@ std::string valueOf(const Asserted& asserted, const std::vector<Record>& records
     return *value >= 1e4 ? fmt::format("{:.0f}", *value) : fmt::format("{:.3g}", *value);
 }
 
-/// What is seen, by which test, where, and the figure. The variant is named where it is not the technique's defaults.
-std::vector<std::string> cells(const std::string& technique, const Asserted& asserted, const std::vector<Record>& records) {
-    const std::string scene =
-        asserted.variant == technique ? asserted.scene : fmt::format("{} ({})", asserted.scene, asserted.variant);
-    return {asserted.says, asserted.test, scene,
-            fmt::format("{} {}", shortName(asserted.metric), valueOf(asserted, records))};
-}
-
 std::string sourceOf(const std::string& technique) {
     const auto catalog = techniques::catalog();
     const auto entry = std::ranges::find(catalog, technique, &techniques::Entry::id);
@@ -61,7 +53,7 @@ report::TextTable table(const std::vector<Behaviour>& behaviours, const std::vec
     for (const Behaviour& behaviour : behaviours) {
         std::vector<std::string> row{behaviour.technique, sourceOf(behaviour.technique)};
         for (const Asserted* asserted : {&behaviour.strength, &behaviour.failure})
-            for (std::string& cell : cells(behaviour.technique, *asserted, records)) row.push_back(std::move(cell));
+            for (std::string& cell : cellsOf(behaviour.technique, *asserted, records)) row.push_back(std::move(cell));
         result.rows.push_back(std::move(row));
     }
     return result;
@@ -137,6 +129,14 @@ std::string inMarkdown(const report::TextTable& table) {
 }
 
 } // namespace
+
+std::vector<std::string> cellsOf(const std::string& technique, const Asserted& asserted,
+                                 const std::vector<Record>& records) {
+    const std::string scene =
+        asserted.variant == technique ? asserted.scene : fmt::format("{} ({})", asserted.scene, asserted.variant);
+    return {asserted.says, asserted.test, scene,
+            fmt::format("{} {}", shortName(asserted.metric), valueOf(asserted, records))};
+}
 
 std::string behaviourTable(const std::vector<Behaviour>& behaviours, const std::vector<Record>& records, Markup markup) {
     const report::TextTable all = table(behaviours, records);
