@@ -60,7 +60,7 @@ struct OtherFrame {
 /// Nearer to the truth of another frame: certain where the error is half of that.
 std::optional<Finding> ofAnotherFrame(const Compared& compared, const std::vector<OtherFrame>& others);
 
-/// All of these, the most telling first; at most one of turned, shifted and of another frame.
+/// All findings, the strongest evidence first; at most one of: turned, shifted, of another frame.
 std::vector<Finding> oddities(const Compared& compared, Encoding encoding, const std::vector<OtherFrame>& others);
 
 } // namespace shadowbench::foreign

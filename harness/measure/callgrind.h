@@ -38,8 +38,8 @@ void requireCountable(const gl::ContextInfo& context);
 /// otherwise than it should; a variant that fails in itself is absent from the counts.
 Counts countInstructions(const CountJob& job, const std::function<void(std::string_view)>& onVariant);
 
-/// The worker's half, in a process under Callgrind: shows the scored frame, renders it with each of the variants that the
-/// file lists, one a line, until it is steady and has one frame counted. `job.variants` is not looked at.
+/// The worker's half, in a process under Callgrind. It shows the scored frame and renders it with each of the variants that
+/// the file lists, one a line, until it is steady; then it has one frame counted. `job.variants` is ignored.
 void renderCountedFrames(const CountJob& job, const std::filesystem::path& variants);
 
 /// The instructions that one dump of Callgrind's counts, and the trigger that the client gave it; throws BadInput for what

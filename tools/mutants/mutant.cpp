@@ -59,7 +59,7 @@ void readMeans(const TomlValue& value, Mutant& mutant) {
         value.fail(R"(expected "gate", "refusal", "truth:SCENE/TRUTH", "truth:SCENE/TRUTH/FRAME" or "test:NAME")");
 }
 
-/// Techniques, scenes and class of what is found by records.
+/// Techniques, scenes and class of a mutant that records detect.
 void readCells(const TomlValue& value, Mutant& mutant) {
     mutant.techniques = texts(value.get("techniques"));
     if (mutant.techniques.empty()) value.get("techniques").fail("names no technique");
