@@ -8,6 +8,8 @@
 namespace shadowbench::report {
 namespace {
 
+std::string thousandths(double value) { return fmt::format("{:.2f}", 1000 * value); }
+
 template <int places, int factor = 1>
 std::string decimals(double value) {
     return fmt::format("{:.{}f}", value / factor, places);
@@ -68,12 +70,41 @@ std::span<const Column> columns() {
     return all;
 }
 
-std::vector<const Column*> columnsOf(const std::vector<Record>& records, const std::vector<std::size_t>& indices) {
-    std::vector<const Column*> applying;
-    for (const Column& column : columns())
-        if (std::ranges::any_of(indices, [&](std::size_t i) { return column.of(records[i]).has_value(); }))
-            applying.push_back(&column);
-    return applying;
+std::span<const Column> lodColumns() {
+    static constexpr Column all[] = {
+        {"pop", false, "lod.pop", thousandths},
+        {"region px", false, "lod.changed_region", decimals<0>},
+        {"walk pop", true, "lod.walk_pop", thousandths},
+        {"colour error", false, "lod.colour_error", decimals<4>},
+        {"noise", false, "lod.noise", decimals<4>},
+        {"order error", false, "lod.order_error", decimals<4>},
+        {"primitives", false, "lod.primitives", decimals<0>},
+        {"change", false, "lod.primitive_change", percent},
+        {"MiB", true, "cost.work.bytes", decimals<1, 1 << 20>},
+        {"ms", true, "lod.time.median", decimals<2>},
+        {"spread", true, "lod.time.spread", percent},
+        {"cost", false, "lod.time.ratio", decimals<2>},
+    };
+    return all;
+}
+
+std::vector<const Column*> applying(std::span<const Column> columns, const std::vector<const Record*>& records) {
+    std::vector<const Column*> found;
+    for (const Column& column : columns)
+        if (std::ranges::any_of(records, [&](const Record* record) { return column.of(*record).has_value(); }))
+            found.push_back(&column);
+    return found;
+}
+
+void addColumns(TextTable& table, std::span<const Column> columns, const std::vector<const Record*>& records, bool page) {
+    for (const Column* column : applying(columns, records)) {
+        if (column->pageOnly && !page) continue;
+        table.titles.emplace_back(column->title);
+        for (std::size_t row = 0; row < records.size(); ++row) {
+            const std::optional<double> value = column->of(*records[row]);
+            table.rows[row].push_back(value ? column->format(*value) : "–");
+        }
+    }
 }
 
 } // namespace shadowbench::report

@@ -1,7 +1,8 @@
-// The columns of a scene's tables beside technique, error and front.
+// The columns of a scene's tables: those beside technique, error and front, and those of levels of detail.
 #pragma once
 
 #include "harness/records/record.h"
+#include "harness/report/text_table.h"
 
 #include <optional>
 #include <span>
@@ -23,8 +24,13 @@ struct Column {
     }
 };
 std::span<const Column> columns();
+std::span<const Column> lodColumns();
 
-/// Those that apply to one of the records at `indices` at least, in their order.
-std::vector<const Column*> columnsOf(const std::vector<Record>& records, const std::vector<std::size_t>& indices);
+/// Those of `columns` that apply to one of the records at least, in their order.
+std::vector<const Column*> applying(std::span<const Column> columns, const std::vector<const Record*>& records);
+
+/// Adds these to a table with a row for each of the records; "–" does not apply. `page`: those that a terminal has no room
+/// for, too.
+void addColumns(TextTable& table, std::span<const Column> columns, const std::vector<const Record*>& records, bool page);
 
 } // namespace shadowbench::report

@@ -1,17 +1,15 @@
 // Tables of level-of-detail techniques.
+#include "harness/report/columns.h"
 #include "harness/report/cost_report.h"
 #include "harness/report/lod_report.h"
 #include "harness/report/summary.h"
-#include "harness/report/text_table.h"
 
-#include <algorithm>
 #include <fmt/format.h>
-#include <span>
 
 namespace shadowbench::report {
 namespace {
 
-constexpr const char* legend = R"(
+constexpr const char* lodLegend = R"(
 | column | meaning |
 |:---|:---|
 | pop | largest mean change of colour from one frame to the next, in 1/1000 of full colour, while the camera stands and levels alone change |
@@ -26,44 +24,6 @@ constexpr const char* legend = R"(
 | cost | frame time as a multiple of `lod-switch` |
 )";
 
-using Cell = std::optional<std::string>;
-
-struct Column {
-    const char* title;
-    bool pageOnly; // the terminal has no room for it
-    metrics::MetricId metric;
-    std::string (*format)(double);
-};
-
-template <int places, int factor = 1>
-std::string decimals(double value) {
-    return fmt::format("{:.{}f}", value / factor, places);
-}
-std::string thousandths(double value) { return fmt::format("{:.2f}", 1000 * value); }
-
-std::span<const Column> columns() {
-    static constexpr Column all[] = {
-        {"pop", false, "lod.pop", thousandths},
-        {"region px", false, "lod.changed_region", decimals<0>},
-        {"walk pop", true, "lod.walk_pop", thousandths},
-        {"colour error", false, "lod.colour_error", decimals<4>},
-        {"noise", false, "lod.noise", decimals<4>},
-        {"order error", false, "lod.order_error", decimals<4>},
-        {"primitives", false, "lod.primitives", decimals<0>},
-        {"change", false, "lod.primitive_change", percent},
-        {"MiB", true, "cost.work.bytes", decimals<1, 1 << 20>},
-        {"ms", true, "lod.time.median", decimals<2>},
-        {"spread", true, "lod.time.spread", percent},
-        {"cost", false, "lod.time.ratio", decimals<2>},
-    };
-    return all;
-}
-
-Cell cell(const Column& column, const Record& record) {
-    const std::optional<double>& value = record.values[column.metric];
-    return value ? Cell(column.format(*value)) : Cell();
-}
-
 std::vector<const Record*> lodRecords(const std::vector<Record>& records, const std::string& scene) {
     std::vector<const Record*> result;
     for (const std::size_t i : ofScene(records, scene))
@@ -74,13 +34,7 @@ std::vector<const Record*> lodRecords(const std::vector<Record>& records, const 
 TextTable table(const std::vector<const Record*>& scored, bool page) {
     TextTable result{{"technique"}, {}};
     for (const Record* record : scored) result.rows.push_back({record->variant});
-    for (const Column& column : columns()) {
-        if (column.pageOnly && !page) continue;
-        if (std::ranges::none_of(scored, [&](const Record* r) { return cell(column, *r).has_value(); })) continue;
-        result.titles.emplace_back(column.title);
-        for (std::size_t row = 0; row < scored.size(); ++row)
-            result.rows[row].push_back(cell(column, *scored[row]).value_or("–"));
-    }
+    addColumns(result, lodColumns(), scored, page);
     return result;
 }
 
@@ -110,7 +64,7 @@ TextTable lodTable(const std::vector<Record>& records, const std::string& scene)
 std::string lodMarkdownTable(const std::vector<Record>& records, const std::string& scene) {
     const auto scored = lodRecords(records, scene);
     if (scored.empty()) return "";
-    return fmt::format("Walk: {}.\n\n", markdownText(heading(*scored.front()))) + markdown(table(scored, true)) + legend +
+    return fmt::format("Walk: {}.\n\n", markdownText(heading(*scored.front()))) + markdown(table(scored, true)) + lodLegend +
            noteOf(records, scene);
 }
 

@@ -15,19 +15,6 @@
 namespace shadowbench::report {
 namespace {
 
-using Cell = std::optional<std::string>; // nothing: does not apply
-
-/// The error against the exact visible share.
-Cell exact(const Record& record) {
-    const std::optional<double> value = exactError(record);
-    return value ? Cell(formatValue(headline(record)->metric, *value)) : Cell();
-}
-
-Cell cell(const Column& column, const Record& record) {
-    const std::optional<double> value = column.of(record);
-    return value ? Cell(column.format(*value)) : Cell();
-}
-
 std::string rowName(const Record& record) {
     if (!unexplainedDoubts(record).empty()) return record.variant + " (doubtful)";
     return record.status == Status::ExpectedFailure ? record.variant + " (fails as expected)" : record.variant;
@@ -41,15 +28,15 @@ TextTable table(const std::vector<Record>& records, const std::string& scene, bo
     for (const std::size_t i : scored) result.rows.push_back({rowName(records[i]), errorText(records[i])});
     if (std::ranges::any_of(scored, [&](std::size_t i) { return exactError(records[i]).has_value(); })) {
         result.titles.emplace_back("exact");
-        for (std::size_t row = 0; row < scored.size(); ++row)
-            result.rows[row].push_back(exact(records[scored[row]]).value_or("–"));
+        for (std::size_t row = 0; row < scored.size(); ++row) {
+            const Record& record = records[scored[row]];
+            const std::optional<double> value = exactError(record); // against the exact visible share
+            result.rows[row].push_back(value ? formatValue(headline(record)->metric, *value) : "–");
+        }
     }
-    for (const Column* column : columnsOf(records, scored)) {
-        if (column->pageOnly && !page) continue;
-        result.titles.emplace_back(column->title);
-        for (std::size_t row = 0; row < scored.size(); ++row)
-            result.rows[row].push_back(cell(*column, records[scored[row]]).value_or("–"));
-    }
+    std::vector<const Record*> rows;
+    for (const std::size_t i : scored) rows.push_back(&records[i]);
+    addColumns(result, columns(), rows, page);
     if (paretoFront(records, scene).empty()) return result;
     result.titles.emplace_back("front");
     for (std::size_t row = 0; row < scored.size(); ++row)

@@ -107,7 +107,9 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
             {.title = "× tolerance",
              .hint = "The error that comes nearest to its tolerance, or exceeds it most, as a multiple of it",
              .key = "tolerance"});
-    const std::vector<const report::Column*> chosen = report::columnsOf(records, scored);
+    std::vector<const Record*> rows;
+    for (const std::size_t i : scored) rows.push_back(&records[i]);
+    const std::vector<const report::Column*> chosen = report::applying(report::columns(), rows);
     for (const report::Column* column : chosen) table.columns.push_back(columnOf(*column));
     if (timed)
         table.columns.push_back(
