@@ -2,6 +2,7 @@
 #include "base/files.h"
 #include "tests/support/program.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace shadowbench {
@@ -15,7 +16,7 @@ protected:
         const fs::path source = SOURCE_FOLDER;
         for (const char* folder : {"tools", "techniques/filtered/pcf", "techniques/maps", "tests/techniques/gl"})
             fs::create_directories(tree_ / folder);
-        for (const char* file : {"tools/new-technique", "techniques/catalog.inc"})
+        for (const char* file : {"tools/new-technique", "techniques/catalog.inc", "README.md"})
             fs::copy_file(source / file, tree_ / file);
     }
 
@@ -32,6 +33,12 @@ TEST_F(NewTechnique, WritesAFolderALineAndATest) {
     const Outcome outcome = start("filtered my-2nd-filter");
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_EQ(text("techniques/catalog.inc"), before + "TECHNIQUE(my2ndFilter)\n");
+    const auto techniques = [](const std::string& catalogue) {
+        std::size_t lines = 0;
+        for (std::size_t at = 0; (at = catalogue.find("TECHNIQUE(", at)) != std::string::npos; ++at) ++lines;
+        return lines;
+    };
+    EXPECT_NE(text("README.md").find(fmt::format("runs {} shadow", techniques(before) + 1)), std::string::npos);
     EXPECT_NE(text("techniques/filtered/my-2nd-filter/my-2nd-filter.cpp").find("Entry my2ndFilter() {"), std::string::npos);
     EXPECT_NE(text("techniques/filtered/my-2nd-filter/my-2nd-filter.cpp").find("Answer::Filtered"), std::string::npos);
     EXPECT_NE(text("techniques/filtered/my-2nd-filter/my-2nd-filter.frag").find("out float visibility"), std::string::npos);
