@@ -16,6 +16,7 @@
 #include "techniques/gl/context.h"
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <fmt/format.h>
@@ -232,7 +233,9 @@ private:
 
     MeasuredCell lost(std::size_t cell, const std::string& how) {
         makeContext();
-        const InternalError error(fmt::format("the process that rendered it {}", how), Failure::Transient);
+        const bool isKilled = how.ends_with(fmt::format("signal {}", SIGKILL)); // as by a system without memory
+        const InternalError error(fmt::format("the process that rendered it {}", how),
+                                  isKilled ? Failure::Transient : Failure::Lasting);
         return {"", cellsOf(sceneOf(cell)).failed(variantOf(cell), "", error), error.code(), error.isTransient()};
     }
 
