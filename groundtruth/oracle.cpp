@@ -27,7 +27,7 @@ namespace {
 constexpr int referenceCodeVersion =
     2; // of this file, the uncertainty and the certificate: raise it with every change that can alter a number
 
-constexpr int pixelAreaCodeVersion = 1; // of groundtruth/cgal/hard/pixel_*.cpp and the certificate of pixel areas
+constexpr int pixelAreaCodeVersion = 2; // of groundtruth/cgal/hard/pixel_*.cpp and the certificate of pixel areas
 
 /// A light moved by more than its own size is far above this; an occluder too thin for the samples stays below.
 constexpr double mostLightMismatch = 0.01;

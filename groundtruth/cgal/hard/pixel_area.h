@@ -44,7 +44,8 @@ private:
 };
 
 /// By rays: exact primary hits and labels at `side`² image positions, one drawn in each cell of a grid, seeded by the pixel
-/// and the `set`. Sigma is what independent positions would leave: more than what these do.
+/// and the `set`; at the pixel's centre too where they agree on all or nothing. Sigma is what independent positions would
+/// leave: more than what these do.
 AreaShares sharesByRays(const SceneTriangles& scene, const Camera& camera, const Light& light, glm::ivec2 size,
                         glm::ivec2 pixel, std::uint32_t surface, int side, std::uint16_t set = 0);
 

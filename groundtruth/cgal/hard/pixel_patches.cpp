@@ -9,6 +9,7 @@ constexpr std::size_t fewEdges = 128;             // whose crossings are found, 
 constexpr std::size_t manyEdges = 1024;           // from here on no strip ends are found
 constexpr double leastStrip = 1e-12;              // px; thinner ones are left out
 constexpr double sameDepth = 1e-12;               // relative: nearer together, two patches are one surface
+constexpr double rounding = 1e-7;                 // of a share that is kept as a float
 constexpr double largestSigma = 0.0095;           // of the share of a pixel
 constexpr int fewestLines = 32, mostLines = 4096; // across a pixel
 
@@ -177,6 +178,18 @@ public:
         addLines(reader, from, to, std::max(2, static_cast<int>(std::ceil(lines * (to - from)))));
     }
 
+    /// Lines that agree on all or nothing may all have missed a sliver. The one through the pixel's centre, whose label the
+    /// mean must not contradict, then counts as one of `lines` more.
+    void addCentreIfUnanimous(LineReader& reader, double centre, int lines) {
+        const double share = shares_.lit / shares_.seen;
+        if (share > rounding && share < 1 - rounding) return;
+        const Lengths here = reader.at(centre);
+        const double height = 1.0 / lines;
+        shares_.seen += height * here.seen;
+        shares_.lit += height * here.lit;
+        steps_.insert(steps_.end(), 2, {height * here.seen, height * here.lit, false}); // from a line and to the next
+    }
+
     /// Two neighbouring lines differ by at most twice what one may err by: with s a step of lit − mean · seen, the variance
     /// of a sum over lines is at most ½ Σ s².
     [[nodiscard]] AreaShares result() const {
@@ -198,11 +211,11 @@ private:
 };
 
 template <class AddStrip>
-AreaShares overStrips(const std::vector<double>& heights, const AddStrip& add) {
+Sum overStrips(const std::vector<double>& heights, const AddStrip& add) {
     Sum sum;
     for (std::size_t i = 1; i < heights.size(); ++i)
         if (heights[i] - heights[i - 1] > leastStrip) add(sum, heights[i - 1], heights[i]);
-    return sum.result();
+    return sum;
 }
 
 } // namespace
@@ -215,9 +228,11 @@ AreaShares shares(const std::vector<Patch>& patches, const PixelSquare& square) 
     if (exact) addCrossings(edges, heights);
     std::ranges::sort(heights);
     for (int lines = fewestLines;; lines *= 4) {
-        const AreaShares result = overStrips(heights, [&](Sum& sum, double from, double to) {
-            exact ? sum.addExactStrip(reader, from, to, lines) : sum.addStrip(reader, from, to, lines);
+        Sum sum = overStrips(heights, [&](Sum& all, double from, double to) {
+            exact ? all.addExactStrip(reader, from, to, lines) : all.addStrip(reader, from, to, lines);
         });
+        if (!exact) sum.addCentreIfUnanimous(reader, square.low.y + 0.5, lines);
+        const AreaShares result = sum.result();
         if (result.sigma <= largestSigma || lines >= mostLines) return result;
     }
 }

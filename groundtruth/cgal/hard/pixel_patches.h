@@ -29,7 +29,8 @@ struct AreaShares {
 };
 
 /// Of `patches` the nearest counts at every point. Exact (to rounding) unless there are more than some hundred edges or
-/// patches cross each other; then from so many lines that σ ≤ 0.01, estimated from how much neighbouring lines differ.
+/// patches cross each other; then from so many lines that σ ≤ 0.01, estimated from how much neighbouring lines differ. Of
+/// some hundred edges or more, lines that agree on all or nothing include the one through the square's centre.
 AreaShares shares(const std::vector<Patch>& patches, const PixelSquare& square);
 
 } // namespace shadowbench::groundtruth::hard

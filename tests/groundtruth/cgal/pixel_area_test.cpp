@@ -1,5 +1,6 @@
 // The mean over a pixel's square: closed forms, and agreement of polygons and rays.
 #include "groundtruth/cgal/hard/pixel_area.h"
+#include "groundtruth/cgal/hard/pixel_patches.h"
 #include "scene/load/load.h"
 #include "scene/meshes/primitives.h"
 #include "tests/support/exact_scenes.h"
@@ -131,6 +132,49 @@ TEST(PixelArea, OfPolygonsIsThatOfRaysWhereTrianglesPassThroughOneAnother) {
     scene.add(plate(-9, 9, 0, -9, 9)).add(soup(60, {-3, -0.5F, -3}, {3, 2.5F, 3}, random));
     scene.pointLight({1.3, 4.1, 0.7}).camera({4, 5, 6}, {0, 0.5, 0});
     expectAgreement(scene.get(), 0.008);
+}
+
+/// A shadowed ground that three plates hide but for a triangle of 0.01 px around the pixel's centre, which no corner is
+/// level with; `shadows` more of the ground lie behind the plates.
+std::vector<hard::Patch> slitOverTheCentre(int shadows) {
+    const hard::PixelSquare square{{3, 5}};
+    const auto patch = [&](const hard::ImagePolygon& outline, double nearness) {
+        hard::Patch result;
+        result.outline = outline;
+        result.inverseDepth = {0, 0, nearness};
+        result.counts = true;
+        return result;
+    };
+    const auto polygon = [&](std::initializer_list<glm::dvec2> corners) {
+        Corners<glm::dvec3> inImage;
+        for (const glm::dvec2& corner : corners) inImage.add(glm::dvec3(square.low + corner, 1));
+        return hard::inSquare(inImage, square);
+    };
+    std::vector<hard::Patch> patches{patch(polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), 0.1)};
+    for (int i = 0; i < shadows; ++i) {
+        const double at = 0.1 + 0.3 * i / shadows;
+        patches.front().shadows.push_back(polygon({{at, at}, {at + 0.05, at}, {at, at + 0.05}}));
+    }
+    patches.front().shadows.push_back(polygon({{-1, 0.1}, {2, 0.2}, {2, 0.9}, {-1, 0.8}}));
+    for (const double degrees : {77.0, 197.0, 317.0}) {
+        const double angle = degrees * 3.14159265358979323846 / 180;
+        const glm::dvec2 out(std::cos(angle), std::sin(angle)), along(-out.y, out.x), edge = 0.5 + 0.003 * out;
+        patches.push_back(patch(polygon({edge - 3.0 * along, edge + 3.0 * along, edge + 3.0 * (along + out),
+                                         edge + 3.0 * (out - along)}),
+                                1));
+    }
+    return patches;
+}
+
+TEST(PixelArea, ThatLinesFindWhollyLitDoesNotContradictTheShadowOfItsCentre) {
+    for (const int shadows : {40, 400}) { // too many edges for their crossings; too many for their corners, too
+        const hard::AreaShares found = hard::shares(slitOverTheCentre(shadows), {{3, 5}});
+        EXPECT_LT(found.lit / found.seen, 1 - 1e-6) << shadows;
+        EXPECT_NEAR(found.lit / found.seen, 1, 3 * found.sigma) << shadows;
+        EXPECT_LE(found.sigma, 0.0095) << shadows;
+    }
+    const hard::AreaShares exact = hard::shares(slitOverTheCentre(1), {{3, 5}});
+    EXPECT_NEAR(exact.lit, 1 - 3 * std::sqrt(3) * 0.003 * 0.003, 1e-9);
 }
 
 } // namespace
