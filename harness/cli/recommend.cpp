@@ -13,7 +13,7 @@ namespace {
 
 struct RecommendWords {
     recommend::RecommendOptions options;
-    std::vector<std::string> questions{"casters"};
+    std::vector<std::string> questions, needs;
     std::vector<std::string> levels;
     std::string profile = "gate";
     int frame = -1;
@@ -46,8 +46,9 @@ void addChain(const std::string& word, recommend::Chains& chains) {
 recommend::RecommendOptions resolved(const RecommendWords& words) {
     recommend::RecommendOptions options = words.options;
     options.profile = profileNamed(words.profile);
-    options.questions.clear();
     for (const std::string& word : words.questions) options.questions.insert(recommend::questionNamed(word));
+    if (!words.needs.empty()) options.needs.clear();
+    for (const std::string& word : words.needs) options.needs.insert(techniques::needNamed(word));
     for (const std::string& word : words.levels) addChain(word, options.casters.chains);
     if (words.frame >= 0) options.casters.frame = words.frame;
     return options;
@@ -56,9 +57,11 @@ recommend::RecommendOptions resolved(const RecommendWords& words) {
 ExitCode recommendAndPrint(const RecommendWords& words) {
     const recommend::Recommendations all = recommend::recommend(resolved(words));
     if (words.json)
-        fmt::print("{}\n", recommend::json(all.scenes));
-    else
+        fmt::print("{}\n", recommend::json(all));
+    else {
         for (const recommend::Recommendation& one : all.scenes) fmt::print("{}\n", recommend::text(one));
+        fmt::print("{}", recommend::commonText(all));
+    }
     return all.code;
 }
 
@@ -81,12 +84,19 @@ void addRecommend(CLI::App& app, Action& action) {
         "  shadowbench recommend --scene windmills --tolerance 0.01 --bands 14,20,28\n"
         "  shadowbench recommend --scene simple --levels 500,320,180,80,20 --json\n"
         "  shadowbench recommend --what technique --records results/published/results.jsonl\n"
+        "  shadowbench recommend --scene hall.toml --what technique --static --needs any-receiver,any-eye\n"
         "  shadowbench recommend --scene windmills --what map --technique 'sm-*'");
     verb->add_option("--scene", options.scenes,
                      "Scene id or file; repeatable (default: the standard scenes, for casters those with levels)");
-    verb->add_option("--what", words->questions, "casters, technique, map, samples; comma-separated")
-        ->delimiter(',')
-        ->capture_default_str();
+    verb->add_option("--what", words->questions,
+                     "casters, technique, map, samples; comma-separated (default: casters of a scene with levels, technique "
+                     "and map of others)")
+        ->delimiter(',');
+    verb->add_option("--needs", words->needs,
+                     "What the technique must be able to do, comma-separated: any-receiver (not one plane alone), any-eye "
+                     "(in shadow, with casters behind it), moving-light, moving-casters, open-meshes, no-history (default: "
+                     "all but no-history; with --static no moving ones)")
+        ->delimiter(',');
     verb->add_option("--tolerance", options.casters.tolerance,
                      "Such as mismatch=0.01, or a number alone: of mismatch under a hard light, penumbra_rmse under an area "
                      "light; repeatable, and all of them must hold (default: the scene's)");

@@ -64,7 +64,7 @@ ExitCode runPart(const RunOptions& options, const PartOptions& part) {
 
 ExitCode runAndPrint(const RunOptions& options, bool standing) {
     const OutputLock alone(options.out); // the records of two runs at once would replace each other
-    return reportResult(run(options), options.out, standing);
+    return reportResult(run(options), options.out, {.standing = standing, .everyRow = !options.techniques.empty()});
 }
 
 } // namespace

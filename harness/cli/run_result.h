@@ -7,8 +7,13 @@
 
 namespace shadowbench {
 
-/// Writes the report into `out`, prints tables, errors and where everything is; returns the run's exit code. `standing`:
-/// costs are of scenes where light and casters stand still.
-ExitCode reportResult(const RunResult& result, const std::filesystem::path& out, bool standing = false);
+struct ResultOptions {
+    bool standing = false; // costs are of scenes where light and casters stand still
+    bool everyRow = false; // the user named the rows: all are printed, not those alone that matter most
+};
+
+/// Writes the report into `out`, prints tables, errors and where everything is; returns the run's exit code. Throws BadInput
+/// with the reasons where no technique applies to its scene.
+ExitCode reportResult(const RunResult& result, const std::filesystem::path& out, const ResultOptions& options = {});
 
 } // namespace shadowbench

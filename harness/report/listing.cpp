@@ -35,6 +35,7 @@ Json techniquesAsJson() {
                        {"answer", answerOf(entry)},
                        {"history", entry.temporal},
                        {"computed", entry.computed},
+                       {"lacks", namesOf(lacking(entry))},
                        {"parameters", parameters},
                        {"figures", figures},
                        {"variants", entry.variants}});

@@ -6,15 +6,16 @@
 #include "harness/report/summary.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace shadowbench::report {
 
-/// The table a person sees for one scene: technique, error, false shadow, leak, edge error, flicker, cost, front; under it
-/// the cheapest technique within the scene's tolerance. `scene`'s records only; plain text for a terminal.
-std::string terminalTable(const std::vector<Record>& records, const std::string& scene);
+/// The table a person sees for one scene: technique, error, false shadow, leak, edge error, flicker, cost, front; of `rows`,
+/// indices of the scene's records. Under it the advice (harness/report/advice.h), which is of all. Plain text.
+std::string terminalTable(const std::vector<Record>& records, const std::string& scene,
+                          const std::vector<std::size_t>& rows);
+std::string terminalTable(const std::vector<Record>& records, const std::string& scene); // of all its records
 
 std::string markdownTable(const std::vector<Record>& records, const std::string& scene);
 
@@ -28,12 +29,6 @@ std::string csv(const std::vector<Record>& records);
 /// harness/report/summary.h), by rising cost.
 std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene,
                                      CostOf costOf = frameCost);
-
-/// Indices of the records of `scene` within its tolerance; none if it states none.
-std::vector<std::size_t> adequate(const std::vector<Record>& records, const std::string& scene);
-
-/// Index of the cheapest record of `scene` within its tolerance that draws shadows; nothing if none is or it states none.
-std::optional<std::size_t> cheapestAdequate(const std::vector<Record>& records, const std::string& scene);
 
 /// Writes report.md, results.csv and the charts (SVG, by gnuplot): pareto-<scene>.svg for every scene,
 /// convergence-<scene>.svg where a record has curves; where records have costs by pass, passes.csv, and costs.md and

@@ -127,18 +127,47 @@ std::optional<Place> place(const Record& record, CostOf costOf) {
     return Place{error->value, cost->ratio, cost->spread};
 }
 
-std::vector<Tolerance> tolerances(const std::vector<Record>& records, const std::string& scene) {
-    std::vector<Tolerance> result;
+namespace {
+
+/// What a viewer refuses although few of all receivers are wrong: shadows that are not there, light that is not.
+const std::vector<Tolerance>& besideOf(const std::string& metric) {
+    static const std::vector<Tolerance> ofLabels{{"leak", 0.05}, {"false_shadow", 0.02}, {"missing_edges", 0.05}};
+    static const std::vector<Tolerance> ofVisibility{{"umbra_leak", 0.05}};
+    static const std::vector<Tolerance> none;
+    if (metric == "mismatch") return ofLabels;
+    return metric == "rmse" || metric == "penumbra_rmse" ? ofVisibility : none;
+}
+
+/// Those of a scene that states none.
+std::vector<Tolerance> usualTolerances(const std::string& headline) {
+    if (headline == "mismatch") return {{"mismatch", 0.02}};
+    return headline == "rmse" ? std::vector<Tolerance>{{"penumbra_rmse", 0.05}, {"rmse", 0.03}} : std::vector<Tolerance>{};
+}
+
+/// Those that the scene states, by metric.
+std::vector<Tolerance> statedTolerances(const std::vector<Record>& records, const std::string& scene) {
     for (const std::size_t i : ofScene(records, scene)) {
-        for (const auto& [metric, value] : records[i].tolerances) result.push_back({metric, value});
-        if (!result.empty()) break;
+        std::vector<Tolerance> stated;
+        for (const auto& [metric, value] : records[i].tolerances) stated.push_back({metric, value});
+        if (!stated.empty()) return stated;
     }
+    return {};
+}
+
+} // namespace
+
+std::vector<Tolerance> tolerances(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<Tolerance> result = statedTolerances(records, scene);
+    if (result.empty()) result = usualTolerances(headlineMetric(records, scene));
+    for (const Tolerance& own : std::vector(result))
+        for (const Tolerance& beside : besideOf(own.metric))
+            if (std::ranges::find(result, beside.metric, &Tolerance::metric) == result.end()) result.push_back(beside);
     return result;
 }
 
 std::optional<Tolerance> tolerance(const std::vector<Record>& records, const std::string& scene) {
-    const std::vector<Tolerance> all = tolerances(records, scene);
-    return all.empty() ? std::nullopt : std::optional(all.front());
+    const std::vector<Tolerance> stated = statedTolerances(records, scene);
+    return stated.empty() ? std::nullopt : std::optional(stated.front());
 }
 
 std::optional<double> shareOfTolerance(const Record& record, const std::vector<Tolerance>& tolerances) {
@@ -255,19 +284,17 @@ std::string frontMark(const std::vector<Record>& records, const std::string& sce
     return limits.empty() || (share && *share <= markedWithin) ? "●" : "○";
 }
 
-std::vector<std::size_t> adequate(const std::vector<Record>& records, const std::string& scene) {
-    const std::vector<Tolerance> limits = tolerances(records, scene);
-    std::vector<std::size_t> within = ofScene(records, scene);
-    std::erase_if(within, [&](std::size_t i) { return !isWithin(records[i], limits); });
-    return within;
-}
-
-std::optional<std::size_t> cheapestAdequate(const std::vector<Record>& records, const std::string& scene) {
-    std::optional<std::size_t> best; // the baseline draws no shadow: within a tolerance it is so by chance
-    const auto rank = [&](std::size_t i) { return std::tuple(place(records[i])->cost, place(records[i])->error); };
-    for (const std::size_t i : adequate(records, scene))
-        if (place(records[i]) && !isBaseline(records[i]) && (!best || rank(i) < rank(*best))) best = i;
-    return best;
+std::optional<std::size_t> keptOffFrontBy(const std::vector<Record>& records, const std::string& scene, std::size_t index) {
+    const std::optional<Place> here = place(records[index]);
+    if (!here) return {};
+    std::optional<std::size_t> by;
+    for (const std::size_t i : ofScene(records, scene)) {
+        const std::optional<Place> other = place(records[i]);
+        if (!other) continue;
+        if (dominates({other->error, other->cost}, {here->error, here->cost})) return {};
+        if (dominates(*other, *here)) by = i;
+    }
+    return by;
 }
 
 } // namespace shadowbench::report

@@ -84,16 +84,22 @@ inline constexpr double markedWithin = 10;
 std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index,
                       CostOf costOf = frameCost);
 
+/// Of a record that is off the front although no other is both cheaper and no worse by the medians of the times: the index
+/// of one that errs less, and that it is not surely cheaper than. Nothing for all others.
+std::optional<std::size_t> keptOffFrontBy(const std::vector<Record>& records, const std::string& scene, std::size_t index);
+
 /// The worst error that a viewer of a scene accepts.
 struct Tolerance {
     std::string metric; // its name for bounds
     double value;
 };
 
-/// The scene's tolerances, by metric, from the first of its records that states any.
+/// The scene's tolerances, by metric, from the first of its records that states any; of a scene that states none the usual
+/// ones of its headline metric. Behind them, unless the scene states its own, the shares of the shadow itself that a viewer
+/// accepts (docs/metrics.md, "Adequacy"). Empty where no record was scored.
 std::vector<Tolerance> tolerances(const std::vector<Record>& records, const std::string& scene);
 
-/// The first of them, which break points are by.
+/// The first that the scene states, which break points are by.
 std::optional<Tolerance> tolerance(const std::vector<Record>& records, const std::string& scene);
 
 /// The error of a record that comes nearest to its tolerance, or exceeds it most, as a multiple of it. Metrics that do not

@@ -1,4 +1,5 @@
 // Tables of one scene, for a terminal and in Markdown.
+#include "harness/report/advice.h"
 #include "harness/report/columns.h"
 #include "harness/report/cost_report.h"
 #include "harness/report/doubts.h"
@@ -89,18 +90,36 @@ std::vector<std::string> motionLines(const std::vector<Record>& records, const s
     return lines;
 }
 
-std::vector<std::string> footnotes(const std::vector<Record>& records, const std::string& scene) {
+/// What to take, and what else would do here.
+std::vector<std::string> adviceLines(const std::vector<Record>& records, const std::string& scene) {
     std::vector<std::string> lines;
-    if (const std::string line = truthLine(records, scene); !line.empty()) lines.push_back(line);
     if (const std::vector<Tolerance> limits = tolerances(records, scene); !limits.empty()) {
-        const std::optional<std::size_t> best = cheapestAdequate(records, scene);
+        const Advice advice = adviceFor(records, scene);
         const bool ofError = limits.size() == 1 && limits.front().metric == headlineMetric(records, scene);
         const std::string bound = ofError ? formatBound(limits.front()) : formatBounds(limits);
-        const std::string within = variantsOf(records, adequate(records, scene));
-        lines.push_back(best ? fmt::format("cheapest within tolerance ({}): {}", bound, withTitle(records[*best]))
-                        : within.empty() ? fmt::format("no technique is within tolerance ({})", bound)
-                                         : fmt::format("within tolerance ({}), none of them timed: {}", bound, within));
+        lines.push_back(
+            advice.take ? fmt::format("cheapest within tolerance ({}): {}", bound, withTitle(records[*advice.take]))
+            : advice.within.empty()
+                ? fmt::format("no technique is within tolerance ({})", bound)
+                : fmt::format("within tolerance ({}), none of them timed: {}", bound, variantsOf(records, advice.within)));
+        for (std::string& note : notesOn(advice, records, techniques::usualNeeds())) lines.push_back(std::move(note));
     }
+    return lines;
+}
+
+/// Of the scene's records `all`, and of those that the table has rows of.
+std::vector<std::string> footnotes(const std::vector<Record>& all, const std::vector<Record>& records,
+                                   const std::string& scene) {
+    std::vector<std::string> lines = adviceLines(all, scene);
+    if (const std::string line = truthLine(records, scene); !line.empty()) lines.insert(lines.begin(), line);
+    std::vector<std::string> kept;
+    for (const std::size_t i : ofScene(records, scene))
+        if (const std::optional<std::size_t> by = keptOffFrontBy(records, scene, i))
+            kept.push_back(fmt::format("{} (by {})", records[i].variant, records[*by].variant));
+    if (!kept.empty())
+        lines.push_back(fmt::format(
+            "off the front by the intervals of the times (what is in brackets errs less and may be as cheap): {}",
+            fmt::join(kept, ", ")));
     for (std::string& line : motionLines(records, scene)) lines.push_back(std::move(line));
     for (const auto& [row, others] : inseparable(records, scene))
         for (const std::size_t other : others)
@@ -163,18 +182,25 @@ std::string heading(const std::vector<Record>& records, const std::string& scene
 
 } // namespace
 
-std::string terminalTable(const std::vector<Record>& records, const std::string& scene) {
-    if (ofScene(records, scene).empty()) return "";
-    const TextTable content = table(records, scene, false);
+std::string terminalTable(const std::vector<Record>& records, const std::string& scene,
+                          const std::vector<std::size_t>& rows) {
+    if (rows.empty()) return "";
+    std::vector<Record> shown;
+    for (const std::size_t i : rows) shown.push_back(records[i]);
+    const TextTable content = table(shown, scene, false);
     std::string text = fmt::format(" {}\n", heading(records, scene));
     if (!content.rows.empty()) text += aligned(content);
-    for (const std::string& line : footnotes(records, scene)) text += fmt::format(" {}\n", line);
+    for (const std::string& line : footnotes(records, shown, scene)) text += fmt::format(" {}\n", line);
     return text;
+}
+
+std::string terminalTable(const std::vector<Record>& records, const std::string& scene) {
+    return terminalTable(records, scene, ofScene(records, scene));
 }
 
 std::string markdownTable(const std::vector<Record>& records, const std::string& scene) {
     std::string text = markdown(table(records, scene, true));
-    for (const std::string& line : footnotes(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
+    for (const std::string& line : footnotes(records, records, scene)) text += fmt::format("\n{}\n", markdownText(line));
     if (const std::string note = rasteriserNote(records, scene); !note.empty()) text += fmt::format("\n{}\n", note);
     for (const std::string& line : rendererLines(records, scene)) text += fmt::format("\n{}\n", markdownText(line));
     for (const std::string& line : figureLines(records, scene)) text += fmt::format("\n{}\n", markdownText(line));

@@ -1,5 +1,6 @@
 #include "harness/report/terminal_summary.h"
 
+#include "harness/report/advice.h"
 #include "harness/report/run_report.h"
 #include "harness/report/summary.h"
 
@@ -25,7 +26,7 @@ std::vector<std::size_t> leastErrors(const std::vector<Record>& records, std::ve
 
 std::vector<std::size_t> frontAndCheapest(const std::vector<Record>& records, const std::string& scene) {
     std::vector<std::size_t> rows = paretoFront(records, scene);
-    const std::optional<std::size_t> cheapest = cheapestAdequate(records, scene);
+    const std::optional<std::size_t> cheapest = adviceFor(records, scene).take;
     if (!cheapest || std::ranges::find(rows, *cheapest) != rows.end()) return rows;
     const auto dearer = [&](std::size_t i) { return place(records[i])->cost > place(records[*cheapest])->cost; };
     rows.insert(std::ranges::find_if(rows, dearer), *cheapest);
@@ -55,18 +56,18 @@ std::string unscoredOf(const std::vector<Record>& records, const std::string& sc
 
 } // namespace
 
-std::string terminalSummary(const std::vector<Record>& records, const std::string& scene, const std::string& page) {
+std::string terminalSummary(const std::vector<Record>& records, const std::string& scene, const std::string& page,
+                            Rows shown) {
     const std::vector<std::size_t> all = scored(records, scene);
     const std::string unscored = unscoredOf(records, scene);
-    if (all.empty()) return unscored.empty() ? "" : fmt::format(" {}: no technique is scored{}\n", scene, unscored);
+    if (all.empty() && unscored.empty()) return "";
+    if (shown == Rows::All) return terminalTable(records, scene);
+    if (all.empty()) return fmt::format(" {}: no technique is scored{}\n", scene, unscored);
     std::vector<std::size_t> rows = frontAndCheapest(records, scene);
     const bool timed = !rows.empty();
     if (!timed) rows = leastErrors(records, all);
     const std::string others = addExternal(records, all, rows) ? " and other renderers" : "";
-
-    std::vector<Record> chosen;
-    for (const std::size_t i : rows) chosen.push_back(records[i]);
-    std::string text = terminalTable(chosen, scene);
+    std::string text = terminalTable(records, scene, rows);
     const std::string which = (timed ? "Pareto front" : "least errors") + others;
     text += fmt::format(" {}: {} of {} techniques{}; the full table: {}\n", which, rows.size(), all.size(), unscored, page);
     return text;

@@ -22,6 +22,12 @@ std::string_view title(Document document) {
     return "";
 }
 
+std::set<Need> lacking(const Entry& entry) {
+    std::set<Need> needs = entry.lacks;
+    if (entry.temporal) needs.insert(Need::NoHistory);
+    return needs;
+}
+
 std::map<std::string, double> declaredFigures(const Entry& entry, std::map<std::string, double> figures) {
     for (const auto& [name, value] : figures) {
         const bool declared = std::ranges::find(entry.figures, name, &Figure::name) != entry.figures.end();

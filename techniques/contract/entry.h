@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 #include "techniques/contract/lod_technique.h"
+#include "techniques/contract/need.h"
 #include "techniques/contract/parameters.h"
 #include "techniques/contract/technique.h"
 
@@ -10,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +57,7 @@ struct Entry {
     Answer answer = Answer::Hard;
     bool temporal = false;     // keeps history: its frames must be rendered in order
     std::string computed = {}; // what is computed when, where a frame does not compute all anew
+    std::set<Need> lacks = {}; // what it has no right answer for; NoHistory follows from `temporal`
     EnvironmentAnswer environment = EnvironmentAnswer::None;
     /// Why the technique does not apply to a scene; nothing if it does. Empty: it applies to every scene whose light it has
     /// an answer for.
@@ -69,6 +72,9 @@ struct Entry {
     std::function<std::unique_ptr<Technique>(const Parameters&)> make = {};       // of a shadow
     std::function<std::unique_ptr<LodTechnique>(const Parameters&)> makeLod = {}; // of a picture: Answer::Colour
 };
+
+/// Entry::lacks, and NoHistory where the technique keeps a history.
+std::set<Need> lacking(const Entry& entry);
 
 /// A technique with all its parameters chosen.
 struct Variant {

@@ -1,5 +1,6 @@
 #include "harness/records/compare.h"
 #include "harness/records/record.h"
+#include "harness/report/advice.h"
 #include "harness/report/cost_report.h"
 #include "harness/report/lod_report.h"
 #include "harness/report/run_report.h"
@@ -52,7 +53,7 @@ void readComparedRecords(std::string_view input) {
         report::markdownTable(records, record.scene);
         report::lodTable(records, record.scene);
         report::passTable(records, record.scene);
-        report::cheapestAdequate(records, record.scene);
+        report::adviceFor(records, record.scene);
     }
 }
 

@@ -14,11 +14,12 @@ struct Choice {
     bool adequate = false;           // within the scene's tolerances
     std::string why;                 // "cheapest of 12 within tolerance"
     std::vector<std::size_t> others; // that are within the tolerances too, by cost
+    std::vector<std::string> notes;  // report::notesOn
 };
 
 /// The cheapest technique within all tolerances of the scene; where none was timed, the one that errs least of those within;
-/// where none is within, the one that comes nearest; without tolerances, the one of the least error. Techniques that draw no
-/// shadow do not count.
+/// where none is within, the one that comes nearest. `none`, other renderers
+/// and techniques that lack what is usually needed (techniques/contract/need.h) do not count.
 Choice choiceFor(const std::vector<Record>& records, const std::string& scene);
 
 /// report::errorText of a scored record, "–" of another.

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace shadowbench::site {
 namespace {
@@ -79,6 +80,8 @@ void setAnswer(Data& data, const std::vector<Record>& records, const Choice& cho
     data.set("weakness", weakness);
     data.set("others", namesOf(records, choice.others));
     data.set("rivals", !choice.others.empty());
+    data.set("noted", !choice.notes.empty());
+    data.set("notes", fmt::format("{}", fmt::join(choice.notes, "; ")));
     data.set("pictures", pictures(record, images, site));
 }
 

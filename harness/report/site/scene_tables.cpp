@@ -75,6 +75,7 @@ std::vector<std::pair<std::string, std::string>> marksOf(const std::vector<Recor
     const std::vector<Tolerance> limits = report::tolerances(records, record.scene);
     return {{"family", facts.family},
             {"answer", facts.answer},
+            {"lacks", facts.lacks},
             {"within", report::isWithin(record, limits) ? "yes" : "no"},
             {"baseline", report::isBaseline(record) ? "yes" : "no"},
             {"spread", fmt::format("{}", report::frameCost(record).value_or(report::FrameCost{}).spread)}};
@@ -114,7 +115,8 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
     if (timed)
         table.columns.push_back(
             {.title = "front",
-             .hint = "● nothing else has both less error and less cost; ○ the same for a baseline or a large error",
+             .hint = "● nothing else has both less error and less cost; ○ the same for a baseline or a large error; ≈ kept "
+                     "off the front by the intervals of the times alone",
              .number = false});
     if (moves)
         table.columns.push_back({.title = "front, standing",
@@ -140,7 +142,15 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
             const std::optional<double> value = column->of(record);
             row.cells.push_back(value ? Cell{column->format(*value), *value} : Cell{"–"});
         }
-        if (timed) row.cells.push_back({report::frontMark(records, scene, i)});
+        if (timed) {
+            Cell front{report::frontMark(records, scene, i)};
+            if (const std::optional<std::size_t> by = report::keptOffFrontBy(records, scene, i)) {
+                front.text = "≈";
+                front.note =
+                    fmt::format("{} errs less, and by the intervals of the times it may be as cheap", records[*by].variant);
+            }
+            row.cells.push_back(std::move(front));
+        }
         if (moves) row.cells.push_back({report::frontMark(records, scene, i, report::standingCost)});
         table.rows.push_back(std::move(row));
     }

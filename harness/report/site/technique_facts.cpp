@@ -42,8 +42,8 @@ std::string nameOf(techniques::Answer answer) {
 TechniqueFacts factsOf(const std::string& technique) {
     const auto all = techniques::catalog();
     const auto entry = std::ranges::find(all, technique, &techniques::Entry::id);
-    if (entry == all.end()) return {technique, familyOf(technique), "other"};
-    return {entry->title, familyOf(technique), nameOf(entry->answer)};
+    if (entry == all.end()) return {technique, familyOf(technique), "other", ""};
+    return {entry->title, familyOf(technique), nameOf(entry->answer), namesOf(lacking(*entry))};
 }
 
 } // namespace shadowbench::site

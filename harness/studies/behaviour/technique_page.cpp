@@ -96,6 +96,7 @@ std::string listed(const Entry& entry, const std::vector<Record>& records) {
     std::string text = fmt::format("* **Source**: {}, {}\n* **Answer**: {}\n", techniques::title(entry.source.document),
                                    markdownText(entry.source.where), answerOf(entry));
     if (entry.temporal) text += "* **History**: a frame depends on those before it\n";
+    if (!entry.lacks.empty()) text += fmt::format("* **Not for**: {}\n", namesOf(entry.lacks));
     if (!entry.computed.empty()) text += fmt::format("* **Computed**: {}\n", markdownText(entry.computed));
     text += fmt::format("* **Variants** of a run: {}\n", fmt::join(variants, ", "));
     return text + costOf(entry, records);
@@ -129,8 +130,7 @@ std::string shown(const Entry& entry, const Place& place, const std::filesystem:
                                    report::formatValue(metric, place.error), report::percent(place.ratio()), baseOf(entry));
     const std::vector<report::Tolerance> limits = report::tolerances(records, record.scene);
     if (const std::optional<double> share = report::shareOfTolerance(record, limits))
-        text += fmt::format("; {} the scene's tolerance ({})", *share <= 1 ? "within" : "beyond",
-                            markdownText(report::formatBounds(limits)));
+        text += fmt::format("; {} the scene's tolerances", *share <= 1 ? "within" : "beyond");
     if (record.status == Status::ExpectedFailure) text += ". The scene says: " + markdownText(record.reason);
     text += "\n";
     if (!std::filesystem::exists(picture)) return text;

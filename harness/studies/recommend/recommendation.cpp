@@ -5,7 +5,7 @@
 #include "base/progress_line.h"
 #include "harness/metrics/table.h"
 #include "harness/records/comparability.h"
-#include "harness/report/run_report.h"
+#include "harness/report/advice.h"
 #include "harness/runs/run.h"
 #include "scene/load/load.h"
 
@@ -23,11 +23,17 @@ bool hasLevels(const Scene& scene) {
     return std::ranges::any_of(scene.objects, [](const Object& object) { return object.levels.size() > 1; });
 }
 
+std::set<Question> questionsOn(const Scene& scene, const RecommendOptions& options) {
+    if (!options.questions.empty()) return options.questions;
+    if (hasLevels(scene)) return {Question::Casters};
+    return {Question::Technique, Question::Map};
+}
+
 /// Of the standard scenes those with levels, unless the question is another one.
 std::vector<std::string> chosenScenes(const RecommendOptions& options) {
     if (!options.scenes.empty()) return options.scenes;
     std::vector<std::string> ids = standardScenes();
-    if (options.questions.contains(Question::Casters))
+    if (options.questions.empty() || options.questions.contains(Question::Casters))
         std::erase_if(ids, [&](const std::string& id) {
             return !hasLevels(loadScene(id, options.profile, metrics::boundedMetrics()));
         });
@@ -95,19 +101,30 @@ private:
     ExitCode code_ = ExitCode::Pass;
 };
 
-std::optional<Cheapest> cheapest(const std::vector<Record>& records, const std::string& scene) {
-    const std::optional<std::size_t> best = report::cheapestAdequate(records, scene);
-    if (!best) return {};
-    const Record& record = records[*best];
-    const std::optional<double> error = metrics::bounded(record.values, report::tolerance(records, scene)->metric);
-    return Cheapest{record.variant, error.value_or(0), report::frameCost(record)->ratio, report::knowsMotion(record)};
+std::set<techniques::Need> needsOf(const RecommendOptions& options) {
+    std::set<techniques::Need> needs = options.needs;
+    if (options.standing)
+        for (const techniques::Need moving : {techniques::Need::MovingLight, techniques::Need::MovingCasters})
+            needs.erase(moving);
+    return needs;
 }
 
-void answerFromRecords(Question question, const std::vector<Record>& records, Recommendation& result) {
+void adviseTechnique(const std::vector<Record>& records, const std::set<techniques::Need>& needs, Recommendation& result) {
+    const report::Advice advice = report::adviceFor(records, result.scene, needs);
+    result.techniqueNotes = report::notesOn(advice, records, needs);
+    if (!advice.take) return;
+    const Record& record = records[*advice.take];
+    const std::optional<double> error = metrics::bounded(record.values, result.tolerances.front().metric);
+    result.technique =
+        Cheapest{record.variant, error.value_or(0), report::frameCost(record)->ratio, report::knowsMotion(record)};
+}
+
+void answerFromRecords(Question question, const std::vector<Record>& records, const std::set<techniques::Need>& needs,
+                       Recommendation& result) {
     result.tolerances = report::tolerances(records, result.scene);
     if (result.tolerances.empty())
-        throw BadInput(fmt::format("scene {} states no tolerance: give one with --tolerance", result.scene));
-    if (question == Question::Technique) result.technique = cheapest(records, result.scene);
+        throw Inconclusive(fmt::format("no record of scene {} is scored, so that nothing can be advised", result.scene));
+    if (question == Question::Technique) adviseTechnique(records, needs, result);
     if (question == Question::Map) result.maps = leastAdequate(records, result.scene, Resource::MapTexels);
     if (question == Question::Samples) result.samples = leastAdequate(records, result.scene, Resource::Samples);
 }
@@ -141,17 +158,27 @@ Question questionNamed(const std::string& word) {
 Recommendations recommend(const RecommendOptions& options) {
     Recommendations all;
     Records records(options);
+    const std::set<techniques::Need> needs = needsOf(options);
+    std::vector<Record> ofTechniques; // on all scenes
+    std::vector<std::string> scenes;
     for (const std::string& idOrFile : chosenScenes(options)) {
         const Scene scene = loadScene(idOrFile, options.profile, metrics::boundedMetrics());
-        Recommendation result{scene.id, options.questions, {}, {}, {}, {}, {}};
-        for (const Question question : options.questions)
-            if (question == Question::Casters)
+        scenes.push_back(scene.id);
+        Recommendation result{scene.id, questionsOn(scene, options), {}, {}, {}, {}, {}, {}};
+        for (const Question question : result.questions) {
+            if (question == Question::Casters) {
                 result.casters = casterLevels(scene, options);
-            else
-                answerFromRecords(question, records.of(question, idOrFile, scene), result);
+                continue;
+            }
+            const std::vector<Record> found = records.of(question, idOrFile, scene);
+            answerFromRecords(question, found, needs, result);
+            if (question == Question::Technique)
+                for (const std::size_t i : report::ofScene(found, scene.id)) ofTechniques.push_back(found[i]);
+        }
         if (result.casters && !result.casters->verified) all.code = ExitCode::Inconclusive;
         all.scenes.push_back(std::move(result));
     }
+    if (scenes.size() > 1 && !ofTechniques.empty()) all.common = report::commonAdvice(ofTechniques, scenes, needs);
     if (all.code == ExitCode::Pass) all.code = records.code();
     return all;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "harness/report/advice.h"
 #include "harness/report/summary.h"
 #include "harness/studies/recommend/caster_levels.h"
 #include "harness/studies/recommend/least_resource.h"
@@ -20,18 +21,19 @@ Question questionNamed(const std::string& word); // throws BadInput naming all
 
 struct RecommendOptions {
     std::vector<std::string> scenes; // ids or files; empty: those standard scenes that have what is asked for
-    std::set<Question> questions{Question::Casters};
+    std::set<Question> questions;    // empty: casters of a scene with levels, technique and map of others
     Profile profile = Profile::Gate;
     CasterOptions casters;                           // its tolerance holds for all questions
     std::vector<std::string> techniques;             // variants or globs; empty: all
     std::filesystem::path records;                   // of a run; empty: the cells that the questions need are run
     std::filesystem::path out = "results/recommend"; // of those cells' records
     std::filesystem::path cache;
-    bool standing = false; // light and casters stand still
+    bool standing = false;                                       // light and casters stand still: moving ones are not needed
+    std::set<techniques::Need> needs = techniques::usualNeeds(); // of the technique
     bool quiet = false;
 };
 
-/// The cheapest technique within tolerance.
+/// The cheapest technique within tolerance that can do what is needed.
 struct Cheapest {
     std::string variant;
     double error; // by the first tolerance's metric
@@ -46,12 +48,15 @@ struct Recommendation {
     std::optional<CasterRecommendation> casters;
     std::vector<report::Tolerance> tolerances; // of the three below, which are within all of them
     std::optional<Cheapest> technique;         // nothing if none is within tolerance
+    std::vector<std::string> techniqueNotes;   // what a person should know beside it
     std::vector<Least> maps, samples;          // a line a technique, the least first; empty if none is within tolerance
 };
 
 /// Inconclusive when a casters' recommendation was not verified, else that of a cell that ended in an error, else Pass.
 struct Recommendations {
     std::vector<Recommendation> scenes;
+    std::optional<report::CommonAdvice> common =
+        {}; // the one technique for all, of several scenes; nothing if there is none
     ExitCode code = ExitCode::Pass;
 };
 

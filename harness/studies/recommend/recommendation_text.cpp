@@ -116,6 +116,18 @@ std::string cheapestLine(const std::optional<Cheapest>& technique, const std::ve
                        technique->moving ? "the dearer of standing and in motion" : "standing");
 }
 
+std::vector<std::string> idsOf(const Recommendations& all) {
+    std::vector<std::string> ids;
+    for (const Recommendation& one : all.scenes) ids.push_back(one.scene);
+    return ids;
+}
+
+bool asksForTechnique(const Recommendations& all) {
+    return all.scenes.size() > 1 && std::ranges::any_of(all.scenes, [](const Recommendation& one) {
+               return one.questions.contains(Question::Technique);
+           });
+}
+
 ordered_json toJson(const GroupLevel& group) {
     ordered_json result{{"object", group.object}, {"from", group.from}};
     if (!std::isinf(group.until)) result["until"] = group.until;
@@ -163,6 +175,7 @@ ordered_json toJson(const Recommendation& r) {
                                {"error", r.technique->error},
                                {"cost", r.technique->cost},
                                {"in_motion", r.technique->moving}};
+    if (!r.techniqueNotes.empty()) result["notes"] = r.techniqueNotes;
     if (r.questions.contains(Question::Map)) result["map"] = toJson(r.maps, "texels");
     if (r.questions.contains(Question::Samples)) result["samples"] = toJson(r.samples, "samples");
     return result;
@@ -174,15 +187,31 @@ std::string text(const Recommendation& r) {
     std::string lines = fmt::format(" scene: {}\n", r.scene);
     if (r.casters) lines += text(*r.casters);
     if (r.questions.contains(Question::Technique)) lines += cheapestLine(r.technique, r.tolerances);
+    for (const std::string& note : r.techniqueNotes) lines += fmt::format("   {}\n", note);
     if (r.questions.contains(Question::Map)) lines += leastTable("smallest map", "texels a side", r.maps, r.tolerances);
     if (r.questions.contains(Question::Samples)) lines += leastTable("fewest samples", "samples", r.samples, r.tolerances);
     return lines;
 }
 
-std::string json(const std::vector<Recommendation>& recommendations) {
-    ordered_json all = ordered_json::array();
-    for (const Recommendation& recommendation : recommendations) all.push_back(toJson(recommendation));
-    return all.dump(2);
+std::string commonText(const Recommendations& all) {
+    if (!asksForTechnique(all)) return "";
+    const std::string heading = fmt::format(" one technique for {}", fmt::join(idsOf(all), ", "));
+    if (!all.common) return heading + ": none is within tolerance on all of them\n";
+    return fmt::format("{}: {}, at most {:.2f} frames of sm-uniform (on {})\n", heading, all.common->variant,
+                       all.common->cost, all.common->dearest);
+}
+
+std::string json(const Recommendations& all) {
+    ordered_json list = ordered_json::array();
+    for (const Recommendation& one : all.scenes) list.push_back(toJson(one));
+    if (asksForTechnique(all)) {
+        ordered_json technique;
+        if (all.common)
+            technique = {
+                {"variant", all.common->variant}, {"cost", all.common->cost}, {"dearest_scene", all.common->dearest}};
+        list.push_back({{"scenes", idsOf(all)}, {"technique", technique}});
+    }
+    return list.dump(2);
 }
 
 } // namespace shadowbench::recommend

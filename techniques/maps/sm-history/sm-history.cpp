@@ -137,6 +137,7 @@ Entry smHistory() {
             .source = {Document::PixelCorrectPaper, "3, listing 6.1 of the dissertation"},
             .answer = Answer::Hard,
             .temporal = true,
+            .lacks = {Need::MovingLight, Need::MovingCasters},
             .parameters = std::move(parameters),
             .figures = {{"history_bytes", "bytes of history and depth for a pixel of the image, both buffers"}},
             .variants = {"", "m=15,step=0", "base=uniform", "base=focused", "filter=pcf"},

@@ -100,6 +100,7 @@ Entry planarFake() {
             .title = "Projected shadow on a plane, percentage-closer filtered",
             .source = {Document::Zapotocky, "5.2 and A.6"},
             .answer = Answer::Filtered,
+            .lacks = {Need::AnyReceiver},
             .notApplicable = noPlanarReceiver,
             .parameters = {{"kernel", "7", OneOf{{"3", "5", "7", "9"}}, "taps per side", "Zápotocký 5.2"},
                            {"map", "1024", IntegerRange{16, 8192}, "texels per side of the texture over the receiver", ""}},

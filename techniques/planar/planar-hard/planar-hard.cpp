@@ -53,6 +53,7 @@ Entry planarHard() {
             .title = "Projected shadow on a plane",
             .source = {Document::Zapotocky, "2.2"},
             .answer = Answer::Hard,
+            .lacks = {Need::AnyReceiver},
             .notApplicable = noPlanarReceiver,
             .parameters = {},
             .variants = {""},

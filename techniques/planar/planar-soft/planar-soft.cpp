@@ -85,6 +85,7 @@ Entry planarSoft() {
             .title = "Projected shadows on a plane, blended",
             .source = {Document::Zapotocky, "2.2 and B.3"},
             .answer = Answer::Soft,
+            .lacks = {Need::AnyReceiver},
             .notApplicable = noPlanarReceiver,
             .parameters = {lightCountParameter("light samples, one projection each")},
             .variants = {""},

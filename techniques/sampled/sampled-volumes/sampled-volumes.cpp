@@ -105,6 +105,7 @@ Entry sampledVolumes() {
         .title = "Sampled area light, stencil shadow volumes of each sample",
         .source = {Document::Zapotocky, "5.4"},
         .answer = Answer::Soft,
+        .lacks = {Need::OpenMeshes},
         .parameters = {lightCountParameter("light samples, the volumes of all casters for each"),
                        lightPatternParameter(),
                        {"test", "zfail", OneOf{{"zfail", "zpass", "xor", "per-caster"}},

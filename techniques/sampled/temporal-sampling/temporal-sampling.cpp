@@ -53,6 +53,7 @@ Entry temporalSampling() {
             .source = {Document::Dissertation, "4.1.2, eq. 4.5"},
             .answer = Answer::Soft,
             .temporal = true,
+            .lacks = {Need::MovingLight, Need::MovingCasters},
             .parameters = withDepthMapParameters(shadowBufferParameters()),
             .figures = shadowBufferFigures(),
             .variants = {""},

@@ -103,6 +103,7 @@ Entry temporalSoft() {
             .source = {Document::Dissertation, "4, listing 6.2"},
             .answer = Answer::Soft,
             .temporal = true,
+            .lacks = {Need::MovingLight, Need::MovingCasters},
             .parameters = withDepthMapParameters(std::move(parameters)),
             .figures = shadowBufferFigures(),
             .variants = {""},

@@ -12,6 +12,7 @@ Entry volumeXor() {
             .title = "Stencil shadow volumes, exclusive-or",
             .source = {Document::Zapotocky, "2.4.5"},
             .answer = Answer::Hard,
+            .lacks = {Need::AnyEye},
             .parameters = {},
             .figures = volumeFigures(),
             .variants = {""},

@@ -73,6 +73,7 @@ Entry volumeZfail() {
             .title = "Stencil shadow volumes, depth-fail",
             .source = {Document::Course, "Practical and Robust Stenciled Shadow Volumes; Zápotocký 2.4.4"},
             .answer = Answer::Hard,
+            .lacks = {Need::OpenMeshes},
             .parameters = {{"far", "clamp", OneOf{{"clamp", "infinity"}},
                             "clamp depth, or put the far plane at infinity (P_inf)", "course, 3.2.1 and 3.4"},
                            {"test", "per-caster", OneOf{{"per-caster", "zfail"}},

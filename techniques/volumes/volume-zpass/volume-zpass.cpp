@@ -13,6 +13,7 @@ Entry volumeZpass() {
             .title = "Stencil shadow volumes, depth-pass",
             .source = {Document::Zapotocky, "2.4.3; course, Practical and Robust Stenciled Shadow Volumes, 2.2"},
             .answer = Answer::Hard,
+            .lacks = {Need::AnyEye},
             .parameters = {},
             .figures = volumeFigures(),
             .variants = {""},

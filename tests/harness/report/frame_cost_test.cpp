@@ -1,4 +1,5 @@
 // What a frame costs: the dearer of standing and in motion.
+#include "harness/report/advice.h"
 #include "harness/report/cost_report.h"
 #include "harness/report/run_report.h"
 #include "harness/report/summary.h"
@@ -61,8 +62,8 @@ TEST(FrameCost, OfOlderRecordsIsTheStandingFramesAndSaysSo) {
 TEST(FrameCost, DecidesFrontAndChoice) {
     const std::vector<Record> records = scene(), still = report::standing(scene());
     const std::string& id = records.front().scene;
-    EXPECT_EQ(records[*report::cheapestAdequate(records, id)].variant, "sm-cascaded");
-    EXPECT_EQ(still[*report::cheapestAdequate(still, id)].variant, "sm-adaptive");
+    EXPECT_EQ(records[*report::adviceFor(records, id).take].variant, "sm-cascaded");
+    EXPECT_EQ(still[*report::adviceFor(still, id).take].variant, "sm-adaptive");
     EXPECT_EQ(report::paretoFront(records, id), (std::vector<std::size_t>{0, 2}));
     EXPECT_EQ(report::paretoFront(records, id, report::standingCost), (std::vector<std::size_t>{0, 1}));
     EXPECT_EQ(report::paretoFront(still, id), (std::vector<std::size_t>{0, 1}));

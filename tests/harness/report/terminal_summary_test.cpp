@@ -44,6 +44,14 @@ TEST(TerminalSummary, WithoutTimesItShowsTheLeastErrors) {
     EXPECT_LE(std::ranges::count(text, '\n'), 10);
 }
 
+TEST(TerminalSummary, OfRowsThatTheUserNamedItShowsAllAndWhyOneDoesNotApply) {
+    const std::vector<Record> records = {test::hardCell("sm-uniform", 0.01, 1), test::hardCell("sm-tsm", 0.06, 1.4),
+                                         test::unscored(Status::NotApplicable, "needs an area light")};
+    const std::string text = report::terminalSummary(records, "dueling-frusta", "report.md", report::Rows::All);
+    EXPECT_TRUE(has(text, " sm-uniform ") && has(text, " sm-tsm ")) << text;
+    EXPECT_TRUE(has(text, "not applicable: sm-history:base=lispsm (needs an area light)")) << text;
+}
+
 TEST(TerminalSummary, OfASceneWhereNothingIsScoredItSaysSo) {
     const std::vector<Record> records = {test::unscored(Status::NotApplicable, "needs an area light")};
     const std::string text = report::terminalSummary(records, records.front().scene, "report.md");

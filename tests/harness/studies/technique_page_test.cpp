@@ -68,7 +68,7 @@ TEST(TechniquePage, ShowsTheScenesOfLeastAndGreatestErrorBesideNone) {
     records[3].status = Status::ExpectedFailure;
     records[3].reason = "its map is coarse";
     const std::string page = pageOf(toy(techniques::Answer::Hard), records);
-    const std::string limit = "of `none`'s; beyond the scene's tolerance (mismatch 0.5 %)";
+    const std::string limit = "of `none`'s; beyond the scene's tolerances";
     expectIn(page, "## Where it is good\n\n* **By the error**: `much`, mismatching pixels 5.00 %, 10.0 % " + limit +
                        "\n\n![toy on much](../pictures/techniques/toy-good.png)\n");
     expectIn(page, "## Where it breaks\n\n* **By the error**: `little`, mismatching pixels 0.90 %, 90.0 % " + limit +

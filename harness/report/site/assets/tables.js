@@ -56,6 +56,8 @@ var shadowbenchTables = (function () {
     if (entry.rows.length > atOnce) entry.rest = setTimeout(() => entry.body.append(...entry.rows.slice(atOnce)));
   }
 
+  const lacksOf = (row) => (row.dataset.lacks || "").split(", ").filter(Boolean);
+
   function filter(entry, wanted) {
     freeze(entry);
     let count = 0;
@@ -63,7 +65,8 @@ var shadowbenchTables = (function () {
     for (const row of entry.rows) {
       const name = row.cells[0].textContent.toLowerCase();
       const seen = words.every((word) => name.includes(word)) && (!wanted.family || row.dataset.family === wanted.family) &&
-        (!wanted.answer || row.dataset.answer === wanted.answer) && (!wanted.within || row.dataset.within === "yes");
+        (!wanted.answer || row.dataset.answer === wanted.answer) && (!wanted.within || row.dataset.within === "yes") &&
+        !lacksOf(row).some((need) => wanted.needs.includes(need));
       row.hidden = !seen;
       if (seen) ++count;
     }
@@ -87,10 +90,18 @@ var shadowbenchTables = (function () {
     const within = make("input", { type: "checkbox" });
     const withinLabel = make("label");
     withinLabel.append(within, "within tolerance only");
+    const needs = new Map(); // of those that a row lacks: name → checkbox
+    for (const need of [...new Set(entry.rows.flatMap(lacksOf))].sort()) needs.set(need, make("input", { type: "checkbox" }));
+    const needLabels = [...needs].map(([need, box]) => {
+      const label = make("label", { title: "hide techniques without a right answer for this" });
+      label.append(box, need.replaceAll("-", " "));
+      return label;
+    });
     const said = make("output", { "aria-live": "polite" });
-    form.append(text, familyLabel, answerLabel, withinLabel, said);
+    form.append(text, familyLabel, answerLabel, withinLabel, ...needLabels, said);
     const apply = () => {
-      const count = filter(entry, { text: text.value, family: family.value, answer: answer.value, within: within.checked });
+      const count = filter(entry, { text: text.value, family: family.value, answer: answer.value, within: within.checked,
+        needs: [...needs.keys()].filter((need) => needs.get(need).checked) });
       said.textContent = count + " of " + entry.rows.length;
     };
     form.addEventListener("submit", (event) => event.preventDefault());
