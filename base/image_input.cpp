@@ -1,66 +1,60 @@
 #include "base/image_input.h"
 
 #include "base/error.h"
+#include "base/image_formats.h"
 
 #include <algorithm>
-#include <string_view>
-#include <vector>
+#include <array>
+#include <fmt/format.h>
 
 namespace shadowbench {
-
-OIIO::ImageSpec asStored() {
-    OIIO::ImageSpec wanted;
-    wanted.attribute("oiio:UnassociatedAlpha", 1);
-    return wanted;
-}
-
-ImageHeader headerOf(const OIIO::ImageInput& input) {
-    const OIIO::ImageSpec& spec = input.spec();
-    const bool window =
-        spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width || spec.height != spec.full_height;
-    return {.format = input.format_name(),
-            .width = spec.width,
-            .height = spec.height,
-            .channels = spec.channelnames,
-            .alpha = spec.alpha_channel,
-            .bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size())),
-            .floats = spec.format.is_floating_point(),
-            .whole = !window && !spec.deep && spec.depth <= 1};
-}
-
 namespace {
 
-/// For one of a PNG's or PNM's channels OpenImageIO would make a pool of threads, which a confined reader cannot; a row with
-/// all channels it reads in the thread that asks.
-Image<float> pixelsByRows(OIIO::ImageInput& input, int channel) {
-    const OIIO::ImageSpec& spec = input.spec();
-    Image<float> image(spec.width, spec.height);
-    const auto channels = static_cast<std::size_t>(spec.nchannels);
-    std::vector<float> row(static_cast<std::size_t>(spec.width) * channels);
-    for (int y = 0; y < spec.height; ++y) {
-        if (!input.read_scanline(spec.y + y, 0, OIIO::TypeDesc::FLOAT, row.data()))
-            throw BadInput(inOneLine(input.geterror()));
-        for (int x = 0; x < spec.width; ++x)
-            image(x, y) = row[static_cast<std::size_t>(x) * channels + static_cast<std::size_t>(channel)];
-    }
-    return image;
+using namespace std::string_view_literals;
+
+struct Format {
+    std::string_view beginning, name;
+    ImageHeader (*headerOf)(std::string_view) = nullptr; // of a format that is read
+    Image<float> (*channelOf)(std::string_view, int) = nullptr;
+};
+
+constexpr std::array<Format, 17> formats{{{"\x76\x2f\x31\x01", "openexr", exr::headerOf, exr::channelOf},
+                                          {"\x89PNG\r\n\x1a\n", "png", png::headerOf, png::channelOf},
+                                          {"PF", "pnm", pnm::headerOf, pnm::channelOf},
+                                          {"Pf", "pnm", pnm::headerOf, pnm::channelOf},
+                                          {"P1", "pnm", pnm::headerOf, pnm::channelOf},
+                                          {"P2", "pnm", pnm::headerOf, pnm::channelOf},
+                                          {"P3", "pnm", pnm::headerOf, pnm::channelOf},
+                                          {"P4", "pnm", pnm::headerOf, pnm::channelOf},
+                                          {"P5", "pnm", pnm::headerOf, pnm::channelOf},
+                                          {"P6", "pnm", pnm::headerOf, pnm::channelOf},
+                                          {"\xff\xd8\xff", "jpeg"},
+                                          {"#?", "hdr"},
+                                          {"GIF8", "gif"},
+                                          {"RIFF", "webp"},
+                                          {"BM", "bmp"},
+                                          {"II*\0"sv, "tiff"},
+                                          {"MM\0*"sv, "tiff"}}};
+
+const Format& formatOf(std::string_view bytes) {
+    const auto* const format =
+        std::ranges::find_if(formats, [&](const Format& f) { return bytes.starts_with(f.beginning); });
+    if (format == formats.end()) throw BadInput(bytes.empty() ? "it is empty" : "it is no EXR, PNG or PFM file");
+    return *format;
 }
 
 } // namespace
 
-Image<float> pixelsOf(OIIO::ImageInput& input, int channel) {
-    const OIIO::ImageSpec& spec = input.spec();
-    if (spec.nchannels > 1 && std::string_view(input.format_name()) != "openexr") return pixelsByRows(input, channel);
-    Image<float> image(spec.width, spec.height);
-    if (!input.read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, image.data()))
-        throw BadInput(inOneLine(input.geterror()));
-    return image;
+ImageHeader headerOf(std::string_view bytes) {
+    const Format& format = formatOf(bytes);
+    return format.headerOf != nullptr ? format.headerOf(bytes)
+                                      : ImageHeader{.format = std::string(format.name), .channels = {}};
 }
 
-std::string inOneLine(std::string reason) {
-    std::replace(reason.begin(), reason.end(), '\n', ' ');
-    while (reason.ends_with(' ')) reason.pop_back();
-    return reason.empty() ? "it is damaged" : reason;
+Image<float> channelOf(std::string_view bytes, const ImageHeader& header, int channel) {
+    if (channel < 0 || static_cast<std::size_t>(channel) >= header.channels.size())
+        throw BadInput(fmt::format("it has {} channels, counted from 0, and no {}", header.channels.size(), channel));
+    return formatOf(bytes).channelOf(bytes, channel);
 }
 
 } // namespace shadowbench

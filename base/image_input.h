@@ -1,22 +1,17 @@
-// OpenImageIO's images as ours. Only sources of this folder and of base/confined/ include this: it brings OpenImageIO.
+// Images in memory, of whatever format they are.
 #pragma once
 
 #include "base/image_io.h"
 
-#include <OpenImageIO/imageio.h>
-#include <string>
+#include <string_view>
 
 namespace shadowbench {
 
-/// Colours as stored, not multiplied by alpha.
-OIIO::ImageSpec asStored();
+/// Reads the header of an EXR, PNG, PFM or other PNM; the format is chosen by the first bytes. Of another format that is
+/// known: its name and no more. Throws BadInput with the reason, without a file's name.
+ImageHeader headerOf(std::string_view bytes);
 
-ImageHeader headerOf(const OIIO::ImageInput& input);
-
-/// Channel `channel` as linear values. Throws BadInput with what OpenImageIO says, without a file's name.
-Image<float> pixelsOf(OIIO::ImageInput& input, int channel);
-
-/// What OpenImageIO says went wrong, in one line.
-std::string inOneLine(std::string reason);
+/// A channel of an image with that header, as linear values. Throws BadInput as above, and where there is no such channel.
+Image<float> channelOf(std::string_view bytes, const ImageHeader& header, int channel);
 
 } // namespace shadowbench

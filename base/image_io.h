@@ -1,5 +1,5 @@
-// Our own image files, all through OpenImageIO. Every write is whole or not at all. Those of other people are decoded in a
-// child: base/confined/image_reader.h.
+// Our own image files. Every write is whole or not at all. Those of other people are decoded in a child:
+// base/confined/image_reader.h.
 #pragma once
 
 #include "base/image.h"

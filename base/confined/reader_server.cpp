@@ -50,8 +50,7 @@ Descriptor startServer(const char* name) {
     command.memoryLimit.reset();
     command.fileLimit = 0;
     command.openFiles = 2 * kMostPassed;
-    command.environment = std::vector<std::string>{fmt::format("{}={}", handshake::variable, name), "LC_ALL=C",
-                                                   "OPENIMAGEIO_THREADS=1"}; // none can be made where it reads
+    command.environment = std::vector<std::string>{fmt::format("{}={}", handshake::variable, name), "LC_ALL=C"};
     const Launch launch(command);
     auto [ours, servers] = makeRequestSockets();
     const Descriptor nothing = openNothing();

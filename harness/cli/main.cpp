@@ -81,8 +81,7 @@ ExitCode dispatch(int argc, char** argv) {
     return action();
 }
 
-/// Before objects with static storage are made, which may lack memory, too, and before the libraries that start threads as
-/// they are loaded (log4cplus, of OpenVDB, of OpenImageIO).
+/// Before objects with static storage are made, our own and the libraries', which may lack memory, too.
 __attribute__((section(".preinit_array"), used)) void (*const beforeLibraries)() = sayWhyAborted;
 
 [[noreturn]] void failToPrint(const char* stream, int error) {

@@ -31,18 +31,19 @@ struct Include {
 };
 
 /// Whose a header is by how its path begins. `<thread>` needs no line: every module reaches base, which links threads.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 15> packageOfHeader{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 16> packageOfHeader{
     {{"CGAL/", "cgal"},
      {"CLI/", "cli11"},
      {"EGL/", "gl"},
      {"GL/", "gl"},
-     {"OpenImageIO/", "oiio"},
+     {"OpenEXR/", "openexr"},
      {"assimp/", "assimp"},
      {"boost/", "boost"},
      {"embree3/", "embree"},
      {"meshoptimizer.h", "meshoptimizer"},
      {"mustache.hpp", "mustache"},
      {"nlohmann/", "json"},
+     {"png.h", "png"},
      {"seccomp.h", "seccomp"},
      {"toml++/", "toml"},
      {"xxhash.h", "xxhash"},

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/temporary_folder.h"
+#include "tests/support/hexadecimal.h"
 #include "tests/support/message_of.h"
 
 #include <array>
@@ -14,20 +15,12 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace shadowbench {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytesOf(std::string_view hexadecimal) {
-    std::string bytes;
-    for (std::size_t i = 0; i < hexadecimal.size(); i += 2)
-        bytes += static_cast<char>(std::stoi(std::string(hexadecimal.substr(i, 2)), nullptr, 16));
-    return bytes;
-}
 
 std::string refusal(const std::function<void()>& work) { return test::messageOf<BadInput>(work); }
 
@@ -46,9 +39,9 @@ protected:
 
 TEST_F(ConfinedImages, OfSeveralChannelsGiveEachAsOftenAsItIsAskedFor) {
     const fs::path file = folder_.path() / "rgba.png"; // 2 × 2: three of (200, 100, 50, 128), the last of (0, 20, 40, 255)
-    writeFile(file,
-              bytesOf("89504e470d0a1a0a0000000d494844520000000200000002080600000072b60d24000000144944415478da63389162d4"
-                      "00c20c604244e33f0041b906d6f467acb80000000049454e44ae426082"));
+    writeFile(file, test::bytesOf(
+                        "89504e470d0a1a0a0000000d494844520000000200000002080600000072b60d24000000144944415478da63389162d4"
+                        "00c20c604244e33f0041b906d6f467acb80000000049454e44ae426082"));
     ImageReader reader(file);
     EXPECT_EQ(reader.header().alpha, 3);
     EXPECT_EQ(reader.header().bits, 8);

@@ -5,6 +5,7 @@
 #include "base/temporary_folder.h"
 #include "harness/foreign/foreign_image.h"
 #include "harness/foreign/visibility.h"
+#include "tests/support/hexadecimal.h"
 
 #include <cmath>
 #include <fstream>
@@ -123,13 +124,8 @@ TEST_F(ForeignFiles, OfAnotherFormatOrOfNoRelatedSizeAreRefused) {
 
 /// 16 × 16 pixels of two entries of a palette: black in the left half, white in the right one.
 std::string pngWithPalette() {
-    constexpr std::string_view digits =
-        "89504e470d0a1a0a0000000d4948445200000010000000100103000000253d6d2200000006504c5445000000ffffffa5"
-        "d99fdd0000000e4944415478da6360f8cf400a020076c70ff1f9ef6fae0000000049454e44ae426082";
-    std::string bytes;
-    for (std::size_t i = 0; i < digits.size(); i += 2)
-        bytes += static_cast<char>(std::stoi(std::string(digits.substr(i, 2)), nullptr, 16));
-    return bytes;
+    return test::bytesOf("89504e470d0a1a0a0000000d4948445200000010000000100103000000253d6d2200000006504c5445000000ffffffa5"
+                         "d99fdd0000000e4944415478da6360f8cf400a020076c70ff1f9ef6fae0000000049454e44ae426082");
 }
 
 TEST_F(ForeignFiles, OfThreeEqualColoursAreReadAsOfOneGrey) {
