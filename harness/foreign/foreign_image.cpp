@@ -28,16 +28,6 @@ bool hasPalette(const ImageHeader& header, const fs::path& file) {
     return header.format == "png" && stream.read(start.data(), start.size()) && start[place] == 3;
 }
 
-/// Throws BadInput for a PNG without its last chunk; libpng would print a line of its own.
-void requireWholePng(const fs::path& file) {
-    constexpr std::string_view last = "IEND";
-    constexpr std::streamoff fromEnd = 8; // the chunk's name and checksum
-    std::array<char, last.size()> chunk{};
-    std::ifstream stream(file, std::ios::binary);
-    const bool read(stream.seekg(-fromEnd, std::ios::end) && stream.read(chunk.data(), chunk.size()));
-    if (!read || std::string_view(chunk.data(), chunk.size()) != last) refuse(file, "is cut off: write it again, whole");
-}
-
 /// Opens `file`, once it is there.
 ImageReader opened(const fs::path& file) {
     const fs::file_status status = fs::status(file);
@@ -49,7 +39,6 @@ ImageReader opened(const fs::path& file) {
 void requireFitting(const ImageHeader& header, const fs::path& file, glm::ivec2 size) {
     if (header.format != "openexr" && header.format != "png" && header.format != "pnm")
         refuse(file, fmt::format("is of the format {}: give EXR, PNG or PFM, which keep what was rendered", header.format));
-    if (header.format == "png") requireWholePng(file);
     const glm::ivec2 given(header.width, header.height);
     if (given != size) {
         const std::string words = sizeInWords(given, size);
