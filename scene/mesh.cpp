@@ -1,17 +1,15 @@
 #include "scene/mesh.h"
 
 #include "base/error.h"
+#include "scene/mesh_faults.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <utility>
 
 namespace shadowbench {
 namespace {
-
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 void requireFinite(const Mesh& mesh, const std::string& what) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -29,39 +27,40 @@ void requireIndices(const Mesh& mesh, const std::string& what) {
                                            mesh.triangles[i][corner], mesh.positions.size()));
 }
 
-/// Collinear corners of 32-bit positions give at most rounding of the double products: 10⁻¹² of the longest side squared.
+std::string placeOf(const Fault& fault) {
+    return fmt::format("the first near ({:g}, {:g}, {:g})", fault.place.x, fault.place.y, fault.place.z);
+}
+
 void requireAreas(const Mesh& mesh, const std::string& what) {
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const glm::uvec3 t = mesh.triangles[i];
-        const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
-        const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
-        if (!(glm::length(glm::cross(b - a, c - a)) > 1e-12 * longest))
-            throw BadInput(fmt::format("{}: triangle {} has zero area", what, i));
-    }
+    const auto found = std::ranges::find_if_not(mesh.triangles, [&](const glm::uvec3& t) { return hasArea(mesh, t); });
+    if (found == mesh.triangles.end()) return;
+    const Fault flat = faultsOf(mesh).flat;
+    throw BadInput(fmt::format("{}: triangle {} has zero area, as {} of {} have, {}; delete them in the modelling program "
+                               "(Blender: Mesh > Clean Up > Degenerate Dissolve)",
+                               what, found - mesh.triangles.begin(), flat.count, mesh.triangles.size(), placeOf(flat)));
 }
 
-void requireMatchedEdges(const Mesh& mesh, const std::string& what) {
-    std::vector<Edge> edges;
-    edges.reserve(3 * mesh.triangles.size());
-    for (const glm::uvec3& t : mesh.triangles)
-        for (const Edge& edge : {Edge{t.x, t.y}, Edge{t.y, t.z}, Edge{t.z, t.x}}) edges.push_back(edge);
-    std::sort(edges.begin(), edges.end());
-    if (const auto twice = std::adjacent_find(edges.begin(), edges.end()); twice != edges.end())
-        throw BadInput(fmt::format("{}: not closed: edge {}-{} belongs to two triangles in the same direction", what,
-                                   twice->first, twice->second));
-    for (const Edge& edge : edges)
-        if (!std::binary_search(edges.begin(), edges.end(), Edge{edge.second, edge.first}))
-            throw BadInput(fmt::format("{}: not closed: edge {}-{} has no neighbour", what, edge.first, edge.second));
-}
-
-/// Six times the enclosed volume, by the divergence theorem.
-double sixfoldVolume(const Mesh& mesh) {
-    double volume = 0;
-    for (const glm::uvec3& t : mesh.triangles) {
-        const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
-        volume += glm::dot(a, glm::cross(b, c));
-    }
-    return volume;
+/// A mesh that is not closed fails with its gravest fault, the likely cause and what to do.
+void requireClosed(const Mesh& mesh, const std::string& what) {
+    const EdgeFaults faults = edgeFaultsOf(mesh);
+    const auto fail = [&](const Fault& fault, const char* found, const char* remedy) {
+        throw BadInput(fmt::format("{}: not closed: {} of its edges {}, {}: {}, or leave out closed = true", what,
+                                   fault.count, found, placeOf(fault), remedy));
+    };
+    if (faults.crowded.count > 0)
+        fail(faults.crowded, "belong to more than two triangles",
+             "parts share an edge, or faces lie inside or upon each other; separate the parts or delete the inner faces in "
+             "the modelling program");
+    if (faults.turned.count > 0)
+        fail(faults.turned, "belong to two triangles in the same direction",
+             "some faces are turned inside out; turn them in the modelling program (Blender: Mesh > Normals > Recalculate "
+             "Outside)");
+    if (faults.open.count > 0)
+        fail(faults.open, "have no neighbour",
+             "there is a hole, or vertices that should be one lie apart; fill it or merge them in the modelling program "
+             "(Blender: Merge by Distance)");
+    if (!(signedVolume(mesh) > 0))
+        throw BadInput(fmt::format("{}: the mesh is wound inside out; write flip = true beside its file", what));
 }
 
 bool before(const glm::vec3& a, const glm::vec3& b) {
@@ -98,9 +97,13 @@ void requireWellFormed(const Mesh& mesh, const std::string& what) {
     requireFinite(mesh, what);
     requireIndices(mesh, what);
     requireAreas(mesh, what);
-    if (!mesh.closed) return;
-    requireMatchedEdges(mesh, what);
-    if (!(sixfoldVolume(mesh) > 0)) throw BadInput(fmt::format("{}: the mesh is wound inside out", what));
+    if (mesh.closed) requireClosed(mesh, what);
+}
+
+bool hasArea(const Mesh& mesh, const glm::uvec3& t) {
+    const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+    return glm::length(glm::cross(b - a, c - a)) > 1e-12 * longest;
 }
 
 Mesh weld(const Mesh& mesh) {

@@ -37,6 +37,10 @@ struct Mesh {
 /// positive.
 void requireWellFormed(const Mesh& mesh, const std::string& what);
 
+/// Whether the corners of a triangle of `mesh` span an area. Collinear corners of 32-bit positions give at most rounding of
+/// the double products: 10⁻¹² of the longest side squared.
+bool hasArea(const Mesh& mesh, const glm::uvec3& triangle);
+
 /// Joins equal positions (the first one stays; −0 equals 0) and drops the triangles that collapse.
 Mesh weld(const Mesh& mesh);
 

@@ -26,7 +26,10 @@ TEST(MeshSoundness, AcceptsABoxAndAnOpenPlane) {
 TEST(MeshSoundness, NamesAMissingFace) {
     Mesh mesh = box({1, 1, 1});
     mesh.triangles.pop_back();
-    EXPECT_EQ(complaint(mesh).find("the mesh: not closed: edge "), 0U) << complaint(mesh);
+    EXPECT_EQ(complaint(mesh),
+              "the mesh: not closed: 3 of its edges have no neighbour, the first near (-0.5, 0, 0.5): there is a hole, or "
+              "vertices that should be one lie apart; fill it or merge them in the modelling program (Blender: Merge by "
+              "Distance), or leave out closed = true");
     mesh.closed = false;
     EXPECT_EQ(complaint(mesh), "");
 }
@@ -34,18 +37,33 @@ TEST(MeshSoundness, NamesAMissingFace) {
 TEST(MeshSoundness, NamesAFlippedFace) {
     Mesh mesh = box({1, 1, 1});
     std::swap(mesh.triangles[3].x, mesh.triangles[3].y);
-    EXPECT_NE(complaint(mesh).find("in the same direction"), std::string::npos) << complaint(mesh);
+    EXPECT_EQ(
+        complaint(mesh),
+        "the mesh: not closed: 3 of its edges belong to two triangles in the same direction, the first near (0.5, -0.5, 0): "
+        "some faces are turned inside out; turn them in the modelling program (Blender: Mesh > Normals > Recalculate "
+        "Outside), or leave out closed = true");
+}
+
+TEST(MeshSoundness, NamesAFaceWithin) {
+    Mesh mesh = box({1, 1, 1});
+    mesh.triangles.push_back(mesh.triangles[0]);
+    EXPECT_EQ(
+        complaint(mesh).find("the mesh: not closed: 3 of its edges belong to more than two triangles, the first near ("), 0U)
+        << complaint(mesh);
 }
 
 TEST(MeshSoundness, NamesAMeshTurnedInsideOut) {
     Mesh mesh = box({1, 1, 1});
     for (glm::uvec3& t : mesh.triangles) std::swap(t.x, t.y);
-    EXPECT_EQ(complaint(mesh), "the mesh: the mesh is wound inside out");
+    EXPECT_EQ(complaint(mesh), "the mesh: the mesh is wound inside out; write flip = true beside its file");
 }
 
 TEST(MeshSoundness, NamesZeroArea) {
     const Mesh mesh{{{0, 0, 0}, {0.1F, 0.2F, 0.3F}, {0.2F, 0.4F, 0.6F}}, {{0, 1, 2}}, false};
-    EXPECT_EQ(complaint(mesh), "the mesh: triangle 0 has zero area");
+    EXPECT_EQ(
+        complaint(mesh),
+        "the mesh: triangle 0 has zero area, as 1 of 1 have, the first near (0.1, 0.2, 0.3); delete them in the modelling "
+        "program (Blender: Mesh > Clean Up > Degenerate Dissolve)");
 }
 
 TEST(MeshSoundness, NamesNanIndexAndEmptiness) {

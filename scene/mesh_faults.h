@@ -1,0 +1,48 @@
+// What is wrong with a triangle mesh: how much of it, and where.
+#pragma once
+
+#include "scene/mesh.h"
+
+#include <cstddef>
+
+namespace shadowbench {
+
+/// How many of one kind there are, and where the first is: the middle of an edge or triangle, or a position.
+struct Fault {
+    std::size_t count = 0;
+    glm::vec3 place{0};
+
+    void add(const glm::vec3& where) {
+        if (count++ == 0) place = where;
+    }
+};
+
+struct EdgeFaults {
+    Fault open;    // edges of one triangle
+    Fault crowded; // edges of more than two
+    Fault turned;  // edges along which two triangles run in the same direction: one of them is turned inside out
+
+    /// Every edge has two triangles, which run along it in opposite directions.
+    [[nodiscard]] bool closed() const { return open.count + crowded.count + turned.count == 0; }
+};
+
+struct MeshFaults {
+    EdgeFaults edges;
+    Fault flat;        // triangles of no area
+    Fault repeated;    // triangles with the corners of another one
+    Fault doubled;     // positions that equal another one
+    double volume = 0; // signedVolume()
+};
+
+/// Of meshes whose indices are in range.
+EdgeFaults edgeFaultsOf(const Mesh& mesh);
+MeshFaults faultsOf(const Mesh& mesh);
+
+/// What a closed mesh encloses; below 0 where it is turned inside out.
+double signedVolume(const Mesh& mesh);
+
+/// How many times the surface winds round `point`: 1 within a closed mesh, −1 within one that is turned inside out, ½ on the
+/// surface, 0 outside.
+double windingNumber(const Mesh& mesh, const glm::dvec3& point);
+
+} // namespace shadowbench
