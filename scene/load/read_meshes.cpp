@@ -16,6 +16,8 @@ namespace {
 
 constexpr int kMostSides = 4096;
 
+const std::vector<std::string> kKeysOfFiles{"file", "part", "closed", "simplify", "unit", "up", "flip"};
+
 /// A mesh to be made, and the words by which an equal one is found again.
 struct Recipe {
     std::string words;
@@ -101,15 +103,45 @@ Recipe recipe(const TomlValue& value, int level) {
     return plainRecipe(value);
 }
 
+/// How the positions and windings of a mesh file become those of the scene: metres, +y up, counter-clockwise from outside.
+struct Conventions {
+    double metres = 1; // of the file's unit
+    bool zUp = false;
+    bool flip = false;
+};
+
+double metresOf(const TomlValue& unit) {
+    static const std::vector<std::pair<std::string, double>> units{
+        {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+    std::vector<std::string> names;
+    for (const auto& [name, metres] : units) names.push_back(name);
+    const std::string wanted = unit.oneOf(names);
+    return std::ranges::find(units, wanted, [](const auto& known) { return known.first; })->second;
+}
+
+Conventions conventionsOf(const TomlValue& value) {
+    const auto unit = value.find("unit"), up = value.find("up"), flip = value.find("flip");
+    return {unit ? metresOf(*unit) : 1.0, up && up->oneOf({"y", "z"}) == "z", flip && flip->boolean()};
+}
+
+void convert(Mesh& mesh, const Conventions& file) {
+    for (glm::vec3& p : mesh.positions) {
+        if (file.zUp) p = {p.x, p.z, -p.y}; // a turn about x: right stays right-handed
+        p = glm::vec3(file.metres * glm::dvec3(p));
+    }
+    if (file.flip)
+        for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+}
+
 } // namespace
 
 std::shared_ptr<const Mesh> MeshStore::get(const TomlValue& value, int triangles) {
     value.only({"plane", "box", "sphere", "column", "bumpy", "windmill_tower", "windmill_rotor", "tree", "file", "part",
-                "closed", "simplify"});
-    if (value.find("file")) return imported(value.only({"file", "part", "closed", "simplify"}), triangles);
+                "closed", "simplify", "unit", "up", "flip"});
+    if (value.find("file")) return imported(value.only(kKeysOfFiles), triangles);
     const std::vector<TomlValue> members = value.members();
     if (members.size() != 1) value.fail(fmt::format("expected one kind of mesh, got {}", members.size()));
-    if (members[0].lastKey() == "closed" || members[0].lastKey() == "simplify" || members[0].lastKey() == "part")
+    if (std::ranges::find(kKeysOfFiles, members[0].lastKey()) != kKeysOfFiles.end())
         members[0].fail("belongs to a mesh from a file");
     return generated(members[0], triangles);
 }
@@ -151,9 +183,11 @@ std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, int tria
     if (simplify && triangles > 0) simplify->fail("the levels of lod state the triangles; leave this one out");
     const int wanted = simplify ? simplify->integer(4, kMostTriangles) : triangles;
     const auto part = value.find("part");
+    const Conventions conventions = conventionsOf(value);
     const std::filesystem::path file = folder_ / name.text();
-    std::shared_ptr<const Mesh>& mesh = meshes_[fmt::format("file {} {} {} {}", file.string(), closed && closed->boolean(),
-                                                            wanted, part ? "part " + part->text() : "")];
+    std::shared_ptr<const Mesh>& mesh =
+        meshes_[fmt::format("file {} {} {} {} {} {} {}", file.string(), closed && closed->boolean(), wanted,
+                            conventions.metres, conventions.zUp, conventions.flip, part ? "part " + part->text() : "")];
     if (mesh != nullptr) return mesh;
 
     Mesh made;
@@ -163,6 +197,7 @@ std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, int tria
         name.fail(error.what());
     }
     made.closed = closed && closed->boolean();
+    convert(made, conventions);
     requireWellFormed(made, name.where());
     if (wanted > 0) made = simplified(made, wanted);
     requireWellFormed(made, name.where());

@@ -2,9 +2,14 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "scene/load/load.h"
+#include "scene/mesh_faults.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -182,6 +187,49 @@ TEST_F(MeshFiles, AreFoundBesideTheSceneAndWelded) {
     EXPECT_TRUE(mesh.closed);
     EXPECT_EQ(mesh.triangles.size(), 4U);
     EXPECT_EQ(mesh.positions.size(), 4U);
+}
+
+/// Corners of a box of 1 × 2 × 3 m, its faces outwards.
+const char* const kFaces = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+
+std::string boxWith(const std::function<std::array<double, 3>(double, double, double)>& corner, const std::string& faces) {
+    std::string text;
+    for (const double z : {0.0, 3.0})
+        for (const double y : {0.0, 2.0})
+            for (const double x : {0.0, 1.0}) {
+                const auto [a, b, c] = corner(x, y, z);
+                text += fmt::format("v {} {} {}\n", a, b, c);
+            }
+    return text + faces;
+}
+
+/// Of what the scene has: metres, +y up, faces outwards.
+TEST_F(MeshFiles, OfOtherUnitsAxesAndWindingsBecomeTheSameMesh) {
+    const char* const inwards = "f 2 4 3 1\nf 7 8 6 5\nf 5 6 2 1\nf 4 8 7 3\nf 3 7 5 1\nf 6 8 4 2\n";
+    writeFile(folder_ / "right.obj", boxWith([](double x, double y, double z) { return std::array{x, y, z}; }, kFaces));
+    const auto meshOf = [&](const std::string& words) {
+        return *loadWithMesh(words + ", closed = true").objects[0].levels[0].mesh;
+    };
+    const Mesh right = meshOf("file = \"right.obj\"");
+    for (const auto& [unit, perMetre] : {std::pair("m", 1.0), std::pair("cm", 100.0), std::pair("mm", 1000.0),
+                                         std::pair("in", 1 / 0.0254), std::pair("ft", 1 / 0.3048)}) {
+        writeFile(folder_ / "other.obj", boxWith(
+                                             [&](double x, double y, double z) { // z up, as a modelling program turns it
+                                                 return std::array{perMetre * x, -perMetre * z, perMetre * y};
+                                             },
+                                             inwards));
+        const Mesh mesh = meshOf(fmt::format("file = \"other.obj\", unit = \"{}\", up = \"z\", flip = true", unit));
+        ASSERT_EQ(mesh.triangles.size(), right.triangles.size());
+        EXPECT_NEAR(signedVolume(mesh), 6, 1e-5) << unit;
+        ASSERT_EQ(mesh.positions.size(), 8U);
+        for (const glm::vec3& wanted : right.positions)
+            EXPECT_TRUE(std::ranges::any_of(mesh.positions, [&](const glm::vec3& p) {
+                return glm::distance(p, wanted) < 1e-6F;
+            })) << unit;
+    }
+    EXPECT_THROW(meshOf("file = \"other.obj\", unit = \"ft\", up = \"z\""), BadInput) << "inside out";
+    EXPECT_THROW(meshOf("file = \"right.obj\", unit = \"km\""), BadInput);
+    EXPECT_THROW(loadWithMesh("box = { size = [1, 1, 1] }, unit = \"cm\""), BadInput);
 }
 
 TEST_F(MeshFiles, ThatAreSaidToBeClosedMustBe) {
