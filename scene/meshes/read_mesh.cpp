@@ -92,7 +92,7 @@ void addTriangles(Mesh& mesh, const aiMesh& part) {
     for (unsigned i = 0; i < part.mNumVertices; ++i) {
         const aiVector3D& v = part.mVertices[i];
         if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) // which no order of positions has a place for
-            throw BadInput(fmt::format("position {} is not finite", first + i));
+            throw BadInput(fmt::format("position {} is not finite: ({:g}, {:g}, {:g})", first + i, v.x, v.y, v.z));
         mesh.positions.emplace_back(v.x, v.y, v.z);
     }
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
