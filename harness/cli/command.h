@@ -16,6 +16,7 @@ using Action = std::function<ExitCode()>;
 
 /// Each adds its verb to `app`; a command line that names the verb sets `action`, which must outlive the parsing.
 void addList(CLI::App& app, Action& action);
+void addInspect(CLI::App& app, Action& action);
 void addRun(CLI::App& app, Action& action);
 void addMerge(CLI::App& app, Action& action);
 void addScore(CLI::App& app, Action& action);

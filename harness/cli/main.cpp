@@ -60,8 +60,9 @@ ExitCode dispatch(int argc, char** argv) {
         "5 inconclusive.\nEvery verb has --help with an example.");
 
     Action action;
-    for (const auto& add : {addList, addRun, addMerge, addScore, addReference, addSweep, addRecommend, addClaims, addPapers,
-                            addExport, addCompare, addGate, addHistory, addCache, addReport, addCountFrames, addTimeFrames})
+    for (const auto& add :
+         {addList, addInspect, addRun, addMerge, addScore, addReference, addSweep, addRecommend, addClaims, addPapers,
+          addExport, addCompare, addGate, addHistory, addCache, addReport, addCountFrames, addTimeFrames})
         add(app, action);
     addDocuments(app, action);
 

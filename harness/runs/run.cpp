@@ -9,9 +9,11 @@
 #include "harness/cells/environment.h"
 #include "harness/cells/instruction_costs.h"
 #include "harness/cells/scene_cells.h"
+#include "harness/inspect/inspection.h"
 #include "harness/measure/callgrind.h"
 #include "harness/render/shared_shaders.h"
 #include "harness/runs/kept_cells.h"
+#include "scene/load/load.h"
 #include "scene/load/memory_need.h"
 #include "techniques/gl/context.h"
 
@@ -66,6 +68,7 @@ public:
         if (failed)
             throw InternalError(fmt::format("making the output folder {} failed: {}; choose another with --out",
                                             options.out.string(), failed.message()));
+        warnOfScenes();
     }
 
     RunResult whole() {
@@ -118,6 +121,19 @@ private:
             });
         } catch (const Error& error) {
             throw Inconclusive(error.what());
+        }
+    }
+
+    /// Before the long part, of scenes that are not built in: a black picture scores as well as a right one.
+    void warnOfScenes() const {
+        const std::vector<std::string> names = chosenSceneNames(options_.scenes), known = builtinScenes();
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (std::ranges::find(known, names[i]) != known.end()) continue;
+            try {
+                for (const inspect::Warning& warning : inspect::warningsOf(scenes_[i]))
+                    fmt::print(stderr, "{}: {}\n", scenes_[i].id, inspect::lineOf(warning));
+            } catch (const Error&) { // the cells will meet it, too, and say so
+            }
         }
     }
 

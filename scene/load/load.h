@@ -3,7 +3,9 @@
 
 #include "scene/scene.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,5 +31,8 @@ std::string_view builtinSceneText(const std::string& id);
 /// Throws BadInput when the set-up has no defined answer: light on a surface, zero-size area light, eye inside a closed
 /// mesh.
 void requireWellPosed(const Scene& scene);
+
+/// A placement (Placement::id) that the frame's light touches, or comes as near to as `distance` metres.
+std::optional<std::uint32_t> surfaceAtLight(const Snapshot& frame, double distance);
 
 } // namespace shadowbench

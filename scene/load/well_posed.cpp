@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "scene/load/load.h"
 #include "scene/load/scene_file.h"
+#include "scene/mesh_faults.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,38 +136,21 @@ bool touches(const Polygon& shape, const Mesh& mesh, const glm::dmat4& world, do
     return false;
 }
 
-/// How many times the surface winds round `point`: the solid angles of its triangles over 4π (van Oosterom and Strackee
-/// 1983).
-double windingNumber(const Mesh& mesh, const glm::dvec3& point) {
-    double sum = 0;
-    for (const glm::uvec3& t : mesh.triangles) {
-        const glm::dvec3 a = glm::dvec3(mesh.positions[t.x]) - point, b = glm::dvec3(mesh.positions[t.y]) - point,
-                         c = glm::dvec3(mesh.positions[t.z]) - point;
-        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        sum += std::atan2(glm::dot(a, glm::cross(b, c)),
-                          la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-    }
-    return sum / glm::two_pi<double>();
-}
-
 /// Checks every placement of one frame; bounding boxes first, since a scene may have thousands.
 std::optional<Problem> surfaceProblem(const Snapshot& frame) {
     constexpr double kRelative = 1e-9; // of the scene's extent: a distance that double arithmetic cannot distinguish from 0
-    const Polygon shape = shapeOf(frame.light);
-    const Bounds all = frame.bounds(), lit = boundsOf(shape);
-    const double margin = kRelative * glm::distance(all.low, all.high);
+    const Bounds all = frame.bounds();
+    if (const auto id = surfaceAtLight(frame, kRelative * glm::distance(all.low, all.high)))
+        return Problem{"light.centre",
+                       fmt::format("the light lies on a surface (instance {}) at frame {}; move it off", *id, frame.frame)};
     const glm::dvec3& eye = frame.camera.eye;
     for (const Batch& batch : frame.batches) {
+        if (!batch.mesh->closed) continue;
         const Bounds own = batch.mesh->bounds();
         for (const Placement& placement : batch.placements) {
-            const Bounds box = transformed(own, placement.world);
-            if (!shape.empty() && overlap(lit, box, margin) && touches(shape, *batch.mesh, placement.world, margin))
-                return Problem{"light.centre",
-                               fmt::format("the light lies on a surface (instance {}) at frame {}; move it off",
-                                           placement.id, frame.frame)};
-            if (!batch.mesh->closed || !overlap({eye, eye}, box, 0)) continue;
+            if (!overlap({eye, eye}, transformed(own, placement.world), 0)) continue;
             const glm::dvec3 local(glm::inverse(placement.world) * glm::dvec4(eye, 1.0));
-            if (windingNumber(*batch.mesh, local) > 0.25) // 1 within, ½ on the surface, 0 outside
+            if (windingNumber(*batch.mesh, local) > 0.25)
                 return Problem{"camera.eye",
                                fmt::format("the camera is inside a closed mesh (instance {}) at frame {}; move it out",
                                            placement.id, frame.frame)};
@@ -187,6 +171,20 @@ std::optional<Problem> walkProblem(Camera camera, const LodWalk& walk) {
 }
 
 } // namespace
+
+std::optional<std::uint32_t> surfaceAtLight(const Snapshot& frame, double distance) {
+    const Polygon shape = shapeOf(frame.light);
+    if (shape.empty()) return std::nullopt;
+    const Bounds lit = boundsOf(shape);
+    for (const Batch& batch : frame.batches) {
+        const Bounds own = batch.mesh->bounds();
+        for (const Placement& placement : batch.placements)
+            if (overlap(lit, transformed(own, placement.world), distance) &&
+                touches(shape, *batch.mesh, placement.world, distance))
+                return placement.id;
+    }
+    return std::nullopt;
+}
 
 std::optional<Problem> findProblem(const Scene& scene) {
     if (auto problem = sizeProblem(scene.light)) return problem;

@@ -1,0 +1,216 @@
+#include "harness/inspect/warnings.h"
+
+#include "harness/inspect/meshes.h"
+#include "scene/load/load.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace shadowbench::inspect {
+namespace {
+
+using Warnings = std::vector<Warning>;
+using groundtruth::Surface;
+
+std::string placeOf(const glm::dvec3& p) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", p.x, p.y, p.z); }
+
+std::string nameOf(const Evidence& e, std::uint32_t id) { return namesOfInstances(e.scene).at(id - 1); }
+
+bool isWithin(const Bounds& box, const glm::dvec3& point) { return glm::clamp(point, box.low, box.high) == point; }
+
+/// Whether an object of that extent is out of all proportion to what the camera was set up for, as a file in centimetres is
+/// that is read as metres. Grounds may be wide, but they are not high.
+bool isHuge(const glm::dvec3& extent, double view) {
+    const double size = glm::length(extent), least = std::min({extent.x, extent.y, extent.z});
+    return (size > 20 * view && least > view) || size > 1e4 * view;
+}
+
+void judgeSizes(const Evidence& e, const std::vector<MeshReport>& meshes, Warnings& warnings) {
+    const double whole = glm::distance(e.box.low, e.box.high);
+    const double view = glm::distance(e.snapshot.camera.eye, e.snapshot.camera.target);
+    if (whole < 0.01)
+        warnings.push_back({fmt::format("the whole scene is {:.2g} m across", whole),
+                            "scenes are in metres: correct the unit of its mesh files, or scale it"});
+    for (const MeshReport& mesh : meshes) {
+        const glm::dvec3 extent = mesh.box.high - mesh.box.low;
+        const std::string what = fmt::format("{} is {:.4g} m across, and the camera looks at what is {:.3g} m away",
+                                             mesh.name, glm::length(extent), view);
+        if (isHuge(extent, view))
+            warnings.push_back(
+                {what, "if its file is in centimetres, write unit = \"cm\" beside it (in millimetres: \"mm\")"});
+        else if (glm::length(extent) < 2e-3 * view)
+            warnings.push_back({what, "correct the unit of its file or its scale: it is smaller than a pixel"});
+    }
+}
+
+/// What lies flat at the bottom of a z-up file stands upright at an end of z.
+void judgeAxes(const Evidence& e, Warnings& warnings) {
+    const glm::dvec3 up = glm::abs(e.snapshot.camera.up);
+    if (up.y < std::max(up.x, up.z)) return;
+    const FlatAreas flat = flatAreas(e.scene);
+    const double depth = e.box.high.z - e.box.low.z;
+    const double fromEnd = std::min(std::abs(flat.place.z - e.box.low.z), std::abs(flat.place.z - e.box.high.z));
+    if (flat.area.z <= 4 * std::max(flat.area.x, flat.area.y) || fromEnd > 0.05 * depth) return;
+    warnings.push_back({"the largest flat surface stands upright, across z, and the camera's up is y",
+                        "if its mesh file has z up, write up = \"z\" beside it"});
+}
+
+void judgeMeshes(const Evidence& e, const std::vector<MeshReport>& meshes, Warnings& warnings) {
+    for (const MeshReport& mesh : meshes) {
+        const EdgeFaults& edges = mesh.faults.edges;
+        const bool isNearlyClosed = 20 * (edges.open.count + edges.crowded.count) < mesh.triangles;
+        if (edges.turned.count > 0 && isNearlyClosed)
+            warnings.push_back({fmt::format("some faces of {} are turned inside out: at {} edges neighbours face opposite "
+                                            "ways, the first near {}",
+                                            mesh.name, edges.turned.count, placeOf(edges.turned.place)),
+                                "turn them in the modelling program (Blender: Mesh > Normals > Recalculate Outside)"});
+        const bool isRoom = isWithin(mesh.box, e.snapshot.camera.eye);
+        if (edges.closed() && mesh.faults.volume < 0 && !isRoom)
+            warnings.push_back({fmt::format("{} is closed and turned inside out", mesh.name),
+                                "write flip = true and closed = true beside its file"});
+    }
+}
+
+/// A closed mesh that holds either the eye or the light hides all that is seen from the light.
+bool judgeEnclosure(const Evidence& e, Warnings& warnings) {
+    const glm::dvec3 &eye = e.snapshot.camera.eye, &lamp = e.snapshot.light.centre;
+    const LightKind kind = e.snapshot.light.kind;
+    const bool isSomewhere = kind != LightKind::Directional && kind != LightKind::Environment;
+    for (const Batch& batch : e.snapshot.batches) {
+        const Bounds own = batch.mesh->bounds();
+        for (const Placement& placement : batch.placements) {
+            const Bounds box = transformed(own, placement.world);
+            const auto holds = [&](const glm::dvec3& point) {
+                const glm::dvec3 local(glm::inverse(placement.world) * glm::dvec4(point, 1.0));
+                return isWithin(box, point) && edgeFaultsOf(*batch.mesh).closed() &&
+                       std::abs(windingNumber(*batch.mesh, local)) > 0.5;
+            };
+            const bool holdsEye = holds(eye), holdsLamp = isSomewhere && holds(lamp);
+            if (holdsEye == holdsLamp) continue;
+            warnings.push_back(
+                {fmt::format("the {} is inside {}, a closed mesh, and the {} is not", holdsEye ? "camera" : "light",
+                             nameOf(e, placement.id), holdsEye ? "light" : "camera"),
+                 fmt::format("move the {} out", holdsEye ? "camera" : "light")});
+            return true;
+        }
+    }
+    return false;
+}
+
+void judgeLight(const Evidence& e, Warnings& warnings) {
+    constexpr double kNear = 1e-5; // of how far the camera looks: nothing that is built leaves so little room
+    const double margin = kNear * glm::distance(e.snapshot.camera.eye, e.snapshot.camera.target);
+    if (const auto id = surfaceAtLight(e.snapshot, margin))
+        warnings.push_back({fmt::format("the light is less than {:.2g} m from a surface of {}", margin, nameOf(e, *id)),
+                            "move it away: what lies so near hides half of the scene from it"});
+}
+
+void judgeEmptyView(const Evidence& e, Warnings& warnings) {
+    const Camera& camera = e.snapshot.camera;
+    double nearest = HUGE_VAL, farthest = -HUGE_VAL;
+    for (const glm::dvec3& corner : e.box.corners()) {
+        const double depth = camera.project(corner, e.scene.size).z;
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    Warning warning{"nothing of the scene is in view",
+                    "turn the camera's target to the scene, whose middle is " + placeOf(e.box.centre())};
+    if (farthest < camera.near) {
+        warning.what += farthest < 0 ? ": all of it is behind the camera" : ": all of it is nearer than near";
+        if (farthest > 0) warning.remedy = fmt::format("make near less than {:.2g}", nearest);
+    } else if (nearest > camera.far) {
+        warning.what += ": all of it is farther than far";
+        warning.remedy = fmt::format("make far more than {:.4g}", farthest);
+    }
+    warnings.push_back(warning);
+}
+
+/// How much of what is seen the light would reach from the other side: coarsely.
+double litFromOpposite(const Evidence& e) {
+    Light light = e.snapshot.light;
+    light.direction = -light.direction;
+    const FrameReport report = e.view.seen(light, {64, 64}, false).report;
+    return report.receivers * report.lit;
+}
+
+std::string remedyOfDirection(const glm::dvec3& d) {
+    return fmt::format("direction points the way that the light travels: is it upside down? Try [{:.3g}, {:.3g}, {:.3g}]",
+                       -d.x, -d.y, -d.z);
+}
+
+/// The middle one of the pixels that are receivers.
+glm::dvec3 someReceiver(const View::Seen& seen) {
+    std::vector<glm::vec3> points;
+    for (std::size_t i = 0; i < seen.visibility.size(); ++i)
+        if (seen.hits.surface[i] == Surface::Receiver) points.push_back(seen.hits.position[i]);
+    return points.at(points.size() / 2);
+}
+
+bool isFromBelow(const Evidence& e) {
+    const Light& light = e.snapshot.light;
+    return light.kind == LightKind::Directional ? light.direction.y > 0 : light.centre.y < e.box.low.y;
+}
+
+Warning mostFacesAway(const Evidence& e) {
+    const FrameReport& frame = e.seen.report;
+    const Light& light = e.snapshot.light;
+    const std::string what = fmt::format("{:.3g} % of what is seen faces away from the light{}",
+                                         100 * frame.facesAway / (frame.facesAway + frame.receivers),
+                                         frame.lit == 1        ? ", and all of the rest is lit"
+                                         : frame.shadowed == 1 ? ", and all of the rest is shadowed"
+                                                               : "");
+    if (light.kind == LightKind::Directional) return {what, remedyOfDirection(light.direction)};
+    if (isFromBelow(e))
+        return {fmt::format("{}, which is {:.3g} m below the whole scene", what, e.box.low.y - light.centre.y),
+                "move it above"};
+    return {what, "move the light to the camera's side of it"};
+}
+
+Warning allShadowed(const Evidence& e, bool isEnclosed) {
+    const Light& light = e.snapshot.light;
+    const std::string what = "no pixel of a receiver is lit: there is nothing to score";
+    if (isEnclosed) return {what, "follow the warning above"};
+    if (light.kind == LightKind::Directional && litFromOpposite(e) > 0.05) return {what, remedyOfDirection(light.direction)};
+    const View::Hiding hiding = e.view.hides(someReceiver(e.seen));
+    if (hiding.id == 0) return {what, "move the light to where something sees it"};
+    const std::string who = nameOf(e, hiding.id);
+    if (light.kind == LightKind::Directional)
+        return {fmt::format("{}; {} is in the way", what, who), "choose another direction, or open what encloses the scene"};
+    return {fmt::format("{}; {}, {:.3g} m from the light, is in the way", what, who, hiding.distance),
+            "move the light to its other side, or correct the unit, axis or place of the mesh"};
+}
+
+void judgeFrame(const Evidence& e, bool isEnclosed, Warnings& warnings) {
+    constexpr double kNothing = 1e-3; // of the receivers: crumbs at the rims of triangles
+    const FrameReport& frame = e.seen.report;
+    if (frame.receivers + frame.facesAway == 0) return judgeEmptyView(e, warnings);
+    const bool isDark = frame.shadowed > 1 - kNothing, isLit = frame.lit > 1 - kNothing;
+    const bool isNothing = frame.receivers == 0 || isDark || isLit;
+    if (frame.lightPoints == 0 || (!isNothing && !isFromBelow(e))) return;
+    if (frame.facesAway > frame.receivers && !isEnclosed)
+        warnings.push_back(mostFacesAway(e));
+    else if (isLit)
+        warnings.push_back({"every pixel of a receiver is lit: there is nothing to score",
+                            "move the light or the camera so that a shadow falls into view, or add what casts one"});
+    else if (isNothing)
+        warnings.push_back(allShadowed(e, isEnclosed));
+}
+
+} // namespace
+
+std::vector<Warning> warningsOf(const Evidence& e, const std::vector<MeshReport>& meshes) {
+    Warnings warnings;
+    judgeSizes(e, meshes, warnings);
+    judgeAxes(e, warnings);
+    judgeMeshes(e, meshes, warnings);
+    const bool isEnclosed = judgeEnclosure(e, warnings);
+    judgeLight(e, warnings);
+    judgeFrame(e, isEnclosed, warnings);
+    return warnings;
+}
+
+} // namespace shadowbench::inspect
