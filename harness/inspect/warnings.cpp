@@ -102,8 +102,8 @@ bool judgeEnclosure(const Evidence& e, Warnings& warnings) {
 }
 
 void judgeLight(const Evidence& e, Warnings& warnings) {
-    constexpr double kNear = 1e-5; // of how far the camera looks: nothing that is built leaves so little room
-    const double margin = kNear * glm::distance(e.snapshot.camera.eye, e.snapshot.camera.target);
+    constexpr double least = 1e-5; // of how far the camera looks: nothing that is built leaves so little room
+    const double margin = least * glm::distance(e.snapshot.camera.eye, e.snapshot.camera.target);
     if (const auto id = surfaceAtLight(e.snapshot, margin))
         warnings.push_back({fmt::format("the light is less than {:.2g} m from a surface of {}", margin, nameOf(e, *id)),
                             "move it away: what lies so near hides half of the scene from it"});
@@ -185,10 +185,10 @@ Warning allShadowed(const Evidence& e, bool isEnclosed) {
 }
 
 void judgeFrame(const Evidence& e, bool isEnclosed, Warnings& warnings) {
-    constexpr double kNothing = 1e-3; // of the receivers: crumbs at the rims of triangles
+    constexpr double crumbs = 1e-3; // of the receivers: crumbs at the rims of triangles
     const FrameReport& frame = e.seen.report;
     if (frame.receivers + frame.facesAway == 0) return judgeEmptyView(e, warnings);
-    const bool isDark = frame.shadowed > 1 - kNothing, isLit = frame.lit > 1 - kNothing;
+    const bool isDark = frame.shadowed > 1 - crumbs, isLit = frame.lit > 1 - crumbs;
     const bool isNothing = frame.receivers == 0 || isDark || isLit;
     if (frame.lightPoints == 0 || (!isNothing && !isFromBelow(e))) return;
     if (frame.facesAway > frame.receivers && !isEnclosed)
