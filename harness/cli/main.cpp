@@ -51,6 +51,25 @@ void renameFormerOptions(std::vector<std::string>& words) {
     }
 }
 
+/// Names the first option that the verb lacks, with near matches: CLI11 names all the words that it cannot place.
+void requireKnownOptions(const CLI::App& app, const std::vector<std::string>& words) {
+    std::string verb;
+    std::vector<std::string> known;
+    for (const CLI::App* part = &app; part != nullptr;) { // of `history add` those of both
+        for (const CLI::Option* option : part->get_options())
+            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+        verb += (verb.empty() ? "" : " ") + part->get_name();
+        const std::vector<CLI::App*> next = part->get_subcommands(); // that the words name
+        part = next.empty() ? nullptr : next.front();
+    }
+    for (const std::string& word : words) {
+        const std::string name = word.substr(0, word.find('='));
+        if (name.starts_with("--") && std::ranges::find(known, name) == known.end())
+            throw BadInput(
+                fmt::format("{} has no option {}{}; {} --help names all", verb, name, didYouMean(name, known), verb));
+    }
+}
+
 ExitCode dispatch(int argc, char** argv) {
     CLI::App app("shadowbench scores real-time shadow techniques against proven ground truth.", "shadowbench");
     app.require_subcommand(1);
@@ -69,9 +88,11 @@ ExitCode dispatch(int argc, char** argv) {
     std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     requireKnownVerb(app, words);
     renameFormerOptions(words);
-    std::ranges::reverse(words); // as CLI11 takes them
     try {
-        app.parse(std::move(words));
+        app.parse(std::vector(words.rbegin(), words.rend())); // as CLI11 takes them
+    } catch (const CLI::ExtrasError& error) {
+        requireKnownOptions(app, words);
+        throw BadInput(error.what());
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw BadInput(error.what());
         std::ostringstream asked; // --help or --version

@@ -93,6 +93,7 @@ std::vector<std::string> motionLines(const std::vector<Record>& records, const s
 /// What to take, and what else would do here.
 std::vector<std::string> adviceLines(const std::vector<Record>& records, const std::string& scene) {
     std::vector<std::string> lines;
+    if (scoredOf(records, scene).empty()) return lines;
     if (const std::vector<Tolerance> limits = tolerances(records, scene); !limits.empty()) {
         const Advice advice = adviceFor(records, scene);
         const bool ofError = limits.size() == 1 && limits.front().metric == headlineMetric(records, scene);

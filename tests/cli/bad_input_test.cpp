@@ -51,6 +51,8 @@ std::vector<BadCase> badCases() {
         {"ParameterOutOfRange", "--scene {scene} --technique sm-uniform:map=1", tinyScene(), 2, "16…8192"},
         {"UnknownProfile", "--scene {scene} --profile fast", tinyScene(), 2, "gate"},
         {"UnknownOption", "--scene {scene} --fast", tinyScene(), 2, "--fast"},
+        {"MisspeltOption", "--scene {scene} --techniqe none", tinyScene(), 2,
+         "run has no option --techniqe (did you mean \"--technique\"?); shadowbench run --help names all"},
         {"UnwritableOutput", "--scene {scene} --technique none --out /proc/nowhere", tinyScene(), 1, "/proc/nowhere"},
         {"MissingPovRay", "--scene {scene} --technique pcss", tinyScene(area), 5, "povray"},
     };
@@ -86,6 +88,25 @@ TEST(BadCommand, AnUnknownVerbNamesTheNearMatch) {
     const Outcome outcome = shell("shadowbench rnu");
     EXPECT_EQ(outcome.code, 2);
     EXPECT_NE(outcome.output.find("\"run\""), std::string::npos) << outcome.output;
+}
+
+TEST(BadCommand, AnOptionThatAVerbOfTwoWordsLacksIsNamed) {
+    const Outcome outcome = shell("shadowbench history add results.jsonl --dirt");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.output.find("shadowbench history add has no option --dirt (did you mean \"--dirty\"?)"),
+              std::string::npos)
+        << outcome.output;
+}
+
+TEST(BadCommand, WhereNoTechniqueAppliesTheReasonIsTheLastLine) {
+    const Folder folder;
+    const Outcome outcome =
+        shell("shadowbench run --quiet --cost none --technique pcss --scene " + folder.write("point.toml", tinyScene()) +
+              " --cache " + folder / "cache" + " --out " + folder / "out");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.output.find("no technique of this run applies to its scene; pcss on point: needs an area light"),
+              std::string::npos)
+        << outcome.output;
 }
 
 TEST(BadCommand, WrongArgumentsOfReferenceEndInOneLine) {
