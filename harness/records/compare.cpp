@@ -71,15 +71,15 @@ std::string sentenceOf(const Record& record, std::string_view what, const Compar
 }
 
 /// The metric itself, not what is compared of it; a seed that lacks it counts as 0.
-double meanOf(const metrics::Metric& metric, const std::vector<const Record*>& records) {
+std::vector<double> recorded(const metrics::Metric& metric, const std::vector<const Record*>& records) {
     std::vector<double> values;
     for (const Record* record : records) values.push_back(record->values[metric].value_or(0));
-    return mean(values);
+    return values;
 }
 
 /// A sign that has turned is no improvement unless the number comes nearer to 0.
 bool turned(const metrics::Metric& metric, const MatchedCell& cell, const Change& change) {
-    const double before = meanOf(metric, cell.base), now = meanOf(metric, cell.head);
+    const double before = mean(recorded(metric, cell.base)), now = mean(recorded(metric, cell.head));
     return before * now < 0 && std::abs(now) > change.allowance && std::abs(now) > std::abs(before) - change.allowance;
 }
 
@@ -132,9 +132,12 @@ private:
 
     void judge(const MatchedCell& cell, const metrics::Metric& metric, const Compared& values, Change& change) const {
         const double own = allowanceOf(metric, *cell.base.front(), values.before(), rules_);
-        change.head = values.now();
+        const bool isDistance = rules_.limits.find(metric.path)->second.best != 0; // a reader knows the value itself
+        const Compared shown = isDistance ? Compared{recorded(metric, cell.base), recorded(metric, cell.head)} : values;
+        change.base = shown.before();
+        change.head = shown.now();
         change.allowance = own + values.meansMayDiffer(rules_);
-        change.sentence = sentenceOf(*cell.head.front(), metric.path, values);
+        change.sentence = sentenceOf(*cell.head.front(), metric.path, shown);
         change.direction = directionOf(values.before(), values.now(), change.allowance);
         if (rules_.limits.find(metric.path)->second.magnitude && turned(metric, cell, change))
             change.direction = Direction::Worse;

@@ -48,6 +48,18 @@ TEST(FalseGreens, EveryScoreIsCompared) {
     EXPECT_EQ(verdict(hardRecord(), times(hardRecord(), "accuracy.edge_error.signed", -1)), ExitCode::AccuracyRegression);
 }
 
+TEST(Sentences, OfAScoreWhoseBestIsOneNameItsOwnValue) {
+    Record base = softRecord();
+    base.values["accuracy.ssim"] = 0.8;
+    const std::vector<Change> changes = compare({base}, {test::drawnAnew(times(base, "accuracy.ssim", 0.75))}).changes;
+    const auto change = std::ranges::find(changes, "accuracy.ssim", &Change::metric);
+    ASSERT_NE(change, changes.end());
+    EXPECT_EQ(change->direction, Direction::Worse);
+    EXPECT_DOUBLE_EQ(*change->base, 0.8);
+    EXPECT_DOUBLE_EQ(*change->head, 0.6);
+    EXPECT_NE(change->sentence.find("accuracy.ssim 0.8 → 0.6 (-25 %)"), std::string::npos) << change->sentence;
+}
+
 TEST(FalseGreens, WorkAndFiguresAreCompared) {
     for (const char* metric :
          std::vector<const char*>{"cost.work.fragments", "cost.work.draws", "cost.work.passes", "cost.work.bytes"})
