@@ -89,8 +89,8 @@ void addRecommend(CLI::App& app, Action& action) {
     verb->add_option("--scene", options.scenes,
                      "Scene id or file; repeatable (default: the standard scenes, for casters those with levels)");
     verb->add_option("--what", words->questions,
-                     "casters, technique, map, samples; comma-separated (default: casters of a scene with levels, technique "
-                     "and map of others)")
+                     "casters, technique, map, samples; comma-separated (default: casters of a scene with levels; of others "
+                     "technique, and the map that it needs)")
         ->delimiter(',');
     verb->add_option("--needs", words->needs,
                      "What the technique must be able to do, comma-separated: any-receiver (not one plane alone), any-eye "

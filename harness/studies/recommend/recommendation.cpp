@@ -8,6 +8,7 @@
 #include "harness/report/advice.h"
 #include "harness/runs/run.h"
 #include "scene/load/load.h"
+#include "techniques/catalog.h"
 
 #include <algorithm>
 #include <array>
@@ -62,8 +63,9 @@ public:
         if (!options.records.empty()) given_ = gate::readOfOneDevice({options.records});
     }
 
-    std::vector<Record> of(Question question, const std::string& sceneIdOrFile, const Scene& scene) {
-        std::vector<Record> records = given_ ? *given_ : computed(question, sceneIdOrFile);
+    std::vector<Record> of(Question question, const std::vector<std::string>& techniques, const std::string& sceneIdOrFile,
+                           const Scene& scene) {
+        std::vector<Record> records = given_ ? *given_ : computed(question, techniques, sceneIdOrFile);
         if (options_.standing) records = report::standing(std::move(records));
         if (report::ofScene(records, scene.id).empty())
             throw BadInput(fmt::format("{} holds no record of scene {}", options_.records.string(), scene.id));
@@ -80,10 +82,11 @@ public:
     [[nodiscard]] ExitCode code() const { return code_; }
 
 private:
-    std::vector<Record> computed(Question question, const std::string& sceneIdOrFile) {
+    std::vector<Record> computed(Question question, const std::vector<std::string>& techniques,
+                                 const std::string& sceneIdOrFile) {
         RunOptions cells;
         cells.scenes = {sceneIdOrFile};
-        cells.techniques = variantsFor(question, options_.techniques);
+        cells.techniques = variantsFor(question, techniques);
         cells.profile = options_.profile;
         cells.out = options_.out / std::string(name(question));
         cells.cache = options_.cache;
@@ -155,6 +158,22 @@ Question questionNamed(const std::string& word) {
                                fmt::join(names, ", ")));
 }
 
+namespace {
+
+/// Whose smallest map is named where the user did not ask for it: that of the technique that is advised, if it has one.
+std::optional<std::vector<std::string>> advisedWithMap(const Recommendation& result) {
+    if (!result.technique) return {};
+    const std::string& advised = result.technique->variant;
+    const auto all = techniques::catalog(); // records may be of another catalogue
+    const auto entry = std::ranges::find(all, advised.substr(0, advised.find(':')), &techniques::Entry::id);
+    if (entry == all.end() ||
+        std::ranges::find(entry->parameters, "map", &techniques::Parameter::name) == entry->parameters.end())
+        return {};
+    return {{advised}};
+}
+
+} // namespace
+
 Recommendations recommend(const RecommendOptions& options) {
     Recommendations all;
     Records records(options);
@@ -165,12 +184,18 @@ Recommendations recommend(const RecommendOptions& options) {
         const Scene scene = loadScene(idOrFile, options.profile, metrics::boundedMetrics());
         scenes.push_back(scene.id);
         Recommendation result{scene.id, questionsOn(scene, options), {}, {}, {}, {}, {}, {}};
-        for (const Question question : result.questions) {
+        for (const Question question : questionsOn(scene, options)) {
             if (question == Question::Casters) {
                 result.casters = casterLevels(scene, options);
                 continue;
             }
-            const std::vector<Record> found = records.of(question, idOrFile, scene);
+            std::optional<std::vector<std::string>> techniques = options.techniques;
+            if (question == Question::Map && options.questions.empty()) techniques = advisedWithMap(result);
+            if (!techniques) {
+                result.questions.erase(question);
+                continue;
+            }
+            const std::vector<Record> found = records.of(question, *techniques, idOrFile, scene);
             answerFromRecords(question, found, needs, result);
             if (question == Question::Technique)
                 for (const std::size_t i : report::ofScene(found, scene.id)) ofTechniques.push_back(found[i]);

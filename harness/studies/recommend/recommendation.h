@@ -21,7 +21,7 @@ Question questionNamed(const std::string& word); // throws BadInput naming all
 
 struct RecommendOptions {
     std::vector<std::string> scenes; // ids or files; empty: those standard scenes that have what is asked for
-    std::set<Question> questions;    // empty: casters of a scene with levels, technique and map of others
+    std::set<Question> questions;    // empty: casters of a scene with levels; of others technique, and the map that it needs
     Profile profile = Profile::Gate;
     CasterOptions casters;                           // its tolerance holds for all questions
     std::vector<std::string> techniques;             // variants or globs; empty: all

@@ -231,6 +231,30 @@ TEST_F(Recorded, TheCheapestWithinToleranceIsNamedAndWhatTheLeastMapIs) {
     EXPECT_FALSE(recommend(options).scenes.front().technique);
 }
 
+TEST_F(Recorded, OfASceneWithoutLevelsTheTechniqueIsNamedAndItsMap) {
+    const Recommendation mapped =
+        recommend(asked({record("sm-uniform", "map=512", 0.004, 1), record("sm-uniform", "map=1024", 0.002, 2)}, {}))
+            .scenes.front();
+    ASSERT_TRUE(mapped.technique);
+    EXPECT_EQ(mapped.technique->variant, "sm-uniform:map=512");
+    ASSERT_EQ(mapped.maps.size(), 1U);
+    EXPECT_EQ(mapped.maps.front().amount, 512);
+    const Recommendation without = recommend(asked({record("volume-zfail", "", 0, 1)}, {})).scenes.front();
+    EXPECT_FALSE(without.technique) << "it is not for open meshes";
+    EXPECT_FALSE(without.questions.contains(Question::Map)) << "nobody asked for a map";
+}
+
+TEST_F(Recorded, NeedsAreTheUsersAndOfASceneThatStandsStillNotThoseOfMotion) {
+    RecommendOptions options =
+        asked({record("sm-history", "", 0.001, 1), record("volume-zfail", "", 0, 2)}, {Question::Technique});
+    EXPECT_FALSE(recommend(options).scenes.front().technique);
+    options.needs = {techniques::Need::MovingCasters};
+    EXPECT_EQ(recommend(options).scenes.front().technique->variant, "volume-zfail");
+    options.needs = techniques::usualNeeds();
+    options.standing = true;
+    EXPECT_EQ(recommend(options).scenes.front().technique->variant, "sm-history");
+}
+
 TEST_F(Recorded, CastersOfASceneFileComeBesideTheTechnique) {
     Record one = record("a", "", 0.01, 2);
     one.scene = "plates";
