@@ -62,9 +62,16 @@ ExitCode runPart(const RunOptions& options, const PartOptions& part) {
     }
 }
 
+/// Not by a pattern.
+bool namesRows(const std::vector<std::string>& techniques) {
+    return !techniques.empty() && std::ranges::none_of(techniques, [](const std::string& word) {
+        return word.find_first_of("*?[") != std::string::npos;
+    });
+}
+
 ExitCode runAndPrint(const RunOptions& options, bool standing) {
     const OutputLock alone(options.out); // the records of two runs at once would replace each other
-    return reportResult(run(options), options.out, {.standing = standing, .everyRow = !options.techniques.empty()});
+    return reportResult(run(options), options.out, {.standing = standing, .everyRow = namesRows(options.techniques)});
 }
 
 } // namespace

@@ -80,8 +80,9 @@ TEST_F(Recommend, RunsTheCellsThatMapsAreReadOffAndKeepsTheirRecords) {
     const Outcome outcome = recommend(maps);
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("smallest map"), std::string::npos) << outcome.output;
-    EXPECT_NE(outcome.output.find("cheapest technique within mismatch 2 %: sm-uniform"), std::string::npos)
+    EXPECT_NE(outcome.output.find("cheapest technique within mismatch 2 %, leak 5 %, "), std::string::npos)
         << outcome.output;
+    EXPECT_NE(outcome.output.find(" missing_edges 5 %: sm-uniform, at "), std::string::npos) << outcome.output;
     EXPECT_EQ(readRecords(folder_ / "out/map/results.jsonl").size(), 5U); // 256 to 4096
 
     const Outcome read = recommend(maps + " --records " + folder_ / "out/map/results.jsonl");
@@ -93,9 +94,10 @@ TEST_F(Recommend, RunsTheCellsThatMapsAreReadOffAndKeepsTheirRecords) {
 }
 
 TEST_F(Recommend, WrongArgumentsEndInOneLine) {
-    for (const std::string options : {"--scene dueling-frusta", "--scene windmills --levels 600,300", "--scene windmils",
-                                      "--scene windmills --what levels", "--scene windmills --tolerance rmse=0.1",
-                                      "--scene windmills --levels rotors=many", "--scene windmills --bands 9,7"}) {
+    for (const std::string options :
+         {"--scene dueling-frusta --what casters", "--scene windmills --levels 600,300", "--scene windmils",
+          "--scene windmills --what levels", "--scene windmills --tolerance rmse=0.1",
+          "--scene windmills --levels rotors=many", "--scene windmills --bands 9,7"}) {
         const Outcome outcome = recommend(options);
         EXPECT_EQ(outcome.code, 2) << options << outcome.output;
         EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;

@@ -159,9 +159,8 @@ std::vector<hard::Patch> slitOverTheCentre(int shadows) {
     for (const double degrees : {77.0, 197.0, 317.0}) {
         const double angle = degrees * 3.14159265358979323846 / 180;
         const glm::dvec2 out(std::cos(angle), std::sin(angle)), along(-out.y, out.x), edge = 0.5 + 0.003 * out;
-        patches.push_back(patch(polygon({edge - 3.0 * along, edge + 3.0 * along, edge + 3.0 * (along + out),
-                                         edge + 3.0 * (out - along)}),
-                                1));
+        patches.push_back(patch(
+            polygon({edge - 3.0 * along, edge + 3.0 * along, edge + 3.0 * (along + out), edge + 3.0 * (out - along)}), 1));
     }
     return patches;
 }
