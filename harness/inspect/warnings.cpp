@@ -185,7 +185,7 @@ Warning allShadowed(const Evidence& e, bool isEnclosed) {
 }
 
 void judgeFrame(const Evidence& e, bool isEnclosed, Warnings& warnings) {
-    constexpr double crumbs = 1e-3; // of the receivers: crumbs at the rims of triangles
+    constexpr double crumbs = 1e-3; // of the receivers: single pixels at the rims of triangles
     const FrameReport& frame = e.seen.report;
     if (frame.receivers + frame.facesAway == 0) return judgeEmptyView(e, warnings);
     const bool isDark = frame.shadowed > 1 - crumbs, isLit = frame.lit > 1 - crumbs;

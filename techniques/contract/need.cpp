@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <utility>
+#include <vector>
 
 namespace shadowbench::techniques {
 namespace {
@@ -39,15 +40,6 @@ Need needNamed(const std::string& word) {
     }
     throw BadInput(
         fmt::format("there is no need \"{}\"{}; the needs are {}", word, didYouMean(word, known), fmt::join(known, ", ")));
-}
-
-const std::vector<Need>& allNeeds() {
-    static const std::vector<Need> all = [] {
-        std::vector<Need> needs;
-        for (const auto& [need, named] : names) needs.push_back(need);
-        return needs;
-    }();
-    return all;
 }
 
 const std::set<Need>& usualNeeds() {

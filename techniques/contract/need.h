@@ -5,7 +5,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace shadowbench::techniques {
 
@@ -24,9 +23,6 @@ std::string namesOf(const std::set<Need>& needs); // "any-eye, open-meshes"
 
 /// Throws BadInput naming all and near matches.
 Need needNamed(const std::string& name);
-
-/// In the order above.
-const std::vector<Need>& allNeeds();
 
 /// What is needed unless the user says otherwise: all but NoHistory.
 const std::set<Need>& usualNeeds();
