@@ -146,7 +146,9 @@ JudgedCells::JudgedCells(const GateOptions& options, const std::optional<Policy>
         for (const GateRule& rule : policy.config.scenes) addCovered(rule.scene, &rule);
         addChoices(options, chosen);
     }
-    addCounted(chosen);
+    for (const GateRule& rule : policy.config.counted) addNamed(rule, chosen); // cheap ones that run the code of those shown
+    if (options.techniques.empty())
+        for (const Bound& bound : policy.config.bounds) addNamed(bound.cells, chosen); // else a bound would meet nothing
 }
 
 void JudgedCells::addScene(const std::string& argument, std::vector<std::string> variants, bool isBeside) {
@@ -159,16 +161,14 @@ void JudgedCells::addScene(const std::string& argument, std::vector<std::string>
         if (std::ranges::find(scene.variants, variant) == scene.variants.end()) scene.variants.push_back(std::move(variant));
 }
 
-void JudgedCells::addCounted(const std::vector<std::string>& chosen) {
-    for (const GateRule& rule : policy.config.counted) {
-        const auto scene = std::ranges::find(scenes, rule.scene, &JudgedScene::id);
-        if (scene == scenes.end()) continue;
-        for (const std::string& variant : rule.named()) {
-            const bool isOfChosen = std::ranges::any_of(
-                chosen, [&](const std::string& other) { return techniqueOf(other) == techniqueOf(variant); });
-            if (isOfChosen && std::ranges::find(scene->variants, variant) == scene->variants.end())
-                scene->variants.push_back(variant);
-        }
+void JudgedCells::addNamed(const GateRule& rule, const std::vector<std::string>& chosen) {
+    const auto scene = std::ranges::find(scenes, rule.scene, &JudgedScene::id);
+    if (scene == scenes.end()) return;
+    for (const std::string& variant : rule.named()) {
+        const bool isOfChosen = std::ranges::any_of(
+            chosen, [&](const std::string& other) { return techniqueOf(other) == techniqueOf(variant); });
+        if (isOfChosen && std::ranges::find(scene->variants, variant) == scene->variants.end())
+            scene->variants.push_back(variant);
     }
 }
 

@@ -59,8 +59,8 @@ private:
     /// Judges these variants, too; `argument` as --scene takes it.
     void addScene(const std::string& argument, std::vector<std::string> variants, bool isBeside);
     void addChoices(const GateOptions& options, const std::vector<std::string>& chosen);
-    /// Variants that are named to be counted and shown by nobody: cheaper ones that run the code of those that are.
-    void addCounted(const std::vector<std::string>& chosen);
+    /// Variants of chosen techniques that a rule names and nobody shows, on scenes that are judged.
+    void addNamed(const GateRule& rule, const std::vector<std::string>& chosen);
     void addSteps(const MeasuredProgram& program, const JudgedScene& scene, bool instructions,
                   std::vector<Step>& steps) const;
 };

@@ -119,8 +119,9 @@ private:
         if (std::ranges::none_of(cell.base, has) && std::ranges::none_of(cell.head, has)) return; // best on both sides
         const Record& head = *cell.head.front();
         Change change{head.scene, head.variant, std::string(metric.path), *metric.about, values.before(), {}, 0, {}, {}};
-        const bool wasWhole = values.base.size() == cell.base.size();
-        if (!wasWhole || values.head.size() < cell.head.size()) {
+        const bool isCounted = metric.about == Class::Instructions; // with one seed, whatever chance decides
+        const bool wasWhole = isCounted || values.base.size() == cell.base.size();
+        if (!wasWhole || values.head.size() < (isCounted ? values.base.size() : cell.head.size())) {
             change.direction = Direction::NotCompared;
             change.sentence = fmt::format("{} on {}: {} {}", head.variant, head.scene, metric.path,
                                           wasWhole ? "is no longer measured" : "was not measured with every seed");

@@ -9,6 +9,7 @@
 #include "scene/load/load.h"
 #include "tests/support/records_examples.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace shadowbench::gate {
@@ -195,6 +196,21 @@ TEST(GatePlan, TheConfigsScenesComeWithTheirTechniquesUnlessTheUserNamesScenes) 
     const JudgedCells narrow(options);
     EXPECT_TRUE(narrow.chooses("trees", "pcf"));
     EXPECT_FALSE(narrow.chooses("colonnade", "sm-cube"));
+}
+
+TEST(GatePlan, EveryBoundOnASceneThatIsJudgedMeetsACell) {
+    GateOptions options;
+    options.bounds = std::filesystem::path(SOURCE_FOLDER) / "harness/gate/bounds.toml";
+    const JudgedCells cells(options);
+    std::size_t met = 0;
+    for (const Bound& bound : cells.policy.config.bounds) {
+        const auto scene = std::ranges::find(cells.scenes, bound.cells.scene, &JudgedScene::id);
+        if (scene == cells.scenes.end()) continue; // the tests of scenes hold it
+        ++met;
+        EXPECT_TRUE(std::ranges::any_of(scene->variants, [&](const std::string& v) { return bound.cells.covers(v); }))
+            << bound.metric << " on " << scene->id << " of " << bound.cells.techniques.front();
+    }
+    EXPECT_GT(met, 30U);
 }
 
 TEST(GatePlan, ASceneFileWithAMisspeltMetricIsRefusedAtItsLine) {

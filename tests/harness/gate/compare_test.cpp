@@ -173,6 +173,21 @@ TEST(Compare, WhatSomeSeedsOfTheBaseLackIsNotJudged) {
     EXPECT_EQ(verdictOf(compare(base, head).changes), ExitCode::Inconclusive);
 }
 
+TEST(Compare, InstructionsAreCountedWithOneSeedAndComparedOfIt) {
+    std::vector<Record> base, head;
+    for (int seed = 1; seed <= 3; ++seed) {
+        base.push_back(softRecord());
+        base.back().seed = seed;
+        if (seed > 1) base.back().values["cost.instructions"].reset();
+        head.push_back(drawnAnew(base.back()));
+    }
+    EXPECT_EQ(verdictOf(compare(base, head).changes), ExitCode::Pass);
+    head[0].values["cost.instructions"].reset();
+    EXPECT_EQ(verdictOf(compare(base, head).changes), ExitCode::Inconclusive);
+    head[0].values["cost.instructions"] = 1.1 * *base[0].values["cost.instructions"];
+    EXPECT_EQ(verdictOf(compare(base, head).changes), ExitCode::CostRegression);
+}
+
 TEST(Compare, TwoPixelsBesideAnEdgeOfAThousandMayBeMissing) {
     Record base = hardRecord(), head = base;
     base.values["accuracy.edge_error.missing"] = 0.01;
