@@ -61,6 +61,11 @@ void requireClosed(const Mesh& mesh, const std::string& what) {
              "(Blender: Merge by Distance)");
     if (!(signedVolume(mesh) > 0))
         throw BadInput(fmt::format("{}: the mesh is wound inside out; write flip = true beside its file", what));
+    const std::vector<Mesh> parts = partsOf(mesh);
+    if (const Fault turned = turnedPartsOf(parts); turned.count > 0)
+        throw BadInput(fmt::format("{}: {} of its {} parts are turned inside out, {}; turn them in the modelling program "
+                                   "(Blender: Mesh > Normals > Recalculate Outside), or leave out closed = true",
+                                   what, turned.count, parts.size(), placeOf(turned)));
 }
 
 bool before(const glm::vec3& a, const glm::vec3& b) {

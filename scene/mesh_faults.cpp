@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <map>
+#include <numeric>
 #include <tuple>
 
 namespace shadowbench {
@@ -68,7 +70,52 @@ MeshFaults faultsOf(const Mesh& mesh) {
     faults.volume = signedVolume(mesh);
     findTriangles(mesh, faults);
     findPositions(mesh, faults);
+    const std::vector<Mesh> parts = partsOf(mesh);
+    faults.parts = parts.size();
+    if (faults.edges.closed()) faults.turnedParts = turnedPartsOf(parts);
     return faults;
+}
+
+std::vector<Mesh> partsOf(const Mesh& mesh) {
+    std::vector<std::uint32_t> joined(mesh.positions.size()); // towards the least position of the part
+    std::iota(joined.begin(), joined.end(), 0U);
+    const auto least = [&](std::uint32_t i) {
+        while (joined[i] != i) i = joined[i] = joined[joined[i]];
+        return i;
+    };
+    for (const glm::uvec3& t : mesh.triangles)
+        for (const std::uint32_t other : {t.y, t.z}) {
+            const std::uint32_t a = least(t.x), b = least(other);
+            joined[std::max(a, b)] = std::min(a, b);
+        }
+    std::map<std::uint32_t, Mesh> parts;
+    for (const glm::uvec3& t : mesh.triangles) parts[least(t.x)].triangles.push_back(t);
+    std::vector<Mesh> result;
+    for (auto& [first, part] : parts) {
+        std::map<std::uint32_t, std::uint32_t> own;
+        for (glm::uvec3& t : part.triangles)
+            for (int corner = 0; corner < 3; ++corner) {
+                const auto [place, isNew] = own.emplace(t[corner], static_cast<std::uint32_t>(own.size()));
+                if (isNew) part.positions.push_back(mesh.positions[t[corner]]);
+                t[corner] = place->second;
+            }
+        result.push_back(std::move(part));
+    }
+    return result;
+}
+
+/// A part that encloses less than nothing is a cavity where the others wind around it.
+Fault turnedPartsOf(const std::vector<Mesh>& parts) {
+    Fault turned;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (!(signedVolume(parts[i]) < 0)) continue;
+        const glm::vec3& place = parts[i].positions.front();
+        double around = 0;
+        for (std::size_t other = 0; other < parts.size(); ++other)
+            if (other != i) around += windingNumber(parts[other], glm::dvec3(place));
+        if (around < 0.5) turned.add(place);
+    }
+    return turned;
 }
 
 /// By the divergence theorem.

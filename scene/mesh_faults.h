@@ -4,6 +4,7 @@
 #include "scene/mesh.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace shadowbench {
 
@@ -28,15 +29,23 @@ struct EdgeFaults {
 
 struct MeshFaults {
     EdgeFaults edges;
-    Fault flat;        // triangles of no area
-    Fault repeated;    // triangles with the corners of another one
-    Fault doubled;     // positions that equal another one
-    double volume = 0; // signedVolume()
+    Fault flat;            // triangles of no area
+    Fault repeated;        // triangles with the corners of another one
+    Fault doubled;         // positions that equal another one
+    double volume = 0;     // signedVolume()
+    std::size_t parts = 0; // connected by vertices
+    Fault turnedParts;     // of a closed mesh: turned inside out and no cavity of another part; their first position
 };
 
 /// Of meshes whose indices are in range.
 EdgeFaults edgeFaultsOf(const Mesh& mesh);
 MeshFaults faultsOf(const Mesh& mesh);
+
+/// The triangles that hang together by vertices, each part a mesh of its own.
+std::vector<Mesh> partsOf(const Mesh& mesh);
+
+/// MeshFaults::turnedParts of a closed mesh.
+Fault turnedPartsOf(const std::vector<Mesh>& parts);
 
 /// What a closed mesh encloses; below 0 where it is turned inside out.
 double signedVolume(const Mesh& mesh);

@@ -35,6 +35,7 @@ std::string faultsOf(const MeshFaults& faults) {
     add(faults.edges.open, "edges of one triangle");
     add(faults.edges.crowded, "edges of more than two triangles");
     add(faults.edges.turned, "edges whose two triangles face opposite ways");
+    add(faults.turnedParts, "parts that are turned inside out");
     add(faults.flat, "triangles of no area");
     add(faults.repeated, "triangles with the corners of another");
     add(faults.doubled, "vertices at the place of another");
@@ -86,6 +87,7 @@ ordered_json jsonOf(const MeshReport& mesh) {
             {"open_edges", jsonOf(faults.edges.open)},
             {"crowded_edges", jsonOf(faults.edges.crowded)},
             {"turned_edges", jsonOf(faults.edges.turned)},
+            {"turned_parts", jsonOf(faults.turnedParts)},
             {"flat_triangles", jsonOf(faults.flat)},
             {"repeated_triangles", jsonOf(faults.repeated)},
             {"doubled_vertices", jsonOf(faults.doubled)}};

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace shadowbench::inspect {
 namespace {
@@ -47,6 +48,38 @@ void judgeSizes(const Evidence& e, const std::vector<MeshReport>& meshes, Warnin
     }
 }
 
+double metresOfPixel(const Evidence& e, double distance) {
+    return 2 * distance * std::tan(0.5 * glm::radians(e.snapshot.camera.fovy)) / e.scene.size.y;
+}
+
+/// Rasterisers keep positions and depths in 32 bits, and a map has so many texels for the whole scene.
+void judgePrecision(const Evidence& e, Warnings& warnings) {
+    constexpr double step = 0x1p-23, mostShift = 0.1; // of a single-precision number; of a pixel
+    const Camera& camera = e.snapshot.camera;
+    const double view = glm::distance(camera.eye, camera.target), far = glm::length(camera.eye);
+    if (step * far > mostShift * metresOfPixel(e, view))
+        warnings.push_back(
+            {fmt::format("the camera is {:.3g} m from the origin, where positions in single precision lie {:.2g} "
+                         "m apart",
+                         far, step * far),
+             "move the scene and the camera to the origin"});
+    const double leastNear = view * step / 1e-3; // two depths at the target are a thousandth of the way apart
+    if (camera.near < leastNear)
+        warnings.push_back(
+            {fmt::format("near is {:.2g} m: surfaces at the target that are {:.2g} m apart have the same depth", camera.near,
+                         view * view * step / camera.near),
+             fmt::format("make it more than {:.1g}", 2 * leastNear)});
+    constexpr double mostStretch = 100; // pixels of an image 256 wide
+    const auto texels = e.view.texels(e.seen);
+    const double scale = static_cast<double>(e.scene.size.x) / e.seen.visibility.width();
+    if (texels && texels->median * scale > mostStretch * e.scene.size.x / 256)
+        warnings.push_back(
+            {fmt::format("a texel of a map of 1024² over the whole scene, which is {:.4g} m across, covers {:.2g} "
+                         "pixels",
+                         glm::distance(e.box.low, e.box.high), texels->median * scale),
+             "make the ground no larger than what is seen, or expect shadows of maps that follow the view alone"});
+}
+
 /// What lies flat at the bottom of a z-up file stands upright at an end of z.
 void judgeAxes(const Evidence& e, Warnings& warnings) {
     const glm::dvec3 up = glm::abs(e.snapshot.camera.up);
@@ -69,9 +102,14 @@ void judgeMeshes(const Evidence& e, const std::vector<MeshReport>& meshes, Warni
                                             mesh.name, edges.turned.count, placeOf(edges.turned.place)),
                                 "turn them in the modelling program (Blender: Mesh > Normals > Recalculate Outside)"});
         const bool isRoom = isWithin(mesh.box, e.snapshot.camera.eye);
+        const Fault& parts = mesh.faults.turnedParts;
         if (edges.closed() && mesh.faults.volume < 0 && !isRoom)
             warnings.push_back({fmt::format("{} is closed and turned inside out", mesh.name),
                                 "write flip = true and closed = true beside its file"});
+        else if (parts.count > 0 && !isRoom)
+            warnings.push_back({fmt::format("{} of the {} parts of {} are turned inside out, the first near {}", parts.count,
+                                            mesh.faults.parts, mesh.name, placeOf(parts.place)),
+                                "turn them in the modelling program (Blender: Mesh > Normals > Recalculate Outside)"});
     }
 }
 
@@ -205,6 +243,7 @@ void judgeFrame(const Evidence& e, bool isEnclosed, Warnings& warnings) {
 std::vector<Warning> warningsOf(const Evidence& e, const std::vector<MeshReport>& meshes) {
     Warnings warnings;
     judgeSizes(e, meshes, warnings);
+    judgePrecision(e, warnings);
     judgeAxes(e, warnings);
     judgeMeshes(e, meshes, warnings);
     const bool isEnclosed = judgeEnclosure(e, warnings);

@@ -41,7 +41,10 @@ public:
     Assimp::IOStream* Open(const char* name, const char* mode) override {
         const std::string* bytes = find(name);
         if (bytes == nullptr || mode[0] != 'r') return nullptr;
-        return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size());
+        constexpr std::string_view mark = "\xEF\xBB\xBF"; // of UTF-8, which some editors write before text
+        const std::size_t start = bytes->starts_with(mark) ? mark.size() : 0;
+        return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes->data()) + start,
+                                          bytes->size() - start);
     }
     void Close(Assimp::IOStream* stream) override { delete stream; }
 

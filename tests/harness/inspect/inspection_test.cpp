@@ -145,6 +145,52 @@ TEST_F(Inspect, AllOfTheseAtOnce) {
     expectWords(said(model), {"write unit = \"cm\" beside it", "write up = \"z\" beside it", "Recalculate Outside"});
 }
 
+TEST_F(Inspect, OnePartOfTwoTurnedInsideOut) {
+    Model model;
+    model.turnFaces(12, 24); // the table
+    expectWords(said(model), {"1 of the 2 parts of model are turned inside out, the first near (-0.6, 1.1, -0.5)",
+                              "Recalculate Outside"});
+    expectWords(refusal(model, {.mesh = "file = \"model.obj\", closed = true"}),
+                {"1 of its 2 parts are turned inside out, the first near (-0.6, 1.1, -0.5)", "or leave out closed = true"});
+}
+
+TEST_F(Inspect, ACavityIsNoFault) {
+    Model model;
+    model.add({-0.3, 1.2, -0.3}, {0.3, 1.3, 0.3}); // within the table
+    model.turnFaces(24, 36);
+    EXPECT_EQ(said(model, {.mesh = "file = \"model.obj\", closed = true"}), "");
+}
+
+TEST_F(Inspect, FarFromTheOrigin) {
+    Model model;
+    for (glm::dvec3& p : model.corners) p += glm::dvec3(1e6, 0, 0);
+    expectWords(said(model, {.camera = "eye = [1000002.1, 6.2, 7.3], target = [1000000.1, 0, 0.2], near = 0.5, far = 40",
+                             .light = "kind = \"point\", centre = [1000001.7, 6.1, -2.3]"}),
+                {"the camera is 1e+06 m from the origin", "0.12 m apart", "move the scene and the camera to the origin"});
+}
+
+TEST_F(Inspect, ANearPlaneThatLeavesNoDepth) {
+    expectWords(
+        said(Model(), {.camera = "eye = [2.1, 6.2, 7.3], target = [0.1, 0, 0.2], near = 0.000001, far = 40"}),
+        {"near is 1e-06 m: surfaces at the target that are 11 m apart have the same depth; make it more than 0.002"});
+}
+
+TEST_F(Inspect, AGroundOfTenKilometres) {
+    Model model;
+    model.add({-5000, -0.9, -5000}, {5000, -0.5, 5000});
+    expectWords(said(model, {.light = "kind = \"directional\", direction = [-0.3, -1, 0.4]"}),
+                {"a texel of a map of 1024² over the whole scene, which is 1.414e+04 m across, covers ",
+                 "make the ground no larger than what is seen"});
+}
+
+TEST_F(Inspect, TextWithAByteOrderMarkAndCarriageReturns) {
+    scene(Model());
+    std::string text = "\xEF\xBB\xBF";
+    for (const char c : Model().obj()) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    writeFile(folder_.path() / "model.obj", text);
+    EXPECT_TRUE(inspect(loadScene((folder_.path() / "mine.toml").string(), Profile::Gate)).warnings.empty());
+}
+
 TEST_F(Inspect, AnOpenMesh) {
     Model model;
     model.faces.resize(model.faces.size() - 2);
