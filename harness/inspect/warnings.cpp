@@ -24,10 +24,10 @@ std::string nameOf(const Evidence& e, std::uint32_t id) { return namesOfInstance
 bool isWithin(const Bounds& box, const glm::dvec3& point) { return glm::clamp(point, box.low, box.high) == point; }
 
 /// Whether an object of that extent is out of all proportion to what the camera was set up for, as a file in centimetres is
-/// that is read as metres. Grounds may be wide, but they are not high.
-bool isHuge(const glm::dvec3& extent, double view) {
+/// that is read as metres. Grounds may be wide, but they are not high; and a camera that is meant to see far says so.
+bool isHuge(const glm::dvec3& extent, double view, double far) {
     const double size = glm::length(extent), least = std::min({extent.x, extent.y, extent.z});
-    return (size > 20 * view && least > view) || size > 1e4 * view;
+    return (size > std::max(20 * view, far) && least > view) || size > 1e4 * view;
 }
 
 void judgeSizes(const Evidence& e, const std::vector<MeshReport>& meshes, Warnings& warnings) {
@@ -40,7 +40,7 @@ void judgeSizes(const Evidence& e, const std::vector<MeshReport>& meshes, Warnin
         const glm::dvec3 extent = mesh.box.high - mesh.box.low;
         const std::string what = fmt::format("{} is {:.4g} m across, and the camera looks at what is {:.3g} m away",
                                              mesh.name, glm::length(extent), view);
-        if (isHuge(extent, view))
+        if (isHuge(extent, view, e.snapshot.camera.far))
             warnings.push_back(
                 {what, "if its file is in centimetres, write unit = \"cm\" beside it (in millimetres: \"mm\")"});
         else if (glm::length(extent) < 2e-3 * view)

@@ -112,6 +112,13 @@ TEST_F(Inspect, CentimetresReadAsMetres) {
     EXPECT_EQ(said(model, {.mesh = "file = \"model.obj\", unit = \"cm\""}), "");
 }
 
+TEST_F(Inspect, ALevelOfAKilometreSeenFromTheGround) {
+    Model model;
+    model.add({-600, -0.9, -600}, {600, -0.5, 600});
+    model.add({300, -0.9, 300}, {310, 40, 310});
+    EXPECT_EQ(said(model, {.camera = "eye = [2.1, 6.2, 7.3], target = [0.1, 0, 0.2], near = 0.5, far = 3000"}), "");
+}
+
 TEST_F(Inspect, ZUpReadAsYUp) {
     Model model;
     for (glm::dvec3& p : model.corners) p = {p.x, -p.z, p.y};
