@@ -33,8 +33,4 @@ bool isTemporary(const std::filesystem::path& file);
 /// The whole file. Throws BadInput naming the file and the reason when it cannot be read.
 std::string readFile(const std::filesystem::path& file);
 
-/// The near matches of `word` among `known` (edit distance), to follow the wrong word in an error message: ` (did you mean
-/// "pcss"?)`, or nothing.
-std::string didYouMean(std::string_view word, const std::vector<std::string>& known);
-
 } // namespace shadowbench

@@ -1,7 +1,7 @@
 #include "base/toml_value.h"
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/words.h"
 
 #include <algorithm>
 #include <cmath>

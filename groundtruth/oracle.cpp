@@ -36,29 +36,7 @@ void requireAnswerable(const Request& request) {
     if (request.size.x < 1 || request.size.y < 1)
         throw BadInput(fmt::format("a reference of {} × {} pixels has none: give a size of at least 1 × 1", request.size.x,
                                    request.size.y));
-    const LightKind kind = request.snapshot.light.kind;
-    const bool isHard = kind == LightKind::Point || kind == LightKind::Directional;
-    if (request.pixelAreas && (!isHard || request.oracle != Oracle::Auto))
-        throw BadInput(fmt::format("means over pixels are of point and directional lights and by the oracle auto, and this "
-                                   "light is {} and the oracle {}: ask for the light's centre",
-                                   name(kind), name(request.oracle)));
-    if (kind == LightKind::Environment && request.oracle != Oracle::Auto && request.oracle != Oracle::PovRay)
-        throw BadInput(
-            fmt::format("the {} oracle does not answer for this light, an environment: use povray", name(request.oracle)));
-    if (kind == LightKind::Environment) return;
-    const bool area = request.snapshot.light.isArea();
-    const bool ofAreas = isExactShare(request.oracle) || request.oracle == Oracle::PovRay;
-    if (kind == LightKind::Line && isExactShare(request.oracle) && request.oracle != Oracle::Area)
-        throw BadInput(fmt::format("the {} oracle answers for rectangles and disks, and this light is a line, which has no "
-                                   "solid angle and no side that emits: use area",
-                                   name(request.oracle)));
-    if (area && !ofAreas && request.oracle != Oracle::Auto)
-        throw BadInput(
-            fmt::format("the {} oracle answers for point and directional lights, and this light is a {}: use povray or area",
-                        name(request.oracle), name(kind)));
-    if (!area && ofAreas)
-        throw BadInput(fmt::format("the {} oracle answers for area lights, and this light is {}: use polygon or rays",
-                                   name(request.oracle), name(kind)));
+    requireTruth("the snapshot", request.snapshot.light, request.truth);
 }
 
 /// Exact labels for the light's centre against pixels that POV-Ray sees as fully lit or fully shadowed.
@@ -114,10 +92,12 @@ Reference softReference(const Request& request, const Progress& progress) {
     return reference;
 }
 
-area::Share shareOf(Oracle oracle) {
-    if (oracle == Oracle::Irradiance) return area::Share::Irradiance;
-    return oracle == Oracle::SolidAngle ? area::Share::SolidAngle : area::Share::Area;
+area::Share shareOf(Truth truth) {
+    if (truth == Truth::Irradiance) return area::Share::Irradiance;
+    return truth == Truth::SolidAngle ? area::Share::SolidAngle : area::Share::Area;
 }
+
+bool isExactShare(Truth truth) { return truth == Truth::Area || truth == Truth::Irradiance || truth == Truth::SolidAngle; }
 
 /// The exact visible share at every pixel.
 Reference areaReference(const Request& request, const Progress& progress) {
@@ -126,8 +106,8 @@ Reference areaReference(const Request& request, const Progress& progress) {
         hard::ExactScene(request.snapshot, triangles, availableThreads()).primaryHits(request.size, part(progress, 0, 0.05));
     Reference reference = unlabelled(primary);
     area::AreaScene(request.snapshot, triangles, availableThreads())
-        .label(request.size, primary, reference, part(progress, 0.05, 1), shareOf(request.oracle));
-    reference.provenance.oracle = name(request.oracle);
+        .label(request.size, primary, reference, part(progress, 0.05, 1), shareOf(request.truth));
+    reference.provenance.oracle = name(request.truth);
     return reference;
 }
 
@@ -218,15 +198,28 @@ Reference pixelAreaReference(const Request& request, const Progress& progress) {
     return reference;
 }
 
+Reference answer(const Request& request, const Progress& progress) {
+    switch (request.truth) {
+    case Truth::Hard:
+        return hardReference(request, progress);
+    case Truth::PixelArea:
+        return pixelAreaReference(request, progress);
+    case Truth::Soft:
+        return request.snapshot.light.isArea() ? softReference(request, progress) : skyReference(request, progress);
+    case Truth::Area:
+    case Truth::Irradiance:
+    case Truth::SolidAngle:
+        break;
+    }
+    return areaReference(request, progress);
+}
+
 Reference computeWith(const ReferenceKey& key, const Request& request, const Progress& progress) {
     requireAnswerable(request);
     const auto start = std::chrono::steady_clock::now();
-    const Light& light = request.snapshot.light;
-    Reference reference = request.pixelAreas             ? pixelAreaReference(request, progress)
-                          : isExactShare(request.oracle) ? areaReference(request, progress)
-                          : light.isEnvironment()        ? skyReference(request, progress)
-                          : light.isArea()               ? softReference(request, progress)
-                                                         : hardReference(request, progress);
+    Request lit = request;
+    lit.snapshot.light = request.light();
+    Reference reference = answer(lit, progress);
     reference.provenance.key = key.text;
     reference.provenance.tools = key.tools;
     reference.provenance.sources = key.sources;
@@ -239,25 +232,22 @@ Reference computeWith(const ReferenceKey& key, const Request& request, const Pro
 Tools toolVersions(const Request& request) {
     Tools tools = hard::toolVersions();
     tools["reference"] = std::to_string(referenceCodeVersion);
-    if (request.pixelAreas) tools["pixel areas"] = std::to_string(pixelAreaCodeVersion);
-    if (request.oracle == Oracle::Plan) tools["plan"] = std::to_string(plan::codeVersion);
-    const Light& light = request.snapshot.light;
-    if (!light.isArea() && !light.isEnvironment()) return tools;
-    if (light.isArea()) tools["area"] = std::to_string(area::codeVersion);
-    if (shareOf(request.oracle) != area::Share::Area) tools["area weights"] = std::to_string(area::weightsCodeVersion);
-    if (isExactShare(request.oracle)) return tools;
-    if (light.isArea()) tools["certificate"] = std::to_string(certificateVersion);
-    tools["povray"] = povray::version();
-    if (light.isEnvironment()) tools["povray sky"] = std::to_string(povray::skyCodeVersion);
-    tools["povray recipe"] = std::to_string(povray::codeVersion);
+    if (request.truth == Truth::PixelArea) tools["pixel areas"] = std::to_string(pixelAreaCodeVersion);
+    if (request.truth == Truth::Hard && request.oracle == Oracle::Plan) tools["plan"] = std::to_string(plan::codeVersion);
+    const bool sampled = request.truth == Truth::Soft, ofArea = request.light().isArea();
+    if (ofArea) tools["area"] = std::to_string(area::codeVersion);
+    if (shareOf(request.truth) != area::Share::Area) tools["area weights"] = std::to_string(area::weightsCodeVersion);
+    if (sampled && ofArea) tools["certificate"] = std::to_string(certificateVersion);
+    if (sampled && !ofArea) tools["povray sky"] = std::to_string(povray::skyCodeVersion);
+    if (sampled) tools["povray"] = povray::version();
+    if (sampled) tools["povray recipe"] = std::to_string(povray::codeVersion);
     return tools;
 }
 
 std::string sourcesOf(const Request& request) {
-    const Light& light = request.snapshot.light;
-    if (isExactShare(request.oracle)) return embedded::area_sources;
-    if (light.isArea() || light.isEnvironment()) return embedded::sampled_sources;
-    return request.oracle == Oracle::Plan ? embedded::plan_sources : embedded::exact_sources;
+    if (isExactShare(request.truth)) return embedded::area_sources;
+    if (request.truth == Truth::Soft) return embedded::sampled_sources;
+    return request.truth == Truth::Hard && request.oracle == Oracle::Plan ? embedded::plan_sources : embedded::exact_sources;
 }
 
 std::set<std::string> allSources() {

@@ -1,5 +1,6 @@
 #include "scene/camera.h"
 
+#include "base/words.h"
 #include "scene/sky.h"
 
 #include <algorithm>
@@ -10,6 +11,17 @@
 #include <tuple>
 
 namespace shadowbench {
+namespace {
+
+constexpr Words<LightKind, 6> lightKinds{"kind of light",
+                                         {{{LightKind::Point, "point"},
+                                           {LightKind::Directional, "directional"},
+                                           {LightKind::Rectangle, "rectangle"},
+                                           {LightKind::Disk, "disk"},
+                                           {LightKind::Line, "line"},
+                                           {LightKind::Environment, "environment"}}}};
+
+} // namespace
 
 Camera::Basis Camera::basis() const {
     const glm::dvec3 forward = glm::normalize(target - eye);
@@ -41,23 +53,7 @@ glm::dvec3 Camera::project(const glm::dvec3& world, glm::ivec2 size) const {
     return {0.5 * (x + 1.0) * size.x, 0.5 * (1.0 - y) * size.y, depth};
 }
 
-std::string_view name(LightKind kind) {
-    switch (kind) {
-    case LightKind::Point:
-        return "point";
-    case LightKind::Directional:
-        return "directional";
-    case LightKind::Rectangle:
-        return "rectangle";
-    case LightKind::Disk:
-        return "disk";
-    case LightKind::Line:
-        return "line";
-    case LightKind::Environment:
-        return "environment";
-    }
-    return "";
-}
+std::string_view name(LightKind kind) { return lightKinds.of(kind); }
 
 bool Light::isArea() const { return kind == LightKind::Rectangle || kind == LightKind::Disk || kind == LightKind::Line; }
 

@@ -1,35 +1,20 @@
+#include "base/words.h"
 #include "scene/scene.h"
 
-#include "base/error.h"
-#include "base/files.h"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 namespace shadowbench {
+namespace {
+
+constexpr Words<Profile, 3> profiles{
+    "profile", {{{Profile::Gate, "gate"}, {Profile::Standard, "standard"}, {Profile::Paper, "paper"}}}};
+
+} // namespace
 
 const std::vector<std::string>& profileNames() {
-    static const std::vector<std::string> names{"gate", "standard", "paper"};
+    static const std::vector<std::string> names = profiles.all();
     return names;
 }
 
-std::string_view name(Profile profile) {
-    switch (profile) {
-    case Profile::Gate:
-        return "gate";
-    case Profile::Standard:
-        return "standard";
-    case Profile::Paper:
-        break;
-    }
-    return "paper";
-}
-
-Profile profileNamed(std::string_view word) {
-    for (const Profile profile : {Profile::Gate, Profile::Standard, Profile::Paper})
-        if (name(profile) == word) return profile;
-    throw BadInput(fmt::format("unknown profile \"{}\"{}; known are {}", word, didYouMean(word, profileNames()),
-                               fmt::join(profileNames(), ", ")));
-}
+std::string_view name(Profile profile) { return profiles.of(profile); }
+Profile profileNamed(std::string_view word) { return profiles.named(word); }
 
 } // namespace shadowbench

@@ -1,7 +1,7 @@
 #include "techniques/catalog.h"
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

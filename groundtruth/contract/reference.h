@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <string>
+#include <string_view>
 
 namespace shadowbench::groundtruth {
 
@@ -63,25 +64,44 @@ struct Reference {
     Provenance provenance;
 };
 
-/// Plan: 2-D visibility, for plan-view scenes. Area, Irradiance and SolidAngle: the exact visible share of an area light, by
-/// its area, by the irradiance that it brings to the receiver as a diffuse emitter, and by its solid angle
+/// What is asked. Hard: whether the light's centre is visible, 0 or 1. Soft: what is seen of the whole light, the visible
+/// fraction of an area light or the share of an environment's irradiance that arrives, sampled by POV-Ray. PixelArea: the
+/// mean of exact visibility of the light's centre over the part of each pixel's square in which the same surface is seen and
+/// faces the light (docs/ground-truth.md, "Pixel areas"). Area, Irradiance and SolidAngle: the exact visible share of an
+/// area light, by its area, by the irradiance that it brings to the receiver as a diffuse emitter, and by its solid angle
 /// (docs/ground-truth.md, "Other definitions of soft visibility").
-enum class Oracle { Auto, Polygon, Rays, Plan, Area, PovRay, Irradiance, SolidAngle };
-inline bool isExactShare(Oracle oracle) {
-    return oracle == Oracle::Area || oracle == Oracle::Irradiance || oracle == Oracle::SolidAngle;
-}
+enum class Truth { Hard, Soft, PixelArea, Area, Irradiance, SolidAngle };
+std::string_view name(Truth truth);      // "hard", "soft", "pixel-area", "area", "irradiance", "solid-angle"
+Truth truthNamed(std::string_view name); // throws BadInput naming the valid ones and near matches
+
+/// Whether a light has that truth: an environment, all around, has no hard one and no pixel areas, and only it and area
+/// lights have a soft one. A line has no solid angle, and no side that emits.
+bool hasTruth(const Light& light, Truth truth);
+
+/// Throws BadInput, naming `whose` light it is and the truths that it has, unless it has this one.
+void requireTruth(std::string_view whose, const Light& light, Truth truth);
+
+/// Soft where the light has it, else Hard.
+Truth usualTruth(const Light& light);
+
+/// How the labels of Truth::Hard are found; each other truth has one oracle. Auto: Polygon where the receiver is planar,
+/// Rays elsewhere. Plan: 2-D visibility, for plan-view scenes.
+enum class Oracle { Auto, Polygon, Rays, Plan };
 std::string_view name(Oracle oracle);
 Oracle oracleNamed(std::string_view name); // throws BadInput naming the valid ones and near matches
 
 struct Request {
     Snapshot snapshot;
     glm::ivec2 size{256, 256};
-    /// Auto: povray for area lights and environments; else polygon where the receiver is planar, rays elsewhere.
+    Truth truth = usualTruth(snapshot.light);
+    int samples = 1024; // of Soft: of an area light, directions of an environment
     Oracle oracle = Oracle::Auto;
-    int samples = 1024; // of area lights, and directions of environments, only
-    /// Point and directional lights: not the label of each pixel's centre, but the mean of exact visibility over the part
-    /// of its square in which the same surface is seen and faces the light (docs/ground-truth.md, "Pixel areas").
-    bool pixelAreas = false;
+
+    /// The light that the truth is of.
+    [[nodiscard]] Light light() const {
+        const bool ofCentre = truth == Truth::Hard || truth == Truth::PixelArea;
+        return ofCentre ? snapshot.light.centreOnly() : snapshot.light;
+    }
 };
 
 } // namespace shadowbench::groundtruth

@@ -112,24 +112,30 @@ std::vector<PlacedMesh> placements(const Snapshot& snapshot) {
     return result;
 }
 
+/// As the keys of published records say it.
+std::string_view askedAs(const Request& request) {
+    if (request.truth == Truth::Hard) return name(request.oracle);
+    const bool byOneOf = request.truth == Truth::Soft || request.truth == Truth::PixelArea;
+    return byOneOf ? name(Oracle::Auto) : name(request.truth);
+}
+
 } // namespace
 
 std::string key(const Request& request, const Tools& tools) {
     const Snapshot& snapshot = request.snapshot;
     FieldHash hash;
     add(hash, snapshot.camera);
-    add(hash, snapshot.light);
+    add(hash, request.light());
     for (const PlacedMesh& placed : placements(snapshot)) {
         hash.add(std::uint64_t{placed.placement->id});
         for (int column = 0; column < 4; ++column) hash.add(glm::dvec3(placed.placement->world[column]));
         hash.add(placed.mesh);
     }
-    const bool soft = snapshot.light.isArea() || snapshot.light.isEnvironment();
-    const bool sampled = soft && !isExactShare(request.oracle);
+    const bool sampled = request.truth == Truth::Soft;
     for (const int value : {request.size.x, request.size.y, sampled ? request.samples : 0})
         hash.add(static_cast<std::uint64_t>(value));
-    hash.add(name(request.oracle));
-    if (request.pixelAreas) hash.add("pixel areas");
+    hash.add(askedAs(request));
+    if (request.truth == Truth::PixelArea) hash.add("pixel areas");
     for (const auto& [tool, version] : tools) {
         hash.add(tool);
         hash.add(version);

@@ -1,7 +1,7 @@
 #include "harness/cells/cell_selection.h"
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/words.h"
 #include "harness/cells/external_techniques.h"
 #include "harness/metrics/table.h"
 #include "scene/load/load.h"

@@ -7,55 +7,6 @@
 #include <fmt/format.h>
 
 namespace shadowbench {
-namespace {
-
-constexpr Truth allTruths[] = {Truth::Hard, Truth::Soft,       Truth::PixelArea,
-                               Truth::Area, Truth::Irradiance, Truth::SolidAngle};
-
-} // namespace
-
-std::string_view name(Truth truth) {
-    switch (truth) {
-    case Truth::Hard:
-        return "hard";
-    case Truth::Soft:
-        return "soft";
-    case Truth::PixelArea:
-        return "pixel-area";
-    case Truth::Area:
-        return "area";
-    case Truth::Irradiance:
-        return "irradiance";
-    case Truth::SolidAngle:
-        return "solid-angle";
-    }
-    return "";
-}
-
-Truth truthNamed(std::string_view word) {
-    for (const Truth truth : allTruths)
-        if (name(truth) == word) return truth;
-    throw BadInput(fmt::format("there is no truth \"{}\": the truths are hard, soft, pixel-area, area, irradiance and "
-                               "solid-angle",
-                               word));
-}
-
-bool hasTruth(const Light& light, Truth truth) {
-    switch (truth) {
-    case Truth::Soft:
-        return light.isArea() || light.isEnvironment();
-    case Truth::Area:
-        return light.isArea();
-    case Truth::Irradiance:
-    case Truth::SolidAngle:
-        return light.isArea() && light.kind != LightKind::Line;
-    case Truth::Hard:
-    case Truth::PixelArea:
-        return !light.isEnvironment();
-    }
-    return false;
-}
-
 std::vector<Truth> truthsOf(const Light& light) {
     std::vector<Truth> truths;
     for (const Truth truth : {Truth::Hard, Truth::Soft, Truth::PixelArea})
@@ -64,18 +15,10 @@ std::vector<Truth> truthsOf(const Light& light) {
 }
 
 groundtruth::Request referenceRequest(const Scene& scene, Truth truth, int frame) {
-    if (!hasTruth(scene.light, truth))
-        throw BadInput(
-            fmt::format("scene {} has no {} truth: its light is of kind {}", scene.id, name(truth), name(scene.light.kind)));
-    groundtruth::Request request;
-    request.snapshot = snapshot(scene, frame);
-    request.size = scene.size;
-    request.samples = frame < scene.timeline.still ? scene.referenceSamples : scene.movingReferenceSamples;
-    if (truth == Truth::Hard || truth == Truth::PixelArea) request.snapshot.light = request.snapshot.light.centreOnly();
-    if (truth == Truth::Area) request.oracle = groundtruth::Oracle::Area;
-    if (truth == Truth::Irradiance) request.oracle = groundtruth::Oracle::Irradiance;
-    if (truth == Truth::SolidAngle) request.oracle = groundtruth::Oracle::SolidAngle;
-    request.pixelAreas = truth == Truth::PixelArea;
+    groundtruth::requireTruth(fmt::format("scene {}", scene.id), scene.light, truth);
+    const int samples = frame < scene.timeline.still ? scene.referenceSamples : scene.movingReferenceSamples;
+    groundtruth::Request request{snapshot(scene, frame), scene.size, truth, samples};
+    request.snapshot.light = request.light();
     return request;
 }
 

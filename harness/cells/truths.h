@@ -14,19 +14,13 @@
 
 namespace shadowbench {
 
-/// Exact truth of the light's centre, or soft truth of the whole light: the visible fraction of an area light, the share of
-/// an environment's irradiance that arrives. PixelArea is the exact truth of the light's centre over each pixel's square.
-/// Area is the exact visible fraction of an area light at every pixel: what its soft truth, which POV-Ray samples, is held
-/// to. Irradiance and SolidAngle are exact shares of a rectangle or disk by other definitions of soft visibility, for images
-/// that other renderers made (docs/ground-truth.md, "Other definitions of soft visibility").
-enum class Truth { Hard, Soft, PixelArea, Area, Irradiance, SolidAngle };
-std::string_view name(Truth truth);      // "hard", "soft", "pixel-area", "area", "irradiance", "solid-angle"
-Truth truthNamed(std::string_view name); // throws BadInput naming all
+using groundtruth::hasTruth;
+using groundtruth::Truth;
+using groundtruth::truthNamed;
 
-/// Whether a scene's light has that truth: an environment, all around, has no hard one and no pixel areas, and only it and
-/// area lights have a soft one. A line has no solid angle, and no side that emits.
-bool hasTruth(const Light& light, Truth truth);
-std::vector<Truth> truthsOf(const Light& light); // of those before Area, by which cells are scored
+/// The truths that a light has of those by which cells are scored: Hard, Soft and PixelArea. A moving frame's truths are of
+/// the light's place in it.
+std::vector<Truth> truthsOf(const Light& light);
 
 /// The request for one frame's truth; moving frames of an area light take fewer samples. Throws BadInput for a truth that
 /// the scene's light does not have.

@@ -1,7 +1,7 @@
 // The command line: parses, calls the chosen verb, turns errors into one line and a documented exit code.
-#include "base/files.h"
 #include "base/last_words.h"
 #include "base/one_line.h"
+#include "base/words.h"
 #include "harness/cells/environment.h"
 #include "harness/cli/command.h"
 #include "harness/cli/documents.h"

@@ -13,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
 
 namespace shadowbench {
@@ -29,7 +30,20 @@ struct ReferenceWords {
     bool certify = false;
 };
 
-ReferenceOptions resolved(const ReferenceWords& words) {
+/// The oracle named the truth, too, before --truth did.
+void renameFormerOracle(ReferenceWords& words) {
+    static const std::map<std::string, std::string> now{
+        {"area", "area"}, {"povray", "soft"}, {"irradiance", "irradiance"}, {"solid-angle", "solid-angle"}};
+    const auto found = now.find(words.options.oracle);
+    if (found == now.end()) return;
+    if (!words.truth.empty()) throw BadInput(fmt::format("--truth says what is asked: leave out --oracle {}", found->first));
+    fmt::print(stderr, "shadowbench: --oracle {} is now called --truth {}\n", found->first, found->second);
+    words.truth = found->second;
+    words.options.oracle = "auto";
+}
+
+ReferenceOptions resolved(ReferenceWords words) {
+    renameFormerOracle(words);
     ReferenceOptions options = words.options;
     options.profile = profileNamed(words.profile);
     if (!words.truth.empty()) options.truth = truthNamed(words.truth);
@@ -58,19 +72,14 @@ void printPolygons(const groundtruth::Request& request, const std::filesystem::p
     for (const std::filesystem::path& file : files) fmt::print("polygons: {}\n", file.string());
 }
 
-} // namespace
-
-namespace {
-
-/// What the options ask for, by the truth that they name or else by the oracle alone.
+/// By the truth that the options name, else the one that the oracle is of, else the usual one of the light.
 groundtruth::Request chosenRequest(const Scene& scene, int frame, const ReferenceOptions& options) {
     const groundtruth::Oracle oracle = groundtruth::oracleNamed(options.oracle);
-    if (!options.truth) return {snapshot(scene, frame), scene.size, oracle, scene.referenceSamples};
-    groundtruth::Request request = referenceRequest(scene, *options.truth, frame);
-    if (oracle == groundtruth::Oracle::Auto || oracle == request.oracle) return request;
-    if (request.oracle != groundtruth::Oracle::Auto)
-        throw BadInput(fmt::format("--truth {} is by the oracle {}, not by {}: leave out --oracle", name(*options.truth),
-                                   name(request.oracle), options.oracle));
+    const Truth usual = oracle == groundtruth::Oracle::Auto ? groundtruth::usualTruth(scene.light) : Truth::Hard;
+    groundtruth::Request request = referenceRequest(scene, options.truth.value_or(usual), frame);
+    if (request.truth != Truth::Hard && oracle != groundtruth::Oracle::Auto)
+        throw BadInput(fmt::format("--oracle {} finds hard labels, and --truth asks for {}: leave out --oracle",
+                                   options.oracle, name(request.truth)));
     request.oracle = oracle;
     return request;
 }
@@ -128,9 +137,8 @@ void addReference(CLI::App& app, Action& action) {
                      "of golden references those that the gate judges beside them)");
     verb->add_option("--frame", words->frame, "Frame number (default: the scored one; of golden references all)")
         ->check(CLI::NonNegativeNumber);
-    CLI::Option* oracle =
-        verb->add_option("--oracle", options.oracle, "auto, polygon, rays, plan, area, povray, irradiance or solid-angle")
-            ->capture_default_str();
+    CLI::Option* oracle = verb->add_option("--oracle", options.oracle, "What finds hard labels: auto, polygon, rays or plan")
+                              ->capture_default_str();
     CLI::Option* samples = verb->add_option("--samples", options.samples,
                                             "Samples of an area light, directions of a sky (default: the scene's)")
                                ->check(CLI::Range(4, 16384));
@@ -149,9 +157,10 @@ void addReference(CLI::App& app, Action& action) {
     CLI::Option* verify = verb->add_flag("--verify", words->verify, "Compute the golden references again and compare");
     CLI::Option* accept =
         verb->add_flag("--accept", words->accept, "Compute the golden references again, say what changed, and keep them");
-    verb->add_option("--truth", words->truth,
-                     "The truth to compute: hard, soft, pixel-area, area, irradiance or solid-angle (default: what --oracle "
-                     "answers); with --verify and --accept, golden references of that truth only");
+    verb->add_option(
+        "--truth", words->truth,
+        "The truth to compute: hard, soft, pixel-area, area, irradiance or solid-angle (default: soft where the "
+        "light has an area, else hard); with --verify and --accept, golden references of that truth only");
     verb->add_option("--golden", options.golden, "Folder of the golden references")->capture_default_str();
     verb->add_flag("--json", options.json, "What --verify, --accept and --certify found, for machines");
     verb->add_flag("--quiet", options.quiet, "No progress");

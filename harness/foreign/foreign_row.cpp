@@ -1,31 +1,19 @@
 #include "harness/foreign/foreign_row.h"
 
-#include "base/error.h"
-
-#include <fmt/format.h>
+#include "base/words.h"
 
 namespace shadowbench::foreign {
+namespace {
 
-std::string_view name(Definition definition) {
-    switch (definition) {
-    case Definition::Hard:
-        return "hard";
-    case Definition::Area:
-        return "area";
-    case Definition::Irradiance:
-        return "irradiance";
-    case Definition::SolidAngle:
-        return "solid-angle";
-    }
-    return "";
-}
+constexpr Words<Definition, 4> definitions{"definition of visibility (docs/score.md, \"What the numbers mean\")",
+                                           {{{Definition::Hard, "hard"},
+                                             {Definition::Area, "area"},
+                                             {Definition::Irradiance, "irradiance"},
+                                             {Definition::SolidAngle, "solid-angle"}}}};
 
-Definition definitionNamed(std::string_view word) {
-    for (const Definition definition : allDefinitions)
-        if (name(definition) == word) return definition;
-    throw BadInput(fmt::format("images mean hard, area, irradiance or solid-angle, not \"{}\" (docs/score.md, \"What the "
-                               "numbers mean\")",
-                               word));
-}
+} // namespace
+
+std::string_view name(Definition definition) { return definitions.of(definition); }
+Definition definitionNamed(std::string_view word) { return definitions.named(word); }
 
 } // namespace shadowbench::foreign

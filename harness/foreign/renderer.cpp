@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/toml_value.h"
+#include "base/words.h"
 
 #include <algorithm>
 #include <cctype>

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
+#include "base/words.h"
 
 #include <algorithm>
 #include <cmath>

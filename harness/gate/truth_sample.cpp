@@ -33,7 +33,7 @@ struct Candidate {
     int frame;
 
     [[nodiscard]] std::string name() const {
-        return fmt::format("the {} truth of {} frame {}", shadowbench::name(truth), scene->id, frame);
+        return fmt::format("the {} truth of {} frame {}", groundtruth::name(truth), scene->id, frame);
     }
 };
 

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
+#include "base/words.h"
 #include "harness/records/fields.h"
 
 #include <cstdint>

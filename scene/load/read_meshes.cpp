@@ -1,6 +1,6 @@
 #include "base/error.h"
-#include "base/files.h"
 #include "base/memory.h"
+#include "base/words.h"
 #include "scene/load/memory_need.h"
 #include "scene/load/scene_file.h"
 #include "scene/meshes/import.h"

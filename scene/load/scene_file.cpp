@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/memory.h"
+#include "base/words.h"
 #include "scene/exchange/gltf.h"
 #include "scene/load/load.h"
 #include "scene/load/memory_need.h"

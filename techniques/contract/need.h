@@ -22,7 +22,7 @@ std::string_view name(Need need); // "any-receiver", "any-eye", …
 std::string namesOf(const std::set<Need>& needs); // "any-eye, open-meshes"
 
 /// Throws BadInput naming all and near matches.
-Need needNamed(const std::string& name);
+Need needNamed(std::string_view name);
 
 /// What is needed unless the user says otherwise: all but NoHistory.
 const std::set<Need>& usualNeeds();

@@ -1,7 +1,7 @@
 #include "techniques/contract/parameters.h"
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/words.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,35 +1,23 @@
 #include "techniques/gl/platform.h"
 
 #include "base/error.h"
+#include "base/words.h"
 #include "techniques/gl/make_context.h"
 
-#include <array>
 #include <cstdlib>
 
 namespace shadowbench::gl {
 namespace {
 
 constexpr const char* choice = "SHADOWBENCH_GL";
-constexpr std::array platforms{Platform::Auto, Platform::OsMesa, Platform::Egl};
+constexpr Words<Platform, 3> platforms{"OpenGL",
+                                       {{{Platform::Auto, "auto"}, {Platform::OsMesa, "osmesa"}, {Platform::Egl, "egl"}}}};
 
 } // namespace
 
-std::string_view name(Platform platform) {
-    switch (platform) {
-    case Platform::OsMesa:
-        return "osmesa";
-    case Platform::Egl:
-        return "egl";
-    default:
-        return "auto";
-    }
-}
+std::string_view name(Platform platform) { return platforms.of(platform); }
 
-Platform platformNamed(std::string_view word) {
-    for (const Platform platform : platforms)
-        if (name(platform) == word) return platform;
-    throw BadInput("there is no OpenGL \"" + std::string(word) + "\"; choose auto, osmesa or egl");
-}
+Platform platformNamed(std::string_view word) { return platforms.named(word); }
 
 Platform chosenPlatform() {
     const char* word = std::getenv(choice);

@@ -183,13 +183,5 @@ TEST_F(Files, ThatCannotBeReadAreNamed) {
     EXPECT_THROW(readFile(folder_), BadInput);
 }
 
-TEST(DidYouMean, NamesTheNearestWordsFirst) {
-    const std::vector<std::string> known{"pcf", "pcss", "vsm", "esm"};
-    EXPECT_EQ(didYouMean("pcs", known), " (did you mean \"pcf\" or \"pcss\"?)");
-    EXPECT_EQ(didYouMean("temporal-soft", known), "");
-    EXPECT_EQ(didYouMean("windmil", {"trees", "windmills"}), " (did you mean \"windmills\"?)");
-    EXPECT_EQ(didYouMean(std::string(50'000'000, 'a'), known), ""); // at once
-}
-
 } // namespace
 } // namespace shadowbench

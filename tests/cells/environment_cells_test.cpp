@@ -38,7 +38,8 @@ TEST(EnvironmentCells, HaveNoHardTruth) {
         static_cast<void>(referenceRequest(scene, Truth::Hard, 0));
         FAIL() << "there is a hard truth";
     } catch (const BadInput& error) {
-        EXPECT_STREQ(error.what(), "scene constant-sky has no hard truth: its light is of kind environment");
+        EXPECT_STREQ(error.what(), "scene constant-sky has no hard truth: its light is of kind environment, "
+                                   "which has soft");
     }
     Scene point = scene;
     point.light = Light{};

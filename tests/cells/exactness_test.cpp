@@ -20,8 +20,8 @@ constexpr double nearEdge = 0.02; // pixels
 /// The truth on a grid of points of the image that all lie within `radius` pixels of a pixel's centre, which is its middle.
 groundtruth::Reference magnified(const Snapshot& snapshot, glm::ivec2 size, glm::ivec2 pixel, double radius) {
     constexpr int side = 17;
-    groundtruth::Request request{snapshot, {side, side}, groundtruth::Oracle::Rays};
-    request.snapshot.light = snapshot.light.centreOnly();
+    groundtruth::Request request{snapshot, {side, side}, groundtruth::Truth::Hard};
+    request.oracle = groundtruth::Oracle::Rays;
     Camera& camera = request.snapshot.camera;
     const glm::dvec3 ray = camera.ray(glm::dvec2(pixel) + 0.5, size);
     const double length = glm::length(ray);

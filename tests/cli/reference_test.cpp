@@ -31,7 +31,7 @@ TEST_F(Reference, WritesVisibilityAndProvenance) {
 }
 
 TEST_F(Reference, OfAnAreaLightIsExactByTheAreaOracle) {
-    const Outcome outcome = reference("--oracle area --scene " + area_);
+    const Outcome outcome = reference("--truth area --scene " + area_);
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const auto json = nlohmann::json::parse(provenance());
     EXPECT_EQ(json["oracle"], "area");
@@ -70,7 +70,7 @@ TEST_F(Reference, OfASkyHasNoHardShadowAndNoPolygons) {
     for (const std::string options : {"--oracle rays", "--oracle area", "--samples 256 --polygons"}) {
         const Outcome outcome = reference(options + " --scene " + sky_);
         EXPECT_EQ(outcome.code, 2) << options;
-        EXPECT_NE(outcome.output.find("an environment"), std::string::npos) << outcome.output;
+        EXPECT_NE(outcome.output.find("environment"), std::string::npos) << outcome.output;
     }
     EXPECT_EQ(shell("shadowbench reference --quiet --verify --truth hard --scene " + sky_).code, 2);
 }
@@ -97,8 +97,21 @@ TEST_F(Reference, ByPlanComesWithWhatTheLightSees) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out/visible-1.wkt"));
 }
 
-TEST_F(Reference, OraclesThatDoNotAnswerForTheLightAreNamed) {
-    EXPECT_EQ(reference("--oracle area --scene " + point_).code, 2);
+TEST_F(Reference, AFormerNameOfATruthIsStillRead) {
+    const Outcome outcome = reference("--oracle area --scene " + area_);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_NE(outcome.output.find("--oracle area is now called --truth area"), std::string::npos) << outcome.output;
+    EXPECT_EQ(nlohmann::json::parse(provenance())["oracle"], "area");
+}
+
+TEST_F(Reference, OfAnAreaLightsCentreIsFoundByTheOracleThatIsNamed) {
+    const Outcome outcome = reference("--oracle rays --scene " + area_);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_EQ(nlohmann::json::parse(provenance())["oracle"], "rays");
+}
+
+TEST_F(Reference, TruthsThatTheLightDoesNotHaveAreNamed) {
+    EXPECT_EQ(reference("--truth area --scene " + point_).code, 2);
     EXPECT_EQ(reference("--oracle plan --scene " + area_).code, 2);
     EXPECT_EQ(shell("shadowbench reference --certify --scene " + point_).code, 2);
 }

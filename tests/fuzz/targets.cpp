@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/temporary_folder.h"
+#include "base/words.h"
 #include "tests/fuzz/readers.h"
 
 #include <algorithm>

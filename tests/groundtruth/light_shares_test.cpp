@@ -69,10 +69,10 @@ TEST(LightShares, AgreeWithExactRaysToRandomPointsOfTheLight) {
 
 TEST(LightShares, AreReferencesOfTheirOwn) {
     const Snapshot scene = sceneWith("large-light", LightKind::Rectangle);
-    const Reference area = compute({scene, {24, 24}, Oracle::Area});
-    for (const Oracle oracle : {Oracle::Irradiance, Oracle::SolidAngle}) {
-        const Reference share = compute({scene, {24, 24}, oracle});
-        EXPECT_EQ(share.provenance.oracle, name(oracle));
+    const Reference area = compute({scene, {24, 24}, Truth::Area});
+    for (const Truth truth : {Truth::Irradiance, Truth::SolidAngle}) {
+        const Reference share = compute({scene, {24, 24}, truth});
+        EXPECT_EQ(share.provenance.oracle, name(truth));
         EXPECT_EQ(share.provenance.samples, 0);
         double most = 0;
         for (std::size_t i = 0; i < area.visibility.size(); ++i) {

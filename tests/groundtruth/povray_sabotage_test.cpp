@@ -92,7 +92,7 @@ std::vector<Sabotage> sabotages() {
 }
 
 Certificate certificateOf(const Sabotage& sabotage, const povray::Recipe& recipe) {
-    const Request request{sabotage.scene, {64, 64}, Oracle::PovRay, sabotage.samples};
+    const Request request{sabotage.scene, {64, 64}, Truth::Soft, sabotage.samples};
     const PrimaryHits primary = primaryHits(request.snapshot, request.size);
     povray::Options options;
     options.recipe = recipe;
@@ -129,7 +129,7 @@ TEST(Recipe, AGridIsWorseWhereEdgesAreParallelToTheLightsSides) {
 
 TEST(Recipe, OccludersTooThinForTheSamplesAreNotedBeforeACertificateIsAsked) {
     try {
-        compute({thinBars(), {64, 64}, Oracle::PovRay, povray::fewestLightSamples});
+        compute({thinBars(), {64, 64}, Truth::Soft, povray::fewestLightSamples});
         ADD_FAILURE() << "four samples saw what lies between them";
     } catch (const InternalError& error) {
         EXPECT_NE(std::string(error.what()).find("contradict each other"), std::string::npos) << error.what();

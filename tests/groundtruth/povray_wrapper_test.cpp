@@ -12,7 +12,7 @@ namespace shadowbench::groundtruth {
 namespace {
 
 const Request& request() {
-    static const Request plates{overlappingPlates(), {96, 96}, Oracle::PovRay, 256};
+    static const Request plates{overlappingPlates(), {96, 96}, Truth::Soft, 256};
     return plates;
 }
 
@@ -53,7 +53,7 @@ TEST(WrappedPovRay, LargeFaultsAreOutsideOfWhatHonestRendersErrBy) {
         c.replayed = 0;
         EXPECT_NE(rejection(requireCertified, c, request().samples), "") << name(wrapper) << ": " << describe(c);
     }
-    const Request parallel{halfPlane(LightKind::Rectangle), {64, 64}, Oracle::PovRay, 256};
+    const Request parallel{halfPlane(LightKind::Rectangle), {64, 64}, Truth::Soft, 256};
     Certificate grid = certificateOf(parallel, renderBy(parallel, Wrapper::PlainGrid));
     grid.replayed = 0;
     EXPECT_NE(rejection(requireCertified, grid, parallel.samples), "") << describe(grid);

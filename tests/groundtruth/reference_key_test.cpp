@@ -15,7 +15,7 @@ Request soft() { return {overlappingPlates(), {64, 48}}; }
 
 Request hard() {
     Request request = soft();
-    request.snapshot.light = request.snapshot.light.centreOnly();
+    request.truth = Truth::Hard;
     return request;
 }
 
@@ -61,11 +61,12 @@ TEST(ReferenceKey, ChangesWithEverythingThatMattersToTheTruth) {
         {"width", [](Request& r) { r.size.x = 65; }},
         {"sides swapped", [](Request& r) { std::swap(r.size.x, r.size.y); }},
         {"samples", [](Request& r) { r.samples = 256; }},
-        {"oracle", [](Request& r) { r.oracle = Oracle::PovRay; }},
-        {"pixel areas", [](Request& r) { r.pixelAreas = true; }},
+        {"exact shares", [](Request& r) { r.truth = Truth::Area; }},
+        {"pixel areas", [](Request& r) { r.truth = Truth::PixelArea; }},
     };
     for (const auto& [what, change] : changes) EXPECT_NE(keyAfter(soft(), change), key(soft(), tools)) << what;
     EXPECT_NE(key(hard(), tools), key(soft(), tools));
+    EXPECT_NE(keyAfter(hard(), [](Request& r) { r.oracle = Oracle::Rays; }), key(hard(), tools));
 }
 
 Request underSky(EnvironmentLight environment) {
@@ -129,14 +130,14 @@ TEST(ReferenceKey, HardShadowsDoNotDependOnTheNumberOfSamples) {
 
 TEST(ReferenceKey, OfEveryExactShareIsItsOwnAndDoesNotDependOnTheNumberOfSamples) {
     std::set<std::string> keys{key(soft(), tools)};
-    for (const Oracle oracle : {Oracle::Area, Oracle::Irradiance, Oracle::SolidAngle}) {
+    for (const Truth truth : {Truth::Area, Truth::Irradiance, Truth::SolidAngle}) {
         Request request = soft();
-        request.oracle = oracle;
+        request.truth = truth;
         keys.insert(key(request, tools));
         request.samples = 7;
         keys.insert(key(request, tools));
         EXPECT_FALSE(toolVersions(request).contains("povray"));
-        EXPECT_EQ(toolVersions(request).contains("area weights"), oracle != Oracle::Area);
+        EXPECT_EQ(toolVersions(request).contains("area weights"), truth != Truth::Area);
     }
     EXPECT_EQ(keys.size(), 4U);
 }
@@ -150,17 +151,18 @@ TEST(ReferenceKey, NeedsPovRayForAreaLightsOnly) {
 }
 
 TEST(OracleNames, GoThereAndBack) {
-    for (const Oracle oracle :
-         {Oracle::Auto, Oracle::Polygon, Oracle::Rays, Oracle::PovRay, Oracle::Irradiance, Oracle::SolidAngle})
+    for (const Oracle oracle : {Oracle::Auto, Oracle::Polygon, Oracle::Rays, Oracle::Plan})
         EXPECT_EQ(oracleNamed(name(oracle)), oracle);
+    for (const Truth truth : {Truth::Hard, Truth::Soft, Truth::PixelArea, Truth::Area, Truth::Irradiance, Truth::SolidAngle})
+        EXPECT_EQ(truthNamed(name(truth)), truth);
 }
 
 TEST(OracleNames, AnUnknownOneNamesItsNearMatchAndAllValidOnes) {
     try {
-        oracleNamed("povary");
-        FAIL() << "povary is no oracle";
+        oracleNamed("poligon");
+        FAIL() << "poligon is no oracle";
     } catch (const BadInput& error) {
-        for (const char* part : {"\"povary\"", "did you mean \"povray\"?", "auto, polygon, rays, plan, area, povray"})
+        for (const char* part : {"\"poligon\"", "did you mean \"polygon\"?", "auto, polygon, rays, plan"})
             EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
 }

@@ -25,7 +25,7 @@ constexpr int few = 32; // points of a certificate that does not matter
 
 Request under(const EnvironmentLight& light, Snapshot scene = overlappingPlates(), int samples = 1024) {
     scene.light = environmentLight(light);
-    return {std::move(scene), {48, 48}, Oracle::Auto, samples};
+    return {std::move(scene), {48, 48}, Truth::Soft, samples};
 }
 
 TEST(SkyReference, OfAHalfPlaneIsTheClosedForm) {
@@ -120,10 +120,10 @@ TEST(SkyReference, IsTheSameEachTime) {
 }
 
 TEST(SkyReference, IsGivenByPovRayAlone) {
-    for (const Oracle oracle : {Oracle::Polygon, Oracle::Rays, Oracle::Plan, Oracle::Area}) {
+    for (const Truth truth : {Truth::Hard, Truth::PixelArea, Truth::Area, Truth::SolidAngle}) {
         Request request = under(constantSky);
-        request.oracle = oracle;
-        EXPECT_THROW(compute(request), BadInput) << name(oracle);
+        request.truth = truth;
+        EXPECT_THROW(compute(request), BadInput) << name(truth);
     }
     Request request = under(constantSky);
     request.samples = povray::fewestLightSamples - 1;

@@ -1,7 +1,7 @@
 #include "harness/studies/recommend/caster_groups.h"
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/words.h"
 #include "scene/meshes/import.h"
 
 #include <algorithm>

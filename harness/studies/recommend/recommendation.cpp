@@ -1,8 +1,8 @@
 #include "harness/studies/recommend/recommendation.h"
 
-#include "base/files.h"
 #include "base/folder_lock.h"
 #include "base/progress_line.h"
+#include "base/words.h"
 #include "harness/metrics/table.h"
 #include "harness/records/comparability.h"
 #include "harness/report/advice.h"
@@ -18,7 +18,11 @@
 namespace shadowbench::recommend {
 namespace {
 
-constexpr std::array allQuestions{Question::Casters, Question::Technique, Question::Map, Question::Samples};
+constexpr Words<Question, 4> questions{"question",
+                                       {{{Question::Casters, "casters"},
+                                         {Question::Technique, "technique"},
+                                         {Question::Map, "map"},
+                                         {Question::Samples, "samples"}}}};
 
 bool hasLevels(const Scene& scene) {
     return std::ranges::any_of(scene.objects, [](const Object& object) { return object.levels.size() > 1; });
@@ -134,29 +138,8 @@ void answerFromRecords(Question question, const std::vector<Record>& records, co
 
 } // namespace
 
-std::string_view name(Question question) {
-    switch (question) {
-    case Question::Casters:
-        return "casters";
-    case Question::Technique:
-        return "technique";
-    case Question::Map:
-        return "map";
-    case Question::Samples:
-        break;
-    }
-    return "samples";
-}
-
-Question questionNamed(const std::string& word) {
-    std::vector<std::string> names;
-    for (const Question question : allQuestions) {
-        if (name(question) == word) return question;
-        names.emplace_back(name(question));
-    }
-    throw BadInput(fmt::format("there is no question \"{}\"{}; the questions are {}", word, didYouMean(word, names),
-                               fmt::join(names, ", ")));
-}
+std::string_view name(Question question) { return questions.of(question); }
+Question questionNamed(std::string_view word) { return questions.named(word); }
 
 namespace {
 

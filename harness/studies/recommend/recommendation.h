@@ -17,7 +17,7 @@ namespace shadowbench::recommend {
 
 enum class Question { Casters, Technique, Map, Samples };
 std::string_view name(Question question);
-Question questionNamed(const std::string& word); // throws BadInput naming all
+Question questionNamed(std::string_view word); // throws BadInput naming all
 
 struct RecommendOptions {
     std::vector<std::string> scenes; // ids or files; empty: those standard scenes that have what is asked for

@@ -1,7 +1,7 @@
 #include "harness/studies/recommend/shadow_error.h"
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/words.h"
 #include "harness/metrics/frames.h"
 #include "harness/metrics/values.h"
 

@@ -1,7 +1,7 @@
 #include "harness/studies/sweep/axis.h"
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/words.h"
 #include "harness/studies/sweep/tessellate.h"
 #include "scene/sky.h"
 

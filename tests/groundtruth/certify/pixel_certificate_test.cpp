@@ -194,7 +194,7 @@ TEST(PixelCertificate, IsRefusedWithTheFirstBoundThatItBreaks) {
 
 TEST(PixelCertificate, IsInTheProvenanceOfPixelAreas) {
     Request request{shown("dueling-frusta"), size};
-    request.pixelAreas = true;
+    request.truth = Truth::PixelArea;
     const Reference found = compute(request);
     EXPECT_EQ(found.provenance.oracle, "pixel-areas");
     EXPECT_EQ(found.provenance.measured.at("certificate_points"), pixelCertificatePoints);
@@ -204,7 +204,7 @@ TEST(PixelCertificate, IsInTheProvenanceOfPixelAreas) {
 TEST(PixelCertificate, NoMeanOverPixelsIsMadeOfAnAreaLight) {
     const Scene scene = loadScene("simple", Profile::Gate);
     Request request{snapshot(scene, 0), size};
-    request.pixelAreas = true;
+    request.truth = Truth::PixelArea;
     EXPECT_THROW(static_cast<void>(compute(request)), BadInput);
 }
 

@@ -147,7 +147,7 @@ TEST(Questions, AreNamed) {
     for (const Question question : {Question::Casters, Question::Technique, Question::Map, Question::Samples})
         EXPECT_EQ(questionNamed(std::string(name(question))), question);
     EXPECT_EQ(test::messageOf<BadInput>([] { questionNamed("mapp"); }),
-              "there is no question \"mapp\" (did you mean \"map\"?); the questions are casters, technique, map, samples");
+              "there is no question \"mapp\" (did you mean \"map\"?); there are casters, technique, map, samples");
 }
 
 /// Plates under a light straight above 10 m × 10 m of ground, which an eye looks straight down on from below them: regular

@@ -25,7 +25,7 @@ protected:
 
 /// What the reference of a snapshot would be kept under: two equal keys have one truth.
 std::string truthOf(const Snapshot& frame, const Scene& scene) {
-    return groundtruth::key({frame, scene.size, groundtruth::Oracle::Auto, scene.referenceSamples}, {});
+    return groundtruth::key({frame, scene.size, groundtruth::usualTruth(frame.light), scene.referenceSamples}, {});
 }
 
 std::map<std::uint32_t, std::pair<const Batch*, const Placement*>> byId(const Snapshot& frame) {
