@@ -4,6 +4,7 @@
 #include "scene/mesh.h"
 
 #include <cstddef>
+#include <string>
 
 namespace shadowbench {
 
@@ -34,7 +35,10 @@ struct MeshFaults {
     double volume = 0; // signedVolume()
 };
 
-/// Of meshes whose indices are in range.
+/// Throws BadInput naming `what` unless every position is finite and every index in range, as the others, weld() and
+/// hasArea() ask for.
+void requireNumbers(const Mesh& mesh, const std::string& what);
+
 EdgeFaults edgeFaultsOf(const Mesh& mesh);
 MeshFaults faultsOf(const Mesh& mesh);
 
