@@ -49,8 +49,8 @@ GlbChunks glbChunks(std::string_view bytes) {
 }
 
 void requireHarmless(const std::string& extension) {
-    constexpr std::array<std::string_view, 6> harmless{"KHR_lights_punctual", "KHR_materials_",       "KHR_texture_",
-                                                       "EXT_texture_",        "KHR_techniques_webgl", "KHR_xmp"};
+    constexpr std::array<std::string_view, 6> harmless{"KHR_lights_punctual", "KHR_materials_", "KHR_texture_",
+                                                       "EXT_texture_",        "KHR_technique",  "KHR_xmp"};
     if (std::ranges::any_of(harmless, [&](std::string_view known) { return extension.starts_with(known); })) return;
     throw BadInput(fmt::format("it requires the extension {}, which is not read; export it without (compression and "
                                "quantisation, too)",

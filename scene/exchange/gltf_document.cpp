@@ -85,6 +85,7 @@ const Json& GltfDocument::entry(const char* list, const Json& index) const {
 }
 
 const Json& entryOf(const Json& list, const char* name, const Json& index) {
+    if (!index.is_number_unsigned()) throw BadInput(fmt::format("{} is no number of one of its {}", index.dump(), name));
     const std::size_t at = whole(index);
     if (at >= list.size()) throw BadInput(fmt::format("it has no {}[{}]", name, at));
     return list[at];

@@ -23,6 +23,11 @@ bool isOfTriangles(const Json& primitive) {
     return !primitive.contains("mode") || whole(primitive["mode"]) >= list;
 }
 
+/// What a modelling program calls an object is its node.
+std::string nameOfPrimitive(const std::string& node, std::size_t primitive) {
+    return primitive == 0 ? node : fmt::format("{}_{}", node, primitive + 1);
+}
+
 void requireNoMask(const Json& material, const Json& index) {
     if (material.value("alphaMode", std::string()) != "MASK") return;
     const std::string name = nameOf(material);
@@ -80,7 +85,7 @@ toml::table GltfObjects::objectOf(std::size_t mesh, std::size_t primitive, const
     const glm::dvec3 colour = vectorOr(member(material, "pbrMetallicRoughness"), "baseColorFactor", glm::dvec3(0.8));
     toml::table from{{"file", file_}, {"part", part}, {"closed", closed}};
     if (stretch) from.insert("matrix", listOfColumns(*stretch));
-    return toml::table{{"name", nameOf(entry).empty() && !node.empty() ? node : part},
+    return toml::table{{"name", gltf_.isExported() || node.empty() ? part : nameOfPrimitive(node, primitive)},
                        {"colour", tomlOf(colour)},
                        {"mesh", std::move(from)},
                        {"place", toml::array()}};

@@ -79,7 +79,7 @@ TEST_F(BlendersScene, TurnsNothingInsideOut) {
     const Scene scene = through("camera = \"Entrance\"\nlight = \"Lamp\"");
     Mesh cone;
     for (const Object& object : scene.objects) {
-        if (!object.name.starts_with("Cone")) continue;
+        if (!object.name.starts_with("Mirrored")) continue;
         const auto before = static_cast<std::uint32_t>(cone.positions.size());
         const Mesh& half = *object.levels[0].mesh;
         cone.positions.insert(cone.positions.end(), half.positions.begin(), half.positions.end());
