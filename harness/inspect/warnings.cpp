@@ -71,7 +71,7 @@ void judgeMeshes(const Evidence& e, const std::vector<MeshReport>& meshes, Warni
         const bool isRoom = isWithin(mesh.box, e.snapshot.camera.eye);
         if (edges.closed() && mesh.faults.volume < 0 && !isRoom)
             warnings.push_back({fmt::format("{} is closed and turned inside out", mesh.name),
-                                "write flip = true and closed = true beside its file"});
+                                "write flip = true and closed = true beside its file, or turn it in the modelling program"});
     }
 }
 
