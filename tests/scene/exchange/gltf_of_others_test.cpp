@@ -83,7 +83,7 @@ TEST_F(GltfOfOthers, ADamagedContainerIsNamed) {
     expect("", "does not begin as a .glb does");
     expect(gltf.dump(), "does not begin as a .glb does");
     expect(changed(4, 1), "is binary glTF of version 1");
-    expect(whole.substr(0, whole.size() - 4), "export or copy it again");
+    expect(whole.substr(0, whole.size() - 4), fmt::format("it says that it has {} bytes, and has", whole.size()));
     expect(changed(15, 1), "one of its chunks reaches beyond its end"); // length of the JSON
     expect(changed(16, 'X'), "its first chunk is no JSON");
     for (std::size_t length = 0; length < 24; ++length) expect(whole.substr(0, length), "other.glb");
@@ -253,6 +253,8 @@ TEST_F(GltfOfOthers, UnitAndAxisTurnAllOfIt) {
     EXPECT_DOUBLE_EQ(scene.camera.near, 0.001);
     EXPECT_DOUBLE_EQ(scene.camera.far, 0.2);
     EXPECT_LT(glm::distance(scene.light.centre, glm::dvec3(0.01, 0, -0.04)), 1e-15);
+    EXPECT_EQ(through("gltf = \"other.gltf\"\nunit = \"ft\"").light.centre, glm::dvec3(0.3048, 4 * 0.3048, 0));
+    EXPECT_EQ(through("gltf = \"other.gltf\"\nup = \"z\"").light.centre, glm::dvec3(1, 0, -4));
     EXPECT_LT(glm::distance(corner(scene.objects.at(0), 0, 1), glm::dvec3(0, 0.02, -0.005)), 1e-9);
 }
 

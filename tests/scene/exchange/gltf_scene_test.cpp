@@ -54,6 +54,17 @@ TEST_P(GltfOfAScene, AloneHasTheScoredFramesTruth) {
     }
 }
 
+/// Others' meshes are welded, and ours are not: equal vertices come back as two.
+TEST(GltfOfAMesh, KeepsVerticesThatAreEqual) {
+    Scene scene = loadScene("stacked-plates", Profile::Gate);
+    const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const Mesh two{corners, {{0, 1, 2}, {3, 4, 5}}};
+    scene.objects[0].levels = {{std::make_shared<const Mesh>(two)}};
+    const ExportedFolder folder{scene};
+    const Scene back = loadScene((folder.path() / "scene.gltf").string(), Profile::Gate);
+    expectSameMesh(*back.objects[0].levels[0].mesh, two);
+}
+
 /// The standard ones, and some that show failures; what the files hold of all is tested in round_trip_test.cpp.
 INSTANTIATE_TEST_SUITE_P(BuiltIn, GltfOfAScene,
                          testing::Values("dueling-frusta", "overlapping-occluders", "simple", "windmills", "trees",
