@@ -24,14 +24,14 @@ void append(toml::array& list, const Json& value) {
 const Json& member(const Json& json, const char* name) {
     const auto found = json.find(name);
     if (found == json.end()) return none;
-    if (!found->is_object()) throw BadInput(fmt::format("\"{}\" is no object", name));
+    if (!found->is_object()) throw BadInput(fmt::format("\"{}\" is no object; export it again", name));
     return *found;
 }
 
 const Json& listIn(const Json& json, const char* name) {
     const auto found = json.find(name);
     if (found == json.end()) return noList;
-    if (!found->is_array()) throw BadInput(fmt::format("\"{}\" is no list", name));
+    if (!found->is_array()) throw BadInput(fmt::format("\"{}\" is no list; export it again", name));
     return *found;
 }
 
@@ -85,9 +85,10 @@ const Json& GltfDocument::entry(const char* list, const Json& index) const {
 }
 
 const Json& entryOf(const Json& list, const char* name, const Json& index) {
-    if (!index.is_number_unsigned()) throw BadInput(fmt::format("{} is no number of one of its {}", index.dump(), name));
+    if (!index.is_number_integer())
+        throw BadInput(fmt::format("{} is no number of one of its {}; export it again", index.dump(), name));
     const std::size_t at = whole(index);
-    if (at >= list.size()) throw BadInput(fmt::format("it has no {}[{}]", name, at));
+    if (at >= list.size()) throw BadInput(fmt::format("it has no {}[{}]; export it again", name, at));
     return list[at];
 }
 

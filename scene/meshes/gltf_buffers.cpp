@@ -38,7 +38,7 @@ const GltfJson& gltfList(const GltfJson& object, const char* name) {
     static const GltfJson none = GltfJson::array();
     const auto found = object.find(name);
     if (found == object.end()) return none;
-    if (!found->is_array()) throw BadInput(fmt::format("\"{}\" is no list", name));
+    if (!found->is_array()) throw BadInput(fmt::format("\"{}\" is no list; export it again", name));
     return *found;
 }
 
@@ -61,7 +61,7 @@ GltfBuffers::GltfBuffers(const ForeignMeshFile& file) : file_(file) {
 
 const GltfJson& GltfBuffers::entry(const char* list, std::size_t index) const {
     const GltfJson& entries = gltfList(json_, list);
-    if (index >= entries.size()) throw BadInput(fmt::format("it has no {}[{}]", list, index));
+    if (index >= entries.size()) throw BadInput(fmt::format("it has no {}[{}]; export it again", list, index));
     return entries[index];
 }
 

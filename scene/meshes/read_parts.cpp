@@ -51,7 +51,7 @@ Mesh usedPart(const GltfElements& positions, std::vector<glm::uvec3> triangles) 
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
     if (!used.empty() && used.back() >= positions.count)
-        throw BadInput(fmt::format("a triangle uses position {} of {}", used.back(), positions.count));
+        throw BadInput(fmt::format("a triangle uses position {} of {}; export it again", used.back(), positions.count));
     Mesh mesh{std::vector<glm::vec3>(used.size()), std::move(triangles)};
     for (std::size_t i = 0; i < used.size(); ++i)
         std::memcpy(&mesh.positions[i], positions.first + used[i] * positions.stride, sizeof(glm::vec3));

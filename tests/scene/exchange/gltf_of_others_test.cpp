@@ -144,6 +144,18 @@ TEST_F(GltfOfOthers, NodesThatStretchAndMirrorKeepOutsideOut) {
     EXPECT_LT(glm::distance(found.high, expected.high), 1e-6);
 }
 
+TEST_F(GltfOfOthers, WithoutAWordOnItItsFirstSceneIsShown) {
+    gltf.erase("scene");
+    gltf["scenes"].push_back({{"nodes", {3}}});
+    EXPECT_EQ(loaded().objects.size(), 1U);
+    gltf["scene"] = "first";
+    expectRefused("\"first\" is no number of one of its scenes");
+    gltf["scene"] = 2;
+    expectRefused("it has no scenes[2]");
+    gltf["scene"] = -1;
+    expectRefused("-1 is no whole number");
+}
+
 TEST_F(GltfOfOthers, ANodeOfNoSizeIsHidden) {
     gltf["nodes"].push_back({{"mesh", 0}, {"scale", {0, 0, 0}}});
     gltf["scenes"][0]["nodes"] = {0, 1, 3, 4};
