@@ -21,7 +21,7 @@ constexpr std::array<LimitEntry, 10> all{{
     {Limit::Pixels, "SHADOWBENCH_MAX_PIXELS", std::uint64_t{1} << 27, std::uint64_t{1} << 31, "pixels of one image"},
     {Limit::Instances, "SHADOWBENCH_MAX_INSTANCES", 100'000, 100'000'000, "instances of one object of a scene"},
     {Limit::Nesting, "SHADOWBENCH_MAX_NESTING", 64, 1000,
-     "levels of lists and objects within each other in JSON, a .gltf's too"},
+     "levels of lists and objects within each other in JSON, glTF's too"},
     {Limit::MemoryMib, "SHADOWBENCH_MAX_MEMORY_MIB", mostMib, mostMib,
      "MiB of memory that a scene may need; what the machine has where that is less"},
     {Limit::ReaderMib, "SHADOWBENCH_MAX_READER_MIB", 4096, mostMib, "MiB of memory to read one file in"},

@@ -29,7 +29,8 @@ TomlValue::TomlValue(const TomlSource& source, std::string key, const toml::node
 }
 
 std::string TomlValue::where() const {
-    return fmt::format("{}:{}: {}", source_->file, std::max<unsigned>(1, node_->source().begin.line), key_);
+    const unsigned line = node_->source().begin.line;
+    return line == 0 ? fmt::format("{}: {}", source_->file, key_) : fmt::format("{}:{}: {}", source_->file, line, key_);
 }
 
 void TomlValue::fail(const std::string& sentence) const {

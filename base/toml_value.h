@@ -29,7 +29,7 @@ public:
     TomlValue(const TomlSource& source, std::string key, const toml::node& node);
 
     [[nodiscard]] const std::string& key() const { return key_; }
-    [[nodiscard]] std::string where() const; // "file:line: key"
+    [[nodiscard]] std::string where() const; // "file:line: key", without a line where the program has made the value
     [[noreturn]] void fail(const std::string& sentence) const;
 
     [[nodiscard]] bool boolean() const;

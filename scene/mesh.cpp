@@ -97,10 +97,14 @@ Bounds Mesh::bounds() const {
     return box;
 }
 
-void requireWellFormed(const Mesh& mesh, const std::string& what) {
-    if (mesh.triangles.empty()) throw BadInput(fmt::format("{}: the mesh has no triangle", what));
+void requireNumbers(const Mesh& mesh, const std::string& what) {
     requireFinite(mesh, what);
     requireIndices(mesh, what);
+}
+
+void requireWellFormed(const Mesh& mesh, const std::string& what) {
+    if (mesh.triangles.empty()) throw BadInput(fmt::format("{}: the mesh has no triangle", what));
+    requireNumbers(mesh, what);
     requireAreas(mesh, what);
     if (mesh.closed) requireClosed(mesh, what);
 }

@@ -4,6 +4,7 @@
 #include "scene/mesh.h"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace shadowbench {
@@ -37,7 +38,10 @@ struct MeshFaults {
     Fault turnedParts;     // of a closed mesh: turned inside out and no cavity of another part; their first position
 };
 
-/// Of meshes whose indices are in range.
+/// Throws BadInput naming `what` unless every position is finite and every index in range, as the others, weld() and
+/// hasArea() ask for.
+void requireNumbers(const Mesh& mesh, const std::string& what);
+
 EdgeFaults edgeFaultsOf(const Mesh& mesh);
 MeshFaults faultsOf(const Mesh& mesh);
 

@@ -105,7 +105,7 @@ void judgeMeshes(const Evidence& e, const std::vector<MeshReport>& meshes, Warni
         const Fault& parts = mesh.faults.turnedParts;
         if (edges.closed() && mesh.faults.volume < 0 && !isRoom)
             warnings.push_back({fmt::format("{} is closed and turned inside out", mesh.name),
-                                "write flip = true and closed = true beside its file"});
+                                "write flip = true and closed = true beside its file, or turn it in the modelling program"});
         else if (parts.count > 0 && !isRoom)
             warnings.push_back({fmt::format("{} of the {} parts of {} are turned inside out, the first near {}", parts.count,
                                             mesh.faults.parts, mesh.name, placeOf(parts.place)),

@@ -17,17 +17,27 @@ struct GltfFiles {
 /// The scene at `frame`: a mesh for each part, a node for each instance, the camera and the light.
 GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts);
 
-/// What a .gltf says of a scene.
+/// What a scene file that names a glTF file says of it.
+struct GltfUse {
+    std::string file;                             // as the scene file names it
+    std::optional<std::string> camera{}, light{}; // of the file, by name
+    bool hasCamera = false, hasLight = false;     // the scene file has its own, and those of the glTF file do not matter
+    double metres = 1;                            // of the glTF file's unit
+    bool zUp = false;
+};
+
+/// What a .gltf or .glb says of a scene.
 struct SceneOfGltf {
     std::string id; // that it was exported under, else the file's name
     /// The scene file that the export has written beside it, if it is there: it holds what moves, too.
     std::optional<std::filesystem::path> beside;
-    /// Else a scene file's text: the meshes where the nodes put them, the one camera and the one light, at rest. Of our own
-    /// exports camera and light are those of the extras, to the last digit; others have a point or directional light.
+    /// Else a scene file's text: an object for each primitive where the nodes put it, a camera and a light unless `use` has
+    /// them, at rest. Of our own exports camera and light are those of the extras, to the last digit; others have a point or
+    /// directional light.
     std::string toml;
 };
 
-/// Throws BadInput naming the file and what is wrong with it.
-SceneOfGltf sceneOfGltf(const std::filesystem::path& file);
+/// Throws BadInput naming the file, what is wrong with it and what to write or export instead.
+SceneOfGltf sceneOfGltf(const std::filesystem::path& file, const GltfUse& use);
 
 } // namespace shadowbench::exchange

@@ -16,12 +16,6 @@ std::string plain(const std::string& name) {
     return result.empty() ? "object" : result;
 }
 
-std::string firstFree(const std::string& name, const std::set<std::string>& taken) {
-    std::string word = name;
-    for (int number = 2; taken.contains(word); ++number) word = fmt::format("{}_{}", name, number);
-    return word;
-}
-
 } // namespace
 
 Parts::Parts(const Scene& scene) {
@@ -38,8 +32,7 @@ void Parts::add(const Level& level, const glm::vec3& colour, const std::string& 
     const glm::vec3 shown = level.colour.value_or(colour);
     const auto [known, isNew] = index_.try_emplace({level.mesh.get(), shown.x, shown.y, shown.z}, list_.size());
     if (!isNew) return;
-    list_.push_back({firstFree(name, taken_), level.mesh, shown});
-    taken_.insert(list_.back().name);
+    list_.push_back({names_.add(name), level.mesh, shown});
 }
 
 std::size_t Parts::indexOf(const Mesh* mesh, const glm::vec3& colour) const {

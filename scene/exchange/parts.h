@@ -1,11 +1,11 @@
 // What the files of an exported scene have in common: its meshes and instances, by name.
 #pragma once
 
+#include "scene/gltf_file.h"
 #include "scene/scene.h"
 
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -40,7 +40,7 @@ private:
     using Key = std::tuple<const Mesh*, float, float, float>;
     std::vector<Part> list_;
     std::map<Key, std::size_t> index_;
-    std::set<std::string> taken_; // the names of list_
+    UniqueNames names_; // of list_
     std::vector<std::string> instanceNames_;
 };
 

@@ -10,13 +10,15 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
+#include <glm/matrix.hpp>
+#include <optional>
 
 namespace shadowbench {
 namespace {
 
 constexpr int kMostSides = 4096;
 
-const std::vector<std::string> kKeysOfFiles{"file", "part", "closed", "simplify", "unit", "up", "flip"};
+const std::vector<std::string> kKeysOfFiles{"file", "part", "closed", "simplify", "unit", "up", "flip", "matrix"};
 
 /// A mesh to be made, and the words by which an equal one is found again.
 struct Recipe {
@@ -108,7 +110,38 @@ struct Conventions {
     double metres = 1; // of the file's unit
     bool zUp = false;
     bool flip = false;
+    std::optional<glm::dmat3> matrix; // after these
 };
+
+/// 9 numbers, column by column.
+glm::dmat3 readAxes(const TomlValue& value) {
+    const std::vector<TomlValue> numbers = value.list();
+    if (numbers.size() != 9) value.fail(fmt::format("expected 9 numbers, column by column, got {}", numbers.size()));
+    glm::dmat3 axes;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        axes[static_cast<int>(i / 3)][static_cast<int>(i % 3)] = numbers[i].number();
+    return axes;
+}
+
+Conventions conventionsOf(const TomlValue& value) {
+    const auto unit = value.find("unit"), up = value.find("up"), flip = value.find("flip"), matrix = value.find("matrix");
+    Conventions file{unit ? metresOf(*unit) : 1.0, up && isZUp(*up), flip && flip->boolean(), {}};
+    if (matrix) file.matrix = readAxes(*matrix);
+    return file;
+}
+
+void convert(Mesh& mesh, const Conventions& file) {
+    for (glm::vec3& p : mesh.positions) {
+        if (file.zUp) p = {p.x, p.z, -p.y}; // a turn about x: right stays right-handed
+        p = glm::vec3(file.metres * glm::dvec3(p));
+        if (file.matrix) p = glm::vec3(*file.matrix * glm::dvec3(p));
+    }
+    const bool mirrors = file.matrix && glm::determinant(*file.matrix) < 0; // so what was outside is inside
+    if (file.flip != mirrors)
+        for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+}
+
+} // namespace
 
 double metresOf(const TomlValue& unit) {
     static const std::vector<std::pair<std::string, double>> units{
@@ -119,25 +152,11 @@ double metresOf(const TomlValue& unit) {
     return std::ranges::find(units, wanted, [](const auto& known) { return known.first; })->second;
 }
 
-Conventions conventionsOf(const TomlValue& value) {
-    const auto unit = value.find("unit"), up = value.find("up"), flip = value.find("flip");
-    return {unit ? metresOf(*unit) : 1.0, up && up->oneOf({"y", "z"}) == "z", flip && flip->boolean()};
-}
-
-void convert(Mesh& mesh, const Conventions& file) {
-    for (glm::vec3& p : mesh.positions) {
-        if (file.zUp) p = {p.x, p.z, -p.y}; // a turn about x: right stays right-handed
-        p = glm::vec3(file.metres * glm::dvec3(p));
-    }
-    if (file.flip)
-        for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
-}
-
-} // namespace
+bool isZUp(const TomlValue& up) { return up.oneOf({"y", "z"}) == "z"; }
 
 std::shared_ptr<const Mesh> MeshStore::get(const TomlValue& value, int triangles) {
     value.only({"plane", "box", "sphere", "column", "bumpy", "windmill_tower", "windmill_rotor", "tree", "file", "part",
-                "closed", "simplify", "unit", "up", "flip"});
+                "closed", "simplify", "unit", "up", "flip", "matrix"});
     if (value.find("file")) return imported(value.only(kKeysOfFiles), triangles);
     const std::vector<TomlValue> members = value.members();
     if (members.size() != 1) value.fail(fmt::format("expected one kind of mesh, got {}", members.size()));
@@ -166,7 +185,8 @@ void MeshStore::requireRoom(const Mesh& another, const TomlValue& key) {
 
 /// A file is read once, however many of its meshes a scene takes.
 const Mesh& MeshStore::partOf(const std::filesystem::path& file, const TomlValue& part) {
-    if (file.extension() != ".gltf") throw BadInput("a part is a mesh of a .gltf file, by name");
+    if (file.extension() != ".gltf" && file.extension() != ".glb")
+        throw BadInput("a part is a mesh of a .gltf or .glb file, by name");
     const auto [known, isNew] = parts_.try_emplace(file);
     if (isNew) known->second = importParts(file);
     const std::string wanted = part.text();
@@ -185,9 +205,11 @@ std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, int tria
     const auto part = value.find("part");
     const Conventions conventions = conventionsOf(value);
     const std::filesystem::path file = folder_ / name.text();
-    std::shared_ptr<const Mesh>& mesh =
-        meshes_[fmt::format("file {} {} {} {} {} {} {}", file.string(), closed && closed->boolean(), wanted,
-                            conventions.metres, conventions.zUp, conventions.flip, part ? "part " + part->text() : "")];
+    std::string words =
+        fmt::format("file {} {} {} {} {} {} {}", file.string(), closed && closed->boolean(), wanted, conventions.metres,
+                    conventions.zUp, conventions.flip, part ? "part " + part->text() : "");
+    for (int i = 0; conventions.matrix && i < 9; ++i) words += fmt::format(" {}", (*conventions.matrix)[i / 3][i % 3]);
+    std::shared_ptr<const Mesh>& mesh = meshes_[words];
     if (mesh != nullptr) return mesh;
 
     Mesh made;
@@ -198,9 +220,10 @@ std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, int tria
     }
     made.closed = closed && closed->boolean();
     convert(made, conventions);
-    requireWellFormed(made, name.where());
+    const std::string what = part ? fmt::format("{}: mesh \"{}\"", name.where(), part->text()) : name.where();
+    requireWellFormed(made, what);
     if (wanted > 0) made = simplified(made, wanted);
-    requireWellFormed(made, name.where());
+    requireWellFormed(made, what);
     requireRoom(made, name);
     mesh = std::make_shared<const Mesh>(std::move(made));
     return mesh;

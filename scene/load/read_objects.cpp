@@ -3,6 +3,7 @@
 #include "scene/load/scene_file.h"
 #include "scene/meshes/scatter.h"
 #include "scene/scene.h"
+#include "scene/similarity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +77,6 @@ std::vector<Level> readLevels(const TomlValue& value, MeshStore& meshes) {
 
 /// World from object, 16 numbers column by column: a shift, a turn and one scale, so that a spin never shears the object.
 glm::dmat4 readMatrix(const TomlValue& value) {
-    constexpr double kRounding = 1e-6; // of sines and scales: that of 32-bit floats, and room
     const std::vector<TomlValue> numbers = value.list();
     if (numbers.size() != 16) value.fail(fmt::format("expected 16 numbers, column by column, got {}", numbers.size()));
     glm::dmat4 matrix;
@@ -86,11 +86,10 @@ glm::dmat4 readMatrix(const TomlValue& value) {
         value.fail("expected numbers 4, 8 and 12 to be 0 and number 16 to be 1: a shift, a turn and a scale");
     const glm::dmat3 axes(matrix);
     if (!(glm::determinant(axes) > 0)) value.fail("is flat or mirrors the object; expected a determinant above 0");
-    const double scale = glm::length(axes[0]);
-    for (int i = 0; i < 3; ++i)
-        if (std::abs(glm::dot(axes[i], axes[(i + 1) % 3])) > kRounding * scale * scale ||
-            std::abs(glm::length(axes[i]) - scale) > kRounding * scale)
-            value.fail("stretches or shears the object; expected a shift, a turn and one scale");
+    if (!scalesEvenly(axes))
+        value.fail(
+            "stretches or shears the object; expected a shift, a turn and one scale (a mesh from a file has a matrix of "
+            "its own)");
     return matrix;
 }
 

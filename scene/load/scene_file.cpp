@@ -163,11 +163,11 @@ void requireNoProblem(const TomlValue& root, const Scene& scene) {
 /// An exported scene is named by its folder (docs/exchange.md); other names stay as they are.
 fs::path sceneFileOf(const fs::path& given) {
     std::error_code failed;
-    for (const char* other : {".glb", ".obj", ".ply", ".json"})
+    for (const char* other : {".obj", ".ply", ".json"})
         if (given.extension() == other)
             throw BadInput(
                 fmt::format("cannot load {} as a scene; name a .toml file, whose meshes may come from it, a .gltf "
-                            "file, or the folder of an exported scene",
+                            "or .glb file, or the folder of an exported scene",
                             given.string()));
     if (!fs::is_directory(given, failed)) return given;
     if (!fs::exists(given / "scene.json", failed))
@@ -181,28 +181,19 @@ fs::path sceneFileOf(const fs::path& given) {
                                files.empty() ? "no" : "several"));
 }
 
-/// A .gltf, by the scene file that was exported with it or by itself.
-Scene sceneFromGltf(const fs::path& file, Profile profile, const std::vector<std::string>& metrics) {
-    const exchange::SceneOfGltf found = exchange::sceneOfGltf(file);
-    if (found.beside) return parseScene(readFile(*found.beside), *found.beside, profile, metrics);
-    Scene scene = parseScene(found.toml, file, profile, metrics);
-    scene.id = found.id;
-    return scene;
-}
-
-} // namespace
-
-Scene parseScene(std::string_view toml, const fs::path& file, Profile profile, const std::vector<std::string>& metrics) {
+/// `table`: of the file. `shows`: what the scene is there to show.
+Scene sceneOf(toml::table& table, const std::string& shows, const fs::path& file, Profile profile,
+              const std::vector<std::string>& metrics) {
     const TomlSource source{file.string(), profileNames(), std::string(name(profile)), kLargestNumber};
-    const toml::table table = parseToml(toml, source.file);
     const TomlValue root(source, "", table);
     if (table.empty()) root.fail("the file is empty; a scene has a title, a camera, a light and objects");
     root.only({"title", "profile", "size", "reference_samples", "moving_reference_samples", "camera", "light", "timeline",
-               "object", "lod", "tolerance", "expect"});
+               "object", "lod", "tolerance", "expect", "gltf", "unit", "up"});
+    completeFromGltf(table, source, file.parent_path());
 
     Scene scene;
     scene.id = file.stem().string();
-    scene.shows = firstComment(toml);
+    scene.shows = shows;
     scene.profile = profile;
     scene.title = root.get("title").text();
     if (!belongsTo(root, profile))
@@ -225,13 +216,31 @@ Scene parseScene(std::string_view toml, const fs::path& file, Profile profile, c
     return scene;
 }
 
+/// A glTF file, by the scene file that was exported with it or by itself.
+Scene sceneFromGltf(const fs::path& file, Profile profile, const std::vector<std::string>& metrics) {
+    const exchange::SceneOfGltf found = exchange::sceneOfGltf(file, {.file = file.filename().string()});
+    if (found.beside) return parseScene(readFile(*found.beside), *found.beside, profile, metrics);
+    const toml::table made = parseToml(found.toml, file.string());
+    toml::table table = made; // a copy forgets its lines, which are none of the file's
+    Scene scene = sceneOf(table, "", file, profile, metrics);
+    scene.id = found.id;
+    return scene;
+}
+
+} // namespace
+
+Scene parseScene(std::string_view toml, const fs::path& file, Profile profile, const std::vector<std::string>& metrics) {
+    toml::table table = parseToml(toml, file.string());
+    return sceneOf(table, firstComment(toml), file, profile, metrics);
+}
+
 Scene loadScene(const std::string& idOrFile, Profile profile, const std::vector<std::string>& metrics) {
     const std::vector<std::string> ids = builtinScenes();
     if (std::find(ids.begin(), ids.end(), idOrFile) != ids.end())
         return parseScene(builtinSceneText(idOrFile), "scene/library/" + idOrFile + ".toml", profile, metrics);
     const fs::path file = sceneFileOf(idOrFile);
     std::error_code ignored;
-    if (file.extension() == ".gltf") return sceneFromGltf(file, profile, metrics);
+    if (file.extension() == ".gltf" || file.extension() == ".glb") return sceneFromGltf(file, profile, metrics);
     if (file.extension() == ".toml" || file.has_parent_path() || fs::exists(file, ignored))
         return parseScene(readFile(file), file, profile, metrics);
     throw BadInput(fmt::format("unknown scene \"{}\"{}; known are {}, or the path of a .toml file", idOrFile,

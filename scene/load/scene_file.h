@@ -41,6 +41,14 @@ private:
     std::map<std::filesystem::path, std::map<std::string, Mesh>> parts_; // of glTF files, by name
 };
 
+/// Of the texts that `unit` and `up` may be.
+double metresOf(const TomlValue& unit);
+bool isZUp(const TomlValue& up);
+
+/// Where `own`, the table of a scene file in `folder`, names a glTF file: adds what it leaves to that file, its objects
+/// first.
+void completeFromGltf(toml::table& own, const TomlSource& source, const std::filesystem::path& folder);
+
 /// `[light]`; `folder` is what image files are relative to.
 void readLight(const TomlValue& value, const std::filesystem::path& folder, Scene& scene);
 

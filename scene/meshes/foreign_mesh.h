@@ -17,7 +17,7 @@ class ReaderChild;
 struct ForeignMeshFile {
     std::string extension; // ".obj", ".ply", ".gltf" or ".glb"; the importer is chosen by it alone
     std::string bytes;
-    std::map<std::string, std::string> buffers; // of a .gltf, by the name that it gives them
+    std::map<std::string, std::string> buffers; // of a glTF file, by the name that it gives them
 };
 
 /// Throws BadInput, without a file's name, unless it is one of the four.
@@ -26,11 +26,12 @@ void requireMeshExtension(const std::string& extension);
 /// All triangle meshes of the file in one, through assimp, welded. Throws BadInput with the reason, without a file's name.
 Mesh readMeshHere(const ForeignMeshFile& file);
 
-/// The meshes of a .gltf by name, each as it lies in the file, through nlohmann's JSON. Throws as above.
+/// The parts of a .gltf or .glb by name (importParts()), through nlohmann's JSON. Throws as above.
 std::map<std::string, Mesh> readPartsHere(const ForeignMeshFile& file);
 
-/// The names of the files that hold a .gltf's buffers, each once. Nothing of the file is kept in memory. Throws BadInput for
-/// more than the child can be handed, and for JSON nested deeper than Limit::Nesting; of other errors the child speaks.
+/// The names of the files that hold a glTF file's buffers, each once; `gltf` is its JSON. Nothing of the file is kept in
+/// memory. Throws BadInput for more than the child can be handed, and for JSON nested deeper than Limit::Nesting; of other
+/// errors the child speaks.
 std::vector<std::string> bufferNamesOf(std::string_view gltf);
 
 /// What a child has answered, checked: finite positions, indices in range, no more than Limit::Vertices and

@@ -4,6 +4,7 @@
 #include "base/confined/reader.h"
 #include "base/error.h"
 #include "base/limits.h"
+#include "scene/gltf_file.h"
 #include "scene/meshes/foreign_mesh.h"
 
 #include <algorithm>
@@ -20,14 +21,16 @@ namespace fs = std::filesystem;
 constexpr std::size_t longestName = 4096; // of a mesh in a .gltf, bytes
 constexpr std::uint64_t mostParts = 1'000'000;
 
-/// What is asked of the child: the extension of the file, whose meshes are wanted as one; or this.
-constexpr const char* partsOf = "parts";
+/// What is asked of the child: the extension of the file, whose meshes are wanted as one; or this before it, for its parts.
+constexpr std::string_view partsOf = "parts";
 
 // ---- in the child
 // ---------------------------------------------------------------------------------------------------------------
 
 ForeignMeshFile contentsOf(const ForeignWork& work) {
-    ForeignMeshFile file{work.request() == partsOf ? ".gltf" : work.request(), contentOf(work.files().front()), {}};
+    const std::string request = work.request();
+    ForeignMeshFile file{
+        request.starts_with(partsOf) ? request.substr(partsOf.size()) : request, contentOf(work.files().front()), {}};
     for (const OpenedFile& buffer : std::span(work.files()).subspan(1)) file.buffers.emplace(buffer.name, contentOf(buffer));
     return file;
 }
@@ -54,7 +57,7 @@ void answerWithParts(ForeignWork& work) {
     }
 }
 
-void answer(ForeignWork& work) { work.request() == partsOf ? answerWithParts(work) : answerWithMesh(work); }
+void answer(ForeignWork& work) { work.request().starts_with(partsOf) ? answerWithParts(work) : answerWithMesh(work); }
 
 const ForeignReader meshReader("mesh", answer);
 
@@ -67,14 +70,16 @@ std::string extensionOf(const fs::path& file) {
     return extension;
 }
 
-/// The file, and the buffers that a .gltf names.
+/// The file, and the buffers that a glTF file names.
 std::vector<OpenedFile> filesOf(const fs::path& file, const std::string& doing) {
     std::vector<OpenedFile> files;
     files.push_back(openRegular(file));
     std::vector<std::string> names;
     try {
-        requireMeshExtension(extensionOf(file));
-        if (extensionOf(file) == ".gltf") names = bufferNamesOf(contentOf(files.front()));
+        const std::string extension = extensionOf(file);
+        requireMeshExtension(extension);
+        if (extension == ".gltf") names = bufferNamesOf(contentOf(files.front()));
+        if (extension == ".glb") names = bufferNamesOf(glbChunks(contentOf(files.front())).json);
     } catch (const BadInput& error) {
         throw BadInput(fmt::format("{}: {}", doing, error.what()));
     }
@@ -138,7 +143,7 @@ Mesh importMesh(const fs::path& file) {
 
 std::map<std::string, Mesh> importParts(const fs::path& file) {
     const std::string doing = fmt::format("cannot read {}", file.string());
-    ReaderChild child(meshReader, doing, filesOf(file, doing), partsOf);
+    ReaderChild child(meshReader, doing, filesOf(file, doing), std::string(partsOf) + extensionOf(file));
     return receivedParts(child);
 }
 

@@ -16,9 +16,10 @@ namespace shadowbench {
 /// triangle, is beyond a limit (base/limits.h), or when its reader dies or hangs.
 Mesh importMesh(const std::filesystem::path& file);
 
-/// The meshes of a .gltf by name, each in its own space, with the vertices and triangles of the file in their order; not
-/// said to be closed. Read is what any exporter may write of one triangle list a mesh: positions of 32-bit floats, indices
-/// of 8, 16 or 32 bits, buffers in files beside it. A mesh that is something else is left out. Throws as above.
+/// The primitives of a .gltf or .glb by name (PartNames in scene/gltf_file.h), each in its own space and not said to be
+/// closed; points and lines are left out. Of what we have exported, vertices and triangles are those of the file in their
+/// order; others are welded, too. Read is what any exporter may write without extensions and sparse accessors: positions of
+/// 32-bit floats; lists, strips and fans; buffers beside the file, within it or in data URIs. Throws as above.
 std::map<std::string, Mesh> importParts(const std::filesystem::path& file);
 
 /// About `triangles` triangles of the same shape, by edge collapses at existing positions; never more than `mesh` has.

@@ -1,138 +1,136 @@
-// The reader of meshes by name. assimp's rounds matrices and may reorder vertices; here each mesh is as it lies in the file.
+// The reader of a glTF file's primitives by name. assimp's rounds matrices and may reorder vertices; here each is as it lies
+// in the file.
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/limits.h"
-#include "scene/meshes/foreign_mesh.h"
+#include "scene/gltf_file.h"
+#include "scene/mesh_faults.h"
+#include "scene/meshes/gltf_buffers.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-#include <optional>
+#include <numeric>
 
 namespace shadowbench {
 namespace {
 
-using Json = nlohmann::json;
+enum Mode : std::size_t { List = 4, Strip = 5, Fan = 6 }; // of a primitive; below are points and lines
 
-constexpr std::size_t kTriangles = 4;
-constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126; // glTF's numbers for the types of components
+std::vector<glm::uvec3> trianglesOf(const std::vector<std::uint32_t>& corners, std::size_t mode) {
+    std::vector<glm::uvec3> triangles;
+    if (mode > Fan) throw BadInput(fmt::format("glTF has no mode {}", mode));
+    if (mode == List && corners.size() % 3 != 0)
+        throw BadInput(fmt::format("its {} corners are no list of triangles; export it again", corners.size()));
+    for (std::size_t i = 0; i + 2 < corners.size(); i += mode == List ? 3 : 1) {
+        const std::uint32_t a = corners[i], b = corners[i + 1], c = corners[i + 2];
+        if (mode == Fan)
+            triangles.emplace_back(b, c, corners[0]);
+        else if (mode == Strip && i % 2 == 1)
+            triangles.emplace_back(a, c, b);
+        else
+            triangles.emplace_back(a, b, c);
+    }
+    return triangles;
+}
 
-std::size_t sizeOf(int component) { return component == kByte ? 1 : component == kShort ? 2 : 4; }
+std::vector<std::uint32_t> indicesOf(const GltfElements& elements) {
+    if (elements.component == kGltfFloat) throw BadInput("its indices are no whole numbers");
+    std::vector<std::uint32_t> indices(elements.count);
+    for (std::size_t i = 0; i < elements.count; ++i) // little-endian, as glTF's buffers are
+        std::memcpy(&indices[i], elements.first + i * elements.stride, sizeOfComponent(elements.component));
+    return indices;
+}
 
-/// The numbers of an accessor: `count` elements, `stride` bytes from one to the next.
-struct Elements {
-    const char* first;
-    std::size_t count, stride;
-    int component;
-};
+/// The positions that `triangles` use, in their order: primitives may share an accessor and use little of it each.
+Mesh usedPart(const GltfElements& positions, std::vector<glm::uvec3> triangles) {
+    if (positions.component != kGltfFloat)
+        throw BadInput("its positions are no 32-bit floats; export it without quantisation");
+    std::vector<std::uint32_t> used;
+    for (const glm::uvec3& t : triangles) used.insert(used.end(), {t.x, t.y, t.z});
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    if (!used.empty() && used.back() >= positions.count)
+        throw BadInput(fmt::format("a triangle uses position {} of {}; export it again", used.back(), positions.count));
+    Mesh mesh{std::vector<glm::vec3>(used.size()), std::move(triangles)};
+    for (std::size_t i = 0; i < used.size(); ++i)
+        std::memcpy(&mesh.positions[i], positions.first + used[i] * positions.stride, sizeof(glm::vec3));
+    for (glm::uvec3& t : mesh.triangles)
+        for (int corner = 0; corner < 3; ++corner)
+            t[corner] = static_cast<std::uint32_t>(std::ranges::lower_bound(used, t[corner]) - used.begin());
+    return mesh;
+}
 
-class Reader {
+class PartReader {
 public:
-    explicit Reader(const ForeignMeshFile& file) : file_(file), gltf_(parse(file.bytes)) {}
+    explicit PartReader(const ForeignMeshFile& file) : buffers_(file) {}
 
-    [[nodiscard]] std::map<std::string, Mesh> meshes() const {
-        if (gltf_.value(Json::json_pointer("/asset/version"), std::string()) != "2.0") fail("it is no glTF 2.0");
+    std::map<std::string, Mesh> parts() {
         std::map<std::string, Mesh> result;
-        for (const Json& mesh : list("meshes")) {
-            const std::string name = mesh.value("name", std::string());
-            auto read = triangleList(mesh);
-            if (read && !name.empty()) result.emplace(name, std::move(*read));
+        const GltfJson& meshes = gltfList(buffers_.json(), "meshes");
+        PartNames names;
+        for (std::size_t number = 0; number < meshes.size(); ++number) {
+            const std::string mesh = meshes[number].value("name", std::string());
+            for (const GltfJson& primitive : gltfList(meshes[number], "primitives")) {
+                const std::string name = names.next(mesh, number);
+                if (auto part = read(primitive, name)) result.emplace(name, std::move(*part));
+            }
         }
         return result;
     }
-
-    [[noreturn]] static void fail(const std::string& sentence) { throw BadInput(sentence); }
 
 private:
-    [[nodiscard]] static Json parse(const std::string& text) {
+    /// Nothing for points and lines.
+    std::optional<Mesh> read(const GltfJson& primitive, const std::string& name) {
+        const std::size_t mode = gltfWhole(primitive, "mode", List);
+        if (mode < List) return std::nullopt;
+        const std::string what = fmt::format("mesh \"{}\"", name);
+        Mesh mesh;
         try {
-            return Json::parse(text);
-        } catch (const Json::exception& error) {
-            fail(fmt::format("it is not valid JSON ({})", error.what()));
+            mesh = triangleMesh(primitive, mode);
+            requireRoom(mesh);
+        } catch (const BadInput& error) {
+            throw BadInput(fmt::format("{}: {}", what, error.what()));
         }
+        if (isExported_) return mesh;
+        requireNumbers(mesh, what); // which weld compares
+        return weld(mesh);
     }
 
-    [[nodiscard]] static std::size_t whole(const Json& number) { return wholeNumber<std::size_t>(number); }
-
-    [[nodiscard]] static std::size_t wholeOr(const Json& object, const char* name, std::size_t otherwise) {
-        const auto found = object.find(name);
-        return found == object.end() ? otherwise : whole(*found);
-    }
-
-    [[nodiscard]] const Json& list(const char* name) const {
-        static const Json none = Json::array();
-        const auto found = gltf_.find(name);
-        return found == gltf_.end() ? none : *found;
-    }
-
-    [[nodiscard]] const Json& entry(const char* listName, std::size_t index) const {
-        const auto entries = gltf_.find(listName);
-        if (entries == gltf_.end() || index >= entries->size()) fail(fmt::format("it has no {}[{}]", listName, index));
-        return (*entries)[index];
-    }
-
-    [[nodiscard]] const std::string& bytesOf(std::size_t buffer) const {
-        const auto uri = entry("buffers", buffer).value("uri", std::string());
-        if (uri.empty() || uri.starts_with("data:"))
-            fail("a buffer is inside of the file; export it with its buffers beside");
-        const auto bytes = file_.buffers.find(uri);
-        if (bytes == file_.buffers.end()) fail(fmt::format("the buffer \"{}\" is not there", uri));
-        return bytes->second;
-    }
-
-    [[nodiscard]] Elements elementsOf(std::size_t accessor, std::size_t components) const {
-        const Json& a = entry("accessors", accessor);
-        if (!a.contains("bufferView") || a.contains("sparse")) fail(fmt::format("accessors[{}] is sparse", accessor));
-        const Json& view = entry("bufferViews", whole(a.at("bufferView")));
-        const std::string& bytes = bytesOf(whole(view.at("buffer")));
-        const int component = wholeNumber<int>(a.at("componentType"));
-        const std::size_t width = components * sizeOf(component), count = whole(a.at("count"));
-        const std::size_t stride = wholeOr(view, "byteStride", width);
-        const std::size_t first = wholeOr(view, "byteOffset", 0) + wholeOr(a, "byteOffset", 0);
-        if (count == 0 || stride < width || first > bytes.size() || count - 1 > (bytes.size() - first) / stride ||
-            (count - 1) * stride + width > bytes.size() - first)
-            fail(fmt::format("accessors[{}] reaches beyond its buffer", accessor));
-        return {bytes.data() + first, count, stride, component};
-    }
-
-    /// Nothing for strips, points, lines, several primitives and compressed ones.
-    [[nodiscard]] std::optional<Mesh> triangleList(const Json& mesh) const {
-        const Json& primitives = mesh.at("primitives");
-        if (primitives.size() != 1) return std::nullopt;
-        const Json& primitive = primitives[0];
-        if (wholeOr(primitive, "mode", kTriangles) != kTriangles || !primitive.contains("indices")) return std::nullopt;
-        Mesh result;
-        readPositions(elementsOf(whole(primitive.at("attributes").at("POSITION")), 3), result);
-        readIndices(elementsOf(whole(primitive.at("indices")), 1), result);
-        return result;
-    }
-
-    static void readPositions(const Elements& elements, Mesh& mesh) {
-        if (elements.component != kFloat) fail("positions are no 32-bit floats");
-        mesh.positions.resize(elements.count);
-        for (std::size_t i = 0; i < elements.count; ++i)
-            std::memcpy(&mesh.positions[i], elements.first + i * elements.stride, sizeof(glm::vec3));
-    }
-
-    static void readIndices(const Elements& elements, Mesh& mesh) {
-        if (elements.component == kFloat || elements.count % 3 != 0) fail("indices are no list of triangles");
-        mesh.triangles.resize(elements.count / 3);
-        for (std::size_t i = 0; i < elements.count; ++i) {
-            std::uint32_t index = 0; // little-endian, as glTF's buffers are
-            std::memcpy(&index, elements.first + i * elements.stride, sizeOf(elements.component));
-            mesh.triangles[i / 3][static_cast<int>(i % 3)] = index;
+    Mesh triangleMesh(const GltfJson& primitive, std::size_t mode) {
+        const auto number = wholeNumber<std::size_t>(primitive.at("attributes").at("POSITION"));
+        const GltfElements positions = buffers_.elements(number, "VEC3");
+        std::vector<std::uint32_t> corners;
+        if (primitive.contains("indices")) {
+            corners = indicesOf(buffers_.elements(wholeNumber<std::size_t>(primitive["indices"]), "SCALAR"));
+        } else {
+            corners.resize(positions.count);
+            std::iota(corners.begin(), corners.end(), 0U);
         }
+        return usedPart(positions, trianglesOf(corners, mode));
     }
 
-    const ForeignMeshFile& file_;
-    Json gltf_;
+    /// Of all parts together.
+    void requireRoom(const Mesh& another) {
+        vertices_ += another.positions.size();
+        triangles_ += another.triangles.size();
+        if (vertices_ > limitOf(Limit::Vertices))
+            throw BadInput(fmt::format("with it the file has {} vertices, {}", vertices_, beyond(Limit::Vertices)));
+        if (triangles_ > limitOf(Limit::Triangles))
+            throw BadInput(fmt::format("with it the file has {} triangles, {}", triangles_, beyond(Limit::Triangles)));
+    }
+
+    GltfBuffers buffers_;
+    /// What we have exported must come back bit by bit; what modelling programs write has each corner of a sharp edge twice.
+    bool isExported_ = buffers_.json().contains(GltfJson::json_pointer("/asset/extras/shadowbench"));
+    std::uint64_t vertices_ = 0, triangles_ = 0;
 };
 
 } // namespace
 
 std::map<std::string, Mesh> readPartsHere(const ForeignMeshFile& file) {
     try {
-        return Reader(file).meshes();
+        return PartReader(file).parts();
     } catch (const nlohmann::json::exception& error) {
         throw BadInput(fmt::format("a value is missing or of another kind than glTF asks for ({})", error.what()));
     }

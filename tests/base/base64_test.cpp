@@ -14,6 +14,14 @@ TEST(Base64, HasTheStandardsTestVectors) {
     EXPECT_EQ(base64("foob"), "Zm9vYg==");
     EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
     EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+    for (const std::string bytes : {"", "f", "fo", "foo", "foob", "fooba", "foobar"})
+        EXPECT_EQ(fromBase64(base64(bytes)), bytes);
+}
+
+TEST(Base64, IsReadWithAndWithoutPaddingAndNothingElseIs) {
+    EXPECT_EQ(fromBase64("Zg"), "f");
+    EXPECT_EQ(fromBase64("//4"), "\xFF\xFE");
+    for (const char* text : {"Z", "Zm9vY", "Zm9v YmFy", "Zg===", "=Zg=", "Zm-_"}) EXPECT_FALSE(fromBase64(text)) << text;
 }
 
 TEST(Base64, HasEveryLetterOfTheAlphabetAndTakesEveryByte) {
@@ -24,6 +32,7 @@ TEST(Base64, HasEveryLetterOfTheAlphabetAndTakesEveryByte) {
           0xABU, 0xB2U, 0xDBU, 0xAFU, 0xC3U, 0x1CU, 0xB3U, 0xD3U, 0x5DU, 0xB7U, 0xE3U, 0x9EU, 0xBBU, 0xF3U, 0xDFU, 0xBFU})
         bytes += static_cast<char>(byte);
     EXPECT_EQ(base64(bytes), "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/");
+    EXPECT_EQ(fromBase64(base64(bytes)), bytes);
     EXPECT_EQ(base64(std::string(3, '\0')), "AAAA");
     EXPECT_EQ(base64("\xFF\xFE"), "//4=");
 }

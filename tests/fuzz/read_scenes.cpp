@@ -1,7 +1,10 @@
 #include "base/toml_value.h"
 #include "harness/metrics/table.h"
 #include "scene/exchange/export.h"
+#include "scene/exchange/gltf.h"
+#include "scene/gltf_file.h"
 #include "scene/load/load.h"
+#include "scene/mesh_faults.h"
 #include "scene/meshes/foreign_mesh.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/target.h"
@@ -32,6 +35,20 @@ bool isLarge(std::string_view text) {
     return counts[0] * counts[1] * counts[2] > most;
 }
 
+/// As the process does that loads a glTF file; what it makes of it must be a scene file's text.
+void readGltfScene(const std::string& name, std::string_view input) {
+    const exchange::SceneOfGltf scene = exchange::sceneOfGltf(kept(name, input), {.file = name});
+    require(isTaken([&] { parseToml(scene.toml, name); }), "what was made of a glTF file is no TOML: " + scene.toml);
+}
+
+/// As the child does that reads its meshes.
+void readParts(const std::string& extension, std::string_view input) {
+    for (const auto& part : readPartsHere({extension, std::string(input), {{"scene.bin", std::string(1000, '\1')}}})) {
+        requireNumbers(part.second, part.first);
+        isTaken([&] { requireWellFormed(part.second, part.first); });
+    }
+}
+
 } // namespace
 
 void readScene(std::string_view input) {
@@ -42,8 +59,15 @@ void readScene(std::string_view input) {
 
 void readMeshParts(std::string_view input) {
     bufferNamesOf(input); // as the process does that starts the child
-    for (const auto& part : readPartsHere({".gltf", std::string(input), {{"scene.bin", std::string(1000, '\1')}}}))
-        isTaken([&] { requireWellFormed(part.second, part.first); });
+    readParts(".gltf", input);
+}
+
+void readGltfText(std::string_view input) { readGltfScene("scene.gltf", input); }
+
+void readGltfBinary(std::string_view input) {
+    bufferNamesOf(glbChunks(input).json);
+    isTaken([&] { readGltfScene("scene.glb", input); });
+    readParts(".glb", input);
 }
 
 void readSceneJson(std::string_view input) {

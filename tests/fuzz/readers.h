@@ -7,7 +7,9 @@ namespace shadowbench::fuzz {
 
 // read_scenes.cpp
 void readScene(std::string_view input);
-void readMeshParts(std::string_view input); // of a .gltf, by name, with its buffers
+void readMeshParts(std::string_view input);  // of a .gltf, by name, with its buffers
+void readGltfText(std::string_view input);   // of a scene, by its nodes
+void readGltfBinary(std::string_view input); // the same of a .glb, and its meshes
 void readSceneJson(std::string_view input);
 
 // read_foreign.cpp

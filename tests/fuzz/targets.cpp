@@ -20,6 +20,8 @@ namespace {
 constexpr auto all = std::to_array<Target>({
     {"scene", Kind::Text, 8192, "toml", "scene/library/*.toml", readScene},
     {"mesh_parts", Kind::Text, 8192, "json", "", readMeshParts},
+    {"gltf_scene", Kind::Text, 8192, "json", "", readGltfText},
+    {"glb_scene", Kind::Bytes, 4096, "json", "", readGltfBinary},
     {"mesh_obj", Kind::Text, 2048, "obj", "", readObj},
     {"mesh_ply", Kind::Text, 2048, "ply", "", readPly},
     {"mesh_gltf", Kind::Text, 4096, "json", "", readGltf},

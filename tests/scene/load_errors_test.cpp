@@ -147,7 +147,7 @@ const std::vector<Mistake>& mistakes() {
         {"PartWithoutAFile", withObject("mesh = { part = \"plate\" }"),
          "scenes/x.toml:5: object[1].mesh.part: belongs to a mesh from a file"},
         {"PartOfAnObj", withObject("mesh = { file = \"x.obj\", part = \"plate\" }"),
-         "scenes/x.toml:5: object[1].mesh.file: a part is a mesh of a .gltf file"},
+         "scenes/x.toml:5: object[1].mesh.file: a part is a mesh of a .gltf or .glb file"},
         {"PointLightOnASurface", withLight("kind = \"point\", centre = [0.2, 0.5, 0.3]"),
          "scenes/x.toml:3: light.centre: the light lies on a surface"},
         {"AreaLightCutsASurface", withLight("kind = \"rectangle\", centre = [1, 0, 0], u = [0.5, 0, 0], v = [0, 0, 0.5]"),
@@ -324,9 +324,10 @@ TEST(LoaderErrors, AnUnknownIdNamesTheNearestSceneAndAll) {
 }
 
 TEST(LoaderErrors, AMissingFileAndAFolderAreNamed) {
-    for (const auto& [file, reason] : {std::pair{"/nowhere/x.toml", "No such file"}, std::pair{"/tmp", "it is a folder"},
-                                       std::pair{"/nowhere/scene.gltf", "No such file"},
-                                       std::pair{"exported/scene.glb", "folder of an exported scene"}}) {
+    for (const auto& [file, reason] :
+         {std::pair{"/nowhere/x.toml", "No such file"}, std::pair{"/tmp", "it is a folder"},
+          std::pair{"/nowhere/scene.gltf", "No such file"}, std::pair{"/nowhere/scene.glb", "No such file"},
+          std::pair{"exported/scene.obj", "folder of an exported scene"}}) {
         try {
             loadScene(file, Profile::Gate);
             ADD_FAILURE() << file << " loaded";

@@ -219,11 +219,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Damage{"OtherName", "\"meshes\": [\n  {\"name\":\"object_1\"", "\"meshes\": [\n  {\"name\":\"objekt_1\"",
                            "has no mesh \"object_1\" (did you mean \"objekt_1\"?)"},
                     Damage{"NoBuffer", "scene.bin", "other.bin", "other.bin"},
-                    Damage{"InsideTheFile", "scene.bin", "data:,x", "a buffer is inside of the file"},
+                    Damage{"InsideTheFile", "scene.bin", "data:,x", "the data URI of buffers[0] is no base64"},
                     Damage{"TooLong", "\"count\":8", "\"count\":9999", "reaches beyond its buffer"},
                     Damage{"WrongKind", "\"count\":8", "\"count\":\"8\"", "is no whole number"},
                     Damage{"NoSuchNumber", "\"indices\"", "\"mode\":4e32,\"indices\"", "4e+32 is no whole number"},
-                    Damage{"NoIndices", "\"indices\"", "\"other\"", "has no mesh"},
+                    Damage{"NoIndices", "\"indices\"", "\"other\"", "its 8 corners are no list of triangles"},
                     Damage{"NoFloats", "5126", "5125", "positions are no 32-bit floats"},
                     Damage{"NoView", "\"bufferView\":1", "\"bufferView\":7", "has no bufferViews[7]"}),
     [](const auto& test) { return test.param.name; });
