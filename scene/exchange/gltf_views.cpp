@@ -1,7 +1,7 @@
 #include "scene/exchange/gltf_views.h"
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
