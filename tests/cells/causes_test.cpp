@@ -1,5 +1,5 @@
 // What rows are wrong by, where it is known because it was planted.
-#include "harness/metrics/pixels.h"
+#include "harness/cells/changed_scene.h"
 #include "harness/studies/causes/causes.h"
 #include "harness/studies/sweep/axis.h"
 #include "techniques/shared/maps/single_map.h"

@@ -103,7 +103,7 @@ class Explainer {
 public:
     Explainer(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, const std::vector<Batch>* casters)
         : frames_(frames), entry_(*variant.entry), row_(frames, entry_, mainTruth(frames.scene(), variant), seed),
-          now_(variant.parameters), technique_(entry_.make(now_)), v_(row_.drawn(*technique_, casters)),
+          now_(variant.parameters), technique_(entry_.make(now_)), first_(row_.drawn(*technique_, casters)), v_(first_),
           error_(row_.errors(v_)), ladder_(error_) {
         if (casters != nullptr) {
             technique_ = entry_.make(now_);
@@ -150,17 +150,17 @@ private:
         replace(cause, row_.settled(now_));
     }
 
-    /// The bias of the finer texels instead of that of the row: what was false shadow had too little, a leak too much.
+    /// The bias of the finer texels instead of that of the row: its false shadows had too little, its leaks too much.
     void ownBias() {
         const auto own = withOwnBias(entry_, now_);
         if (!own) return;
-        const Image<float> v = row_.settled(*own), before = v_;
-        ladder_.take(
-            {Cause::SmallBias, Cause::LargeBias},
-            [&](std::size_t i) { return before[i] > row_.truth().visibility[i] ? Cause::LargeBias : Cause::SmallBias; },
-            row_.errors(before), row_.errors(v));
         now_ = *own;
-        v_ = v;
+        Image<float> v = row_.settled(now_);
+        const auto causeAt = [&](std::size_t i) {
+            return first_[i] > row_.truth().visibility[i] ? Cause::LargeBias : Cause::SmallBias;
+        };
+        ladder_.take({Cause::SmallBias, Cause::LargeBias}, causeAt, row_.errors(v_), row_.errors(v));
+        v_ = std::move(v);
     }
 
     /// Receivers that no map holds, of a technique that has one; and casters that it loses.
@@ -207,7 +207,8 @@ private:
     Row row_;
     Parameters now_; // of the experiment that was made last
     std::unique_ptr<techniques::Technique> technique_;
-    Image<float> v_; // what it drew
+    Image<float> first_; // what the row drew
+    Image<float> v_;     // what the last experiment did
     Image<float> error_;
     Ladder ladder_;
 };

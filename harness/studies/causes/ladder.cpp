@@ -1,6 +1,7 @@
 #include "harness/studies/causes/ladder.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace shadowbench::causes {
 namespace {
@@ -31,17 +32,24 @@ Image<float> falls(const Image<float>& from, const Image<float>& to) {
     return result;
 }
 
+Image<float> squares(Image<float> image) {
+    for (float& value : image) value *= value;
+    return image;
+}
+
 } // namespace
 
 Image<float> netShare(const Image<float>& before, const Image<float>& after) {
     constexpr int least = 8; // enough pixels that a reshuffle's falls and rises are about as many
     const int radius = std::max(least, std::max(before.width(), before.height()) / 16);
-    const SummedAreas fallen(falls(before, after)), risen(falls(after, before));
+    const Image<float> rises = falls(after, before);
+    const SummedAreas fallen(falls(before, after)), risen(rises), noise(squares(rises));
     Image<float> share(before.width(), before.height());
     for (int y = 0; y < share.height(); ++y)
         for (int x = 0; x < share.width(); ++x) {
             const double fall = fallen.around(x, y, radius);
-            if (fall > 0) share(x, y) = static_cast<float>(std::max(0.0, 1 - risen.around(x, y, radius) / fall));
+            const double chance = risen.around(x, y, radius) + std::sqrt(noise.around(x, y, radius));
+            if (fall > 0) share(x, y) = static_cast<float>(std::max(0.0, 1 - chance / fall));
         }
     return share;
 }

@@ -35,8 +35,9 @@ private:
     Split split_;
 };
 
-/// Of the fall from `before` to `after` in the window around each pixel, the share that rises elsewhere in it do not undo: 0
-/// where nothing falls, 1 where nothing rises. The window is an eighth of the image, at least 17 pixels, a side.
+/// Of the fall from `before` to `after` in the window around each pixel, the share that is more than chance: as much falls
+/// by chance as rises, give or take the root of the sum of squares of the rises. 0 where nothing falls, 1 where nothing
+/// rises. The window is an eighth of the image, at least 17 pixels, a side.
 Image<float> netShare(const Image<float>& before, const Image<float>& after);
 
 } // namespace shadowbench::causes
