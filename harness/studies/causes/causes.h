@@ -45,7 +45,8 @@ CausesResult explainAll(const CausesOptions& options);
 /// below the last a quarter of the triangles each (harness/studies/recommend/caster_groups.h).
 std::vector<Batch> castersAtLevel(const Scene& scene, int frame, int level);
 
-/// "undersampled 62, bias too large 30, the method 8": in % of the error, the largest first, without what rounds to 0.
+/// "undersampled 62, bias too large 30, the method 8": in % of the error, the three largest first, and
+/// what others have together.
 std::string sharesText(const Explanation& explanation);
 
 /// A table a scene, as plain text or Markdown with links to the pictures, and a legend of their colours.

@@ -19,7 +19,9 @@ std::string errorText(const Explanation& row) {
 std::string legend() {
     std::vector<std::string> colours;
     for (const CauseWords& cause : allCauses()) colours.push_back(fmt::format("{} {}", cause.colourName, cause.name));
-    return fmt::format("pictures: grey right, {}", fmt::join(colours, ", "));
+    const auto half = colours.begin() + static_cast<std::ptrdiff_t>(colours.size() / 2);
+    return fmt::format("pictures: grey right, {},\n {}", fmt::join(colours.begin(), half, ", "),
+                       fmt::join(half, colours.end(), ", "));
 }
 
 std::string metricsOf(const SceneCauses& scene) {
@@ -60,11 +62,18 @@ ordered_json toJson(const Explanation& row) {
 } // namespace
 
 std::string sharesText(const Explanation& explanation) {
+    constexpr std::size_t most = 3; // a line of a terminal holds no more
+    if (explanation.isRight()) return "nothing is wrong";
     std::vector<std::string> shares;
-    for (const auto& [cause, error] : explanation.parts)
-        if (const double percent = 100 * error / explanation.error; std::round(percent) > 0)
-            shares.push_back(fmt::format("{} {:.0f}", name(cause), percent));
-    return explanation.isRight() ? "nothing is wrong" : fmt::format("{}", fmt::join(shares, ", "));
+    double others = 100;
+    for (const auto& [cause, error] : explanation.parts) {
+        const double percent = 100 * error / explanation.error;
+        if (shares.size() == most || std::round(percent) == 0) break;
+        shares.push_back(fmt::format("{} {:.0f}", name(cause), percent));
+        others -= percent;
+    }
+    if (std::round(others) > 0) shares.push_back(fmt::format("others {:.0f}", others));
+    return fmt::format("{}", fmt::join(shares, ", "));
 }
 
 std::string text(const CausesResult& result) {

@@ -14,6 +14,17 @@
 namespace shadowbench::causes {
 namespace {
 
+/// The scored frame where nothing has moved before it.
+Snapshot heldStill(const Scene& scene, int scored) {
+    Snapshot still = snapshot(scene, scored);
+    still.previousCamera = still.camera;
+    for (Batch& batch : still.batches) {
+        batch.moving = false;
+        for (Placement& placement : batch.placements) placement.previous = placement.world;
+    }
+    return still;
+}
+
 /// Draws a row's scored frame, with other parameters and casters if need be, and says how wrong it is.
 class Row {
 public:
@@ -38,9 +49,7 @@ public:
     Image<float> settled(const Parameters& parameters) {
         constexpr int frames = 128; // twice those that scenes stand still for
         const auto technique = entry_.make(parameters);
-        Snapshot still = snapshot(frames_.scene(), frames_.scored());
-        still.previousCamera = still.camera;
-        frames_.stage().show(still);
+        frames_.stage().show(heldStill(frames_.scene(), frames_.scored()));
         // What stands alone is drawn as the frame that it is in a run, whose number chooses its noise.
         const int last = entry_.temporal ? frames - 1 : frames_.scored() + frames_.scene().timeline.approach;
         for (int frame = entry_.temporal ? 0 : last; frame <= last; ++frame)
@@ -103,7 +112,7 @@ class Explainer {
 public:
     Explainer(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, const std::vector<Batch>* casters)
         : frames_(frames), entry_(*variant.entry), row_(frames, entry_, mainTruth(frames.scene(), variant), seed),
-          now_(variant.parameters), technique_(entry_.make(now_)), first_(row_.drawn(*technique_, casters)), v_(first_),
+          now_(variant.parameters), technique_(entry_.make(now_)), v_(row_.drawn(*technique_, casters)),
           error_(row_.errors(v_)), ladder_(error_) {
         if (casters != nullptr) {
             technique_ = entry_.make(now_);
@@ -115,7 +124,7 @@ public:
         if (!row_.isSoft()) change(Cause::Filter, withLeastFilter(entry_, now_));
         change(Cause::SmallBias, withEnoughBias(entry_, now_));
         change(Cause::Undersampled, withFineTexels(entry_, now_));
-        ownBias();
+        change(Cause::LargeBias, withOwnBias(entry_, now_)); // enough of it is there by now
         if (row_.isSoft()) change(Cause::FewSamples, withMoreSamples(entry_, now_));
     }
 
@@ -148,19 +157,6 @@ private:
         if (!changed) return;
         now_ = std::move(*changed);
         replace(cause, row_.settled(now_));
-    }
-
-    /// The bias of the finer texels instead of that of the row: its false shadows had too little, its leaks too much.
-    void ownBias() {
-        const auto own = withOwnBias(entry_, now_);
-        if (!own) return;
-        now_ = *own;
-        Image<float> v = row_.settled(now_);
-        const auto causeAt = [&](std::size_t i) {
-            return first_[i] > row_.truth().visibility[i] ? Cause::LargeBias : Cause::SmallBias;
-        };
-        ladder_.take({Cause::SmallBias, Cause::LargeBias}, causeAt, row_.errors(v_), row_.errors(v));
-        v_ = std::move(v);
     }
 
     /// Receivers that no map holds, of a technique that has one; and casters that it loses.
@@ -207,8 +203,7 @@ private:
     Row row_;
     Parameters now_; // of the experiment that was made last
     std::unique_ptr<techniques::Technique> technique_;
-    Image<float> first_; // what the row drew
-    Image<float> v_;     // what the last experiment did
+    Image<float> v_; // what it drew
     Image<float> error_;
     Ladder ladder_;
 };
