@@ -15,13 +15,18 @@
 namespace shadowbench::causes {
 namespace {
 
+/// What casts in place of the scene's own; empty: these.
+std::vector<Batch> otherCasters(const Scene& scene, const CausesOptions& options) {
+    if (options.casterLevel == 0) return {};
+    return castersAtLevel(scene, scene.timeline.still - 1, options.casterLevel);
+}
+
 /// One scene's rows, in order.
 class SceneStudy {
 public:
     SceneStudy(const Scene& scene, const groundtruth::Cache& cache, const CausesOptions& options)
-        : options_(options), truths_(scene, cache), frames_(scene, truths_), result_{scene.id, {}, {}, {}} {
-        if (options.casterLevel > 0) casters_ = castersAtLevel(scene, frames_.scored(), options.casterLevel);
-    }
+        : options_(options), truths_(scene, cache), frames_(scene, truths_),
+          casters_(otherCasters(scene, options)), result_{scene.id, {}, {}, {}} {}
 
     ExitCode explainRow(const techniques::Variant& row) {
         if (const auto reason = notApplicable(frames_.scene(), row)) {
@@ -46,7 +51,7 @@ private:
     const CausesOptions& options_;
     Truths truths_;
     SceneFrames frames_;
-    std::vector<Batch> casters_; // in place of the scene's; empty: these
+    std::vector<Batch> casters_;
     SceneCauses result_;
 };
 
@@ -58,6 +63,7 @@ CausesResult explainAll(const CausesOptions& options) {
     if (rows.empty())
         throw BadInput("causes are those of shadows, and level-of-detail techniques draw none: choose other techniques");
     const std::vector<Scene> scenes = chosenScenes(options.scenes, options.profile);
+    for (const Scene& scene : scenes) (void)otherCasters(scene, options); // before anything is drawn
     const groundtruth::Cache cache(options.cache.empty() ? groundtruth::defaultCacheFolder() : options.cache);
     const auto context = contextOfRun(cache.folder(), false);
     ProgressLine line("causes", static_cast<int>(rows.size() * scenes.size()), options.quiet);

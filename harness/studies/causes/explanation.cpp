@@ -107,6 +107,24 @@ Allowed allowedAt(const std::vector<Image<float>>& alone, std::size_t pixel) {
     return {std::max(0.0F, ground - hidden), high};
 }
 
+/// What nine in ten errors are below where a single caster hides a part of the light: there nothing is combined, and the
+/// same errors where two do are none of their combination. 0 of labels, which hide all or nothing.
+float errorOfSingles(const std::vector<Image<float>>& alone, const Image<float>& errors) {
+    constexpr float least = 0.01F; // less is noise
+    std::vector<double> single;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        const float ground = alone.front()[i];
+        int hiding = 0, partly = 0;
+        for (std::size_t c = 1; c < alone.size(); ++c) {
+            if (alone[c][i] >= ground - least) continue;
+            ++hiding;
+            if (alone[c][i] > least) ++partly;
+        }
+        if (hiding == 1 && partly == 1) single.push_back(errors[i]);
+    }
+    return single.empty() ? 0 : static_cast<float>(metrics::quantile(single, 0.9));
+}
+
 /// The experiments on one row, in order.
 class Explainer {
 public:
@@ -192,10 +210,12 @@ private:
             const Allowed allowed = allowedAt(alone, i);
             best[i] = std::clamp(row_.truth().visibility[i], std::min(allowed.low, allowed.high), allowed.high);
         }
-        ladder_.take(
-            {Cause::Leak, Cause::Fusion},
-            [&](std::size_t i) { return v_[i] > allowedAt(alone, i).high ? Cause::Leak : Cause::Fusion; }, row_.errors(v_),
-            row_.errors(best));
+        const Image<float> errors = row_.errors(v_);
+        const float usual = errorOfSingles(alone, errors);
+        Image<float> after = row_.errors(best);
+        for (std::size_t i = 0; i < after.size(); ++i) after[i] = std::max(after[i], std::min(usual, errors[i]));
+        const auto causeAt = [&](std::size_t i) { return v_[i] > allowedAt(alone, i).high ? Cause::Leak : Cause::Fusion; };
+        ladder_.take({Cause::Leak, Cause::Fusion}, causeAt, errors, after);
     }
 
     SceneFrames& frames_;
