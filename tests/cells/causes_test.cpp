@@ -124,7 +124,7 @@ const std::vector<Plant> plants{
     {Cause::History, "windmills", "sm-history"},
     {Cause::History, "moving-caster", "temporal-soft"},
     {Cause::Fusion, "overlapping-occluders", "backprojection"},
-    {Cause::Fusion, "stacked-plates", "backprojection"},
+    {Cause::Fusion, "stacked-plates", "penumbra-wedge"},
     {Cause::Fusion, "large-light", "backprojection"},
     {Cause::Leak, "stacked-plates", "bitmask"},
     {Cause::Leak, "depth-complexity", "vsm:kernel=16"},

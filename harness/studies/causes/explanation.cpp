@@ -107,8 +107,8 @@ Allowed allowedAt(const std::vector<Image<float>>& alone, std::size_t pixel) {
     return {std::max(0.0F, ground - hidden), high};
 }
 
-/// What nine in ten errors are below where a single caster hides a part of the light: there nothing is combined, and the
-/// same errors where two do are none of their combination. 0 of labels, which hide all or nothing.
+/// What nineteen in twenty errors are below where a single caster hides a part of the light: there nothing is combined, and
+/// as large an error where two do is none of their combination. 0 of labels, which hide all or nothing.
 float errorOfSingles(const std::vector<Image<float>>& alone, const Image<float>& errors) {
     constexpr float least = 0.01F; // less is noise
     std::vector<double> single;
@@ -122,7 +122,7 @@ float errorOfSingles(const std::vector<Image<float>>& alone, const Image<float>&
         }
         if (hiding == 1 && partly == 1) single.push_back(errors[i]);
     }
-    return single.empty() ? 0 : static_cast<float>(metrics::quantile(single, 0.9));
+    return single.empty() ? 0 : static_cast<float>(metrics::quantile(single, 0.95));
 }
 
 /// The experiments on one row, in order.
@@ -213,7 +213,8 @@ private:
         const Image<float> errors = row_.errors(v_);
         const float usual = errorOfSingles(alone, errors);
         Image<float> after = row_.errors(best);
-        for (std::size_t i = 0; i < after.size(); ++i) after[i] = std::max(after[i], std::min(usual, errors[i]));
+        for (std::size_t i = 0; i < after.size(); ++i)
+            if (errors[i] <= usual) after[i] = errors[i];
         const auto causeAt = [&](std::size_t i) { return v_[i] > allowedAt(alone, i).high ? Cause::Leak : Cause::Fusion; };
         ladder_.take({Cause::Leak, Cause::Fusion}, causeAt, errors, after);
     }
