@@ -214,7 +214,7 @@ private:
         const float usual = errorOfSingles(alone, errors);
         Image<float> after = row_.errors(best);
         for (std::size_t i = 0; i < after.size(); ++i)
-            if (errors[i] <= usual) after[i] = errors[i];
+            if (errors[i] <= usual) after[i] = std::max(after[i], errors[i]); // what it makes worse is still that
         const auto causeAt = [&](std::size_t i) { return v_[i] > allowedAt(alone, i).high ? Cause::Leak : Cause::Fusion; };
         ladder_.take({Cause::Leak, Cause::Fusion}, causeAt, errors, after);
     }
