@@ -152,12 +152,29 @@ TEST(Causes, WhatWasPlantedIsNamedFirst) {
         const Explanation explanation = staged.explained(rowOf(plant), plant.casterLevel);
         const std::string line = fmt::format("{} on {}, {:.4f}: {}; {}", plant.row, plant.scene, explanation.error,
                                              sharesText(explanation), explanation.change);
-        RecordProperty(plant.row + plant.scene, line);
         EXPECT_GT(explanation.error, 0.002) << line;
         EXPECT_NEAR(sum(explanation), explanation.error, 1e-6) << line;
         if (explanation.parts.front().first != plant.cause) misses.push_back(line);
     }
+    RecordProperty("misses", fmt::format("{}", fmt::join(misses, "; ")));
     EXPECT_LE(misses.size(), plants.size() / 12) << fmt::format("{}", fmt::join(misses, "\n"));
+}
+
+double shareOf(Cause cause, const Explanation& explanation) {
+    const auto found = std::ranges::find(explanation.parts, cause, &std::pair<Cause, double>::first);
+    return found == explanation.parts.end() ? 0 : found->second / explanation.error;
+}
+
+TEST(Causes, RowsThatCombineCastersExactlyFuseHardlyAnything) {
+    testContext();
+    const Explanation maps = Staged(smallScene("overlapping-occluders")).explained("sampled-maps");
+    EXPECT_LT(shareOf(Cause::Fusion, maps) + shareOf(Cause::Leak, maps), 0.1) << sharesText(maps); // its noise, by chance
+}
+
+TEST(Causes, AHistorySettlesWhereCastersHaveTurnedBefore) {
+    testContext();
+    const Explanation turning = Staged(arrivedScene("windmills")).explained("sm-history");
+    EXPECT_GT(shareOf(Cause::History, turning), 0.7) << sharesText(turning); // what a step of their turn blurs is history
 }
 
 TEST(Causes, AddUpToTheErrorOfTheRecord) {
