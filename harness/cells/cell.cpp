@@ -19,22 +19,9 @@ namespace {
 using metrics::Mask;
 using techniques::Answer;
 
-/// The first frame that the variant draws.
-int firstFrame(const SceneFrames& frames, const techniques::Variant& variant) {
-    return variant.entry->temporal ? -frames.scene().timeline.approach : frames.scored();
-}
-
-/// Renders the last still frame from an empty history. Returns the number of frames that the technique has rendered.
-int renderScored(SceneFrames& frames, const techniques::Variant& variant, techniques::Technique& technique,
-                 std::uint32_t seed) {
-    int number = 0;
-    const int first = -frames.scene().timeline.approach;
-    for (int frame = firstFrame(frames, variant); frame <= frames.scored(); ++frame) {
-        if (frame <= 1 || frame == frames.scored()) frames.show(frame); // the still frames between are all the same
-        frames.stage().render(technique, frame - first, seed);
-        number = frame - first + 1;
-    }
-    return number;
+/// The first frame that the technique draws.
+int firstFrame(const SceneFrames& frames, const techniques::Entry& entry) {
+    return entry.temporal ? -frames.scene().timeline.approach : frames.scored();
 }
 
 void measureAliasing(const techniques::Technique& technique, SceneFrames& frames, const Mask& mask, Record& record) {
@@ -124,7 +111,7 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     const Truth kind = mainTruth(scene, variant);
     const int scored = frames.scored();
     // The scene's own buffers, made for the first cell, are not the technique's.
-    frames.show(firstFrame(frames, variant));
+    frames.show(firstFrame(frames, *variant.entry));
     gl::Tally& tally = gl::Context::current().tally();
     const std::uint64_t bytesBefore = tally.bytes;
     const auto technique = variant.entry->make(variant.parameters);
@@ -134,8 +121,8 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     Memory memory;
     const Casters casters = castersUnder(*variant.entry, scene);
     const int first = -scene.timeline.approach;
-    timing::Sequence sequence{*technique, firstFrame(frames, variant) - first, seed};
-    for (int frame = firstFrame(frames, variant); frame < scene.timeline.frames(); ++frame) {
+    timing::Sequence sequence{*technique, firstFrame(frames, *variant.entry) - first, seed};
+    for (int frame = firstFrame(frames, *variant.entry); frame < scene.timeline.frames(); ++frame) {
         if (frame <= 1 || frame >= scored) frames.show(frame); // the still frames between are all the same
         tally.watchPeak();
         if (memory.peak)
@@ -170,9 +157,24 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     record.status = Status::Scored;
 }
 
+int renderScored(SceneFrames& frames, const techniques::Entry& entry, techniques::Technique& technique, std::uint32_t seed,
+                 const std::vector<Batch>* casters) {
+    int number = 0;
+    const int first = -frames.scene().timeline.approach;
+    for (int frame = firstFrame(frames, entry); frame <= frames.scored(); ++frame) {
+        if (frame <= 1 || frame == frames.scored()) { // the still frames between are all the same
+            frames.show(frame);
+            if (casters != nullptr) frames.stage().cast(*casters);
+        }
+        frames.stage().render(technique, frame - first, seed);
+        number = frame - first + 1;
+    }
+    return number;
+}
+
 std::optional<double> scoredError(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Truth truth) {
     const auto technique = variant.entry->make(variant.parameters);
-    renderScored(frames, variant, *technique, seed);
+    renderScored(frames, *variant.entry, *technique, seed);
     return errorBy(truth, {frames.stage().visibility(), frames.truth(truth), frames.mask(truth)});
 }
 
@@ -181,7 +183,7 @@ void splitErrorOverSeeds(SceneFrames& frames, const techniques::Variant& variant
     std::vector<Image<float>> images{v};
     for (int i = 1; i < seeds; ++i) {
         const auto technique = variant.entry->make(variant.parameters);
-        renderScored(frames, variant, *technique, seed + static_cast<std::uint32_t>(i));
+        renderScored(frames, *variant.entry, *technique, seed + static_cast<std::uint32_t>(i));
         images.push_back(frames.stage().visibility());
         if (i == 1 && std::ranges::equal(images[0], images[1])) return;
     }
@@ -200,7 +202,7 @@ void splitErrorOverSeeds(SceneFrames& frames, const techniques::Variant& variant
 }
 
 void timeCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record) {
-    const int first = firstFrame(frames, variant);
+    const int first = firstFrame(frames, *variant.entry);
     frames.show(first);
     const Casters casters = castersUnder(*variant.entry, frames.scene());
     const int index = first + frames.scene().timeline.approach;
@@ -208,7 +210,7 @@ void timeCell(SceneFrames& frames, const techniques::Variant& variant, std::uint
     if (!variant.entry->temporal) stage.show(displaced(stage.shown(), casters)); // as where its work was counted
     const auto technique = timing::measureFirstTime(stage, variant, index, seed, record);
     if (variant.entry->temporal) technique->reset(); // its history is that of its own frames
-    timing::Sequence sequence{*technique, renderScored(frames, variant, *technique, seed), seed};
+    timing::Sequence sequence{*technique, renderScored(frames, *variant.entry, *technique, seed), seed};
     timing::measureTimes(stage, variant, sequence, record);
     timing::measureMotionTime(stage, casters, sequence, record);
 }

@@ -53,6 +53,11 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
 void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record,
                CellImages& images);
 
+/// Renders the last still frame from an empty history. Returns the number of frames that the technique has rendered.
+/// `casters`: what casts in place of the scene's own, which are at rest until that frame.
+int renderScored(SceneFrames& frames, const techniques::Entry& entry, techniques::Technique& technique, std::uint32_t seed,
+                 const std::vector<Batch>* casters = nullptr);
+
 /// The error of a variant on the scored frame by `truth` (`errorBy`), drawn from an empty history.
 std::optional<double> scoredError(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Truth truth);
 

@@ -22,6 +22,7 @@ void addMerge(CLI::App& app, Action& action);
 void addScore(CLI::App& app, Action& action);
 void addReference(CLI::App& app, Action& action);
 void addSweep(CLI::App& app, Action& action);
+void addCauses(CLI::App& app, Action& action);
 void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addPapers(CLI::App& app, Action& action);

@@ -80,8 +80,8 @@ ExitCode dispatch(int argc, char** argv) {
 
     Action action;
     for (const auto& add :
-         {addList, addInspect, addRun, addMerge, addScore, addReference, addSweep, addRecommend, addClaims, addPapers,
-          addExport, addCompare, addGate, addHistory, addCache, addReport, addCountFrames, addTimeFrames})
+         {addList, addInspect, addRun, addMerge, addScore, addReference, addSweep, addCauses, addRecommend, addClaims,
+          addPapers, addExport, addCompare, addGate, addHistory, addCache, addReport, addCountFrames, addTimeFrames})
         add(app, action);
     addDocuments(app, action);
 

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <system_error>
 
 namespace shadowbench {
 
@@ -13,7 +14,11 @@ namespace shadowbench {
 /// references: writing them takes a thread of Mesa's, which times and counts had better not meet.
 inline std::unique_ptr<gl::Context> contextOfRun(const std::filesystem::path& cache, bool timed) {
     gl::ContextOptions options;
-    if (!timed) options.shaderCache = (cache / "shaders").string();
+    if (!timed) {
+        std::error_code failed;                             // then nothing is kept
+        std::filesystem::create_directories(cache, failed); // Mesa makes the last folder alone
+        options.shaderCache = (cache / "shaders").string();
+    }
     return gl::Context::create(options);
 }
 

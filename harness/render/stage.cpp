@@ -29,6 +29,11 @@ void Stage::show(const Snapshot& shown) {
     redraw();
 }
 
+void Stage::cast(const std::vector<Batch>& casters) {
+    snapshot_.batches = casters;
+    buffers_.update(snapshot_);
+}
+
 void Stage::redraw(techniques::PassListener* passes) {
     const techniques::Pass pass("G-buffer", passes);
     gbuffer_.draw(buffers_, clipFromWorld(snapshot_.camera, scene_.size));

@@ -23,6 +23,9 @@ public:
     void show(const Snapshot& snapshot);
     [[nodiscard]] const Snapshot& shown() const { return snapshot_; }
 
+    /// Lets other casters stand in the shown frame, of which the G-buffer stays, until another is shown.
+    void cast(const std::vector<Batch>& casters);
+
     /// The shown frame as number `index` of a technique's sequence (which seeds its jitter), until another is shown.
     [[nodiscard]] techniques::Frame frame(int index, std::uint32_t seed, techniques::PassListener* passes = nullptr) const;
 

@@ -83,6 +83,8 @@ TEST_F(Recommend, RunsTheCellsThatMapsAreReadOffAndKeepsTheirRecords) {
     EXPECT_NE(outcome.output.find("cheapest technique within mismatch 2 %, leak 5 %, "), std::string::npos)
         << outcome.output;
     EXPECT_NE(outcome.output.find(" missing_edges 5 %: sm-uniform, at "), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("of the error of sm-uniform: "), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("; change first: "), std::string::npos) << outcome.output;
     EXPECT_EQ(readRecords(folder_ / "out/map/results.jsonl").size(), 5U); // 256 to 4096
 
     const Outcome read = recommend(maps + " --records " + folder_ / "out/map/results.jsonl");

@@ -3,8 +3,10 @@
 #include "base/folder_lock.h"
 #include "base/progress_line.h"
 #include "base/words.h"
+#include "groundtruth/store/cache.h"
 #include "harness/metrics/table.h"
 #include "harness/records/comparability.h"
+#include "harness/render/shared_shaders.h"
 #include "harness/report/advice.h"
 #include "harness/runs/run.h"
 #include "scene/load/load.h"
@@ -14,6 +16,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 
 namespace shadowbench::recommend {
 namespace {
@@ -126,6 +129,52 @@ void adviseTechnique(const std::vector<Record>& records, const std::set<techniqu
         Cheapest{record.variant, error.value_or(0), report::frameCost(record)->ratio, report::knowsMotion(record)};
 }
 
+/// The row whose error is explained: the one that is advised, else the one that errs least.
+std::optional<std::string> rowToExplain(const std::vector<Record>& records, const Recommendation& result) {
+    if (result.technique) return result.technique->variant;
+    std::optional<std::string> row;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t i : report::scoredOf(records, result.scene)) {
+        const auto error = metrics::bounded(records[i].values, result.tolerances.front().metric);
+        if (report::isBaseline(records[i]) || !error || *error >= least) continue;
+        least = *error;
+        row = records[i].variant;
+    }
+    return row;
+}
+
+/// Draws the rows that were found on the scenes, again and without one cause of their errors after the other.
+class LeftErrors {
+public:
+    explicit LeftErrors(const RecommendOptions& options) : options_(options) {}
+
+    void add(Scene scene, std::size_t recommendation, std::optional<std::string> row) {
+        if (row) rows_.push_back({std::move(scene), recommendation, std::move(*row)});
+    }
+
+    void explain(std::vector<Recommendation>& all) const {
+        if (rows_.empty()) return;
+        const groundtruth::Cache cache(options_.cache.empty() ? groundtruth::defaultCacheFolder() : options_.cache);
+        const auto context = contextOfRun(cache.folder(), false);
+        for (const Row& row : rows_) {
+            Truths truths(row.scene, cache);
+            SceneFrames frames(row.scene, truths);
+            auto& left = all[row.recommendation].left;
+            left = causes::explain(frames, techniques::parseVariant(row.variant), 1);
+            left->releasePixels();
+        }
+    }
+
+private:
+    struct Row {
+        Scene scene;
+        std::size_t recommendation;
+        std::string variant;
+    };
+    const RecommendOptions& options_;
+    std::vector<Row> rows_;
+};
+
 void answerFromRecords(Question question, const std::vector<Record>& records, const std::set<techniques::Need>& needs,
                        Recommendation& result) {
     result.tolerances = report::tolerances(records, result.scene);
@@ -163,10 +212,11 @@ Recommendations recommend(const RecommendOptions& options) {
     const std::set<techniques::Need> needs = needsOf(options);
     std::vector<Record> ofTechniques; // on all scenes
     std::vector<std::string> scenes;
+    LeftErrors left(options);
     for (const std::string& idOrFile : chosenScenes(options)) {
         const Scene scene = loadScene(idOrFile, options.profile, metrics::boundedMetrics());
         scenes.push_back(scene.id);
-        Recommendation result{scene.id, questionsOn(scene, options), {}, {}, {}, {}, {}, {}};
+        Recommendation result{scene.id, questionsOn(scene, options), {}, {}, {}, {}, {}, {}, {}};
         for (const Question question : questionsOn(scene, options)) {
             if (question == Question::Casters) {
                 result.casters = casterLevels(scene, options);
@@ -180,12 +230,14 @@ Recommendations recommend(const RecommendOptions& options) {
             }
             const std::vector<Record> found = records.of(question, *techniques, idOrFile, scene);
             answerFromRecords(question, found, needs, result);
-            if (question == Question::Technique)
-                for (const std::size_t i : report::ofScene(found, scene.id)) ofTechniques.push_back(found[i]);
+            if (question != Question::Technique) continue;
+            for (const std::size_t i : report::ofScene(found, scene.id)) ofTechniques.push_back(found[i]);
+            if (options.records.empty()) left.add(scene, all.scenes.size(), rowToExplain(found, result));
         }
         if (result.casters && !result.casters->verified) all.code = ExitCode::Inconclusive;
         all.scenes.push_back(std::move(result));
     }
+    left.explain(all.scenes); // at last: runs fork, which no context outlives
     if (scenes.size() > 1 && !ofTechniques.empty()) all.common = report::commonAdvice(ofTechniques, scenes, needs);
     if (all.code == ExitCode::Pass) all.code = records.code();
     return all;

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "harness/report/advice.h"
 #include "harness/report/summary.h"
+#include "harness/studies/causes/explanation.h"
 #include "harness/studies/recommend/caster_levels.h"
 #include "harness/studies/recommend/least_resource.h"
 
@@ -50,6 +51,7 @@ struct Recommendation {
     std::optional<Cheapest> technique;         // nothing if none is within tolerance
     std::vector<std::string> techniqueNotes;   // what a person should know beside it
     std::vector<Least> maps, samples;          // a line a technique, the least first; empty if none is within tolerance
+    std::optional<causes::Explanation> left;   // of the technique's error, or of the least where none is within tolerance
 };
 
 /// Inconclusive when a casters' recommendation was not verified, else that of a cell that ended in an error, else Pass.

@@ -1,6 +1,7 @@
 #include "harness/studies/recommend/recommendation_text.h"
 
 #include "harness/report/text_table.h"
+#include "harness/studies/causes/causes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,6 +117,13 @@ std::string cheapestLine(const std::optional<Cheapest>& technique, const std::ve
                        technique->moving ? "the dearer of standing and in motion" : "standing");
 }
 
+/// What is left of the error of the advised row, or of the best.
+std::string leftLine(const causes::Explanation& left) {
+    if (left.isRight()) return "";
+    return fmt::format("   of the error of {}: {} %; change first: {}\n", left.variant, causes::sharesText(left),
+                       left.change);
+}
+
 std::vector<std::string> idsOf(const Recommendations& all) {
     std::vector<std::string> ids;
     for (const Recommendation& one : all.scenes) ids.push_back(one.scene);
@@ -176,6 +184,11 @@ ordered_json toJson(const Recommendation& r) {
                                {"cost", r.technique->cost},
                                {"in_motion", r.technique->moving}};
     if (!r.techniqueNotes.empty()) result["notes"] = r.techniqueNotes;
+    if (r.left) {
+        ordered_json& left = result["left"] = {{"variant", r.left->variant}, {r.left->metric, r.left->error}};
+        for (const auto& [cause, error] : r.left->parts) left["causes"][std::string(causes::name(cause))] = error;
+        if (!r.left->isRight()) left["change"] = r.left->change;
+    }
     if (r.questions.contains(Question::Map)) result["map"] = toJson(r.maps, "texels");
     if (r.questions.contains(Question::Samples)) result["samples"] = toJson(r.samples, "samples");
     return result;
@@ -190,6 +203,7 @@ std::string text(const Recommendation& r) {
     for (const std::string& note : r.techniqueNotes) lines += fmt::format("   {}\n", note);
     if (r.questions.contains(Question::Map)) lines += leastTable("smallest map", "texels a side", r.maps, r.tolerances);
     if (r.questions.contains(Question::Samples)) lines += leastTable("fewest samples", "samples", r.samples, r.tolerances);
+    if (r.left) lines += leftLine(*r.left);
     return lines;
 }
 
