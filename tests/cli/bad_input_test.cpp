@@ -118,7 +118,7 @@ TEST(BadCommand, WrongArgumentsOfReferenceEndInOneLine) {
         {"--scene simple --truth area --oracle povray", "leave out --oracle"},
         {"--scene simple --truth area --oracle rays", "leave out --oracle"},
         {"--scene linear-light --truth irradiance", "linear-light has no irradiance truth"},
-        {"--scene linear-light --oracle solid-angle", "which has hard, soft, pixel-area, area"},
+        {"--scene linear-light --truth solid-angle", "which has hard, soft, pixel-area, area"},
         {"--scene colonnade --truth irradiance",
          "has no irradiance truth: its light is of kind point, which has hard, pixel-area"},
         {"--verify --truth fuzzy", "hard, soft, pixel-area, area, irradiance, solid-angle"},

@@ -34,11 +34,7 @@ void expectEqual(const Reference& a, const Reference& b) {
 }
 
 /// Quick to compute: no POV-Ray.
-Request quick() {
-    Request request{overlappingPlates(), {16, 16}};
-    request.snapshot.light = request.snapshot.light.centreOnly();
-    return request;
-}
+Request quick() { return {overlappingPlates(), {16, 16}, Truth::Hard}; }
 
 class CacheFolder : public testing::Test {
 protected:
