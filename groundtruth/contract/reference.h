@@ -10,6 +10,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace shadowbench::groundtruth {
 
@@ -92,10 +93,16 @@ Oracle oracleNamed(std::string_view name); // throws BadInput naming the valid o
 
 struct Request {
     Snapshot snapshot;
-    glm::ivec2 size{256, 256};
-    Truth truth = usualTruth(snapshot.light);
+    glm::ivec2 size;
+    Truth truth;
     int samples = 1024; // of Soft: of an area light, directions of an environment
     Oracle oracle = Oracle::Auto;
+
+    /// The usual truth of its light. There is no request without a snapshot: it would be of another light's truth.
+    Request(Snapshot shown, glm::ivec2 pixels)
+        : snapshot(std::move(shown)), size(pixels), truth(usualTruth(snapshot.light)) {}
+    Request(Snapshot shown, glm::ivec2 pixels, Truth asked, int lightSamples = 1024)
+        : snapshot(std::move(shown)), size(pixels), truth(asked), samples(lightSamples) {}
 
     /// The light that the truth is of.
     [[nodiscard]] Light light() const {

@@ -114,12 +114,8 @@ std::string walkOf(const Scene& scene, const std::string& variant) {
     walk.timeline = {1, scene.lod->frames - 1};
     walk.eye = scene.lod->eye;
     walk.target = scene.lod->target;
-    for (const int frame : {0, scene.lod->frames - 1}) {
-        groundtruth::Request request;
-        request.snapshot = snapshot(walk, frame);
-        request.size = scene.size;
-        inputs += groundtruth::key(request) + "\n";
-    }
+    for (const int frame : {0, scene.lod->frames - 1})
+        inputs += groundtruth::key(groundtruth::Request(snapshot(walk, frame), scene.size)) + "\n";
     return inputs;
 }
 

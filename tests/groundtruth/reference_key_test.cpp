@@ -7,6 +7,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <set>
+#include <type_traits>
 
 namespace shadowbench::groundtruth {
 namespace {
@@ -31,6 +32,16 @@ Mesh& ownMesh(Request& request, std::size_t batch) {
     Mesh& mesh = *copy;
     request.snapshot.batches[batch].mesh = std::move(copy);
     return mesh;
+}
+
+TEST(ReferenceKey, IsOfTheUsualTruthOfTheSnapshotsLight) {
+    static_assert(!std::is_default_constructible_v<Request>); // the truth of no light, or of another one
+    EXPECT_EQ(soft().truth, Truth::Soft);
+    EXPECT_EQ(Request(hard().snapshot, {64, 48}).truth, Truth::Soft);
+    Snapshot centre = soft().snapshot;
+    centre.light = centre.light.centreOnly();
+    EXPECT_EQ(Request(centre, {64, 48}).truth, Truth::Hard);
+    EXPECT_EQ(key(Request(centre, {64, 48}), tools), key(hard(), tools));
 }
 
 TEST(ReferenceKey, IsThirtyTwoHexDigitsAndTheSameEachTime) {
