@@ -359,6 +359,25 @@ TEST(HardChoices, ErrByWhatNoOtherCasterCovers) {
     EXPECT_EQ(choices.of({1, 2}).at("false_shadow"), 0);
 }
 
+TEST(HardChoices, CountPixelsThatEveryCasterLabels) {
+    const Scene scene = plates(platesText(twoPlates));
+    const Casters casters(scene, 0, ownBands(scene));
+    const Receivers ground = receivers(snapshot(scene, 0), scene.size, casters);
+    int asked = 0;
+    const ShadowOracle oracle{
+        "stand-in", [&](const Snapshot&) {
+            Shadow shadow{Image<float>(scene.size.x, scene.size.y, 1), Image<std::uint8_t>(scene.size.x, scene.size.y, 1)};
+            if (asked == 0) shadow.labelled[0] = 0;   // the first group's finest level: on an edge
+            if (asked == 1) shadow.visibility[0] = 0; // its next one hides the pixel
+            if (asked == 1) shadow.visibility[1] = 0;
+            ++asked;
+            return shadow;
+        }};
+    const HardChoices choices(casters, ground, oracle);
+    const double counted = scene.size.x * scene.size.y - 1.0;
+    EXPECT_DOUBLE_EQ(choices.of({1, 0}).at("false_shadow"), 1 / counted);
+}
+
 TEST(Oracles, LabelPlatesAlike) {
     const Scene scene = plates(platesText(twoPlates));
     const Casters casters(scene, 0, ownBands(scene));
