@@ -114,11 +114,13 @@ TEST(CommonAdvice, IsWithinToleranceOnEveryScene) {
     };
     set(0, 0.001, 1), set(1, 0.001, 2), set(2, 0.001, 3);
     set(3, 0.100, 1), set(4, 0.001, 5), set(5, 0.001, 4); // sm-tsm fails here, sm-psm is dear
-    const std::optional<CommonAdvice> advice = commonAdvice(records, {"a", "b"});
-    ASSERT_TRUE(advice);
-    EXPECT_EQ(advice->variant, "sm-cascaded");
-    EXPECT_EQ(advice->dearest, "b");
-    EXPECT_EQ(advice->cost, 4);
+    for (const auto& scenes : {Names{"a", "b"}, {"b", "a"}}) {
+        const std::optional<CommonAdvice> advice = commonAdvice(records, scenes);
+        ASSERT_TRUE(advice);
+        EXPECT_EQ(advice->variant, "sm-cascaded");
+        EXPECT_EQ(advice->dearest, "b");
+        EXPECT_EQ(advice->cost, 4);
+    }
     EXPECT_EQ(commonAdvice(records, {"a"})->variant, "sm-tsm");
     set(4, 0.1, 5), set(5, 0.1, 4);
     EXPECT_FALSE(commonAdvice(records, {"a", "b"}));

@@ -417,6 +417,37 @@ TEST(CasterRecommendation, OfAPlateIsTheCoarsestWithinTolerance) {
 
 // Under 4 m × 4 m of light as far above a plate as the plate is above the ground, the plate's penumbra reaches 2 m to either
 // side of its edge, where it is half lit.
+TEST(CasterRecommendation, OfLevelsWithAsManyTrianglesTheNextCoarserOneHasFewer) {
+    std::string text = platesText(onePlate);
+    text.replace(text.find("sides = 8"), 9, "sides = 16"); // and a smaller radius
+    CasterOptions options;
+    options.tolerance = {"mismatch=0.001"};
+    const CasterRecommendation r = recommendCasters(plates(text), options);
+    const GroupLevel& group = r.groups.front();
+    EXPECT_EQ(group.chain, (std::vector<std::size_t>{60, 60, 12, 0}));
+    EXPECT_EQ(group.level, 0U);
+    ASSERT_TRUE(group.coarser);
+    EXPECT_EQ(group.coarser->level, 2U);
+}
+
+TEST(CasterRecommendation, IsNotVerifiedWhereACoarserLevelWouldDoByTheOtherOracle) {
+    const Scene scene =
+        plates(platesText(onePlate, "kind = \"rectangle\", centre = [0.013, 18, 0.017], u = [4, 0, 0], v = [0, 0, 4]"));
+    CasterOptions options;
+    for (options.lightSamples = 4; options.lightSamples <= 32; ++options.lightSamples) {
+        options.tolerance = {"mae=0.000001"};
+        const CoarserLevel coarser = recommendCasters(scene, options).groups.front().coarser.value();
+        const double exact = coarser.errors.at("mae"), sampled = coarser.verified.at("mae");
+        if (sampled >= exact) continue;
+        options.tolerance = {fmt::format("mae={}", 0.5 * (exact + sampled))};
+        const CasterRecommendation r = recommendCasters(scene, options);
+        EXPECT_EQ(r.groups.front().level, 0U);
+        EXPECT_FALSE(r.verified);
+        return;
+    }
+    FAIL() << "no number of points errs less than the exact fraction";
+}
+
 TEST(CasterRecommendation, UnderAnAreaLightIsOfWhatIsVisible) {
     const Scene scene =
         plates(platesText(onePlate, "kind = \"rectangle\", centre = [0.013, 18, 0.017], u = [4, 0, 0], v = [0, 0, 4]"));
