@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <map>
@@ -107,12 +108,15 @@ std::vector<Mesh> partsOf(const Mesh& mesh) {
 /// A part that encloses less than nothing is a cavity where the others wind around it.
 Fault turnedPartsOf(const std::vector<Mesh>& parts) {
     Fault turned;
+    std::vector<Bounds> boxes;
+    for (const Mesh& part : parts) boxes.push_back(part.bounds());
     for (std::size_t i = 0; i < parts.size(); ++i) {
         if (!(signedVolume(parts[i]) < 0)) continue;
         const glm::vec3& place = parts[i].positions.front();
         double around = 0;
         for (std::size_t other = 0; other < parts.size(); ++other)
-            if (other != i) around += windingNumber(parts[other], glm::dvec3(place));
+            if (other != i && glm::clamp(glm::dvec3(place), boxes[other].low, boxes[other].high) == glm::dvec3(place))
+                around += windingNumber(parts[other], glm::dvec3(place)); // none winds around what is beside its bounds
         if (around < 0.5) turned.add(place);
     }
     return turned;
