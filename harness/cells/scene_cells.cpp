@@ -168,12 +168,27 @@ void SceneCells::scoreLod(const techniques::Variant& variant, Record& record, co
 void SceneCells::time(const techniques::Variant& variant, Record& record) {
     if (isExternal(variant)) return;
     if (variant.isLod()) {
-        if (options_.time) lod::timeLodCell(lodScene_, variant, record);
+        if (options_.time) timeLod(variant, record);
         return;
     }
-    if (options_.time) timeCell(frames(), variant, options_.seed, record);
+    if (options_.time && timing::hasDeviceClock())
+        timing::setTimes(record, device().measure(scene_, variant, frames().scored(), options_.seed));
+    else if (options_.time)
+        timeCell(frames(), variant, options_.seed, record);
     if (options_.otherScreen)
         record.otherScreen = timing::measureOtherScreen(scene_, variant, frames().scored(), options_.seed);
+}
+
+void SceneCells::timeLod(const techniques::Variant& variant, Record& record) {
+    lod::timeLodCell(lodScene_, variant, record);
+    if (!timing::hasDeviceClock()) return;
+    const int busiest = static_cast<int>(lodScene_.reference().busiest);
+    timing::setLodTimes(record, device().measureLod(scene_, variant, busiest));
+}
+
+timing::DeviceMeter& SceneCells::device() {
+    if (!device_) device_ = std::make_unique<timing::DeviceMeter>();
+    return *device_;
 }
 
 void SceneCells::measure(const techniques::Variant& variant, Record& record, const Progress& progress) {

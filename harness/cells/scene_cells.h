@@ -8,6 +8,7 @@
 #include "harness/cells/neighbours.h"
 #include "harness/cells/scene_frames.h"
 #include "harness/cells/truths.h"
+#include "harness/measure/device_cost.h"
 #include "harness/records/record.h"
 #include "techniques/contract/entry.h"
 
@@ -65,6 +66,8 @@ private:
     void scoreBeside(const techniques::Variant& variant, Record& record);
     void scoreOwn(const techniques::Variant& variant, Record& record, CellImages& images);
     void scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress);
+    void timeLod(const techniques::Variant& variant, Record& record);
+    timing::DeviceMeter& device();
     SceneFrames& frames();
     void keepImages(const techniques::Variant& variant, const CellImages& images);
     std::vector<Image<float>> truthSequence(Truth truth);
@@ -79,6 +82,7 @@ private:
     Truths truths_;
     lod::LodScene lodScene_;
     std::optional<SceneFrames> frames_;
+    std::unique_ptr<timing::DeviceMeter> device_;
     std::unique_ptr<ChangedScene> neighbour_;
     std::vector<std::unique_ptr<ChangedScene>> otherViews_;
     std::set<Truth> keptTruths_, keptSequences_; // whose files this object has written

@@ -16,7 +16,7 @@ double rasterMilliseconds() {
 
 PartTimer::PartTimer() : before_(gl::Context::current().tally()) {
     // Mesa's rasteriser in software answers, but with the time of day at which it came to the query.
-    if (!gl::Context::current().info().software && gl::TimeMeter::isSupported()) onDevice_.emplace();
+    if (!gl::Context::current().info().software && gl::TimeStamps::isSupported()) onDevice_.emplace().mark();
     start_ = rasterMilliseconds();
 }
 
@@ -24,7 +24,10 @@ double PartTimer::milliseconds() {
     gl::Context& context = gl::Context::current();
     const gl::Tally now = context.tally();
     const bool drew = now.draws != before_.draws || now.passes != before_.passes;
-    if (onDevice_ && drew) return onDevice_->milliseconds();
+    if (onDevice_ && drew) {
+        onDevice_->mark();
+        return onDevice_->intervals().front();
+    }
     context.finish();
     return rasterMilliseconds() - start_;
 }

@@ -22,7 +22,7 @@ public:
     double milliseconds();
 
 private:
-    std::optional<gl::TimeMeter> onDevice_;
+    std::optional<gl::TimeStamps> onDevice_;
     gl::Tally before_;
     double start_;
 };

@@ -114,6 +114,17 @@ void fields(auto& visit, Is<OtherScreen> auto& o) {
     visit.objects("by_pass", o.passes);
 }
 
+void fields(auto& visit, Is<DeviceCost> auto& d) {
+    visit.size("size", d.width, d.height);
+    visit("median", d.median);
+    visit("mad", d.mad);
+    visit("ratio", d.ratio);
+    visit("processor", d.processor);
+    visit("motion", d.motion);
+    visit("first", d.first);
+    visit.objects("by_pass", d.passes);
+}
+
 void fields(auto& visit, Is<ReportedCost> auto& r) {
     visit("milliseconds", r.milliseconds);
     visit.text("device", r.device);
@@ -133,6 +144,7 @@ void costFields(auto& visit, Is<Record> auto& r) {
         inner.objects("motion_by_pass", r.motionPasses);
         inner.objects("cold_by_pass", r.coldPasses);
         inner("other_screen", r.otherScreen);
+        inner.objects("device", r.deviceCosts);
     });
 }
 

@@ -80,6 +80,16 @@ struct OtherScreen {
     std::vector<PassRecord> passes;
 };
 
+/// Of a frame on a graphics processor, by that one's own clock, with an image of this size (harness/measure/device_cost.h).
+struct DeviceCost {
+    int width = 0, height = 0;
+    double median = 0, mad = 0;               // ms of the standing frame, G-buffer included
+    double ratio = 1;                         // to sm-uniform, of levels of detail to lod-switch, in the same rounds
+    double processor = 0;                     // ms of passes that ask nothing of the graphics processor
+    std::optional<double> motion, first = {}; // ms of the frame in motion and of the first; none of levels of detail
+    std::vector<PassRecord> passes;
+};
+
 /// What a renderer that is not ours says of its own cost: never compared with what is measured here.
 struct ReportedCost {
     double milliseconds = 0; // of a frame
@@ -120,6 +130,7 @@ struct Record {
     std::vector<PassRecord> motionPasses;        // of the frame in motion; empty where their work is that of `passes`
     std::vector<PassRecord> coldPasses;          // of the first frame, likewise
     std::optional<OtherScreen> otherScreen;      // where costs were measured on an image of another size, too
+    std::vector<DeviceCost> deviceCosts;         // of larger images, where a graphics processor drew
     std::map<std::string, double> figures;       // of the scored frame, by names that `list techniques` explains
     std::optional<ExternalInfo> external;        // of renderers that the program called
     std::map<std::string, double> tolerances;    // the scene's: the worst error that a viewer accepts, by names for bounds

@@ -166,6 +166,26 @@ constexpr const char* withoutMetrics = R"({
         "by_pass": {"$ref": "#/definitions/by_pass"}
       }
     },
+    "device": {
+      "type": "array",
+      "description": "costs of a frame on a graphics processor by its own clock, on larger images",
+      "minItems": 1,
+      "items": {
+        "type": "object",
+        "additionalProperties": false,
+        "required": ["size", "median", "mad", "ratio", "processor", "by_pass"],
+        "properties": {
+          "size": {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 2, "maxItems": 2},
+          "median": {"$ref": "#/definitions/size"},
+          "mad": {"$ref": "#/definitions/size"},
+          "ratio": {"$ref": "#/definitions/size"},
+          "processor": {"$ref": "#/definitions/size"},
+          "motion": {"$ref": "#/definitions/size"},
+          "first": {"$ref": "#/definitions/size"},
+          "by_pass": {"$ref": "#/definitions/by_pass"}
+        }
+      }
+    },
     "reference": {
       "type": "object",
       "additionalProperties": false,
@@ -239,6 +259,7 @@ std::string recordSchema() {
     for (const char* passes : {"by_pass", "motion_by_pass", "cold_by_pass"})
         costs[passes] = {{"$ref", "#/definitions/by_pass"}};
     costs["other_screen"] = {{"$ref", "#/definitions/other_screen"}};
+    costs["device"] = {{"$ref", "#/definitions/device"}};
     return schema.dump(2) + "\n";
 }
 

@@ -130,6 +130,7 @@ Record withoutTimings(Record record) {
             if (pass.bare) pass.bare->milliseconds.reset();
         }
     record.otherScreen.reset(); // measured for its times
+    record.deviceCosts.clear();
     if (record.external) record.external->reported.reset();
     return record;
 }

@@ -63,19 +63,21 @@ std::uint64_t FragmentMeter::finish() {
     return resultOf(query_);
 }
 
-TimeMeter::TimeMeter() {
-    glGenQueries(2, queries_);
-    glQueryCounter(queries_[0], GL_TIMESTAMP);
+TimeStamps::~TimeStamps() { glDeleteQueries(static_cast<GLsizei>(queries_.size()), queries_.data()); }
+
+void TimeStamps::mark() {
+    glGenQueries(1, &queries_.emplace_back());
+    glQueryCounter(queries_.back(), GL_TIMESTAMP);
 }
 
-TimeMeter::~TimeMeter() { glDeleteQueries(2, queries_); }
-
-double TimeMeter::milliseconds() {
-    glQueryCounter(queries_[1], GL_TIMESTAMP);
-    return 1e-6 * static_cast<double>(resultOf(queries_[1]) - resultOf(queries_[0]));
+std::vector<double> TimeStamps::intervals() const {
+    std::vector<double> result;
+    for (std::size_t i = 1; i < queries_.size(); ++i)
+        result.push_back(1e-6 * static_cast<double>(resultOf(queries_[i]) - resultOf(queries_[i - 1])));
+    return result;
 }
 
-bool TimeMeter::isSupported() {
+bool TimeStamps::isSupported() {
     GLint bits = 0;
     glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
     return bits > 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 namespace shadowbench::gl {
 
@@ -63,23 +64,25 @@ private:
     void end();
 };
 
-/// Time between construction and `milliseconds`, on the clock of the graphics processor: it does not count what the program
-/// does before it submits. Only where `isSupported`.
-class TimeMeter {
+/// Moments on the clock of the graphics processor, each when what was submitted before it is done: they do not count what
+/// the program does before it submits. Only where `isSupported`.
+class TimeStamps {
 public:
-    TimeMeter();
-    ~TimeMeter();
-    TimeMeter(const TimeMeter&) = delete;
-    TimeMeter& operator=(const TimeMeter&) = delete;
+    TimeStamps() = default;
+    ~TimeStamps();
+    TimeStamps(const TimeStamps&) = delete;
+    TimeStamps& operator=(const TimeStamps&) = delete;
 
-    /// Waits until what was submitted is done. Once.
-    double milliseconds();
+    void mark();
+
+    /// Milliseconds from each mark to the next one. Waits until the last is reached.
+    [[nodiscard]] std::vector<double> intervals() const;
 
     /// Whether the driver has that clock.
     static bool isSupported();
 
 private:
-    unsigned queries_[2];
+    std::vector<unsigned> queries_;
 };
 
 } // namespace shadowbench::gl
