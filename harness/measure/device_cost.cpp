@@ -62,8 +62,6 @@ class Unheard final : public techniques::PassListener {
     void end(std::string_view /*pass*/) override {}
 };
 
-bool asksTheDevice(const PassCost& pass) { return pass.work.draws > 0 || pass.work.passes > 0; }
-
 } // namespace
 
 bool hasDeviceClock() { return !gl::Context::current().info().software && gl::TimeStamps::isSupported(); }
@@ -80,7 +78,7 @@ void setTimes(Record& record, const std::vector<DeviceTimes>& times) {
     time.processorShare = cost.processor / (cost.processor + cost.median);
     time.samples = all.samples;
     setTime(record, time);
-    setTime(record, MotionTime{*cost.motion, *cost.motion / all.baseMedian, all.motionSamples});
+    setTime(record, MotionTime{*cost.motion, all.motionRatio, all.motionSamples});
     setTime(record, ColdTime{*cost.first, all.compile});
     setLodTimes(record, times);
 }
@@ -90,29 +88,39 @@ void setLodTimes(Record& record, const std::vector<DeviceTimes>& times) {
     for (const DeviceTimes& each : times) record.deviceCosts.push_back(each.cost);
 }
 
-/// Marks where passes begin and end.
+/// Marks where passes begin and end, on the clocks of both processors.
 class DeviceMeter::Stamped final : public techniques::PassListener {
 public:
-    void begin(std::string_view pass) override {
-        names_.emplace_back(pass);
-        stamps_.mark();
-    }
-    void end(std::string_view /*pass*/) override {
-        names_.emplace_back(betweenPasses);
-        stamps_.mark();
-    }
+    void begin(std::string_view pass) override { mark(pass); }
+    void end(std::string_view /*pass*/) override { mark(betweenPasses); }
 
-    /// Milliseconds of what began as `name`, all its runs together.
-    [[nodiscard]] double of(std::string_view name) const {
-        const std::vector<double> intervals = stamps_.intervals();
-        double sum = 0;
-        for (std::size_t i = 0; i < intervals.size(); ++i)
-            if (names_[i] == name) sum += intervals[i];
-        return sum;
+    /// Milliseconds on the graphics processor of what began as `name`, all its runs together.
+    [[nodiscard]] double of(std::string_view name) const { return sum(name, stamps_.intervals()); }
+
+    /// Until the program went on: of what only submits, little.
+    [[nodiscard]] double onProcessor(std::string_view name) const {
+        std::vector<double> intervals;
+        for (std::size_t i = 1; i < wall_.size(); ++i)
+            intervals.push_back(std::chrono::duration<double, std::milli>(wall_[i] - wall_[i - 1]).count());
+        return sum(name, intervals);
     }
 
 private:
+    void mark(std::string_view name) {
+        names_.emplace_back(name);
+        stamps_.mark();
+        wall_.push_back(Clock::now());
+    }
+
+    [[nodiscard]] double sum(std::string_view name, const std::vector<double>& intervals) const {
+        double result = 0;
+        for (std::size_t i = 0; i < intervals.size(); ++i)
+            if (names_[i] == name) result += intervals[i];
+        return result;
+    }
+
     gl::TimeStamps stamps_;
+    std::vector<Clock::time_point> wall_;
     std::vector<std::string> names_;
 };
 
@@ -174,11 +182,9 @@ std::vector<double> DeviceMeter::samples(int rounds, const std::function<void()>
     return times;
 }
 
-void DeviceMeter::timePasses(FramePasses& passes, const RenderFrame& render, int rounds) {
-    FramePasses onProcessor = passes;
-    timing::timePasses(onProcessor, render, 1);
+double DeviceMeter::timePasses(FramePasses& passes, const RenderFrame& render, int rounds) {
     std::vector<std::vector<double>> times(passes.passes.size());
-    std::vector<double> between;
+    std::vector<double> between, processor;
     for (int round = 0; round < rounds; ++round) {
         raiseClock();
         target_.bind();
@@ -189,11 +195,14 @@ void DeviceMeter::timePasses(FramePasses& passes, const RenderFrame& render, int
         stamps.end("");
         for (std::size_t i = 0; i < times.size(); ++i) times[i].push_back(stamps.of(passes.passes[i].name));
         between.push_back(stamps.of(betweenPasses));
+        double alone = 0;
+        for (const PassCost& pass : passes.passes)
+            if (pass.work.draws == 0 && pass.work.passes == 0) alone += stamps.onProcessor(pass.name);
+        processor.push_back(alone);
     }
-    for (std::size_t i = 0; i < times.size(); ++i)
-        passes.passes[i].milliseconds =
-            asksTheDevice(passes.passes[i]) ? median(times[i]) : onProcessor.passes[i].milliseconds;
+    for (std::size_t i = 0; i < times.size(); ++i) passes.passes[i].milliseconds = median(times[i]);
     passes.outside.milliseconds = median(between);
+    return median(processor);
 }
 
 DeviceTimes DeviceMeter::measure(const MeasuredFrames& frames, int width, int height) {
@@ -201,25 +210,27 @@ DeviceTimes DeviceMeter::measure(const MeasuredFrames& frames, int width, int he
     const FrameRounds rounds = roundsOf(samples(1, {}, frames.standing).front());
     const auto base = [&](techniques::PassListener&) { frames.base(); };
     DeviceTimes times;
+    DeviceCost& cost = times.cost;
+    cost.width = width;
+    cost.height = height;
     std::vector<double> others;
     for (int round = 0; round < rounds.whole; ++round) {
         times.samples.push_back(samples(1, {}, frames.standing).front());
         others.push_back(samples(1, {}, base).front());
     }
-    times.baseMedian = median(others);
-    DeviceCost& cost = times.cost;
-    cost.width = width;
-    cost.height = height;
     cost.median = median(times.samples);
     cost.mad = medianDeviation(times.samples);
     cost.ratio = median(quotients(times.samples, others));
-    timePasses(passes, frames.standing, rounds.others);
-    for (const PassCost& pass : passes.passes)
-        if (!asksTheDevice(pass)) cost.processor += pass.milliseconds;
+    cost.processor = timePasses(passes, frames.standing, rounds.others);
     cost.passes = passRecords(passes, true);
     if (frames.moved) {
-        times.motionSamples = samples(rounds.others, frames.leave, frames.moved);
+        others.clear();
+        for (int round = 0; round < rounds.others; ++round) {
+            times.motionSamples.push_back(samples(1, frames.leave, frames.moved).front());
+            others.push_back(samples(1, {}, base).front());
+        }
         cost.motion = median(times.motionSamples);
+        times.motionRatio = median(quotients(times.motionSamples, others));
         frames.stand();
     }
     if (frames.forget) cost.first = median(samples(rounds.others, frames.forget, frames.standing));

@@ -31,7 +31,7 @@ struct MeasuredFrames {
 struct DeviceTimes {
     DeviceCost cost;
     std::vector<double> samples, motionSamples; // ms
-    double baseMedian = 0;                      // ms of what it is compared with
+    double motionRatio = 1;                     // of the frame in motion to what it is compared with, then
     double compile = 0; // ms of wall time that the first frame of a new technique takes beyond the second
 };
 
@@ -70,7 +70,7 @@ private:
     void raiseClock();
     Stamped stamped(const RenderFrame& render);
     std::vector<double> samples(int rounds, const std::function<void()>& before, const RenderFrame& render);
-    void timePasses(FramePasses& passes, const RenderFrame& render, int rounds);
+    double timePasses(FramePasses& passes, const RenderFrame& render, int rounds);
 
     gl::Texture texture_;
     gl::RenderTarget target_;

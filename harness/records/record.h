@@ -85,7 +85,7 @@ struct DeviceCost {
     int width = 0, height = 0;
     double median = 0, mad = 0;               // ms of the standing frame, G-buffer included
     double ratio = 1;                         // to sm-uniform, of levels of detail to lod-switch, in the same rounds
-    double processor = 0;                     // ms of passes that ask nothing of the graphics processor
+    double processor = 0;                     // ms of the program in passes that draw nothing
     std::optional<double> motion, first = {}; // ms of the frame in motion and of the first; none of levels of detail
     std::vector<PassRecord> passes;
 };
