@@ -115,7 +115,7 @@ void requireMeshExtension(const std::string& extension) { importerFor(extension)
 Mesh compacted(const Mesh& mesh) {
     constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> place(mesh.positions.size(), kUnused);
-    Mesh result{{}, {}, mesh.closed};
+    Mesh result{{}, {}, mesh.closed, mesh.flat};
     for (const glm::uvec3& t : mesh.triangles) {
         glm::uvec3 moved(0);
         for (int corner = 0; corner < 3; ++corner) {
