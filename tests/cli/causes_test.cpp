@@ -5,6 +5,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace shadowbench {
 namespace {
@@ -35,6 +36,22 @@ TEST_F(Causes, PrintsWhatToChangeFirstAndDrawsThePicture) {
     for (const auto& [cause, error] : rows[0].at("causes").items()) sum += error.get<double>();
     EXPECT_NEAR(sum, rows[0].at("error").get<double>(), 1e-6);
     EXPECT_FALSE(rows[1].at("causes").contains("undersampled")) << "a volume has no texels";
+}
+
+TEST_F(Causes, TheTableFitsATerminalAndNamesEachReasonOnce) {
+    const Outcome outcome = causes(
+        "--technique sm-uniform:map=16 --technique pcf:map=32,bias=none --technique 'p*' --technique bitmask --scene " +
+        scene_);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    std::istringstream lines(outcome.output);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(line.size(), line.starts_with("page: ") ? 999U : 120U) << line;
+    const std::string reason = "needs an area light";
+    const std::size_t first = outcome.output.find(reason);
+    ASSERT_NE(first, std::string::npos) << outcome.output;
+    EXPECT_EQ(outcome.output.find(reason, first + 1), std::string::npos) << outcome.output;
+    for (const char* row : {" bitmask,", " pcss,", " pcss:taps=32+32,", " penumbra-wedge:side=3,"})
+        EXPECT_NE(outcome.output.find(row, first), std::string::npos) << row << outcome.output;
 }
 
 TEST_F(Causes, WrongArgumentsEndInOneLine) {
