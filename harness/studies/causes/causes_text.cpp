@@ -33,7 +33,7 @@ std::string listed(std::string line, const std::vector<std::string>& words) {
 }
 
 std::string legend() {
-    std::vector<std::string> colours{"grey right"};
+    std::vector<std::string> colours{"black not scored", "grey right"};
     for (const CauseWords& cause : allCauses()) colours.push_back(fmt::format("{} {}", cause.colourName, cause.name));
     return listed("pictures:", colours);
 }
