@@ -127,6 +127,13 @@ std::string nextOf(std::string_view name, const Entry& entry, const Parameters& 
     return nextOf(std::span(&name, 1), entry, row, up);
 }
 
+/// Of pages both, since each may be what limits them.
+std::string finerTexels(const Entry& entry, const Parameters& row) {
+    const std::string density = nextOf("density", entry, row, true), page = nextOf("page", entry, row, true);
+    const bool hasRoom = !page.empty() && 2 * row.integer("page") <= row.integer("map");
+    return !density.empty() && hasRoom ? density + "," + page : nextOf(texels, entry, row, true);
+}
+
 /// A bias that suffices, or more of it.
 std::string moreBias(const Entry& entry, const Parameters& row) {
     if (const auto enough = withEnoughBias(entry, row)) return changes(row, *enough);
@@ -138,7 +145,7 @@ std::string moreBias(const Entry& entry, const Parameters& row) {
 std::string lessBias(const Entry& entry, const Parameters& row) {
     const auto own = withOwnBias(entry, row);
     const std::string less = own && !withEnoughBias(entry, row) ? changes(row, *own) : "";
-    return firstOf({less, nextOf("variance", entry, row, false), nextOf(texels, entry, row, true),
+    return firstOf({less, nextOf("variance", entry, row, false), finerTexels(entry, row),
                     nextOf(sizeOfBias(entry, row), entry, row, false)});
 }
 
@@ -174,7 +181,11 @@ std::optional<Parameters> withFineTexels(const Entry& entry, const Parameters& r
         const double now = row.real("density");
         const double fine = std::min(times * now, std::get<RealRange>(density->domain).high);
         if (fine <= now) return {};
-        return withBiasOf(with(row, "density", fmt::format("{}", fine)), entry, fine / now);
+        const Parameters dense = withBiasOf(with(row, "density", fmt::format("{}", fine)), entry, fine / now);
+        const Parameter* page = declared(entry, "page"); // of so many texels at the last level, however dense they should be
+        if (page == nullptr) return dense;
+        const int largest = std::min(std::get<IntegerRange>(page->domain).high, row.integer("map"));
+        return with(dense, "page", fmt::format("{}", largest));
     }
     if (const Parameter* map = declared(entry, "map")) {
         const int now = row.integer("map");
@@ -231,7 +242,7 @@ std::string changeAgainst(Cause cause, const Entry& entry, const Parameters& row
     case Cause::SmallBias:
         return moreBias(entry, row);
     case Cause::Undersampled:
-        return nextOf(texels, entry, row, true);
+        return finerTexels(entry, row);
     case Cause::LargeBias:
         return lessBias(entry, row);
     case Cause::FewSamples:

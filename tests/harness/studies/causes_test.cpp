@@ -124,6 +124,9 @@ TEST(Experiments, TexelsOfPagesAreFinerByDensityAndNotByMemory) {
     EXPECT_EQ(valueIn(fine, "density"), "8");
     EXPECT_EQ(valueIn(fine, "map"), row.parameters.text("map"));
     EXPECT_EQ(valueIn(fine, "factor"), "24");
+    EXPECT_EQ(valueIn(fine, "page"), "1024"); // (1024 · 2^levels)² texels
+    const auto small = techniques::parseVariant("sm-adaptive:map=256");
+    EXPECT_EQ(valueIn(withFineTexels(*small.entry, small.parameters), "page"), "256");
 }
 
 TEST(Experiments, LessBiasIsAQuarterAndOfAVarianceThatOfADeviation) {
@@ -145,7 +148,8 @@ TEST(Experiments, WhatToChangeIsAParameterThatTheRowHas) {
     EXPECT_EQ(against(Cause::LargeBias, "deep-sm:map=1024"), "factor=1"); // at its limit
     EXPECT_EQ(against(Cause::LargeBias, "sm-uniform:map=8192,bias=constant"), "units=32");
     EXPECT_EQ(against(Cause::LargeBias, "vsm"), "variance=5e-07"); // whatever its texels
-    EXPECT_EQ(against(Cause::Undersampled, "sm-adaptive"), "density=2");
+    EXPECT_EQ(against(Cause::Undersampled, "sm-adaptive"), "density=2,page=256");
+    EXPECT_EQ(against(Cause::Undersampled, "sm-adaptive:page=512,map=512"), "density=2");
     EXPECT_EQ(against(Cause::Outside, "sm-psm:behind=lost"), "behind=negative-near");
     EXPECT_EQ(against(Cause::FewSamples, "pcss"), "taps=32+32");
     EXPECT_EQ(against(Cause::Leak, "vsm"), "bleeding=0.2");
