@@ -55,7 +55,8 @@ TEST_F(Causes, TheTableFitsATerminalAndNamesEachReasonOnce) {
 }
 
 TEST_F(Causes, WrongArgumentsEndInOneLine) {
-    for (const std::string options : {"--technique lod-full", "--technique sm-unifrom", "--caster-level 1"}) {
+    for (const std::string options :
+         {"--technique lod-full", "--technique sm-unifrom", "--technique pcss", "--caster-level 1"}) {
         const Outcome outcome = causes(options + " --scene " + scene_);
         EXPECT_EQ(outcome.code, 2) << options << outcome.output;
         EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;

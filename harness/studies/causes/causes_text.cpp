@@ -107,9 +107,14 @@ std::string sharesText(const Explanation& explanation) {
 
 std::string text(const CausesResult& result) {
     std::string lines;
-    for (const SceneCauses& scene : result.scenes)
-        lines += fmt::format(" scene: {} · {}\n{}{}\n", scene.scene, metricsOf(scene),
-                             report::aligned(tableOf(scene, false)), notesOf(scene));
+    for (const SceneCauses& scene : result.scenes) {
+        lines += fmt::format(" scene: {}", scene.scene);
+        if (!scene.rows.empty())
+            lines += fmt::format(" · {}\n{}", metricsOf(scene), report::aligned(tableOf(scene, false)));
+        else
+            lines += "\n";
+        lines += notesOf(scene) + "\n";
+    }
     return lines + " " + legend() + "\n";
 }
 
