@@ -85,7 +85,8 @@ void requireSamePrimaryHits(const Request& request, const povray::Render& image,
     requireUncutScene(request, image);
     throw InternalError(
         fmt::format("POV-Ray and the exact primary hits disagree on {:.2f} % of the pixels (at most {:.1f} %): "
-                    "their cameras are misaligned; report this scene",
+                    "if shadowbench inspect SCENE warns of its size or its place, follow that; else their cameras are "
+                    "misaligned: report this scene",
                     100 * mismatch, 100 * mostPrimaryMismatch));
 }
 

@@ -36,8 +36,9 @@ void requireAreas(const Mesh& mesh, const std::string& what) {
     if (found == mesh.triangles.end()) return;
     const Fault flat = faultsOf(mesh).flat;
     throw BadInput(fmt::format("{}: triangle {} has zero area, as {} of {} have, {}; delete them in the modelling program "
-                               "(Blender: Mesh > Clean Up > Degenerate Dissolve)",
-                               what, found - mesh.triangles.begin(), flat.count, mesh.triangles.size(), placeOf(flat)));
+                               "(Blender: Mesh > Clean Up > Degenerate Dissolve){}",
+                               what, found - mesh.triangles.begin(), flat.count, mesh.triangles.size(), placeOf(flat),
+                               mesh.closed ? ", or leave out closed = true" : ""));
 }
 
 /// A mesh that is not closed fails with its gravest fault, the likely cause and what to do.

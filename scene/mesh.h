@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -23,11 +24,22 @@ struct Bounds {
     [[nodiscard]] std::array<glm::dvec3, 8> corners() const;
 };
 
+/// How many of one kind there are, and where the first is: the middle of an edge or triangle, or a position.
+struct Fault {
+    std::size_t count = 0;
+    glm::vec3 place{0};
+
+    void add(const glm::vec3& where) {
+        if (count++ == 0) place = where;
+    }
+};
+
 /// Positions are 32-bit floats so that the rasteriser and the exact ground truth start from the very same numbers.
 struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> triangles; // indices into positions
     bool closed = false;               // 2-manifold without border, consistently wound, outward
+    Fault flat{};                      // triangles of no area that have been left out
 
     [[nodiscard]] Bounds bounds() const;
 };

@@ -25,6 +25,7 @@ void findTriangles(const Mesh& mesh, MeshFaults& faults) {
     const auto middle = [&](const glm::uvec3& t) {
         return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0F;
     };
+    faults.flat = mesh.flat;
     std::vector<std::array<std::uint32_t, 3>> corners;
     corners.reserve(mesh.triangles.size());
     for (const glm::uvec3& t : mesh.triangles) {

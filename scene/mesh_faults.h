@@ -9,16 +9,6 @@
 
 namespace shadowbench {
 
-/// How many of one kind there are, and where the first is: the middle of an edge or triangle, or a position.
-struct Fault {
-    std::size_t count = 0;
-    glm::vec3 place{0};
-
-    void add(const glm::vec3& where) {
-        if (count++ == 0) place = where;
-    }
-};
-
 struct EdgeFaults {
     Fault open;    // edges of one triangle
     Fault crowded; // edges of more than two
@@ -30,7 +20,7 @@ struct EdgeFaults {
 
 struct MeshFaults {
     EdgeFaults edges;
-    Fault flat;            // triangles of no area
+    Fault flat;            // triangles of no area, with those that the mesh is without
     Fault repeated;        // triangles with the corners of another one
     Fault doubled;         // positions that equal another one
     double volume = 0;     // signedVolume()

@@ -46,10 +46,11 @@ AreaInfo besideArea(SceneFrames& frames, const Receivers& receivers, const Image
 const Mask& alignedMask(const Receivers& receivers, Truth truth, int frame) {
     const Mask& mask = receivers(truth);
     if (mask.aligned) return mask;
-    throw InternalError(
-        fmt::format("the rasteriser and the ground truth disagree on the primary hit of {:.2f} % of the pixels of frame {} "
-                    "(limit 0.10 %): camera or geometry differ, so no score is given",
-                    100 * mask.primaryMismatch, frame));
+    throw InternalError(fmt::format(
+        "the rasteriser and the ground truth disagree on the primary hit of {:.2f} % of the pixels of frame {} "
+        "(limit 0.10 %), so no score is given: two faces lie in one plane (move one), or surfaces are too near to "
+        "each other for single precision (shadowbench inspect SCENE says why)",
+        100 * mask.primaryMismatch, frame));
 }
 
 /// Metrics of one frame against one truth, of those kinds that fit it.

@@ -28,15 +28,16 @@ std::string foundOf(const MeshFaults& faults) {
 
 std::string faultsOf(const MeshFaults& faults) {
     std::string text;
-    const auto add = [&](const Fault& fault, const char* what) {
+    const auto add = [&](const Fault& fault, const char* what, const char* remedy = "") {
         if (fault.count > 0)
-            text += line("", fmt::format("{}: {}, the first near {}", what, fault.count, point(fault.place)));
+            text += line("", fmt::format("{}: {}, the first near {}{}", what, fault.count, point(fault.place), remedy));
     };
     add(faults.edges.open, "edges of one triangle");
     add(faults.edges.crowded, "edges of more than two triangles");
     add(faults.edges.turned, "edges whose two triangles face opposite ways");
     add(faults.turnedParts, "parts that are turned inside out");
-    add(faults.flat, "triangles of no area");
+    add(faults.flat, "triangles of no area, which are left out",
+        "; delete them in the modelling program (Blender: Mesh > Clean Up > Degenerate Dissolve)");
     add(faults.repeated, "triangles with the corners of another");
     add(faults.doubled, "vertices at the place of another");
     return text;

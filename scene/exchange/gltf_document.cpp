@@ -75,8 +75,7 @@ GltfDocument::GltfDocument(std::string_view bytes, bool isBinary) {
     const std::string_view text = isBinary ? glbChunks(bytes).json : bytes;
     json_ = Json::parse(boundedJson(text, "its JSON"), nullptr, false);
     if (!json_.is_object()) throw BadInput("it is not valid JSON");
-    if (member(json_, "asset").value("version", std::string()) != "2.0")
-        throw BadInput("it is no glTF 2.0; export it as that");
+    if (member(json_, "asset").value("version", Json()) != "2.0") throw BadInput("it is no glTF 2.0; export it as that");
     for (const Json& extension : listIn(json_, "extensionsRequired")) requireHarmless(extension.get<std::string>());
 }
 

@@ -127,8 +127,24 @@ private:
         const GltfView& view = cameras_.chosen(use_.camera, use_.file);
         toml::table camera = view.keys;
         if (view.endless) camera.insert("far", reachOf(view));
+        if (!view.isAimed) aim(camera);
         scene.insert("camera", std::move(camera));
         if (!scene.contains("size")) scene.insert("size", sizeOf(view));
+    }
+
+    static glm::dvec3 pointIn(const toml::table& camera, const char* key) {
+        glm::dvec3 point;
+        for (int i = 0; i < 3; ++i) point[i] = camera[key][static_cast<std::size_t>(i)].value_or(0.0);
+        return point;
+    }
+
+    /// Puts the target as far away as the middle of the scene, if that is ahead: other views turn about it, and how large a
+    /// scene looks is judged by it.
+    void aim(toml::table& camera) const {
+        if (!objects_.bounds()) return;
+        const glm::dvec3 eye = pointIn(camera, "eye"), forward = pointIn(camera, "target") - eye; // 1 m long
+        const double depth = glm::dot(objects_.bounds()->centre() - eye, forward);
+        if (depth > camera["near"].value_or(0.0)) camera.insert_or_assign("target", tomlOf(eye + depth * forward));
     }
 
     /// A camera that sees without end sees the whole scene.
@@ -138,8 +154,7 @@ private:
             throw BadInput(fmt::format("camera \"{}\" has no zfar, and no min and max of positions say how far the scene "
                                        "reaches; give it an end in the modelling program",
                                        camera.name));
-        glm::dvec3 eye;
-        for (int i = 0; i < 3; ++i) eye[i] = camera.keys["eye"][static_cast<std::size_t>(i)].value_or(0.0);
+        const glm::dvec3 eye = pointIn(camera.keys, "eye");
         double reach = 2 * camera.keys["near"].value_or(0.0);
         for (const glm::dvec3& corner : objects_.bounds()->corners())
             reach = std::max(reach, room * glm::distance(eye, corner));

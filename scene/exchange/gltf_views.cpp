@@ -71,6 +71,7 @@ GltfView cameraOf(const Json& camera, const glm::dmat4& world, double metres, bo
                             {"up", tomlOf(glm::normalize(glm::dvec3(world[1])))},
                             {"fovy", glm::degrees(seen.at("yfov").get<double>())},
                             {"near", metres * seen.at("znear").get<double>()}};
+    view.isAimed = false;
     view.endless = !seen.contains("zfar");
     if (!view.endless) view.keys.insert("far", metres * seen["zfar"].get<double>());
     return view;

@@ -17,6 +17,7 @@ struct GltfView {
     toml::table keys; // of `camera` or `light` in a scene file
     double aspect = 1;
     bool endless = false;  // a camera without zfar, whose keys lack `far`
+    bool isAimed = true;   // else a camera's `target` is no more than a point before it
     std::string refusal{}; // why a scene cannot have it, and what to write instead
 };
 

@@ -221,8 +221,9 @@ std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, int tria
     made.closed = closed && closed->boolean();
     convert(made, conventions);
     const std::string what = part ? fmt::format("{}: mesh \"{}\"", name.where(), part->text()) : name.where();
+    made = withoutFlat(made);
     requireWellFormed(made, what);
-    if (wanted > 0) made = simplified(made, wanted);
+    if (wanted > 0) made = withoutFlat(simplified(made, wanted));
     requireWellFormed(made, what);
     requireRoom(made, name);
     mesh = std::make_shared<const Mesh>(std::move(made));

@@ -22,6 +22,10 @@ Mesh importMesh(const std::filesystem::path& file);
 /// 32-bit floats; lists, strips and fans; buffers beside the file, within it or in data URIs. Throws as above.
 std::map<std::string, Mesh> importParts(const std::filesystem::path& file);
 
+/// `mesh` without its triangles of no area, which no image shows, and with what it says of them in `flat`. One that is said
+/// to be closed is as it was: they may be what closes it; and so is one that has no others.
+Mesh withoutFlat(const Mesh& mesh);
+
 /// About `triangles` triangles of the same shape, by edge collapses at existing positions; never more than `mesh` has.
 Mesh simplified(const Mesh& mesh, int triangles);
 

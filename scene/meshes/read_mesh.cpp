@@ -72,6 +72,8 @@ void keepOnly(Assimp::Importer& importer, std::string_view kept) {
     }
 }
 
+const char* const noTriangle = "it holds no triangle: points and lines cast no shadow";
+
 std::string_view importerFor(const std::string& extension) {
     for (const Format& format : formats)
         if (format.extension == extension) return format.importer;
@@ -115,7 +117,7 @@ void requireMeshExtension(const std::string& extension) { importerFor(extension)
 Mesh compacted(const Mesh& mesh) {
     constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> place(mesh.positions.size(), kUnused);
-    Mesh result{{}, {}, mesh.closed};
+    Mesh result{{}, {}, mesh.closed, mesh.flat};
     for (const glm::uvec3& t : mesh.triangles) {
         glm::uvec3 moved(0);
         for (int corner = 0; corner < 3; ++corner) {
@@ -137,11 +139,14 @@ Mesh readMeshHere(const ForeignMeshFile& file) {
     importer.SetIOHandler(new HandedFiles(file)); // which it deletes
     const aiScene* scene =
         importer.ReadFile(HandedFiles::nameOf(file), aiProcess_Triangulate | aiProcess_PreTransformVertices);
-    if (scene == nullptr) throw BadInput(importer.GetErrorString());
+    if (scene == nullptr) {
+        const std::string_view said = importer.GetErrorString();
+        throw BadInput(said.starts_with("No output meshes") ? noTriangle : std::string(said));
+    }
     requireCounts(*scene);
     Mesh mesh;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) addTriangles(mesh, *scene->mMeshes[i]);
-    if (mesh.triangles.empty()) throw BadInput("it holds no triangle");
+    if (mesh.triangles.empty()) throw BadInput(noTriangle);
     return compacted(weld(mesh));
 }
 

@@ -101,9 +101,10 @@ struct Plant {
     }
 };
 
-/// Three scenes a cause, each with what the cause needs: shadows all over, or a light among the casters, for maps that end;
-/// thin casters for filters; long shadows for coarse maps, since of low things a coarse map's own bias eats more; low things
-/// and things that stand on the ground for biases; casters above each other for combinations; levels for geometry.
+/// At least three scenes a cause, each with what the cause needs: shadows all over, or a light among the casters, for maps
+/// that end; thin casters for filters; long shadows for coarse maps, since of low things a coarse map's own bias eats more;
+/// low things and things that stand on the ground for biases; casters above each other for combinations; levels for
+/// geometry.
 const std::vector<Plant> plants{
     {Cause::Outside, "caster-behind-eye", "sm-psm:behind=lost"},
     {Cause::Outside, "dueling-frusta", "middle"},
@@ -117,6 +118,8 @@ const std::vector<Plant> plants{
     {Cause::LargeBias, "contact", "sm-uniform:factor=64"},
     {Cause::LargeBias, "trees", "sm-uniform:factor=64"},
     {Cause::LargeBias, "windmills", "sm-uniform:bias=constant,units=1600000"},
+    {Cause::LargeBias, "contact", "vsm:variance=0.001"},
+    {Cause::LargeBias, "windmills", "vsm:variance=0.001"},
     {Cause::Filter, "windmills", "pcf-poisson:radius=32"},
     {Cause::Filter, "trees", "pcf-poisson:radius=32"},
     {Cause::Filter, "dueling-frusta", "esm:kernel=48"},
@@ -165,6 +168,22 @@ double shareOf(Cause cause, const Explanation& explanation) {
     return found == explanation.parts.end() ? 0 : found->second / explanation.error;
 }
 
+TEST(Causes, WhatToChangeFirstIsOfTheLargestCauseThatSomethingIsDoneAgainst) {
+    testContext();
+    const Explanation sharp = Staged(smallScene("windmills")).explained("vsm:kernel=1,variance=0.0001");
+    EXPECT_EQ(sharp.parts.front().first, Cause::Method) << sharesText(sharp);
+    EXPECT_EQ(sharp.change, "variance=5e-05") << sharesText(sharp);
+    EXPECT_EQ(Staged(smallScene("open-mesh")).explained("volume-zfail").change, "close the meshes");
+    EXPECT_EQ(Staged(smallScene("contact")).explained("none").change, "the method itself");
+}
+
+TEST(Causes, ANewHistoryAsksForMoreFramesOfWhatStands) {
+    testContext();
+    const Explanation still = Staged(smallScene("dueling-frusta")).explained("sm-history:base=uniform");
+    EXPECT_EQ(still.parts.front().first, Cause::History) << sharesText(still);
+    EXPECT_EQ(still.change, "more still frames");
+}
+
 TEST(Causes, RowsThatCombineCastersExactlyFuseHardlyAnything) {
     testContext();
     const Explanation maps = Staged(smallScene("overlapping-occluders")).explained("sampled-maps");
@@ -175,6 +194,7 @@ TEST(Causes, AHistorySettlesWhereCastersHaveTurnedBefore) {
     testContext();
     const Explanation turning = Staged(arrivedScene("windmills")).explained("sm-history");
     EXPECT_GT(shareOf(Cause::History, turning), 0.7) << sharesText(turning); // what a step of their turn blurs is history
+    EXPECT_EQ(turning.change, "hold the history back");
 }
 
 TEST(Causes, AddUpToTheErrorOfTheRecord) {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace shadowbench {
 namespace {
@@ -37,8 +38,25 @@ TEST_F(Causes, PrintsWhatToChangeFirstAndDrawsThePicture) {
     EXPECT_FALSE(rows[1].at("causes").contains("undersampled")) << "a volume has no texels";
 }
 
+TEST_F(Causes, TheTableFitsATerminalAndNamesEachReasonOnce) {
+    const Outcome outcome = causes(
+        "--technique sm-uniform:map=16 --technique pcf:map=32,bias=none --technique 'p*' --technique bitmask --scene " +
+        scene_);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    std::istringstream lines(outcome.output);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(line.size(), line.starts_with("page: ") ? 999U : 120U) << line;
+    const std::string reason = "needs an area light";
+    const std::size_t first = outcome.output.find(reason);
+    ASSERT_NE(first, std::string::npos) << outcome.output;
+    EXPECT_EQ(outcome.output.find(reason, first + 1), std::string::npos) << outcome.output;
+    for (const char* row : {" bitmask,", " pcss,", " pcss:taps=32+32,", " penumbra-wedge:side=3,"})
+        EXPECT_NE(outcome.output.find(row, first), std::string::npos) << row << outcome.output;
+}
+
 TEST_F(Causes, WrongArgumentsEndInOneLine) {
-    for (const std::string options : {"--technique lod-full", "--technique sm-unifrom", "--caster-level 1"}) {
+    for (const std::string options :
+         {"--technique lod-full", "--technique sm-unifrom", "--technique pcss", "--caster-level 1"}) {
         const Outcome outcome = causes(options + " --scene " + scene_);
         EXPECT_EQ(outcome.code, 2) << options << outcome.output;
         EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;

@@ -70,5 +70,17 @@ TEST_F(InspectVerb, ARunSaysTheSameBeforeItMeasures) {
     EXPECT_EQ(ran(sound_).output.find("warning"), std::string::npos);
 }
 
+TEST_F(InspectVerb, WhatARunCannotScoreForItsSceneIsSentHere) {
+    const Outcome far = ran(folder_.write(
+        "far.toml", "title = \"Far\"\nsize = 32\nlight = { kind = \"directional\", direction = [0.3, -1, 0.2] }\n"
+                    "camera = { eye = [1000002, 6, 7], target = [1000000, 0, 0], near = 0.5, far = 40, fovy = 45 }\n"
+                    "timeline = { still = 1, moving = 0 }\n[[object]]\nmesh = { box = { size = [8, 0.3, 8] } }\n"
+                    "place = [{ at = [1000000, 0, 0] }]\n"));
+    EXPECT_EQ(far.code, 1) << far.output;
+    EXPECT_NE(far.output.find("disagree on the primary hit"), std::string::npos) << far.output;
+    EXPECT_NE(far.output.find("(shadowbench inspect SCENE says why)"), std::string::npos) << far.output;
+    EXPECT_NE(far.output.find("far: warning: the camera is 1e+06 m from the origin"), std::string::npos) << far.output;
+}
+
 } // namespace
 } // namespace shadowbench

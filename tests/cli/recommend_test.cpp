@@ -85,7 +85,7 @@ TEST_F(Recommend, RunsTheCellsThatMapsAreReadOffAndKeepsTheirRecords) {
     const bool isAdvised = outcome.output.find(" missing_edges 5 %: sm-uniform, at ") != std::string::npos;
     const bool isUnsteady = outcome.output.find("timed too unsteadily to rank: sm-uniform") != std::string::npos;
     EXPECT_TRUE(isAdvised || isUnsteady) << "on a busy machine no time ranks anything: " << outcome.output;
-    EXPECT_NE(outcome.output.find("of the error of sm-uniform: "), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("   the error of sm-uniform, in %: "), std::string::npos) << outcome.output;
     EXPECT_NE(outcome.output.find("; change first: "), std::string::npos) << outcome.output;
     EXPECT_EQ(readRecords(folder_ / "out/map/results.jsonl").size(), 5U); // 256 to 4096
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace shadowbench::causes {
 namespace {
@@ -55,6 +56,16 @@ private:
     SceneCauses result_;
 };
 
+void requireRows(const std::vector<SceneCauses>& scenes) {
+    std::vector<std::string> reasons;
+    for (const SceneCauses& scene : scenes) {
+        if (!scene.rows.empty() || !scene.errors.empty()) return;
+        for (const auto& [variant, reason] : scene.withoutAnswer)
+            reasons.push_back(fmt::format("{} on {}: {}", variant, scene.scene, reason));
+    }
+    throw BadInput(fmt::format("no technique applies to its scene; {}", fmt::join(reasons, "; ")));
+}
+
 } // namespace
 
 CausesResult explainAll(const CausesOptions& options) {
@@ -79,6 +90,7 @@ CausesResult explainAll(const CausesOptions& options) {
         result.scenes.push_back(std::move(study).result());
     }
     line.show(done, 0, "");
+    requireRows(result.scenes);
     return result;
 }
 

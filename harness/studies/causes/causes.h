@@ -38,7 +38,8 @@ struct CausesResult {
 };
 
 /// Explains every row, and draws <out>/<scene>/<row>.png of each that is wrong. Must be called without a GL context. Throws
-/// BadInput for unknown scenes and techniques, and where no object of a scene has the levels that `casterLevel` asks for.
+/// BadInput for unknown scenes and techniques, where none applies, and where no object of a scene has the levels that
+/// `casterLevel` asks for.
 CausesResult explainAll(const CausesOptions& options);
 
 /// What casts at `frame` with every object that has levels at its `level`-th, or its coarsest: those of the scene, and

@@ -22,7 +22,8 @@ constexpr std::array filters{std::string_view("kernel"), std::string_view("radiu
 constexpr std::array samples{std::string_view("n"),      std::string_view("taps"),      std::string_view("samples"),
                              std::string_view("bits"),   std::string_view("texels"),    std::string_view("window"),
                              std::string_view("passes"), std::string_view("directions")};
-constexpr std::array texels{std::string_view("map"), std::string_view("density")};
+/// A technique that has both keeps pages of such a density in a map, whose side is memory.
+constexpr std::array texels{std::string_view("density"), std::string_view("map")};
 
 const Parameter* declared(const Entry& entry, std::string_view name) {
     const auto found = std::ranges::find(entry.parameters, name, &Parameter::name);
@@ -86,8 +87,8 @@ std::string nextOf(std::span<const std::string_view> names, const Entry& entry, 
 }
 
 int finestMap(const Entry& entry) {
-    if (entry.temporal || declared(entry, "n") != nullptr) return 2048; // a map a frame, or a sample
-    return entry.answer == Answer::Hard ? 8192 : 4096;
+    if (declared(entry, "n") != nullptr) return 2048; // a map a sample
+    return entry.temporal || entry.answer != Answer::Hard ? 4096 : 8192;
 }
 
 /// A bias by texel, as many times larger as texels are finer.
@@ -116,21 +117,36 @@ std::string firstOf(std::initializer_list<std::string> choices) {
     return "";
 }
 
-const std::string noParameter = "no parameter: the method itself";
+/// The parameter that says how large the row's bias is.
+std::string_view sizeOfBias(const Entry& entry, const Parameters& row) {
+    return declared(entry, "factor") && row.text("bias") != "constant" ? "factor" : "units";
+}
+
+/// "factor=1": of one parameter.
+std::string nextOf(std::string_view name, const Entry& entry, const Parameters& row, bool up) {
+    return nextOf(std::span(&name, 1), entry, row, up);
+}
+
+/// Of pages both, since each may be what limits them.
+std::string finerTexels(const Entry& entry, const Parameters& row) {
+    const std::string density = nextOf("density", entry, row, true), page = nextOf("page", entry, row, true);
+    const bool hasRoom = !page.empty() && 2 * row.integer("page") <= row.integer("map");
+    return !density.empty() && hasRoom ? density + "," + page : nextOf(texels, entry, row, true);
+}
 
 /// A bias that suffices, or more of it.
 std::string moreBias(const Entry& entry, const Parameters& row) {
     if (const auto enough = withEnoughBias(entry, row)) return changes(row, *enough);
-    const std::array biases{
-        std::string_view(declared(entry, "factor") && row.text("bias") != "constant" ? "factor" : "units")};
-    return nextOf(biases, entry, row, true);
+    return nextOf(sizeOfBias(entry, row), entry, row, true);
 }
 
-/// The default's bias, where the row has more; else finer texels, which need less.
+/// The default's bias, where the row has more; else of variances half of the least; else finer texels, which need less; else
+/// half of it.
 std::string lessBias(const Entry& entry, const Parameters& row) {
     const auto own = withOwnBias(entry, row);
     const std::string less = own && !withEnoughBias(entry, row) ? changes(row, *own) : "";
-    return firstOf({less, nextOf(texels, entry, row, true)});
+    return firstOf({less, nextOf("variance", entry, row, false), finerTexels(entry, row),
+                    nextOf(sizeOfBias(entry, row), entry, row, false)});
 }
 
 } // namespace
@@ -160,18 +176,22 @@ std::optional<Parameters> withEnoughBias(const Entry& entry, const Parameters& r
 }
 
 std::optional<Parameters> withFineTexels(const Entry& entry, const Parameters& row) {
-    if (const Parameter* map = declared(entry, "map")) {
-        const int now = row.integer("map");
-        const int fine = std::min(std::get<IntegerRange>(map->domain).high, finestMap(entry));
-        if (fine <= now) return {};
-        return withBiasOf(with(row, "map", fmt::format("{}", fine)), entry, static_cast<double>(fine) / now);
-    }
     if (const Parameter* density = declared(entry, "density")) {
         constexpr double times = 8; // pages are drawn one by one
         const double now = row.real("density");
         const double fine = std::min(times * now, std::get<RealRange>(density->domain).high);
         if (fine <= now) return {};
-        return withBiasOf(with(row, "density", fmt::format("{}", fine)), entry, fine / now);
+        const Parameters dense = withBiasOf(with(row, "density", fmt::format("{}", fine)), entry, fine / now);
+        const Parameter* page = declared(entry, "page"); // of so many texels at the last level, however dense they should be
+        if (page == nullptr) return dense;
+        const int largest = std::min(std::get<IntegerRange>(page->domain).high, row.integer("map"));
+        return with(dense, "page", fmt::format("{}", largest));
+    }
+    if (const Parameter* map = declared(entry, "map")) {
+        const int now = row.integer("map");
+        const int fine = std::min(std::get<IntegerRange>(map->domain).high, finestMap(entry));
+        if (fine <= now) return {};
+        return withBiasOf(with(row, "map", fmt::format("{}", fine)), entry, static_cast<double>(fine) / now);
     }
     return {};
 }
@@ -182,6 +202,17 @@ std::optional<Parameters> withOwnBias(const Entry& entry, const Parameters& row)
     for (const std::string_view name : {"bias", "factor", "units"})
         if (name != "bias" || row.text("bias") != "normal-offset")
             changed = with(changed, name, declared(entry, name)->defaultValue);
+    return ifOther(row, std::move(changed));
+}
+
+std::optional<Parameters> withLessBias(const Entry& entry, const Parameters& row) {
+    constexpr double part = 0.25;
+    Parameters changed = row;
+    if (declared(entry, "bias") != nullptr)
+        for (const std::string_view name : {"factor", "units"})
+            changed = with(changed, name, fmt::format("{}", part * row.real(name)));
+    if (declared(entry, "variance") != nullptr) // the square of a depth
+        changed = with(changed, "variance", fmt::format("{}", part * part * row.real("variance")));
     return ifOther(row, std::move(changed));
 }
 
@@ -203,24 +234,24 @@ std::string changeAgainst(Cause cause, const Entry& entry, const Parameters& row
     case Cause::Leak:
         if (const Parameter* bleeding = declared(entry, "bleeding"); bleeding != nullptr && row.real("bleeding") < 0.2)
             return "bleeding=0.2";
-        return firstOf({nextOf(filters, entry, row, false), noParameter});
+        return nextOf(filters, entry, row, false);
     case Cause::History:
         return "hold the history back";
     case Cause::Filter:
-        return firstOf({nextOf(filters, entry, row, false), noParameter});
+        return nextOf(filters, entry, row, false);
     case Cause::SmallBias:
-        return firstOf({moreBias(entry, row), noParameter});
+        return moreBias(entry, row);
     case Cause::Undersampled:
-        return firstOf({nextOf(texels, entry, row, true), noParameter});
+        return finerTexels(entry, row);
     case Cause::LargeBias:
-        return firstOf({lessBias(entry, row), noParameter});
+        return lessBias(entry, row);
     case Cause::FewSamples:
-        return firstOf({nextOf(samples, entry, row, true), noParameter});
+        return nextOf(samples, entry, row, true);
     case Cause::Fusion:
     case Cause::Method:
         break;
     }
-    return noParameter;
+    return "";
 }
 
 } // namespace shadowbench::causes

@@ -31,10 +31,13 @@ std::optional<Parameters> withFineTexels(const Entry& entry, const Parameters& r
 /// The technique's own bias, of the row's kind where that offsets receivers.
 std::optional<Parameters> withOwnBias(const Entry& entry, const Parameters& row);
 
+/// A quarter of the bias; of variances, whose least value hides as much of a shadow at a contact, that of a quarter of it.
+std::optional<Parameters> withLessBias(const Entry& entry, const Parameters& row);
+
 /// More samples of the light, or more taps.
 std::optional<Parameters> withMoreSamples(const Entry& entry, const Parameters& row);
 
-/// What to change of the row first against the cause: "map=2048".
+/// What to change of the row first against the cause: "map=2048"; "" where no parameter does.
 std::string changeAgainst(Cause cause, const Entry& entry, const Parameters& row);
 
 } // namespace shadowbench::causes

@@ -130,8 +130,8 @@ class Explainer {
 public:
     Explainer(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, const std::vector<Batch>* casters)
         : frames_(frames), entry_(*variant.entry), row_(frames, entry_, mainTruth(frames.scene(), variant), seed),
-          now_(variant.parameters), technique_(entry_.make(now_)), v_(row_.drawn(*technique_, casters)),
-          error_(row_.errors(v_)), ladder_(error_) {
+          parameters_(variant.parameters), now_(parameters_), technique_(entry_.make(now_)),
+          v_(row_.drawn(*technique_, casters)), error_(row_.errors(v_)), ladder_(error_) {
         if (casters != nullptr) {
             technique_ = entry_.make(now_);
             replace(Cause::Geometry, row_.drawn(*technique_, nullptr));
@@ -143,6 +143,7 @@ public:
         change(Cause::SmallBias, withEnoughBias(entry_, now_));
         change(Cause::Undersampled, withFineTexels(entry_, now_));
         change(Cause::LargeBias, withOwnBias(entry_, now_)); // enough of it is there by now
+        lessBias();
         if (row_.isSoft()) change(Cause::FewSamples, withMoreSamples(entry_, now_));
     }
 
@@ -159,7 +160,7 @@ public:
             std::move(ladder_).finish(), &row_.truth()};
         for (const auto& [cause, errors] : result.split) result.parts.emplace_back(cause, meanOf(errors));
         std::ranges::stable_sort(result.parts, std::greater<>(), &std::pair<Cause, double>::second);
-        if (!result.isRight()) result.change = changeAgainst(result.parts.front().first, entry_, variant.parameters);
+        if (!result.isRight()) result.change = firstChange(result);
         return result;
     }
 
@@ -171,10 +172,40 @@ private:
         v_ = std::move(v);
     }
 
+    /// What most of the error can be changed by, if that is any of it to speak of.
+    [[nodiscard]] std::string firstChange(const Explanation& explanation) const {
+        constexpr double least = 0.1; // of the error
+        const auto worthwhile = [&](const auto& part) {
+            return part.second >= least * explanation.error && !changeAgainst(part.first, entry_, parameters_).empty();
+        };
+        const auto found = std::ranges::find_if(explanation.parts, worthwhile);
+        if (found == explanation.parts.end()) return lacksClosedMeshes() ? "close the meshes" : "the method itself";
+        const bool hasSeenMotion = frames_.scene().timeline.approach > 0;
+        if (found->first == Cause::History && !hasSeenMotion) return "more still frames";
+        return changeAgainst(found->first, entry_, parameters_);
+    }
+
+    [[nodiscard]] bool lacksClosedMeshes() const {
+        const std::vector<Batch> casters = snapshot(frames_.scene(), frames_.scored()).batches;
+        const bool isOpen = std::ranges::any_of(casters, [](const Batch& batch) { return !batch.mesh->closed; });
+        return isOpen && entry_.lacks.contains(techniques::Need::OpenMeshes);
+    }
+
     void change(Cause cause, std::optional<Parameters> changed) {
         if (!changed) return;
         now_ = std::move(*changed);
         replace(cause, row_.settled(now_));
+    }
+
+    /// Even the default's may be more than the scene asks for. Acne may be worse than what it shows: then this tells
+    /// nothing.
+    void lessBias() {
+        const auto less = withLessBias(entry_, now_);
+        if (!less) return;
+        Image<float> v = row_.settled(*less);
+        if (meanOf(row_.errors(v)) >= meanOf(row_.errors(v_))) return;
+        now_ = *less;
+        replace(Cause::LargeBias, std::move(v));
     }
 
     /// Receivers that no map holds, of a technique that has one; and casters that it loses.
@@ -222,6 +253,7 @@ private:
     SceneFrames& frames_;
     const Entry& entry_;
     Row row_;
+    Parameters parameters_;
     Parameters now_; // of the experiment that was made last
     std::unique_ptr<techniques::Technique> technique_;
     Image<float> v_; // what it drew

@@ -120,7 +120,7 @@ std::string cheapestLine(const std::optional<Cheapest>& technique, const std::ve
 /// What is left of the error of the advised row, or of the best.
 std::string leftLine(const causes::Explanation& left) {
     if (left.isRight()) return "";
-    return fmt::format("   of the error of {}: {} %; change first: {}\n", left.variant, causes::sharesText(left),
+    return fmt::format("   the error of {}, in %: {}; change first: {}\n", left.variant, causes::sharesText(left),
                        left.change);
 }
 

@@ -212,7 +212,34 @@ TEST_F(Inspect, ATriangleOfNoArea) {
     Model model;
     model.corners.emplace_back(-4, -0.3, 0);
     model.faces.push_back({1, 17, 5}); // along an edge of the slab
-    expectWords(refusal(model), {"has zero area, as 1 of 25 have, the first near (-4, -0.3, ", "Degenerate Dissolve"});
+    const std::vector<std::string> words{"the first near (-4, -0.3, 0)", "Degenerate Dissolve"};
+    expectWords(refusal(model, {.mesh = "file = \"model.obj\", closed = true"}), words);
+    expectWords(refusal(model, {.mesh = "file = \"model.obj\", closed = true"}),
+                {"has zero area, as 1 of 25 have", "or leave out closed = true"});
+    EXPECT_EQ(said(model), "") << "no image shows it";
+    const Inspection found = inspect(scene(model));
+    expectWords(textOf(found, ""), words);
+    expectWords(textOf(found, ""), {"24 triangles, ", "triangles of no area, which are left out: 1, "});
+    EXPECT_EQ(nlohmann::json::parse(jsonOf(found, ""))["meshes"][0]["flat_triangles"]["count"], 1);
+}
+
+/// A corner that only such a triangle has is none of the scene: lights are fitted to its bounds.
+TEST_F(Inspect, ATriangleOfNoAreaLeavesNoTrace) {
+    Model model, sound;
+    model.corners.emplace_back(-4, -0.3, 90);
+    model.faces.insert(model.faces.begin(), {1, 17, 5});
+    const Mesh with = *scene(model).objects[0].levels[0].mesh, without = *scene(sound).objects[0].levels[0].mesh;
+    EXPECT_EQ(with.flat.count, 1U);
+    EXPECT_EQ(with.positions.size(), 16U);
+    EXPECT_EQ(with.triangles.size(), without.triangles.size());
+    EXPECT_EQ(with.bounds().high, without.bounds().high);
+}
+
+TEST_F(Inspect, NothingButTrianglesOfNoArea) {
+    Model model;
+    model.corners = {{0, 0, 0}, {1, 2, 3}, {2, 4, 6}};
+    model.faces = {{1, 2, 3}};
+    expectWords(refusal(model), {"has zero area, as 1 of 1 have"});
 }
 
 TEST_F(Inspect, VerticesAndTrianglesThatAreThereTwice) {

@@ -118,16 +118,42 @@ std::string against(Cause cause, const std::string& row) {
     return changeAgainst(cause, *variant.entry, variant.parameters);
 }
 
+TEST(Experiments, TexelsOfPagesAreFinerByDensityAndNotByMemory) {
+    const auto row = techniques::parseVariant("sm-adaptive:factor=3");
+    const auto fine = withFineTexels(*row.entry, row.parameters);
+    EXPECT_EQ(valueIn(fine, "density"), "8");
+    EXPECT_EQ(valueIn(fine, "map"), row.parameters.text("map"));
+    EXPECT_EQ(valueIn(fine, "factor"), "24");
+    EXPECT_EQ(valueIn(fine, "page"), "1024"); // (1024 · 2^levels)² texels
+    const auto small = techniques::parseVariant("sm-adaptive:map=256");
+    EXPECT_EQ(valueIn(withFineTexels(*small.entry, small.parameters), "page"), "256");
+}
+
+TEST(Experiments, LessBiasIsAQuarterAndOfAVarianceThatOfADeviation) {
+    const auto uniform = techniques::parseVariant("sm-uniform:factor=3,units=8"), vsm = techniques::parseVariant("vsm");
+    const auto less = withLessBias(*uniform.entry, uniform.parameters);
+    EXPECT_EQ(valueIn(less, "factor"), "0.75");
+    EXPECT_EQ(valueIn(less, "units"), "2");
+    EXPECT_EQ(valueIn(withLessBias(*vsm.entry, vsm.parameters), "variance"), "6.25e-08");
+    const auto exact = techniques::parseVariant("sm-alias-free");
+    EXPECT_FALSE(withLessBias(*exact.entry, exact.parameters));
+}
+
 TEST(Experiments, WhatToChangeIsAParameterThatTheRowHas) {
     EXPECT_EQ(against(Cause::Undersampled, "sm-uniform:map=512"), "map=1024");
     EXPECT_EQ(against(Cause::Filter, "pcf:kernel=7"), "kernel=5");
     EXPECT_EQ(against(Cause::SmallBias, "sm-uniform:bias=none"), "bias=slope");
     EXPECT_EQ(against(Cause::LargeBias, "sm-uniform:factor=16"), "factor=2");
-    EXPECT_EQ(against(Cause::LargeBias, "sm-uniform"), "map=2048"); // a smaller one would be too small
+    EXPECT_EQ(against(Cause::LargeBias, "sm-uniform"), "map=2048");       // a smaller one would be too small
+    EXPECT_EQ(against(Cause::LargeBias, "deep-sm:map=1024"), "factor=1"); // at its limit
+    EXPECT_EQ(against(Cause::LargeBias, "sm-uniform:map=8192,bias=constant"), "units=32");
+    EXPECT_EQ(against(Cause::LargeBias, "vsm"), "variance=5e-07"); // whatever its texels
+    EXPECT_EQ(against(Cause::Undersampled, "sm-adaptive"), "density=2,page=256");
+    EXPECT_EQ(against(Cause::Undersampled, "sm-adaptive:page=512,map=512"), "density=2");
     EXPECT_EQ(against(Cause::Outside, "sm-psm:behind=lost"), "behind=negative-near");
     EXPECT_EQ(against(Cause::FewSamples, "pcss"), "taps=32+32");
     EXPECT_EQ(against(Cause::Leak, "vsm"), "bleeding=0.2");
-    EXPECT_EQ(against(Cause::Undersampled, "sm-uniform:map=8192"), "no parameter: the method itself");
+    EXPECT_EQ(against(Cause::Undersampled, "sm-uniform:map=8192"), "");
 }
 
 TEST(CastersAlone, StandInOneGroupEachBesideTheGroundAndKeepAllBounds) {

@@ -211,6 +211,16 @@ TEST_F(GltfOfOthers, OfSeveralViewsASceneFileChoosesOne) {
     expectWithin(said, "it has no camera \"Rigt\" (did you mean \"Right\"?); it has \"Left\", \"Right\"");
 }
 
+TEST_F(GltfOfOthers, ACameraLooksAsFarAsTheMiddleOfTheScene) {
+    for (const char* end : {"min", "max"}) gltf["accessors"][0][end] = end[1] == 'i' ? Json{-1, 0, -1} : Json{1, 0, 1};
+    const auto target = [&](double height) { // of a mesh of 2 m; the camera looks down from 5 m
+        gltf["nodes"][0]["translation"] = {3, height, 0};
+        return loaded().camera.target;
+    };
+    EXPECT_LT(glm::distance(target(-25), glm::dvec3(0, -25, 0)), 1e-9);
+    EXPECT_LT(glm::distance(target(300), glm::dvec3(0, 4, 0)), 1e-9) << "nothing lies ahead";
+}
+
 TEST_F(GltfOfOthers, WhatIsMissingIsNamedAsTheLinesThatGiveIt) {
     gltf["scenes"][0]["nodes"] = {0};
     for (const char* end : {"min", "max"}) gltf["accessors"][0][end] = end[1] == 'i' ? Json{-1, 0, -1} : Json{1, 0, 1};

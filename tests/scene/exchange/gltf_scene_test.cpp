@@ -97,6 +97,7 @@ TEST_F(ForeignGltf, WhatIsNoSceneIsNamed) {
     const Json whole = gltf;
     const std::pair<std::function<void(Json&)>, std::string> faults[] = {
         {[](Json& g) { g["asset"]["version"] = "1.0"; }, "no glTF 2.0"},
+        {[](Json& g) { g["asset"]["version"] = 1; }, "no glTF 2.0"},
         {[](Json& g) {
              g["scenes"][0]["nodes"] = {1, 3};
          },

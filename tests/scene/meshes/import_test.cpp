@@ -163,6 +163,9 @@ TEST_F(Import, HoldsFilesToTheirLimits) {
 TEST_F(Import, NamesWhatIsNoMesh) {
     expectRefusal(write("empty.obj", ""), "cannot import mesh");
     expectRefusal(write("points.obj", "v 0 0 0\nv 1 0 0\n"), "cannot import mesh");
+    expectRefusal(write("points.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                      "property float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n"),
+                  "it holds no triangle: points and lines cast no shadow");
     expectRefusal(write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "cannot import mesh");
     expectRefusal(folder_.path() / "none.ply", "No such file");
 }
