@@ -1,0 +1,48 @@
+// Machine code for graphics processors that are not there, by Mesa's Vulkan driver for AMD (RADV): its compiler needs no
+// device. Vulkan is a tool of measurement here; nothing is drawn.
+#pragma once
+
+#include "gpu/figures.h"
+#include "gpu/pipeline.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shadowbench::gpu {
+
+struct Architecture {
+    std::string_view id;   // the family, as the driver names it
+    std::string_view name; // "GCN 5"
+    std::string_view card; // one that has it
+};
+
+/// Those that every statistic is known of, the oldest first.
+std::span<const Architecture> architectures();
+
+/// Throws BadInput with near matches.
+const Architecture& architectureNamed(std::string_view id);
+
+class Compiler {
+public:
+    /// For one architecture. It ends the process for one that the driver does not know, so that this must be of
+    /// architectures(). Throws Inconclusive, saying what to install, without the driver.
+    explicit Compiler(const Architecture& architecture);
+    ~Compiler();
+    Compiler(Compiler&&) noexcept;
+    Compiler& operator=(Compiler&&) = delete;
+
+    /// Stage by stage. Throws BadInput for shaders that do not compile.
+    [[nodiscard]] std::vector<StageFigures> compile(const Pipeline& pipeline) const;
+
+    /// Both compilers with their versions: "radv Mesa 22.3.6, glslang 12.0.0".
+    [[nodiscard]] const std::string& version() const;
+
+private:
+    struct Device;
+    std::unique_ptr<Device> device_;
+};
+
+} // namespace shadowbench::gpu

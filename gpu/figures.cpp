@@ -1,0 +1,50 @@
+#include "gpu/figures.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace shadowbench::gpu {
+namespace {
+
+Stage stageNamed(const std::string& word) {
+    constexpr std::array stages{Stage::Vertex, Stage::Fragment, Stage::Compute};
+    const auto found = std::ranges::find(stages, word, [](Stage stage) { return name(stage); });
+    if (found == stages.end()) throw BadInput("there is no stage \"" + word + "\"");
+    return *found;
+}
+
+} // namespace
+
+std::uint64_t StageFigures::of(const std::string& statistic) const {
+    const auto found = std::ranges::find(statistics, statistic, &std::pair<std::string, std::uint64_t>::first);
+    return found == statistics.end() ? 0 : found->second;
+}
+
+std::string toText(const std::vector<StageFigures>& figures) {
+    auto json = nlohmann::ordered_json::array();
+    for (const StageFigures& each : figures) {
+        nlohmann::ordered_json statistics;
+        for (const auto& [statistic, value] : each.statistics) statistics[statistic] = value;
+        json.push_back({{"stage", name(each.stage)}, {"statistics", statistics}});
+    }
+    return json.dump();
+}
+
+std::vector<StageFigures> figuresOf(const std::string& text) {
+    try {
+        std::vector<StageFigures> figures;
+        for (const auto& each : nlohmann::ordered_json::parse(text)) {
+            StageFigures& stage = figures.emplace_back(StageFigures{stageNamed(each.at("stage")), {}});
+            for (const auto& [statistic, value] : each.at("statistics").items())
+                stage.statistics.emplace_back(statistic, value);
+        }
+        return figures;
+    } catch (const nlohmann::json::exception& error) {
+        throw BadInput(std::string("figures of a shader cannot be read: ") + error.what());
+    }
+}
+
+} // namespace shadowbench::gpu
