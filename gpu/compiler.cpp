@@ -66,29 +66,23 @@ const Architecture& architectureNamed(std::string_view id) {
     throwUnknownWord("architecture", id, ids);
 }
 
+std::string compilerVersion() {
+    static const std::string version = driverVersion() + ", " + spirvCompiler();
+    return version;
+}
+
 struct Compiler::Device {
-    explicit Device(std::string_view family) : vulkan(openNullDevice(std::string(family))) {
-        VkPhysicalDeviceDriverProperties driver{};
-        driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
-        VkPhysicalDeviceProperties2 properties{};
-        properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-        properties.pNext = &driver;
-        vulkan.vkGetPhysicalDeviceProperties2(vulkan.physicalDevice, &properties);
-        version = fmt::format("{} {}, {}", driver.driverName, driver.driverInfo, spirvCompiler());
-    }
+    explicit Device(std::string_view family) : vulkan(openNullDevice(std::string(family))) { createDevice(vulkan); }
     ~Device() { close(vulkan); }
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
     Vulkan vulkan;
-    std::string version;
 };
 
 Compiler::Compiler(const Architecture& architecture) : device_(std::make_unique<Device>(architecture.id)) {}
 Compiler::~Compiler() = default;
 Compiler::Compiler(Compiler&&) noexcept = default;
-
-const std::string& Compiler::version() const { return device_->version; }
 
 std::vector<StageFigures> Compiler::compile(const Pipeline& pipeline) const {
     const Vulkan& vulkan = device_->vulkan;

@@ -25,6 +25,10 @@ std::span<const Architecture> architectures();
 /// Throws BadInput with near matches.
 const Architecture& architectureNamed(std::string_view id);
 
+/// Both compilers with their versions: "radv Mesa 22.3.6, glslang 12.0.0". Throws Inconclusive, saying what to install,
+/// without the driver.
+std::string compilerVersion();
+
 class Compiler {
 public:
     /// For one architecture. It ends the process for one that the driver does not know, so that this must be of
@@ -36,9 +40,6 @@ public:
 
     /// Stage by stage. Throws BadInput for shaders that do not compile.
     [[nodiscard]] std::vector<StageFigures> compile(const Pipeline& pipeline) const;
-
-    /// Both compilers with their versions: "radv Mesa 22.3.6, glslang 12.0.0".
-    [[nodiscard]] const std::string& version() const;
 
 private:
     struct Device;

@@ -3,21 +3,9 @@
 #include "base/error.h"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
 namespace shadowbench::gpu {
-namespace {
-
-Stage stageNamed(const std::string& word) {
-    constexpr std::array stages{Stage::Vertex, Stage::Fragment, Stage::Compute};
-    const auto found = std::ranges::find(stages, word, [](Stage stage) { return name(stage); });
-    if (found == stages.end()) throw BadInput("there is no stage \"" + word + "\"");
-    return *found;
-}
-
-} // namespace
-
 std::uint64_t StageFigures::of(const std::string& statistic) const {
     const auto found = std::ranges::find(statistics, statistic, &std::pair<std::string, std::uint64_t>::first);
     return found == statistics.end() ? 0 : found->second;
@@ -37,7 +25,7 @@ std::vector<StageFigures> figuresOf(const std::string& text) {
     try {
         std::vector<StageFigures> figures;
         for (const auto& each : nlohmann::ordered_json::parse(text)) {
-            StageFigures& stage = figures.emplace_back(StageFigures{stageNamed(each.at("stage")), {}});
+            StageFigures& stage = figures.emplace_back(StageFigures{stageNamed(each.at("stage").get<std::string>()), {}});
             for (const auto& [statistic, value] : each.at("statistics").items())
                 stage.statistics.emplace_back(statistic, value);
         }

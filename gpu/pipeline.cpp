@@ -28,6 +28,7 @@ std::string text(const State& state) {
 } // namespace
 
 std::string_view name(Stage stage) { return stages.of(stage); }
+Stage stageNamed(std::string_view word) { return stages.named(word); }
 
 std::string Pipeline::digest() const {
     Hasher128 hasher;

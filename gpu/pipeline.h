@@ -13,6 +13,9 @@ enum class Stage { Vertex, Fragment, Compute };
 /// "vertex", "fragment", "compute".
 std::string_view name(Stage stage);
 
+/// Throws BadInput for another word.
+Stage stageNamed(std::string_view word);
+
 /// A shader as the user of OpenGL or Vulkan writes it.
 struct Shader {
     Stage stage;

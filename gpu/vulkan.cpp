@@ -39,6 +39,28 @@ void createInstance(Vulkan& vulkan) {
     require(create(&info, nullptr, &vulkan.instance), "making an instance of Vulkan");
 }
 
+} // namespace
+
+void require(VkResult result, const std::string& doing) {
+    if (result != VK_SUCCESS)
+        throw InternalError(fmt::format("{} failed: Vulkan's error {}", doing, static_cast<int>(result)));
+}
+
+Vulkan openNullDevice(const std::string& family) {
+    fixCompiler(family);
+    Vulkan vulkan;
+    createInstance(vulkan);
+#define VULKAN_FUNCTION(name) vulkan.name = reinterpret_cast<PFN_##name>(procedures()(vulkan.instance, #name));
+#include "gpu/functions.inc"
+#undef VULKAN_FUNCTION
+    std::uint32_t count = 1;
+    const VkResult found = vulkan.vkEnumeratePhysicalDevices(vulkan.instance, &count, &vulkan.physicalDevice);
+    if (found != VK_INCOMPLETE) require(found, "asking Mesa for a device of " + family);
+    if (count == 0)
+        throw Inconclusive("Mesa's Vulkan driver for AMD has no device of " + family + "; update mesa-vulkan-drivers");
+    return vulkan;
+}
+
 void createDevice(Vulkan& vulkan) {
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics{};
     statistics.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
@@ -68,27 +90,17 @@ void createDevice(Vulkan& vulkan) {
     require(vulkan.vkCreateDevice(vulkan.physicalDevice, &info, nullptr, &vulkan.device), "making a device of Vulkan");
 }
 
-} // namespace
-
-void require(VkResult result, const std::string& doing) {
-    if (result != VK_SUCCESS)
-        throw InternalError(fmt::format("{} failed: Vulkan's error {}", doing, static_cast<int>(result)));
-}
-
-Vulkan openNullDevice(const std::string& family) {
-    fixCompiler(family);
-    Vulkan vulkan;
-    createInstance(vulkan);
-#define VULKAN_FUNCTION(name) vulkan.name = reinterpret_cast<PFN_##name>(procedures()(vulkan.instance, #name));
-#include "gpu/functions.inc"
-#undef VULKAN_FUNCTION
-    std::uint32_t count = 1;
-    const VkResult found = vulkan.vkEnumeratePhysicalDevices(vulkan.instance, &count, &vulkan.physicalDevice);
-    if (found != VK_INCOMPLETE) require(found, "asking Mesa for a device of " + family);
-    if (count == 0)
-        throw Inconclusive("Mesa's Vulkan driver for AMD has no device of " + family + "; update mesa-vulkan-drivers");
-    createDevice(vulkan);
-    return vulkan;
+std::string driverVersion() {
+    Vulkan vulkan = openNullDevice("navi21");
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &driver;
+    vulkan.vkGetPhysicalDeviceProperties2(vulkan.physicalDevice, &properties);
+    const std::string version = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+    close(vulkan);
+    return version;
 }
 
 void close(Vulkan& vulkan) {

@@ -18,10 +18,14 @@ struct Vulkan {
 #undef VULKAN_FUNCTION
 };
 
-/// A device of AMD's `family` that is not there, on which pipelines compile. The environment of this process becomes that of
-/// this device. Throws Inconclusive, saying what to install, where the driver is missing.
+/// A physical device of AMD's `family` that is not there, and the device on which pipelines compile for it. The environment
+/// of this process becomes that of this family. Throws Inconclusive, saying what to install, where the driver is missing.
 Vulkan openNullDevice(const std::string& family);
+void createDevice(Vulkan& vulkan);
 void close(Vulkan& vulkan);
+
+/// "radv Mesa 22.3.6".
+std::string driverVersion();
 
 /// Throws InternalError naming `doing` unless `result` is success.
 void require(VkResult result, const std::string& doing);
