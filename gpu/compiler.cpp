@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <fmt/format.h>
 
 namespace shadowbench::gpu {
@@ -49,7 +48,8 @@ StageFigures figuresOf(const Vulkan& vulkan, VkPipeline pipeline, std::uint32_t 
     for (const Stage stage : {Stage::Vertex, Stage::Fragment, Stage::Compute})
         if ((properties.stages & static_cast<VkShaderStageFlags>(stageFlag(stage))) != 0) figures.stage = stage;
     for (const VkPipelineExecutableStatisticKHR& each : statistics)
-        figures.statistics.emplace_back(each.name, each.value.u64); // RADV gives no other format
+        if (!std::string_view(each.name).ends_with("ash")) // "Hash", "Driver pipeline hash": no figures
+            figures.statistics.emplace_back(each.name, each.value.u64); // RADV gives no other format
     figures.statistics.emplace_back("Subgroup size", properties.subgroupSize);
     return figures;
 }

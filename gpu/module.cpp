@@ -123,7 +123,8 @@ private:
     }
 
     [[nodiscard]] Resource resourceOf(Operands type, spv::StorageClass storage) const {
-        if (isA(type, spv::OpTypeSampledImage)) return Resource::SampledImage;
+        if (isA(type, spv::OpTypeSampledImage))
+            return types_.at(type[2])[3] == spv::DimBuffer ? Resource::UniformTexels : Resource::SampledImage;
         if (isA(type, spv::OpTypeSampler)) return Resource::Sampler;
         if (isA(type, spv::OpTypeImage)) {
             const bool written = type[7] == 2;

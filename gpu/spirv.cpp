@@ -10,6 +10,7 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 #include <memory>
+#include <spirv-tools/optimizer.hpp>
 #include <sstream>
 
 namespace shadowbench::gpu {
@@ -55,6 +56,15 @@ std::unique_ptr<glslang::TShader> parsed(const Shader& source) {
     return shader;
 }
 
+/// What no function that is called names has no binding of its own: glslang numbers what is used alone.
+void removeUnused(std::vector<std::uint32_t>& module) {
+    spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1);
+    optimizer.RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+    optimizer.RegisterPass(spvtools::CreateDeadVariableEliminationPass());
+    if (!optimizer.Run(module.data(), module.size(), &module))
+        throw InternalError("glslang made a module that cannot be read");
+}
+
 } // namespace
 
 std::vector<std::vector<std::uint32_t>> toSpirv(const std::vector<Shader>& shaders) {
@@ -72,8 +82,11 @@ std::vector<std::vector<std::uint32_t>> toSpirv(const std::vector<Shader>& shade
     glslang::TGlslIoMapper mapper;
     linked(program.mapIO(&resolver, &mapper));
     std::vector<std::vector<std::uint32_t>> modules;
-    for (const Shader& shader : shaders)
-        glslang::GlslangToSpv(*program.getIntermediate(languageOf(shader.stage)), modules.emplace_back());
+    for (const Shader& shader : shaders) {
+        std::vector<std::uint32_t>& module = modules.emplace_back();
+        glslang::GlslangToSpv(*program.getIntermediate(languageOf(shader.stage)), module);
+        removeUnused(module);
+    }
     return modules;
 }
 

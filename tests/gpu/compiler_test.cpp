@@ -85,11 +85,24 @@ TEST_F(Compiling, ResourcesOfAllKindsCompile) {
     EXPECT_GT(f.of("Instructions"), 20U);
 }
 
+TEST_F(Compiling, WhatNoCalledFunctionReadsTakesNoBinding) {
+    const auto f = figures(Stage::Fragment, fragment("x += texture(map, x.xy) + a;",
+                                                     "uniform sampler2D unused; uniform vec4 a; uniform sampler2D map;\n"
+                                                     "vec4 notCalled() { return texture(unused, vec2(0)); }"));
+    EXPECT_GT(f.of("Instructions"), 5U);
+}
+
 TEST_F(Compiling, TheSameTwice) {
     const std::string text = fragment(times(9, "x = sqrt(x) * x.yxwz; "));
     EXPECT_EQ(toText({figures(Stage::Fragment, text)}), toText({figures(Stage::Fragment, text)}));
     EXPECT_EQ(toText({figures(Stage::Fragment, text)}),
               toText({Compiler(architectureNamed("navi21")).compile(pipelineOf({{Stage::Fragment, "test", text}})).back()}));
+}
+
+TEST_F(Compiling, NamesAndCommentsChangeNothing) {
+    const std::string text = fragment("float of = sin(x.x); // once\n x *= of;");
+    const std::string renamed = fragment("float other = sin(x.x); // twice, or so\n\n x *= other;");
+    EXPECT_EQ(toText({figures(Stage::Fragment, text)}), toText({figures(Stage::Fragment, renamed)}));
 }
 
 TEST_F(Compiling, AFragmentShaderAloneIsNotFoldedAway) {
