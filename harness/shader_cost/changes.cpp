@@ -57,9 +57,7 @@ public:
         all += changed_;
         for (const std::string& name : new_) all += "new: " + name + "\n";
         for (const std::string& name : gone_) all += "gone: " + name + "\n";
-        const std::size_t compared = after_.size();
-        if (all.empty()) return fmt::format("no change in {} figures of shaders\n", compared);
-        return all;
+        return all.empty() ? fmt::format("no change in {} shaders\n", after_.size()) : all;
     }
 
 private:
