@@ -1,7 +1,6 @@
 #include "harness/shader_cost/frame_pipelines.h"
 
 #include "embedded_drawing_sources.h"
-#include "harness/measure/warm_frames.h"
 #include "harness/render/lod_stage.h"
 #include "harness/render/stage.h"
 
@@ -35,10 +34,9 @@ std::vector<gpu::Use> ofShadow(const Scene& scene, const techniques::Variant& va
         stage.render(*technique, number++, seed);
         return observer.take();
     };
-    std::vector<gpu::Use> before, steady;
-    for (int i = 0; i < timing::warmFrames; ++i) addOthers(before, render());
-    steady = render();
-    addOthers(steady, before);
+    const std::vector<gpu::Use> first = render(); // with what is done once
+    std::vector<gpu::Use> steady = render();
+    addOthers(steady, first);
     if (scene.timeline.moving > 0) {
         stage.show(still + 1);
         addOthers(steady, render());
@@ -64,10 +62,9 @@ std::vector<gpu::Use> ofLevels(const Scene& scene, const techniques::Variant& va
         stage.render(*technique);
         return observer.take();
     };
-    std::vector<gpu::Use> before, steady;
-    for (int i = timing::warmFrames; i > 0; --i) addOthers(before, render(std::max(most - i, 0)));
-    steady = render(most);
-    addOthers(steady, before);
+    const std::vector<gpu::Use> first = render(std::max(most - 1, 0));
+    std::vector<gpu::Use> steady = render(most);
+    addOthers(steady, first);
     return steady;
 }
 
