@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 namespace shadowbench::shaders {
@@ -79,20 +80,24 @@ public:
 
     ShaderCostResult all() {
         const std::size_t count = items();
+        std::vector<std::size_t> order(count); // the long ones first: no process waits for one of them at the end
+        std::iota(order.begin(), order.end(), 0U);
+        std::ranges::stable_partition(order, [this](std::size_t item) { return isLong(item); });
         std::vector<std::string> answers(count);
         ProgressLine line("shader-cost", static_cast<int>(count), quiet_);
         int done = 0;
         SharedWork work;
         work.items = count;
-        work.work = [this](std::size_t item, const Progress&) { return answerOf(item); };
+        work.work = [&](std::size_t at, const Progress&) { return answerOf(order[at]); };
         work.leave = [this] { leave(); };
-        work.progress = [&](std::size_t item, double share, std::string_view) { line.show(done, share, nameOf(item)); };
-        work.finished = [&](std::size_t item, std::string answer) {
-            line.show(++done, 0, nameOf(item));
-            answers[item] = std::move(answer);
+        work.progress = [&](std::size_t at, double share, std::string_view) { line.show(done, share, nameOf(order[at])); };
+        work.finished = [&](std::size_t at, std::string answer) {
+            line.show(++done, 0, nameOf(order[at]));
+            answers[order[at]] = std::move(answer);
         };
-        work.lost = [&](std::size_t item, const std::string& how) {
-            answers[item] = fmt::format("{}\nthe process that compiled it {}", static_cast<int>(ExitCode::Internal), how);
+        work.lost = [&](std::size_t at, const std::string& how) {
+            answers[order[at]] =
+                fmt::format("{}\nthe process that compiled it {}", static_cast<int>(ExitCode::Internal), how);
         };
         shareAmongProcesses(availableThreads(), work);
         ShaderCostResult result;
@@ -103,6 +108,7 @@ public:
 protected:
     [[nodiscard]] virtual std::size_t items() const = 0;
     [[nodiscard]] virtual std::string nameOf(std::size_t item) const = 0;
+    [[nodiscard]] virtual bool isLong(std::size_t /*item*/) const { return false; }
     /// In a worker.
     virtual std::vector<ShaderCost> rowsOf(std::size_t item) = 0;
     virtual void leave() {}
@@ -200,6 +206,10 @@ protected:
     [[nodiscard]] std::size_t items() const override { return places_.size(); }
     [[nodiscard]] std::string nameOf(std::size_t item) const override { return places_[item].variant.name; }
     void leave() override { context_.reset(); }
+    /// Radiance transfer, which is computed before the first frame.
+    [[nodiscard]] bool isLong(std::size_t item) const override {
+        return places_[item].variant.entry->environment == techniques::EnvironmentAnswer::Only;
+    }
 
     std::vector<ShaderCost> rowsOf(std::size_t item) override {
         const Place& place = places_[item];
