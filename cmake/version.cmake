@@ -48,7 +48,7 @@ digest_of(program "${COMPILER}${beside}" "^$" base scene techniques gpu groundtr
 digest_of(metric_code "" "^$" harness/cells harness/measure harness/metrics harness/records harness/render)
 
 # The hash of what decides which pipelines a frame uses, which names lists that are kept of them.
-digest_of(drawing "" "^$" scene techniques gpu/observer gpu/pipeline gpu/state harness/render harness/shader_cost/frame_pipelines)
+digest_of(drawing "" "^$" scene techniques gpu/observer gpu/pipeline gpu/state harness/render harness/studies/shader_cost/frame_pipelines)
 file(WRITE ${OUT}/embedded_drawing_sources.h.new
      "#pragma once\n\nnamespace shadowbench::embedded {\n\n"
      "inline constexpr const char* drawing_sources = \"${drawing}\";\n\n}  // namespace shadowbench::embedded\n")

@@ -48,7 +48,7 @@ StageFigures figuresOf(const Vulkan& vulkan, VkPipeline pipeline, std::uint32_t 
     for (const Stage stage : {Stage::Vertex, Stage::Fragment, Stage::Compute})
         if ((properties.stages & static_cast<VkShaderStageFlags>(stageFlag(stage))) != 0) figures.stage = stage;
     for (const VkPipelineExecutableStatisticKHR& each : statistics)
-        if (!std::string_view(each.name).ends_with("ash")) // "Hash", "Driver pipeline hash": no figures
+        if (!std::string_view(each.name).ends_with("ash"))              // "Hash", "Driver pipeline hash": no figures
             figures.statistics.emplace_back(each.name, each.value.u64); // RADV gives no other format
     figures.statistics.emplace_back("Subgroup size", properties.subgroupSize);
     return figures;

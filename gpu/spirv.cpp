@@ -30,7 +30,7 @@ EShLanguage languageOf(Stage stage) {
     throw InternalError("unknown stage of a shader");
 }
 
-/// "ERROR: blur.frag:12: 'x' : undeclared identifier" → "blur.frag:12: 'x' : undeclared identifier"; of several the first.
+/// The first error of a log, whose lines are like "ERROR: FILE:12: 'x' : undeclared identifier", without its first word.
 std::string firstError(const std::string& log) {
     std::istringstream lines(log);
     for (std::string line; std::getline(lines, line);)

@@ -1,8 +1,7 @@
-#include "harness/shader_cost/shader_cost.h"
+#include "harness/studies/shader_cost/shader_cost.h"
 
 #include "base/files.h"
 #include "base/folder_lock.h"
-#include "gpu/compiler.h"
 #include "harness/cli/command.h"
 #include "harness/cli/options.h"
 

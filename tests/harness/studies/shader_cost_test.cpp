@@ -1,6 +1,6 @@
 // Lines as they are written and read, and what changed from one list to another.
 #include "base/error.h"
-#include "harness/shader_cost/lines.h"
+#include "harness/studies/shader_cost/lines.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "harness/report/text_table.h"
-#include "harness/shader_cost/shader_cost.h"
+#include "harness/studies/shader_cost/shader_cost.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Before and after, as Mesa's shader-db reports them.
-#include "harness/shader_cost/shader_cost.h"
+#include "harness/studies/shader_cost/shader_cost.h"
 
 #include <algorithm>
 #include <fmt/format.h>

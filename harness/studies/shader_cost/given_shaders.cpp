@@ -1,4 +1,4 @@
-#include "harness/shader_cost/given_shaders.h"
+#include "harness/studies/shader_cost/given_shaders.h"
 
 #include "base/error.h"
 #include "base/files.h"

@@ -1,4 +1,4 @@
-#include "harness/shader_cost/frame_pipelines.h"
+#include "harness/studies/shader_cost/frame_pipelines.h"
 
 #include "embedded_drawing_sources.h"
 #include "harness/render/lod_stage.h"

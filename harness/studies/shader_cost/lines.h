@@ -1,7 +1,7 @@
 // What is kept and printed for programs, as text.
 #pragma once
 
-#include "harness/shader_cost/shader_cost.h"
+#include "harness/studies/shader_cost/shader_cost.h"
 
 #include <cstdint>
 #include <string>

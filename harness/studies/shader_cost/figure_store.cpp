@@ -1,4 +1,4 @@
-#include "harness/shader_cost/figure_store.h"
+#include "harness/studies/shader_cost/figure_store.h"
 
 #include "base/error.h"
 #include "base/files.h"

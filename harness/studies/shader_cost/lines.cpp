@@ -1,4 +1,4 @@
-#include "harness/shader_cost/lines.h"
+#include "harness/studies/shader_cost/lines.h"
 
 #include "base/files.h"
 

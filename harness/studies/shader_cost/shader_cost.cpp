@@ -1,4 +1,4 @@
-#include "harness/shader_cost/shader_cost.h"
+#include "harness/studies/shader_cost/shader_cost.h"
 
 #include "base/files.h"
 #include "base/parallel.h"
@@ -10,10 +10,10 @@
 #include "harness/cells/cell_selection.h"
 #include "harness/cells/lod_cell.h"
 #include "harness/render/shared_shaders.h"
-#include "harness/shader_cost/figure_store.h"
-#include "harness/shader_cost/frame_pipelines.h"
-#include "harness/shader_cost/given_shaders.h"
-#include "harness/shader_cost/lines.h"
+#include "harness/studies/shader_cost/figure_store.h"
+#include "harness/studies/shader_cost/frame_pipelines.h"
+#include "harness/studies/shader_cost/given_shaders.h"
+#include "harness/studies/shader_cost/lines.h"
 #include "scene/load/load.h"
 
 #include <algorithm>
