@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <spirv-tools/libspirv.hpp>
+#include <stdexcept>
 #include <utility>
 
 namespace shadowbench::gpu {
@@ -19,13 +20,13 @@ using Operands = std::span<const std::uint32_t>; // of an instruction, its own w
 
 void requireValid(const std::vector<std::uint32_t>& words, const std::string& name) {
     std::string reason;
-    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
+    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
     tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&, const char* message) {
         if (reason.empty()) reason = message;
     });
     if (!tools.Validate(words))
         throw BadInput(
-            fmt::format("{} is no valid SPIR-V for Vulkan 1.1: {}; make it by glslangValidator -V, or give the GLSL", name,
+            fmt::format("{} is no valid SPIR-V for Vulkan 1.3: {}; make it by glslangValidator -V, or give the GLSL", name,
                         reason.empty() ? "it is damaged" : reason));
 }
 
@@ -172,7 +173,11 @@ private:
 
 Module readModule(const std::vector<std::uint32_t>& words, const std::string& name) {
     requireValid(words, name);
-    return Reader(words, name).module();
+    try {
+        return Reader(words, name).module();
+    } catch (const std::out_of_range&) { // of what it uses, something was not read
+        throw BadInput(name + " declares a resource, input or output of a type that is not known here; leave it out");
+    }
 }
 
 } // namespace shadowbench::gpu

@@ -64,6 +64,7 @@ TEST_F(ShaderCostVerb, AFileHasFiguresOnAllArchitectures) {
             EXPECT_TRUE(line["statistics"].contains(statistic)) << statistic;
         EXPECT_GT(line["statistics"]["Instructions"], 5);
     }
+    EXPECT_NE(all[0]["statistics"]["Code size"], all[3]["statistics"]["Code size"]) << "GCN 5 and RDNA 3";
 }
 
 TEST_F(ShaderCostVerb, FilesOfOneNameAreOneProgram) {

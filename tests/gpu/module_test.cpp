@@ -114,6 +114,16 @@ TEST(Modules, WhatIsNoModuleIsRefused) {
     EXPECT_NE(refusal([&] { (void)readModule(cut, "a.spv"); }).find("a.spv is no valid SPIR-V"), std::string::npos);
 }
 
+TEST(Modules, AnArrayWhoseSizeIsComputedIsRefused) {
+    const std::string sentence = refusal([] {
+        (void)moduleOf(Stage::Fragment, "#version 450 core\nlayout(constant_id = 0) const int n = 2;\n"
+                                        "layout(location = 0) in float a[n + 1];\nlayout(location = 0) out vec4 c;\n"
+                                        "void main() { c = vec4(a[1]); }\n");
+    });
+    EXPECT_NE(sentence.find("test declares a resource, input or output of a type that is not known here"), std::string::npos)
+        << sentence;
+}
+
 TEST(Pipelines, ShadersOfOneStageMakeNone) {
     const Shader shader{Stage::Fragment, "a.frag", fragment("x += 1;")};
     EXPECT_NE(refusal([&] { (void)pipelineOf({shader, shader}); }).find("of one stage"), std::string::npos);

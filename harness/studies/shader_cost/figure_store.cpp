@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "embedded_shader_sources.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,8 @@ namespace shadowbench::shaders {
 namespace {
 
 std::string keyOf(const std::string& digest, const gpu::Architecture& architecture) {
-    return fmt::format("figures of {} on {} by {}", digest, architecture.id, gpu::compilerVersion());
+    return fmt::format("figures of {} on {} by {}, {}", digest, architecture.id, gpu::compilerVersion(),
+                       embedded::compiling_sources);
 }
 
 } // namespace

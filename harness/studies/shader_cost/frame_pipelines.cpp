@@ -1,6 +1,6 @@
 #include "harness/studies/shader_cost/frame_pipelines.h"
 
-#include "embedded_drawing_sources.h"
+#include "embedded_shader_sources.h"
 #include "harness/render/lod_stage.h"
 #include "harness/render/stage.h"
 

@@ -96,8 +96,8 @@ public:
             answers[order[at]] = std::move(answer);
         };
         work.lost = [&](std::size_t at, const std::string& how) {
-            answers[order[at]] =
-                fmt::format("{}\nthe process that compiled it {}", static_cast<int>(ExitCode::Internal), how);
+            answers[order[at]] = fmt::format("{}\nthe process that compiled it {}; Mesa's compiler may not stand the shader",
+                                             static_cast<int>(ExitCode::Internal), how);
         };
         shareAmongProcesses(availableThreads(), work);
         ShaderCostResult result;
