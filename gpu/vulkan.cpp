@@ -98,7 +98,7 @@ std::string driverVersion() {
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     properties.pNext = &driver;
     vulkan.vkGetPhysicalDeviceProperties2(vulkan.physicalDevice, &properties);
-    const std::string version = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+    std::string version = fmt::format("{} {}", driver.driverName, driver.driverInfo);
     close(vulkan);
     return version;
 }

@@ -14,7 +14,7 @@ TEST_F(Compiling, TwiceTheArithmeticIsTwiceTheInstructions) {
     for (const Architecture& architecture : architectures()) {
         const std::string id(architecture.id);
         const auto of = [&](int count) {
-            const StageFigures f = figures(Stage::Fragment, fragment(times(count, "x = sqrt(x); ")), id);
+            StageFigures f = figures(Stage::Fragment, fragment(times(count, "x = sqrt(x); ")), id);
             EXPECT_EQ(f.stage, Stage::Fragment);
             return f;
         };

@@ -82,7 +82,7 @@ public:
         const std::size_t count = items();
         std::vector<std::size_t> order(count); // the long ones first: no process waits for one of them at the end
         std::iota(order.begin(), order.end(), 0U);
-        std::ranges::stable_partition(order, [this](std::size_t item) { return isLong(item); });
+        std::stable_partition(order.begin(), order.end(), [this](std::size_t item) { return isLong(item); });
         std::vector<std::string> answers(count);
         ProgressLine line("shader-cost", static_cast<int>(count), quiet_);
         int done = 0;
