@@ -19,7 +19,7 @@ struct Architecture {
     std::string_view card; // one that has it
 };
 
-/// Those that every statistic is known of, the oldest first.
+/// The oldest first.
 std::span<const Architecture> architectures();
 
 /// Throws BadInput with near matches.
@@ -31,8 +31,8 @@ std::string compilerVersion();
 
 class Compiler {
 public:
-    /// For one architecture. It ends the process for one that the driver does not know, so that this must be of
-    /// architectures(). Throws Inconclusive, saying what to install, without the driver.
+    /// For one of architectures(): the driver ends the process for a family that it does not know. Throws Inconclusive,
+    /// saying what to install, without the driver.
     explicit Compiler(const Architecture& architecture);
     ~Compiler();
     Compiler(Compiler&&) noexcept;

@@ -33,6 +33,19 @@ Shader sourceOf(const std::vector<Variable>& inputs) {
     return {Stage::Vertex, "", declared + "void main() { gl_Position = position; " + body + "}\n"};
 }
 
+/// A fragment shader that reads all that a vertex shader writes.
+Shader sinkOf(const std::vector<Variable>& outputs) {
+    constexpr std::string_view padding[] = {", 0, 0, 0", ", 0, 0", ", 0", ""};
+    std::string declared = "#version 450\nlayout(location = 0) out vec4 colour;\n", body = "colour = vec4(0); ";
+    for (const Variable& v : outputs) {
+        const char* flat = v.scalar == Scalar::Float ? "" : "flat ";
+        const Variable asFloat{v.location, Scalar::Float, v.components};
+        declared += fmt::format("layout(location = {0}) {2}in {1} v{0};\n", v.location, typeOf(v), flat);
+        body += fmt::format("colour += vec4({1}(v{0}){2}); ", v.location, typeOf(asFloat), padding[v.components - 1]);
+    }
+    return {Stage::Fragment, "", declared + "void main() { " + body + "}\n"};
+}
+
 unsigned typeOf(Scalar scalar) {
     if (scalar == Scalar::Float) return GL_FLOAT;
     return scalar == Scalar::Int ? GL_INT : GL_UNSIGNED_INT;
@@ -43,7 +56,7 @@ unsigned formatOf(Scalar scalar) {
     return scalar == Scalar::Int ? GL_RGBA32I : GL_RGBA32UI;
 }
 
-State stateOf(const Module& vertex, const Module* fragment) {
+State stateOf(const Module& vertex, const Module& fragment) {
     State state{.topology = GL_TRIANGLES};
     unsigned offset = 0;
     for (const Variable& input : vertex.inputs) {
@@ -55,12 +68,11 @@ State stateOf(const Module& vertex, const Module* fragment) {
         offset += 4 * input.components;
     }
     if (offset > 0) state.buffers.push_back({offset, 0});
-    if (fragment != nullptr)
-        for (const Variable& output : fragment->outputs) {
-            if (output.location >= 8) throw BadInput("a fragment shader writes more than the 8 targets that there are");
-            state.colours.resize(std::max<std::size_t>(state.colours.size(), output.location + 1));
-            state.colours[output.location].format = formatOf(output.scalar);
-        }
+    for (const Variable& output : fragment.outputs) {
+        if (output.location >= 8) throw BadInput("a fragment shader writes more than the 8 targets that there are");
+        state.colours.resize(std::max<std::size_t>(state.colours.size(), output.location + 1));
+        state.colours[output.location].format = formatOf(output.scalar);
+    }
     state.depthFormat = GL_DEPTH_COMPONENT32F;
     state.depthTest = state.depthWrite = true;
     state.depthFunction = GL_LESS;
@@ -95,13 +107,14 @@ Pipeline pipelineOf(std::vector<Shader> shaders) {
     if (modules.front().stage == Stage::Compute && modules.size() > 1)
         throw BadInput(shaders.front().name + " is a compute shader, which is a pipeline alone");
     if (modules.front().stage == Stage::Compute) return {std::move(shaders), {}};
-    if (modules.front().stage == Stage::Fragment) {
-        std::vector<Shader> vertex{sourceOf(modules.front().inputs)};
-        translate(vertex);
-        modules.insert(modules.begin(), readModule(vertex.front().spirv, "a vertex shader"));
-        shaders.insert(shaders.begin(), std::move(vertex.front()));
+    if (modules.size() == 1) {
+        const bool isVertex = modules.front().stage == Stage::Vertex;
+        std::vector<Shader> other{isVertex ? sinkOf(modules.front().outputs) : sourceOf(modules.front().inputs)};
+        translate(other);
+        modules.insert(isVertex ? modules.end() : modules.begin(), readModule(other.front().spirv, "what stands beside it"));
+        shaders.insert(isVertex ? shaders.end() : shaders.begin(), std::move(other.front()));
     }
-    const State state = stateOf(modules.front(), modules.size() > 1 ? &modules.back() : nullptr);
+    const State state = stateOf(modules.front(), modules.back());
     return {std::move(shaders), state};
 }
 

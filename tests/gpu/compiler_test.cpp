@@ -111,7 +111,17 @@ TEST_F(Compiling, AFragmentShaderAloneIsNotFoldedAway) {
     EXPECT_GE(varying.of("Instructions"), constant.of("Instructions") + 4);
 }
 
-TEST_F(Compiling, AnArchitectureOfEachWaveWidth) {
+TEST_F(Compiling, AVertexShaderAloneWritesAllItsOutputs) {
+    const auto of = [](const std::string& body) {
+        return figures(Stage::Vertex, "#version 450 core\nlayout(location = 0) in vec4 p; layout(location = 0) out vec3 a;\n"
+                                      "layout(location = 1) flat out ivec2 b; layout(location = 3) out float c;\n"
+                                      "void main() { gl_Position = p; a = p.xyz; b = ivec2(1); c = p.w; " +
+                                          body + "}\n");
+    };
+    EXPECT_GE(of("a = sin(p.xyz); b = ivec2(p.xy * 3);").of("Instructions"), of("").of("Instructions") + 5);
+}
+
+TEST_F(Compiling, WidthOfWavesAndVersionsAreKnown) {
     const std::string text = fragment("x = sqrt(x);");
     EXPECT_EQ(figures(Stage::Fragment, text, "vega10").of("Subgroup size"), 64U);
     EXPECT_NE(compilerVersion().find("Mesa"), std::string::npos);
