@@ -1,5 +1,6 @@
 # Run at every build: writes embedded_commit.h with the project's version, the checked-out commit and hashes of the sources,
-# and embedded_oracle_sources.h with those of each oracle's, only when they changed.
+# embedded_oracle_sources.h with those of each oracle's and embedded_shader_sources.h with those of what draws and compiles
+# shaders, only when they changed.
 # Of results/, which is being made anew while the program runs, only the golden references make another program.
 execute_process(COMMAND git rev-parse HEAD WORKING_DIRECTORY ${ROOT} OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
                 ERROR_QUIET RESULT_VARIABLE failed)
@@ -43,8 +44,17 @@ foreach(file CMakeLists.txt results/reference/lock.json)
     string(APPEND beside " ${hash}")
   endif()
 endforeach()
-digest_of(program "${COMPILER}${beside}" "^$" base scene techniques groundtruth harness cmake)
+digest_of(program "${COMPILER}${beside}" "^$" base scene techniques gpu groundtruth harness cmake)
 digest_of(metric_code "" "^$" harness/cells harness/measure harness/metrics harness/records harness/render)
+
+# The hashes of what decides which pipelines a frame uses and of what compiles them, which name what is kept of them.
+digest_of(drawing "" "^$" scene techniques gpu/observer gpu/pipeline gpu/state harness/render harness/studies/shader_cost/frame_pipelines)
+digest_of(compiling "" "^$" gpu)
+file(WRITE ${OUT}/embedded_shader_sources.h.new
+     "#pragma once\n\nnamespace shadowbench::embedded {\n\n"
+     "inline constexpr const char* drawing_sources = \"${drawing}\";\n"
+     "inline constexpr const char* compiling_sources = \"${compiling}\";\n\n}  // namespace shadowbench::embedded\n")
+file(COPY_FILE ${OUT}/embedded_shader_sources.h.new ${OUT}/embedded_shader_sources.h ONLY_IF_DIFFERENT)
 
 # The hashes of what computes the numbers of a truth, an oracle each, which name entries of the cache. What a scene consists of
 # is in the reference's key. A new file of groundtruth/ counts for all oracles until it is named here.

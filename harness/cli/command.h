@@ -26,6 +26,7 @@ void addCauses(CLI::App& app, Action& action);
 void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addPapers(CLI::App& app, Action& action);
+void addShaderCost(CLI::App& app, Action& action);
 void addExport(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);

@@ -1,5 +1,5 @@
-// The GL entry points, for .cpp files in techniques/ only: no GL type appears in a header. No library of OpenGL is linked:
-// within this namespace each function is a pointer of the same name, which is null until a context is made
+// The GL entry points, for .cpp files in techniques/ and gpu/ only: no GL type appears in a header. No library of OpenGL is
+// linked: within this namespace each function is a pointer of the same name, which is null until a context is made
 // (techniques/gl/context.h). The prototypes outside are there for their types; nothing defines them.
 #pragma once
 

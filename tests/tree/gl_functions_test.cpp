@@ -29,7 +29,7 @@ std::vector<std::string> listed() {
 std::set<std::string> named() {
     static const std::regex word(R"(\bgl[A-Z]\w*)");
     std::set<std::string> names;
-    for (const char* folder : {"techniques", "tests/techniques"})
+    for (const char* folder : {"techniques", "gpu", "tests/techniques"})
         for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
             if (entry.path().extension() != ".cpp") continue;
             const std::string text = readFile(entry.path());

@@ -31,7 +31,7 @@ struct Include {
 };
 
 /// Whose a header is by how its path begins. `<thread>` needs no line: every module reaches base, which links threads.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 16> packageOfHeader{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 19> packageOfHeader{
     {{"CGAL/", "cgal"},
      {"CLI/", "cli11"},
      {"EGL/", "gl"},
@@ -40,19 +40,22 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 16> p
      {"assimp/", "assimp"},
      {"boost/", "boost"},
      {"embree3/", "embree"},
+     {"glslang/", "glslang"},
      {"meshoptimizer.h", "meshoptimizer"},
      {"mustache.hpp", "mustache"},
      {"nlohmann/", "json"},
      {"png.h", "png"},
      {"seccomp.h", "seccomp"},
+     {"spirv-tools/", "glslang"},
      {"toml++/", "toml"},
+     {"vulkan/", "vulkan"},
      {"xxhash.h", "xxhash"},
      {"zlib.h", "zlib"}}};
 
 /// Libraries that every module links, the operating system's headers, and Valgrind's, which are macros only.
 inline constexpr std::array<std::string_view, 5> headersOfAll{"fmt/", "glm/", "linux/", "sys/", "valgrind/"};
 
-inline constexpr std::array<std::string_view, 5> rootFolders{"base", "scene", "techniques", "groundtruth", "harness"};
+inline constexpr std::array<std::string_view, 6> rootFolders{"base", "scene", "techniques", "gpu", "groundtruth", "harness"};
 
 inline std::vector<std::string> wordsOf(const std::string& text) {
     std::istringstream words(text);

@@ -1,0 +1,73 @@
+// What each shader of a frame costs on graphics processors that are not there, by AMD's compiler in Mesa: static figures, of
+// which docs/gpu-cost.md says what they are worth.
+#pragma once
+
+#include "base/error.h"
+#include "gpu/pipeline.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shadowbench::shaders {
+
+/// One shader of one pass on one architecture.
+struct ShaderCost {
+    std::string technique; // variant; "" of a file of the user's
+    std::string scene;     // "" of such a file
+    std::string pass;      // "" of such a file, and of what is drawn between passes
+    gpu::Stage stage;
+    std::string source;      // file of the shader
+    int number = 1;          // 2 and more: others of the same technique, pass, stage and source, in order
+    std::uint64_t draws = 0; // and dispatches, of the steady frame; 0: of others only
+    std::string architecture;
+    std::vector<std::pair<std::string, std::uint64_t>> statistics; // as gpu::StageFigures
+
+    /// What is the same of one shader in two programs.
+    [[nodiscard]] std::string name() const;
+
+    /// 0 where the compiler does not give it.
+    [[nodiscard]] std::uint64_t of(const std::string& statistic) const;
+};
+
+struct ShaderCosts {
+    std::string compiler; // with its version
+    std::vector<ShaderCost> shaders;
+};
+
+struct ShaderCostOptions {
+    std::vector<std::string> files;         // shaders; empty: those of the catalogue
+    std::vector<std::string> techniques;    // variants or globs; empty: all
+    std::string scene;                      // id or file; empty: for each variant the first that it applies to
+    std::vector<std::string> architectures; // empty: all
+    std::filesystem::path cache;            // empty: as of references
+    bool quiet = false;
+};
+
+struct ShaderCostResult {
+    ShaderCosts costs;
+    ExitCode code = ExitCode::Pass;
+    std::vector<std::string> errors;                  // a sentence for each variant or program that has no figures
+    std::map<std::string, std::string> notApplicable; // variant → why it has none on the scene that was asked for
+};
+
+/// All shaders that are asked for, in the order of the catalogue or of the files, architecture by architecture. Throws
+/// Inconclusive, saying what to install, without the driver, and BadInput for what is not there.
+ShaderCostResult shaderCosts(const ShaderCostOptions& options);
+
+/// Nothing that the program writes depends on the machine or the time: a line of JSON for each element.
+std::string toLines(const ShaderCosts& costs);
+
+/// Throws BadInput naming file and line.
+ShaderCosts readLines(const std::filesystem::path& file);
+
+/// For a terminal: a row a shader; figures of several architectures are separated by strokes.
+std::string table(const ShaderCosts& costs);
+
+/// What changed, as Mesa's shader-db reports it: totals, then each changed shader.
+std::string changes(const ShaderCosts& before, const ShaderCosts& after);
+
+} // namespace shadowbench::shaders
