@@ -1,6 +1,6 @@
 // The rates of the graphics processor at hand, each by a loop of draws that asks for one of its resources and little else:
 // what a model of its frames (docs/gpu-cost.md) needs and no data sheet prints for every card. Timed by the processor's own
-// clock, the median of nine repeats; prints one JSON line a rate.
+// clock, the median of nine repeats; prints CSV, a line a rate.
 //
 //   build/release/benchmarks/card_rates [PIXELS A SIDE]
 #include "base/error.h"
@@ -50,8 +50,9 @@ double deviceMilliseconds(const std::function<void()>& work) {
 
 /// `count` of `unit` take `milliseconds`.
 void print(const std::string& rate, const std::string& unit, double count, double milliseconds) {
-    fmt::print("{{\"rate\": \"{}\", \"unit\": \"{}\", \"count\": {}, \"milliseconds\": {:.6g}, \"per_second\": {:.6g}}}\n",
-               rate, unit, count, milliseconds, 1e3 * count / milliseconds);
+    const gl::ContextInfo& info = gl::Context::current().info();
+    fmt::print("\"{}\",\"{}\",\"{}\",{},{},{:.6g},{:.6g}\n", info.renderer, info.version, rate, unit, count, milliseconds,
+               1e3 * count / milliseconds);
     std::fflush(stdout);
 }
 
@@ -268,7 +269,7 @@ void submit() {
 
 void measure() {
     const auto context = gl::Context::create();
-    fmt::print("{{\"renderer\": \"{}\", \"version\": \"{}\"}}\n", context->info().renderer, context->info().version);
+    fmt::print("renderer,version,rate,unit,count,milliseconds,per_second\n");
     submit();
     fillTargets();
     fillDepth();

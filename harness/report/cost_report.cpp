@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <tuple>
 
 namespace shadowbench::report {
@@ -17,7 +18,7 @@ bool isTimed(const PassRecord& pass) { return pass.milliseconds.has_value(); }
 std::vector<const Record*> timedRecords(const std::vector<Record>& records, const std::string& scene) {
     std::vector<const Record*> timed;
     for (const std::size_t i : ofScene(records, scene))
-        if (!records[i].sweep && std::ranges::any_of(records[i].passes, isTimed)) timed.push_back(&records[i]);
+        if (!records[i].sweep && !timedFrames(records[i]).empty()) timed.push_back(&records[i]);
     return timed;
 }
 
@@ -31,14 +32,13 @@ const PassRecord* passNamed(const std::vector<PassRecord>& passes, const std::st
 }
 
 /// What a pass' fragments grow with, from their numbers on two images: f₂/f₁ = (pixels₂/pixels₁)^e with e near 1 or near 0.
-std::string growsWith(const Record& record, const PassRecord& pass) {
+std::string growsWith(const PassRecord& pass, const TimedFrame& here, const TimedFrame& there) {
     if (pass.draws == 0 && pass.fragments == 0) return "–";
-    const PassRecord* other = passNamed(record.otherScreen->passes, pass.name);
+    const PassRecord* other = passNamed(*there.passes, pass.name);
     if (other == nullptr || other->fragments == 0 || pass.fragments == 0) return "–";
-    const auto pixels = [](int width, int height) { return static_cast<double>(width) * height; };
-    const double exponent =
-        std::log(static_cast<double>(other->fragments) / static_cast<double>(pass.fragments)) /
-        std::log(pixels(record.otherScreen->width, record.otherScreen->height) / pixels(record.width, record.height));
+    const auto pixels = [](const TimedFrame& frame) { return static_cast<double>(frame.width) * frame.height; };
+    const double exponent = std::log(static_cast<double>(other->fragments) / static_cast<double>(pass.fragments)) /
+                            std::log(pixels(there) / pixels(here));
     return exponent > 0.75 ? "screen" : exponent < 0.25 ? "map" : "both";
 }
 
@@ -59,11 +59,11 @@ class PassRows {
 public:
     explicit PassRows(const std::vector<const Record*>& records) {
         for (const Record* record : records)
-            if (record->otherScreen) other_ = &*record->otherScreen;
+            if (const auto frames = timedFrames(*record); frames.size() > 1) other_ = frames[1];
         table_.titles = {"technique", "pass", "runs", "ms", "share"};
-        if (other_ != nullptr) table_.titles.push_back("ms at " + sizeOf(other_->width, other_->height));
+        if (other_) table_.titles.push_back("ms at " + sizeOf(other_->width, other_->height));
         table_.titles.insert(table_.titles.end(), {"fragments", "vertices", "draws"});
-        if (other_ != nullptr) table_.titles.emplace_back("grows with");
+        if (other_) table_.titles.emplace_back("grows with");
         table_.titles.insert(table_.titles.end(), {"× bare", "the least"});
         for (const Record* record : records) addAll(*record);
     }
@@ -72,27 +72,28 @@ public:
 
 private:
     void addAll(const Record& record) {
-        for (const PassRecord& pass : record.passes)
-            add(record, pass, &pass == &record.passes.front() ? record.variant : "", "");
-        for (const PassRecord& pass : changedPasses(record.motionPasses, record.passes))
-            add(record, pass, "", ", in motion");
-        for (const PassRecord& pass : changedPasses(record.coldPasses, record.passes))
-            add(record, pass, "", ", first frame");
+        const std::vector<TimedFrame> frames = timedFrames(record);
+        const std::vector<PassRecord>& standing = *frames.front().passes;
+        for (const PassRecord& pass : standing) add(frames, pass, &pass == &standing.front() ? record.variant : "", "");
+        if (!record.deviceCosts.empty()) return; // of these frames only the whole is timed there
+        for (const PassRecord& pass : changedPasses(record.motionPasses, standing)) add(frames, pass, "", ", in motion");
+        for (const PassRecord& pass : changedPasses(record.coldPasses, standing)) add(frames, pass, "", ", first frame");
     }
 
-    void add(const Record& record, const PassRecord& pass, const std::string& variant, const char* frame) {
+    void add(const std::vector<TimedFrame>& frames, const PassRecord& pass, const std::string& variant, const char* frame) {
         std::vector<std::string> row{variant, pass.name + frame, std::to_string(pass.runs), milliseconds(pass.milliseconds),
                                      percent(pass.share.value_or(0))};
-        const PassRecord* other = record.otherScreen ? passNamed(record.otherScreen->passes, pass.name) : nullptr;
-        if (other_ != nullptr) row.push_back(milliseconds(other != nullptr ? other->milliseconds : std::nullopt));
+        const bool hasOther = frames.size() > 1;
+        const PassRecord* other = hasOther ? passNamed(*frames[1].passes, pass.name) : nullptr;
+        if (other_) row.push_back(milliseconds(other != nullptr ? other->milliseconds : std::nullopt));
         for (const std::uint64_t count : {pass.fragments, pass.vertices, pass.draws}) row.push_back(std::to_string(count));
-        if (other_ != nullptr) row.push_back(record.otherScreen ? growsWith(record, pass) : "–");
+        if (other_) row.push_back(hasOther ? growsWith(pass, frames[0], frames[1]) : "–");
         row.push_back(timesBare(pass));
         row.push_back(least(pass));
         table_.rows.push_back(std::move(row));
     }
 
-    const OtherScreen* other_ = nullptr; // one of them; all of a scene have one size
+    std::optional<TimedFrame> other_; // of one of them; all of a scene have one size
     TextTable table_;
 };
 
@@ -140,6 +141,14 @@ std::string csvRow(const Record& record, int width, int height, const char* fram
                     ofBare(bare.fragments), ofBare(bare.vertices), ofBare(bare.taps), quoted(bare.source)});
 }
 
+/// " on images of 1024² and 2048² pixels, costs of the first".
+std::string imagesOf(const Record& record) {
+    std::string sizes;
+    for (const DeviceCost& cost : record.deviceCosts)
+        sizes += (sizes.empty() ? "" : " and ") + sizeOf(cost.width, cost.height);
+    return sizes.empty() ? "" : fmt::format(", on images of {} pixels; costs are those of the first", sizes);
+}
+
 } // namespace
 
 std::string rasteriserNote(const std::vector<Record>& records, const std::string& scene) {
@@ -147,7 +156,7 @@ std::string rasteriserNote(const std::vector<Record>& records, const std::string
     if (timed.empty()) return "";
     const Environment& e = timed.front()->environment;
     if (e.vectorBits == 0) // a graphics processor
-        return fmt::format("Times are of {}, {}: of a pass that draws, by its own clock.", e.renderer, e.driver);
+        return fmt::format("Times are of {}, {}, by its own clock{}.", e.renderer, e.driver, imagesOf(*timed.front()));
     const std::string threads =
         e.rasterThreads == 0 ? "on the calling thread alone" : fmt::format("with {} raster threads", e.rasterThreads);
     std::string text = fmt::format("Times are of {}, {}", e.renderer, threads);
@@ -158,6 +167,33 @@ std::string rasteriserNote(const std::vector<Record>& records, const std::string
                        "reads and arithmetic cost the processor, without units of their own for depth, blending and "
                        "filtering. A GPU hides much of that: compare fragments, vertices and taps there.",
                        e.vectorBits / 32);
+}
+
+std::vector<TimedFrame> timedFrames(const Record& record) {
+    std::vector<TimedFrame> frames;
+    for (const DeviceCost& cost : record.deviceCosts) frames.push_back({cost.width, cost.height, &cost.passes});
+    if (!frames.empty() || std::ranges::none_of(record.passes, isTimed)) return frames;
+    frames.push_back({record.width, record.height, &record.passes});
+    if (const auto& other = record.otherScreen) frames.push_back({other->width, other->height, &other->passes});
+    return frames;
+}
+
+std::string deviceTable(const std::vector<Record>& records, const std::string& scene) {
+    TextTable table;
+    for (const Record* record : timedRecords(records, scene)) {
+        if (record->deviceCosts.empty()) continue;
+        table.titles = {"technique"};
+        std::vector<std::string> row{record->variant};
+        for (const DeviceCost& cost : record->deviceCosts) {
+            const std::string size = sizeOf(cost.width, cost.height);
+            for (const char* title : {"ms at ", "× base at ", "in motion at ", "first at ", "the program's at "})
+                table.titles.push_back(title + size);
+            row.insert(row.end(), {milliseconds(cost.median), fmt::format("{:.2f}", cost.ratio), milliseconds(cost.motion),
+                                   milliseconds(cost.first), milliseconds(cost.processor)});
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return markdown(table);
 }
 
 std::vector<PassRecord> changedPasses(const std::vector<PassRecord>& passes, const std::vector<PassRecord>& standing) {
@@ -196,8 +232,9 @@ std::string passCsv(const std::vector<Record>& records) {
         add(record.passes, record.width, record.height, "standing");
         add(record.motionPasses, record.width, record.height, "motion");
         add(record.coldPasses, record.width, record.height, "first");
-        if (!record.otherScreen) continue;
-        add(record.otherScreen->passes, record.otherScreen->width, record.otherScreen->height, "standing");
+        if (record.otherScreen)
+            add(record.otherScreen->passes, record.otherScreen->width, record.otherScreen->height, "standing");
+        for (const DeviceCost& cost : record.deviceCosts) add(cost.passes, cost.width, cost.height, "standing");
     }
     if (rows.empty()) return "";
     return "scene,variant,profile,width,height,frame,pass,runs,milliseconds,share,fragments,vertices,draws,bare."

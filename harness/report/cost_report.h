@@ -13,6 +13,20 @@ namespace shadowbench::report {
 /// for the foot of a table of costs. "" where none was timed.
 std::string rasteriserNote(const std::vector<Record>& records, const std::string& scene);
 
+/// A frame of a record whose passes have times.
+struct TimedFrame {
+    int width, height;
+    const std::vector<PassRecord>* passes;
+};
+
+/// The scored image and one of another size (Record::otherScreen); where a graphics processor drew, the larger images on
+/// which its frames were timed (Record::deviceCosts). Empty where nothing was timed.
+std::vector<TimedFrame> timedFrames(const Record& record);
+
+/// Markdown: whole frames on a graphics processor, on each image that they were timed on; the base is sm-uniform, of levels
+/// of detail lod-switch. "" where none drew.
+std::string deviceTable(const std::vector<Record>& records, const std::string& scene);
+
 /// Markdown: the passes of every timed record of `scene` with their times, work, what they grow with and the least that
 /// they need; below them the changed ones of the frame in motion and of the first frame. "" where no record has passes with
 /// times.

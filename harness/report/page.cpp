@@ -90,6 +90,12 @@ constexpr const char* excessNote =
     "\"Bare passes\"): where a pass has as many fragments as its least, the rest is arithmetic, branches and what it "
     "writes.\n";
 
+constexpr const char* deviceNote =
+    "Frames are the G-buffer and the technique; × base: as a multiple of sm-uniform's, of levels of detail lod-switch's. "
+    "The "
+    "program's is its own time in passes that draw nothing; it is in a frame as far as the graphics processor waits for it "
+    "(docs/devices.md). Passes below are of the first size.\n";
+
 /// costs.md; "" where no record has passes with times.
 std::string costPage(const std::vector<Record>& records) {
     std::string text;
@@ -97,8 +103,12 @@ std::string costPage(const std::vector<Record>& records) {
         const std::string table = passTable(records, scene);
         if (table.empty()) continue;
         const Record& first = records[ofScene(records, scene).front()];
-        text += fmt::format("\n## {}\n\n{} pixels. {}\n\n{}", markdownText(scene), imageSize(first),
-                            rasteriserNote(records, scene), table);
+        const std::string frames = deviceTable(records, scene);
+        text += fmt::format("\n## {}\n\n", markdownText(scene));
+        if (frames.empty()) text += imageSize(first) + " pixels. ";
+        text += rasteriserNote(records, scene) + "\n\n";
+        if (!frames.empty()) text += fmt::format("{}\n{}\n", deviceNote, frames);
+        text += table;
         const std::string excess = excessTable(records, scene);
         if (!excess.empty()) text += fmt::format("\n### Above {} × bare\n\n{}\n{}", closeToBare, excessNote, excess);
     }

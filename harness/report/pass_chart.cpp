@@ -29,9 +29,10 @@ struct Bar {
 std::vector<Bar> barsOf(const std::vector<Record>& records, const std::string& scene) {
     std::vector<Bar> bars;
     for (const std::size_t i : ofScene(records, scene)) {
-        if (records[i].sweep) continue;
+        const std::vector<TimedFrame> frames = timedFrames(records[i]);
+        if (records[i].sweep || frames.empty()) continue;
         Bar bar{records[i].variant, {}};
-        for (const PassRecord& pass : records[i].passes)
+        for (const PassRecord& pass : *frames.front().passes)
             if (pass.milliseconds) bar.parts.emplace_back(pass.name, *pass.milliseconds);
         if (bar.length() > 0) bars.push_back(std::move(bar));
     }

@@ -92,7 +92,7 @@ std::string runCommand(const std::vector<Record>& records) {
         chosen += " --external RENDERERS.toml";
     }
     return "./bench run" + options("--scene", scenes(records), standardScenes()) + chosen + " --profile " +
-           shellWord(records.front().profile);
+           shellWord(records.front().profile) + (records.front().environment.platform == "egl" ? " --gl egl" : "");
 }
 
 std::string commitsOf(const std::vector<Record>& records) { return distinct(records, commit); }

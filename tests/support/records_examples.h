@@ -112,6 +112,28 @@ inline Record hardRecord() {
     return r;
 }
 
+/// The same drawn by a graphics processor.
+inline Record deviceRecord() {
+    Record r = hardRecord();
+    r.environment.renderer = "NVIDIA H200/PCIe/SSE2";
+    r.environment.driver = "NVIDIA 580.159.04";
+    r.environment.rasterThreads = r.environment.vectorBits = 0;
+    r.otherScreen.reset();
+    for (const int side : {1024, 2048}) {
+        const double pixels = side / 1024 * side / 1024;
+        DeviceCost cost{side, side, 1.2 * pixels, 0.001, 1.1, 0.04, 1.5 * pixels, {}, r.passes};
+        if (side == 1024) cost.first = 1.3;
+        cost.passes[0].fragments *= static_cast<std::uint64_t>(pixels);
+        r.deviceCosts.push_back(std::move(cost));
+    }
+    for (PassRecord& pass : r.passes) {
+        pass.milliseconds.reset();
+        pass.share.reset();
+        pass.bare.reset();
+    }
+    return r;
+}
+
 inline Record softRecord() {
     Record r = hardRecord();
     r.scene = "overlapping-occluders";

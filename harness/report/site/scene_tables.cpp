@@ -37,10 +37,13 @@ Cell shareCell(const Record& record, const std::vector<Tolerance>& limits) {
 
 std::vector<std::string> passNames(const std::vector<Record>& records, const std::string& scene) {
     std::vector<std::string> names;
-    for (const std::size_t i : report::ofScene(records, scene))
-        for (const auto* passes : {&records[i].passes, &records[i].motionPasses, &records[i].coldPasses})
+    for (const std::size_t i : report::ofScene(records, scene)) {
+        const std::vector<report::TimedFrame> frames = report::timedFrames(records[i]);
+        if (frames.empty()) continue;
+        for (const auto* passes : {frames.front().passes, &records[i].motionPasses, &records[i].coldPasses})
             for (const PassRecord& pass : *passes)
                 if (pass.milliseconds && std::ranges::find(names, pass.name) == names.end()) names.push_back(pass.name);
+    }
     return names;
 }
 
@@ -189,14 +192,15 @@ Table passTable(const std::vector<Record>& records, const std::string& scene, co
     for (const std::string& name : names)
         table.columns.push_back({.title = name, .key = name, .unit = "ms", .brief = false});
     for (const std::size_t i : report::ofScene(records, scene)) {
-        if (std::ranges::none_of(records[i].passes, [](const PassRecord& pass) { return pass.milliseconds.has_value(); }))
-            continue;
         const Record& record = records[i];
+        const std::vector<report::TimedFrame> frames = report::timedFrames(record);
+        if (frames.empty()) continue;
         const auto add = [&](const std::vector<PassRecord>& passes, const char* frame) {
             table.rows.push_back(passRow(record, passes, frame, names, images));
             table.rows.back().marks = marksOf(records, i);
         };
-        add(record.passes, "");
+        add(*frames.front().passes, "");
+        if (!record.deviceCosts.empty()) continue; // of the others only the whole frame is timed there
         if (!report::changedPasses(record.motionPasses, record.passes).empty()) add(record.motionPasses, ", in motion");
         if (!report::changedPasses(record.coldPasses, record.passes).empty()) add(record.coldPasses, ", first frame");
     }

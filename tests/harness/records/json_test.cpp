@@ -84,6 +84,21 @@ TEST(RecordJson, KeepsEveryMember) {
     EXPECT_FALSE(r.values["accuracy.rmse"]);
 }
 
+TEST(RecordJson, KeepsTheCostsOfAGraphicsProcessor) {
+    const Record r = parseRecord(toJson(deviceRecord()));
+    ASSERT_EQ(r.deviceCosts.size(), 2U);
+    EXPECT_EQ(r.deviceCosts[1].width, 2048);
+    EXPECT_EQ(r.deviceCosts[1].median, 4.8);
+    EXPECT_EQ(r.deviceCosts[1].mad, 0.001);
+    EXPECT_EQ(r.deviceCosts[1].ratio, 1.1);
+    EXPECT_EQ(r.deviceCosts[1].processor, 0.04);
+    EXPECT_EQ(r.deviceCosts[1].motion, 6);
+    EXPECT_EQ(r.deviceCosts[0].first, 1.3);
+    EXPECT_FALSE(r.deviceCosts[1].first);
+    EXPECT_EQ(r.deviceCosts[1].passes[0].fragments, 4U * 32768);
+    EXPECT_TRUE(parseRecord(toJson(hardRecord())).deviceCosts.empty());
+}
+
 TEST(RecordJson, KeepsAllTolerancesAndReadsTheOneOfOlderRecords) {
     Record record = hardRecord();
     record.tolerances = {{"leak", 0.1}, {"mismatch", 0.005}};

@@ -60,6 +60,15 @@ TEST_F(RecordSchema, RefusesATypoAtEveryLevel) {
     }
 }
 
+TEST_F(RecordSchema, RefusesATypoInCostsOfAGraphicsProcessor) {
+    for (const char* place : {"/cost/device/0", "/cost/device/1/by_pass/0"}) {
+        Json record = Json::parse(toJson(deviceRecord()));
+        ASSERT_TRUE(valid(record)) << why_;
+        record[Json::json_pointer(place)]["mediann"] = 0.1;
+        EXPECT_FALSE(valid(record)) << place;
+    }
+}
+
 TEST_F(RecordSchema, ALevelOfDetailRecordHasNoAccuracyAndNoTypos) {
     for (const char* place : {"/lod", "/lod/time", "/lod/by_frame"}) {
         Json record = Json::parse(toJson(lodRecord()));

@@ -52,6 +52,28 @@ TEST(PassTable, IsAbsentWithoutTimes) {
         << "work is there";
 }
 
+TEST(DeviceTable, SetsWholeFramesOnAGraphicsProcessorBesideEachOther) {
+    const std::vector<Record> records{deviceRecord()};
+    const std::string table = report::deviceTable(records, "dueling-frusta");
+    EXPECT_TRUE(contains(table, "| ms at 1024² | × base at 1024² | in motion at 1024² | first at 1024² |")) << table;
+    EXPECT_TRUE(contains(table, "| 1.20 | 1.10 | 1.50 | 1.30 | 0.04 | 4.80 | 1.10 | 6.00 | – | 0.04 |\n")) << table;
+    EXPECT_EQ(report::deviceTable(timed(), "dueling-frusta"), "");
+}
+
+TEST(DeviceTable, HasPassesOfTheLargerImagesBelowIt) {
+    const std::vector<Record> records{deviceRecord()};
+    const std::string table = report::passTable(records, "dueling-frusta");
+    EXPECT_TRUE(
+        contains(table, "| sm-history:base=lispsm | G-buffer | 1 | 6.60 | 30.0 % | 6.60 | 32768 | 210 | 2 | screen |"))
+        << table;
+    EXPECT_TRUE(
+        contains(report::passCsv(records), "sm-history:base=lispsm,gate,2048,2048,standing,G-buffer,1,6.6,0.3,131072,"))
+        << report::passCsv(records);
+    EXPECT_TRUE(report::passChart(records, "dueling-frusta"));
+    EXPECT_TRUE(contains(report::rasteriserNote(records, "dueling-frusta"), "H200")) << "names the processor";
+    EXPECT_FALSE(contains(report::rasteriserNote(records, "dueling-frusta"), "llvmpipe"));
+}
+
 TEST(ExcessTable, NamesThePassThatKeepsARowFromItsLeast) {
     std::vector<Record> records = timed();
     records[1].values["cost.time.bare_ratio"] = 1.3;
@@ -79,7 +101,10 @@ TEST(RasteriserNote, SaysWhatDrewAndWhatThatDoesToTimes) {
         record.environment.driver = "NVIDIA 550.54.15";
     }
     EXPECT_EQ(report::rasteriserNote(records, "dueling-frusta"),
-              "Times are of some GPU, NVIDIA 550.54.15: of a pass that draws, by its own clock.");
+              "Times are of some GPU, NVIDIA 550.54.15, by its own clock.");
+    records = {deviceRecord()};
+    EXPECT_TRUE(contains(report::rasteriserNote(records, "dueling-frusta"),
+                         ", by its own clock, on images of 1024² and 2048² pixels; costs are those of the first."));
 }
 
 TEST(PassCsv, HasOneRowAPassOnEachScreen) {
