@@ -68,7 +68,6 @@ private:
 
     double busy();
     void raiseClock();
-    Stamped stamped(const RenderFrame& render);
     std::vector<double> samples(int rounds, const std::function<void()>& before, const RenderFrame& render);
     double timePasses(FramePasses& passes, const RenderFrame& render, int rounds);
 
