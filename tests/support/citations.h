@@ -141,8 +141,8 @@ inline bool matchesPattern(std::string_view pattern, std::string_view path) {
 
 /// Whether a word that looks like one of our paths leads nowhere. What commands write into results/ may be there or not.
 inline bool isStalePath(const Tree& tree, const std::string& word) {
-    static const std::array folders{"base",  "scene",      "techniques", "groundtruth", "harness", "tests",
-                                    "tools", "benchmarks", "cmake",      "docs",        "results"};
+    static const std::array folders{"base",  "scene", "techniques", "gpu",   "groundtruth", "harness",
+                                    "tests", "tools", "benchmarks", "cmake", "docs",        "results"};
     static const std::array written{"results/latest", "results/mine",      "results/large",
                                     "results/sweep",  "results/recommend", "results/reproduced"};
     static const std::array endings{".h", ".cpp", ".glsl", ".vert", ".frag", ".comp", ".cmake"};

@@ -12,7 +12,7 @@ namespace shadowbench::mutants {
 class TreeCopy {
 public:
     /// What the program and its tests are built from, and what their tests read.
-    static constexpr std::array parts{"CMakeLists.txt", "CMakePresets.json", "cmake", "base",  "scene",  "techniques",
+    static constexpr std::array parts{"CMakeLists.txt", "CMakePresets.json", "cmake", "base",  "scene",  "techniques", "gpu",
                                       "groundtruth",    "harness",           "tools", "tests", "results"};
 
     /// Copies what the program is built from: files that differ, so that only those are built again. A fault left by a

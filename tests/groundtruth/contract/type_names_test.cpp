@@ -103,7 +103,7 @@ TEST(FunctionNames, NoTwoHeadersOfTheTestsDefineTheSame) {
 
 TEST(TypeNames, NoTwoHeadersDefineTheSame) {
     std::map<std::string, std::vector<std::string>> headersOf;
-    for (const char* folder : {"base", "scene", "techniques", "groundtruth", "harness"})
+    for (const char* folder : {"base", "scene", "techniques", "gpu", "groundtruth", "harness"})
         for (const fs::directory_entry& file : fs::recursive_directory_iterator(fs::path(SOURCE_FOLDER) / folder)) {
             if (file.path().extension() != ".h") continue;
             for (const std::string& type : typesOf(readFile(file.path())))
