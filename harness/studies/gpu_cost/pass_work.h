@@ -1,0 +1,36 @@
+// What the passes of a frame do, joined from what a record counts and what the frame's shaders, targets and moves are.
+#pragma once
+
+#include "gpu/model.h"
+#include "harness/records/record.h"
+#include "harness/studies/shader_cost/shader_cost.h"
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+namespace shadowbench::gpucost {
+
+/// The architecture whose figures of shaders stand for all cards.
+inline constexpr const char* architecture = "navi21";
+
+struct NamedWork {
+    std::string pass; // as in records
+    gpu::PassWork work;
+};
+
+/// The shaders and moves of one technique on one scene.
+struct Drawn {
+    std::vector<shaders::ShaderCost> shaders; // on `architecture`
+    std::vector<shaders::FrameMove> moves;
+    glm::ivec2 screen{}; // the image that was drawn
+};
+
+/// What a pass counts on an image of `size` pixels: what the record counted on one of that size, else a straight line in the
+/// number of pixels through the two sizes nearest to it. Throws BadInput for a record that counted on one size alone.
+std::vector<PassRecord> countsOn(const Record& record, glm::ivec2 size);
+
+/// All passes of the standing frame. Targets as large as the screen that was drawn grow with it, all others do not.
+std::vector<NamedWork> worksOf(const Record& record, const Drawn& drawn, glm::ivec2 size);
+
+} // namespace shadowbench::gpucost
