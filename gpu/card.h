@@ -17,6 +17,7 @@ enum class Rate {
     OutputBytes,  // bytes of colour targets that are written or cleared
     BlendedBytes, // bytes of targets of 32-bit floats that are blended
     Depth,        // pixels of a depth buffer that are written or cleared
+    Tested,       // pixels of which neither colour nor depth is written
     Geometry,     // triangles that share no vertex
     Memory,       // bytes
     Draws,
@@ -24,7 +25,7 @@ enum class Rate {
     Dependents, // targets, dispatches and copies that read what the one before wrote
     ReadBacks
 };
-inline constexpr std::size_t rateCount = 12;
+inline constexpr std::size_t rateCount = 13;
 
 struct Card {
     std::string id, name;

@@ -59,7 +59,7 @@ Terms termsOf(const PassWork& work, const Card& card) {
         terms.output += secondsOf(written, card);
         bytes += written.pixels * written.bytes * (written.blends ? 2 : 1); // read first
     }
-    terms.output += work.depthPixels / card[Rate::Depth];
+    terms.output += work.depthPixels / card[Rate::Depth] + work.testedPixels / card[Rate::Tested];
     terms.geometry = work.triangles / card[Rate::Geometry];
     terms.memory = bytes / card[Rate::Memory];
     terms.fixed = work.draws / card[Rate::Draws] + work.passes / card[Rate::Passes] +

@@ -29,7 +29,8 @@ struct PassWork {
     std::vector<Shading> shading = {};
     double reads = 0; // of textures
     std::vector<Written> output = {};
-    double depthPixels = 0; // written or cleared
+    double depthPixels = 0;  // written or cleared
+    double testedPixels = 0; // of which neither colour nor depth is written: by a stencil, or nothing
     double triangles = 0;
     double bytes = 0;                                            // copied, read back
     double draws = 0, passes = 0, dependents = 0, readBacks = 0; // as of Rate

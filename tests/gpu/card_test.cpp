@@ -9,8 +9,9 @@
 namespace shadowbench::gpu {
 namespace {
 
-const std::vector<std::string> words{"arithmetic", "texture", "output", "output_bytes", "blended_bytes", "depth",
-                                     "geometry",   "memory",  "draws",  "passes",       "dependents",    "read_backs"};
+const std::vector<std::string> words{"arithmetic", "texture",    "output",    "output_bytes", "blended_bytes",
+                                     "depth",      "tested",     "geometry",  "memory",       "draws",
+                                     "passes",     "dependents", "read_backs"};
 
 std::string fileOf(const std::string& left = "", const std::string& source = "a table") {
     std::string text = "name = \"A Card\"\n";
@@ -37,7 +38,7 @@ TEST(Card, HasTheRatesOfItsFileAndItsNameFromIt) {
     EXPECT_EQ(card.name, "A Card");
     EXPECT_EQ(card[Rate::Arithmetic], 10);
     EXPECT_EQ(card[Rate::Depth], 1e6);
-    EXPECT_EQ(card[Rate::ReadBacks], 1e12);
+    EXPECT_EQ(card[Rate::ReadBacks], 1e13);
 }
 
 TEST(Card, ARateThatIsMissingWrongOrWithoutSourceIsRefused) {

@@ -16,6 +16,7 @@ Card roundCard() {
     set(Rate::OutputBytes, 64e9);
     set(Rate::BlendedBytes, 16e9);
     set(Rate::Depth, 8e9);
+    set(Rate::Tested, 80e9);
     set(Rate::Geometry, 1e9);
     set(Rate::Memory, 1e12);
     set(Rate::Draws, 1e6);
@@ -45,9 +46,9 @@ TEST(Model, BlendingIsSlowerOfFullFloatsAlone) {
 }
 
 TEST(Model, TargetsAndDepthAddUpAndTheirBytesAreMemory) {
-    const PassWork work{.output = {{1e6, 16}, {1e6, 4, true, true}}, .depthPixels = 4e6, .bytes = 1e6};
+    const PassWork work{.output = {{1e6, 16}, {1e6, 4, true, true}}, .depthPixels = 4e6, .testedPixels = 8e6, .bytes = 1e6};
     const Terms terms = termsOf(work, roundCard());
-    EXPECT_DOUBLE_EQ(terms.output, 16e6 / 64e9 + 4e6 / 16e9 + 4e6 / 8e9);
+    EXPECT_DOUBLE_EQ(terms.output, 16e6 / 64e9 + 4e6 / 16e9 + 4e6 / 8e9 + 8e6 / 80e9);
     EXPECT_DOUBLE_EQ(terms.memory, (16e6 + 2 * 4e6 + 1e6) / 1e12);
 }
 

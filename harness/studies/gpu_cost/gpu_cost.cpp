@@ -55,10 +55,10 @@ bool wasMeasuredOn(const Record& record, const gpu::Card& card) {
     return !record.deviceCosts.empty() && record.environment.renderer.starts_with(card.name);
 }
 
-ModelledFrame modelled(const Record& record, const Drawn& drawn, const gpu::Card& card, glm::ivec2 size) {
-    ModelledFrame frame{record.scene, record.variant, card.id, size, {}, false, {}, {}};
+ModelledFrame modelled(const Cell& cell, const Drawn& drawn, const gpu::Card& card, glm::ivec2 size) {
+    ModelledFrame frame{cell.front()->scene, cell.front()->variant, card.id, size, {}, false, {}, {}};
     std::vector<gpu::PassWork> works;
-    for (const NamedWork& named : worksOf(record, drawn, size)) {
+    for (const NamedWork& named : worksOf(cell, drawn, size)) {
         works.push_back(named.work);
         frame.passes.push_back({named.pass, gpu::termsOf(named.work, card), {}});
         frame.waits |= frame.passes.back().terms.waits;
@@ -75,25 +75,33 @@ ModelledFrame beside(ModelledFrame frame, const DeviceCost& cost) {
     return frame;
 }
 
-std::vector<ModelledFrame> framesOf(const Record& record, const Drawn& drawn, const std::vector<gpu::Card>& cards,
+std::vector<ModelledFrame> framesOf(const Cell& cell, const Drawn& drawn, const std::vector<gpu::Card>& cards,
                                     glm::ivec2 size) {
     std::vector<ModelledFrame> frames;
     for (const gpu::Card& card : cards) {
-        frames.push_back(modelled(record, drawn, card, size));
-        if (!wasMeasuredOn(record, card)) continue;
-        for (const DeviceCost& cost : record.deviceCosts)
-            frames.push_back(beside(modelled(record, drawn, card, {cost.width, cost.height}), cost));
+        frames.push_back(modelled(cell, drawn, card, size));
+        for (const Record* record : cell)
+            if (wasMeasuredOn(*record, card))
+                for (const DeviceCost& cost : record->deviceCosts)
+                    frames.push_back(beside(modelled(cell, drawn, card, {cost.width, cost.height}), cost));
     }
     return frames;
 }
 
-void addFrames(const Record& record, const Drawn& drawn, const std::vector<gpu::Card>& cards, glm::ivec2 size,
-               GpuCostResult& result) {
-    try {
-        std::ranges::move(framesOf(record, drawn, cards, size), std::back_inserter(result.frames));
-    } catch (const BadInput& error) {
-        result.leftOut.emplace_back(error.what());
+/// In the order of the records; of each, those of graphics processors first: they count on images as large as screens.
+std::vector<Cell> cellsOf(const std::vector<Record>& records) {
+    std::vector<Cell> cells;
+    for (const Record& record : records) {
+        if (!hasCounts(record)) continue;
+        const auto isSame = [&](const Cell& cell) {
+            return cell.front()->scene == record.scene && cell.front()->variant == record.variant;
+        };
+        const auto found = std::ranges::find_if(cells, isSame);
+        (found == cells.end() ? cells.emplace_back() : *found).push_back(&record);
     }
+    for (Cell& cell : cells)
+        std::ranges::stable_partition(cell, [](const Record* record) { return !record->deviceCosts.empty(); });
+    return cells;
 }
 
 } // namespace
@@ -105,20 +113,21 @@ const ModelledPass& ModelledFrame::slowest() const {
 GpuCostResult gpuCosts(const std::vector<Record>& records, const GpuCostOptions& options) {
     const std::vector<gpu::Card> cards = chosenCards(options.cards);
     requireJoinable(records);
-    std::vector<std::string> scenes; // in the order of the records
-    std::map<std::string, std::vector<std::string>> variants;
-    for (const Record& record : records) {
-        if (!hasCounts(record)) continue;
-        if (!variants.contains(record.scene)) scenes.push_back(record.scene);
-        variants[record.scene].push_back(record.variant);
-    }
+    const std::vector<Cell> cells = cellsOf(records);
+    std::map<std::string, std::vector<std::string>> variants; // of each scene
+    for (const Cell& cell : cells) variants[cell.front()->scene].push_back(cell.front()->variant);
+    std::map<std::string, std::map<std::string, Drawn>> drawn;
     GpuCostResult result;
-    for (const std::string& scene : scenes) {
-        const std::map<std::string, Drawn> drawn = drawnOn(scene, variants.at(scene), options, result);
-        for (const Record& record : records)
-            if (hasCounts(record) && record.scene == scene)
-                if (const auto found = drawn.find(record.variant); found != drawn.end())
-                    addFrames(record, found->second, cards, options.size, result);
+    for (const auto& [scene, names] : variants) drawn[scene] = drawnOn(scene, names, options, result);
+    for (const Cell& cell : cells) {
+        const auto& onScene = drawn.at(cell.front()->scene);
+        const auto found = onScene.find(cell.front()->variant);
+        if (found == onScene.end()) continue;
+        try {
+            std::ranges::move(framesOf(cell, found->second, cards, options.size), std::back_inserter(result.frames));
+        } catch (const BadInput& error) {
+            result.leftOut.emplace_back(error.what());
+        }
     }
     return result;
 }

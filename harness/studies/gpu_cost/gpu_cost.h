@@ -43,7 +43,7 @@ struct GpuCostOptions {
 struct GpuCostResult {
     std::vector<ModelledFrame> frames;
     std::vector<std::string> errors;  // a sentence for each technique whose shaders have no figures
-    std::vector<std::string> leftOut; // likewise for each record whose counts do not suffice
+    std::vector<std::string> leftOut; // likewise for each technique on a scene whose counts do not suffice
     ExitCode code = ExitCode::Pass;
 };
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <optional>
 
 namespace shadowbench::gpucost {
 namespace {
@@ -96,13 +97,16 @@ private:
         }
         targets_ += timesOf(shader.output.extents);
         const bool isDepthAlone = shader.output.colours.empty();
-        // Of depth alone no fragment is counted on a device, because none runs: the target is taken to be covered once.
+        // Where no record counts fragments of depth alone, the target is taken to be covered once.
         const double fragments = isDepthAlone && counts_.fragments == 0 ? pixelsOf(shader.output.extents)
                                                                         : share * static_cast<double>(counts_.fragments);
-        if (!isDepthAlone || counts_.fragments > 0) work_.shading.push_back({fragments, cycles});
+        if (counts_.fragments > 0) work_.shading.push_back({fragments, cycles});
         for (const std::string& colour : shader.output.colours)
             work_.output.push_back({fragments, gpu::bytesOf(colour), gpu::hasFullFloats(colour), shader.output.blends});
-        if (shader.output.writesDepth) work_.depthPixels += fragments;
+        if (shader.output.writesDepth)
+            work_.depthPixels += fragments;
+        else if (isDepthAlone)
+            work_.testedPixels += fragments;
     }
 
     void addMove(const shaders::FrameMove& move) {
@@ -133,19 +137,26 @@ private:
     double draws_ = 0, targets_ = 0; // of the pipelines that rasterise
 };
 
-/// Reads of textures that the pass' source asks for, which are counted beside the record's own work; with the fragments
-/// where these grow with the screen.
-double readsOf(const Record& record, const PassRecord& counts) {
-    const PassRecord* small = passNamed(record.passes, counts.name);
-    if (small == nullptr || !small->bare) return 0;
-    const double growth =
-        small->fragments == 0 ? 1 : static_cast<double>(counts.fragments) / static_cast<double>(small->fragments);
-    return static_cast<double>(small->bare->taps) * growth;
+/// Of all pixels, those that see a receiver whose exact label is known: all that is scored.
+double seenShare(const Record& record) {
+    return record.values["accuracy.pixels.labelled"].value_or(static_cast<double>(record.width) * record.height) /
+           (static_cast<double>(record.width) * record.height);
 }
 
-} // namespace
+/// Reads of textures that the pass' source asks for, which are counted beside the record's own work: with the fragments
+/// where these grow with the screen. A pass over the whole screen reads for pixels that see a surface.
+double readsOf(const Record& record, const PassRecord& counts, glm::ivec2 size) {
+    const PassRecord* small = passNamed(record.passes, counts.name);
+    if (small == nullptr || !small->bare) return 0;
+    const auto reads = static_cast<double>(small->bare->taps);
+    if (small->fragments == 0) return reads;
+    const auto screen = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
+    const double seen = counts.fragments % screen == 0 ? seenShare(record) : 1;
+    return seen * reads * static_cast<double>(counts.fragments) / static_cast<double>(small->fragments);
+}
 
-std::vector<PassRecord> countsOn(const Record& record, glm::ivec2 size) {
+/// Nothing for a record that counted on one other size alone.
+std::optional<std::vector<PassRecord>> countsOf(const Record& record, glm::ivec2 size) {
     std::vector<Counted> counted = countedOn(record);
     const double pixels = static_cast<double>(size.x) * size.y;
     for (const Counted& each : counted)
@@ -153,11 +164,7 @@ std::vector<PassRecord> countsOn(const Record& record, glm::ivec2 size) {
     std::ranges::sort(counted, {}, [pixels](const Counted& each) { return std::abs(std::log(each.pixels / pixels)); });
     const auto other =
         std::ranges::find_if(counted, [&](const Counted& each) { return each.pixels != counted.front().pixels; });
-    if (other == counted.end())
-        throw BadInput(
-            fmt::format("the record of {} on {} counts the work of its passes on one size of image alone, so what "
-                        "grows with the screen is not known; run it anew",
-                        record.variant, record.scene));
+    if (other == counted.end()) return std::nullopt;
     const double share = (pixels - counted.front().pixels) / (other->pixels - counted.front().pixels);
     std::vector<PassRecord> passes = *counted.front().passes;
     for (PassRecord& pass : passes)
@@ -169,11 +176,31 @@ std::vector<PassRecord> countsOn(const Record& record, glm::ivec2 size) {
     return passes;
 }
 
-std::vector<NamedWork> worksOf(const Record& record, const Drawn& drawn, glm::ivec2 size) {
+} // namespace
+
+std::vector<PassRecord> countsOn(const Cell& cell, glm::ivec2 size) {
+    std::optional<std::vector<PassRecord>> counts;
+    for (const Record* record : cell) {
+        const auto here = countsOf(*record, size);
+        if (!here) continue;
+        if (!counts) counts = here;
+        for (PassRecord& pass : *counts)
+            if (const PassRecord* same = passNamed(*here, pass.name); same != nullptr && pass.fragments == 0)
+                pass.fragments = same->fragments;
+    }
+    if (!counts)
+        throw BadInput(
+            fmt::format("the records of {} on {} count the work of passes on one size of image alone, so what grows "
+                        "with the screen is not known; name a record that counts on two, too",
+                        cell.front()->variant, cell.front()->scene));
+    return *counts;
+}
+
+std::vector<NamedWork> worksOf(const Cell& cell, const Drawn& drawn, glm::ivec2 size) {
     std::vector<NamedWork> works;
-    for (const PassRecord& counts : countsOn(record, size)) {
+    for (const PassRecord& counts : countsOn(cell, size)) {
         works.push_back({counts.name, Join(drawn, counts, size).work()});
-        works.back().work.reads = readsOf(record, counts);
+        works.back().work.reads = readsOf(*cell.front(), counts, size);
     }
     return works;
 }

@@ -26,11 +26,16 @@ struct Drawn {
     glm::ivec2 screen{}; // the image that was drawn
 };
 
-/// What a pass counts on an image of `size` pixels: what the record counted on one of that size, else a straight line in the
-/// number of pixels through the two sizes nearest to it. Throws BadInput for a record that counted on one size alone.
-std::vector<PassRecord> countsOn(const Record& record, glm::ivec2 size);
+/// The records of one technique on one scene, by this program or by others, in the order in which they count.
+using Cell = std::vector<const Record*>;
+
+/// What passes count on an image of `size` pixels, by the first record that says it: of one that counted on that size, else
+/// of the straight line in the number of pixels through the two sizes nearest to it. Fragments of passes for which it counts
+/// none are the next record's: a graphics processor runs no shader where depth alone is drawn. Throws BadInput where no
+/// record has counted on two sizes.
+std::vector<PassRecord> countsOn(const Cell& cell, glm::ivec2 size);
 
 /// All passes of the standing frame. Targets as large as the screen that was drawn grow with it, all others do not.
-std::vector<NamedWork> worksOf(const Record& record, const Drawn& drawn, glm::ivec2 size);
+std::vector<NamedWork> worksOf(const Cell& cell, const Drawn& drawn, glm::ivec2 size);
 
 } // namespace shadowbench::gpucost

@@ -45,23 +45,38 @@ Record recordOf(PassRecord pass) {
 /// Of a record's one pass on an image of `side` squared, whose shaders were drawn on 50 × 50.
 gpu::PassWork workOf(const Record& record, Drawn drawn, int side = 100) {
     drawn.screen = {50, 50};
-    return worksOf(record, drawn, {side, side}).at(0).work;
+    return worksOf({&record}, drawn, {side, side}).at(0).work;
 }
 
 TEST(PassCounts, AreOnAStraightLineInTheNumberOfPixels) {
     const Record record = recordOf(counted("resolve", 10000));
-    EXPECT_EQ(countsOn(record, {100, 100}).at(0).fragments, 10000U);
-    EXPECT_EQ(countsOn(record, {200, 200}).at(0).fragments, 40000U);
-    EXPECT_EQ(countsOn(record, {300, 100}).at(0).fragments, 30000U);
-    EXPECT_EQ(countsOn(record, {300, 200}).at(0).fragments, 60000U);
-    EXPECT_EQ(countsOn(record, {300, 200}).at(0).vertices, 3U);
+    EXPECT_EQ(countsOn({&record}, {100, 100}).at(0).fragments, 10000U);
+    EXPECT_EQ(countsOn({&record}, {200, 200}).at(0).fragments, 40000U);
+    EXPECT_EQ(countsOn({&record}, {300, 100}).at(0).fragments, 30000U);
+    EXPECT_EQ(countsOn({&record}, {300, 200}).at(0).fragments, 60000U);
+    EXPECT_EQ(countsOn({&record}, {300, 200}).at(0).vertices, 3U);
 }
 
 TEST(PassCounts, OfOneSizeAloneSayNothingOfAnother) {
     Record record = recordOf(counted("resolve", 10000));
     record.otherScreen.reset();
-    EXPECT_EQ(countsOn(record, {100, 100}).at(0).fragments, 10000U);
-    EXPECT_THROW((void)countsOn(record, {200, 100}), BadInput);
+    EXPECT_EQ(countsOn({&record}, {100, 100}).at(0).fragments, 10000U);
+    EXPECT_THROW((void)countsOn({&record}, {200, 100}), BadInput);
+}
+
+TEST(PassCounts, FragmentsThatADeviceDoesNotCountAreThoseOfAnotherRecord) {
+    const Record device = recordOf(counted("depth map", 0, 600)), software = recordOf(counted("depth map", 2500, 900));
+    const PassRecord both = countsOn({&device, &software}, {200, 200}).at(0);
+    EXPECT_EQ(both.fragments, 10000U);
+    EXPECT_EQ(both.vertices, 600U);
+    EXPECT_EQ(countsOn({&software, &device}, {200, 200}).at(0).vertices, 900U);
+}
+
+TEST(PassCounts, ARecordOfOneSizeLeavesOthersToTheNext) {
+    Record one = recordOf(counted("resolve", 100));
+    one.otherScreen.reset();
+    const Record two = recordOf(counted("resolve", 10000));
+    EXPECT_EQ(countsOn({&one, &two}, {200, 200}).at(0).fragments, 40000U);
 }
 
 TEST(PassWork, AFragmentIsWrittenToEachTarget) {
@@ -107,6 +122,15 @@ TEST(PassWork, ADepthMapIsCoveredOnceWhereNoFragmentIsCounted) {
     EXPECT_TRUE(work.shading.empty());
 }
 
+TEST(PassWork, AStencilIsTestedAndWritesNoDepth) {
+    const shaders::Output output{{}, false, "Depth32FStencil8", false, {{{50, 50}, 1}}};
+    const gpu::PassWork work = workOf(recordOf(counted("stencil count", 70000, 600)),
+                                      {{shader("stencil count", gpu::Stage::Fragment, 2, output)}, {}, {}});
+    EXPECT_EQ(work.testedPixels, 70000);
+    EXPECT_EQ(work.depthPixels, 0);
+    EXPECT_TRUE(work.output.empty());
+}
+
 TEST(PassWork, WhatIsAsLargeAsTheScreenGrowsWithIt) {
     const Drawn drawn{{},
                       {{"", "", "resolve", gpu::MoveKind::Clear, "R32F", {{{50, 50}, 2}, {{64, 64}, 1}}},
@@ -131,6 +155,16 @@ TEST(PassWork, ReadsOfTexturesGrowWithTheFragments) {
     const Record record = recordOf(pass);
     EXPECT_EQ(workOf(record, {}, 100).reads, 40000);
     EXPECT_EQ(workOf(record, {}, 200).reads, 160000);
+}
+
+TEST(PassWork, APassOverTheScreenReadsForPixelsThatSeeASurface) {
+    PassRecord pass = counted("resolve", 20000); // twice over the screen
+    pass.bare = BareCost{"course", {}, 10000, 3, 40000};
+    Record record = recordOf(pass);
+    record.values["accuracy.pixels.labelled"] = 2500;
+    EXPECT_EQ(workOf(record, {}, 200).reads, 40000);
+    record.passes[0].fragments = record.otherScreen->passes[0].fragments = 777; // of a part of the screen
+    EXPECT_EQ(workOf(record, {}, 100).reads, 40000);
 }
 
 ModelledFrame frame(const std::string& variant, double seconds, std::optional<double> measured, bool waits = false) {
