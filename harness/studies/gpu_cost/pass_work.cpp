@@ -155,6 +155,14 @@ double readsOf(const Record& record, const PassRecord& counts, glm::ivec2 size) 
     return seen * reads * static_cast<double>(counts.fragments) / static_cast<double>(small->fragments);
 }
 
+/// Whether a pass draws as many fragments on an image of another size: none of its targets is the screen then, though one
+/// may happen to be as large as the screen that was drawn was.
+bool isOfMap(const Record& record, const PassRecord& counts, glm::ivec2 size) {
+    const PassRecord* small = passNamed(record.passes, counts.name);
+    return size != glm::ivec2(record.width, record.height) && small != nullptr && counts.fragments > 0 &&
+           counts.fragments == small->fragments;
+}
+
 /// Nothing for a record that counted on one other size alone.
 std::optional<std::vector<PassRecord>> countsOf(const Record& record, glm::ivec2 size) {
     std::vector<Counted> counted = countedOn(record);
@@ -199,7 +207,8 @@ std::vector<PassRecord> countsOn(const Cell& cell, glm::ivec2 size) {
 std::vector<NamedWork> worksOf(const Cell& cell, const Drawn& drawn, glm::ivec2 size) {
     std::vector<NamedWork> works;
     for (const PassRecord& counts : countsOn(cell, size)) {
-        works.push_back({counts.name, Join(drawn, counts, size).work()});
+        works.push_back(
+            {counts.name, Join(drawn, counts, isOfMap(*cell.front(), counts, size) ? drawn.screen : size).work()});
         works.back().work.reads = readsOf(*cell.front(), counts, size);
     }
     return works;

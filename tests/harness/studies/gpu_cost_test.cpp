@@ -141,6 +141,15 @@ TEST(PassWork, WhatIsAsLargeAsTheScreenGrowsWithIt) {
     EXPECT_EQ(work.readBacks, 3);
 }
 
+TEST(PassWork, APassThatDrawsTheSameOnEverySizeHasNoTargetThatGrows) {
+    const Drawn drawn{{}, {{"", "", "pyramid", gpu::MoveKind::Copy, "RG32F", {{{50, 50}, 1}, {{25, 25}, 1}}}}, {}};
+    Record record = recordOf(counted("pyramid", 3125));
+    EXPECT_EQ(workOf(record, drawn, 200).output.at(0).pixels, 200 * 200 + 25 * 25);
+    record.otherScreen->passes[0].fragments = 3125;
+    EXPECT_EQ(workOf(record, drawn, 200).output.at(0).pixels, 50 * 50 + 25 * 25);
+    EXPECT_EQ(workOf(record, drawn, 200).dependents, 2);
+}
+
 TEST(PassWork, ADispatchHasItsInvocations) {
     const gpu::PassWork work =
         workOf(recordOf(counted("blur", 0, 0)),
