@@ -117,6 +117,17 @@ std::string missesTable(const std::vector<ModelledFrame>& frames, double constan
     return report::aligned(table);
 }
 
+/// Of measured frames that do not wait: "2 of 3".
+std::string withinIntervals(const std::vector<ModelledFrame>& frames) {
+    std::size_t within = 0, all = 0;
+    for (const ModelledFrame& frame : frames) {
+        if (!frame.measured || frame.waits) continue;
+        ++all;
+        if (1e3 * frame.time.least <= *frame.measured && *frame.measured <= 1e3 * frame.time.most) ++within;
+    }
+    return fmt::format("{} of {}", within, all);
+}
+
 } // namespace
 
 Nearness nearness(const std::vector<double>& modelled, const std::vector<double>& measured, double constant) {
@@ -137,9 +148,11 @@ std::string comparison(const std::vector<ModelledFrame>& frames) {
     const Groups groups = groupsOf(frames);
     if (groups.empty()) return "";
     const double constant = constantOf(groups);
-    return fmt::format("Modelled against measured, after one constant for all frames: × {:.2f}. Frames that wait for the "
-                       "program are left out, and passes below {} ms.\n{}\nFurthest off:\n{}",
-                       constant, leastPass, nearnessTable(groups, constant), missesTable(frames, constant));
+    return fmt::format(
+        "Modelled against measured, after one constant for all frames: × {:.2f}. Frames that wait for the "
+        "program are left out, and passes below {} ms.\n{}{} measured frames are within the modelled interval, "
+        "without the constant.\n\nFurthest off:\n{}",
+        constant, leastPass, nearnessTable(groups, constant), withinIntervals(frames), missesTable(frames, constant));
 }
 
 } // namespace shadowbench::gpucost

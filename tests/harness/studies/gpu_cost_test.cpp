@@ -208,6 +208,8 @@ TEST(GpuCostText, ComparesWhatDoesNotWait) {
     EXPECT_NE(text.find("one constant for all frames: × 2.00"), std::string::npos) << text;
     EXPECT_NE(text.find("1.000"), std::string::npos) << text;
     EXPECT_EQ(text.find("500"), std::string::npos) << text;
+    EXPECT_NE(text.find("3 of 3 measured frames"), std::string::npos) << text;
+    EXPECT_NE(comparison({frame("a", 0.001, 2), frame("b", 0.001, 2.1)}).find("1 of 2 measured frames"), std::string::npos);
 }
 
 TEST(GpuCostLines, HaveEveryTermOfEveryPass) {
