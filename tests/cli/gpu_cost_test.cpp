@@ -19,7 +19,8 @@ protected:
     }
 
     [[nodiscard]] Outcome asked(const std::string& words) const {
-        return shell("shadowbench gpu-cost --quiet " + words + " --cache " + folder_ / "cache" + " --out " + folder_ / "out");
+        return shell("shadowbench gpu-cost --quiet " + words + " --cache " + folder_ / "cache" + " --out " +
+                     folder_ / "out");
     }
 
     /// The published record of a variant on `simple`.
@@ -67,8 +68,7 @@ TEST_F(GpuCostVerb, AllCardsAreModelledUnlessOneIsNamed) {
     std::vector<std::string> cards;
     for (const auto& line : lines())
         if (!line.contains("measured_ms")) cards.push_back(line["card"]);
-    EXPECT_EQ(cards,
-              (std::vector<std::string>{"geforce-7600-gt", "gtx-1080", "h200", "rtx-2080-ti", "rx-6800-xt"}));
+    EXPECT_EQ(cards, (std::vector<std::string>{"geforce-7600-gt", "gtx-1080", "h200", "rtx-2080-ti", "rx-6800-xt"}));
 }
 
 TEST_F(GpuCostVerb, WhatReadsBackWaitsForTheProgram) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 namespace shadowbench::gpucost {
 namespace {
@@ -207,6 +208,7 @@ TEST(GpuCostText, ComparesWhatDoesNotWait) {
         comparison({frame("a", 0.001, 2), frame("b", 0.002, 4), frame("c", 0.003, 6), frame("w", 0.001, 500, true)});
     EXPECT_NE(text.find("one constant for all frames: × 2.00"), std::string::npos) << text;
     EXPECT_NE(text.find("1.000"), std::string::npos) << text;
+    EXPECT_TRUE(std::regex_search(text, std::regex("1024×1024 +3 +1 +1\\.000"))) << text;
     EXPECT_EQ(text.find("500"), std::string::npos) << text;
     EXPECT_NE(text.find("3 of 3 measured frames"), std::string::npos) << text;
     EXPECT_NE(comparison({frame("a", 0.001, 2), frame("b", 0.001, 2.1)}).find("1 of 2 measured frames"), std::string::npos);
