@@ -49,7 +49,7 @@ digest_of(metric_code "" "^$" harness/cells harness/measure harness/metrics harn
 
 # The hashes of what decides which pipelines a frame uses and of what compiles them, which name what is kept of them.
 digest_of(drawing "" "^$" scene techniques gpu/observer gpu/pipeline gpu/state harness/render harness/studies/shader_cost/frame_pipelines)
-digest_of(compiling "" "^$" gpu)
+digest_of(compiling "" "gpu/(card|model)" gpu)
 file(WRITE ${OUT}/embedded_shader_sources.h.new
      "#pragma once\n\nnamespace shadowbench::embedded {\n\n"
      "inline constexpr const char* drawing_sources = \"${drawing}\";\n"

@@ -1,16 +1,30 @@
 #include "gpu/observer.h"
 
 #include "base/error.h"
-#include "gpu/state.h"
+#include "base/words.h"
 #include "techniques/gl/api.h"
 
+#include <algorithm>
+#include <array>
 #include <type_traits>
 #include <utility>
 
 namespace shadowbench::gpu {
 namespace {
 
+constexpr Words<MoveKind, 4> moveKinds{"kind of move",
+                                       {{{MoveKind::Clear, "clear"},
+                                         {MoveKind::Copy, "copy"},
+                                         {MoveKind::Mipmap, "mipmap"},
+                                         {MoveKind::ReadBack, "read back"}}}};
+
 Observer* living = nullptr;
+
+GLuint bound(GLenum what) {
+    GLint found = 0;
+    glGetIntegerv(what, &found);
+    return static_cast<GLuint>(found);
+}
 
 /// What stands before the function that `slot` points to: `observe` sees its arguments first.
 template <auto& slot, auto observe, typename Function = std::remove_reference_t<decltype(slot)>>
@@ -34,11 +48,35 @@ struct Hooks {
     static void onDraw(GLenum topology, Others... /*others*/) {
         living->draw(topology);
     }
-    static void onDispatch(GLuint /*x*/, GLuint /*y*/, GLuint /*z*/) { living->dispatch(); }
+    static void onDispatch(GLuint x, GLuint y, GLuint z) { living->dispatch(x, y, z); }
     static void onBegin(GLenum /*source*/, GLuint /*id*/, GLsizei length, const GLchar* text) {
         living->pass_.assign(text, static_cast<std::size_t>(length));
+        living->drawnInto_ = {};
     }
-    static void onEnd() { living->pass_.clear(); }
+    static void onEnd() {
+        living->pass_.clear();
+        living->drawnInto_ = {};
+    }
+    template <typename Values>
+    static void onClear(GLenum buffer, GLint drawBuffer, Values /*values*/) {
+        living->move(MoveKind::Clear, clearedBy(buffer, drawBuffer));
+    }
+    static void onCopy(GLuint from, GLenum /*target*/, GLint /*level*/, GLint /*x*/, GLint /*y*/, GLint /*z*/, GLuint /*to*/,
+                       GLenum /*target*/, GLint /*level*/, GLint /*x*/, GLint /*y*/, GLint /*z*/, GLsizei width,
+                       GLsizei height, GLsizei depth) {
+        living->move(MoveKind::Copy, {textureTarget(from).format, width, height * depth});
+    }
+    static void onMipmap(GLenum target) {
+        living->move(MoveKind::Mipmap, textureTarget(bound(target == GL_TEXTURE_2D_ARRAY ? GL_TEXTURE_BINDING_2D_ARRAY
+                                                                                         : GL_TEXTURE_BINDING_2D)));
+    }
+    static void onReadPixels(GLint /*x*/, GLint /*y*/, GLsizei width, GLsizei height, GLenum /*format*/, GLenum /*type*/,
+                             void* /*pixels*/) {
+        living->move(MoveKind::ReadBack, {0, width, height});
+    }
+    static void onReadBuffer(GLenum /*target*/, GLintptr /*offset*/, GLsizeiptr size, void* /*data*/) {
+        living->move(MoveKind::ReadBack, {0, static_cast<int>(size / 4), 1});
+    }
 
     using Arrays = Hook<glDrawArrays, onDraw<GLint, GLsizei>>;
     using Instanced = Hook<glDrawArraysInstanced, onDraw<GLint, GLsizei, GLsizei>>;
@@ -47,6 +85,13 @@ struct Hooks {
     using Elements = Hook<glDrawElements, onDraw<GLsizei, GLenum, const void*>>;
     using ElementsFrom = Hook<glDrawElementsInstancedBaseInstance, onDraw<GLsizei, GLenum, const void*, GLsizei, GLuint>>;
     using Dispatch = Hook<glDispatchCompute, onDispatch>;
+    using ClearFloat = Hook<glClearBufferfv, onClear<const GLfloat*>>;
+    using ClearInteger = Hook<glClearBufferiv, onClear<const GLint*>>;
+    using ClearUnsigned = Hook<glClearBufferuiv, onClear<const GLuint*>>;
+    using Copy = Hook<glCopyImageSubData, onCopy>;
+    using Mipmap = Hook<glGenerateMipmap, onMipmap>;
+    using ReadPixels = Hook<glReadPixels, onReadPixels>;
+    using ReadBuffer = Hook<glGetBufferSubData, onReadBuffer>;
     using Begin = Hook<glPushDebugGroup, onBegin>;
     using End = Hook<glPopDebugGroup, onEnd>;
 
@@ -54,6 +99,8 @@ struct Hooks {
     static void each(const Each& each) {
         each(Arrays{}), each(Instanced{}), each(InstancedFrom{}), each(Indirect{}), each(Elements{}), each(ElementsFrom{});
         each(Dispatch{}), each(Begin{}), each(End{});
+        each(ClearFloat{}), each(ClearInteger{}), each(ClearUnsigned{}), each(Copy{}), each(Mipmap{});
+        each(ReadPixels{}), each(ReadBuffer{});
     }
 };
 
@@ -73,14 +120,38 @@ std::vector<Use> Observer::take() {
     return std::exchange(uses_, {});
 }
 
-void Observer::draw(unsigned topology) { note({currentShaders(), drawState(topology)}); }
+std::vector<Move> Observer::takeMoves() { return std::exchange(moves_, {}); }
 
-void Observer::dispatch() { note({currentShaders(), {}}); }
+void Observer::draw(unsigned topology) {
+    Use& use = note({currentShaders(), drawState(topology)});
+    const DrawnInto into{bound(GL_DRAW_FRAMEBUFFER_BINDING), viewport()};
+    if (into != drawnInto_) ++use.extents[into.second];
+    drawnInto_ = into;
+}
 
-void Observer::note(Pipeline pipeline) {
+void Observer::dispatch(unsigned x, unsigned y, unsigned z) {
+    std::array<GLint, 3> group{};
+    glGetProgramiv(bound(GL_CURRENT_PROGRAM), GL_COMPUTE_WORK_GROUP_SIZE, group.data());
+    Use& use = note({currentShaders(), {}});
+    ++use.extents[{static_cast<int>(x) * group[0], static_cast<int>(y * z) * group[1] * group[2]}];
+}
+
+Use& Observer::note(Pipeline pipeline) {
     const auto [entry, isNew] = known_.try_emplace(pass_ + "\n" + pipeline.digest(), uses_.size());
     if (isNew) uses_.push_back({pass_, std::move(pipeline)});
-    ++uses_[entry->second].draws;
+    Use& use = uses_[entry->second];
+    ++use.draws;
+    return use;
 }
+
+void Observer::move(MoveKind kind, const Target& target) {
+    auto found = std::ranges::find_if(
+        moves_, [&](const Move& move) { return move.pass == pass_ && move.kind == kind && move.format == target.format; });
+    if (found == moves_.end()) found = moves_.insert(found, {pass_, kind, target.format});
+    ++found->extents[{target.width, target.height}];
+}
+
+std::string_view name(MoveKind kind) { return moveKinds.of(kind); }
+MoveKind moveNamed(std::string_view word) { return moveKinds.named(word); }
 
 } // namespace shadowbench::gpu

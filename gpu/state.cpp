@@ -96,15 +96,16 @@ void addAttributes(State& state) {
     }
 }
 
-/// The internal format of what the framebuffer that is drawn into has at `attachment`; 0 where it has nothing.
-unsigned formatOf(GLenum attachment) {
-    GLint texture = 0, format = 0;
+/// What the framebuffer that is drawn into has at `attachment`.
+Target attached(GLenum attachment) {
+    GLint texture = 0;
     glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &texture);
-    if (texture != GL_TEXTURE) return 0;
+    if (texture != GL_TEXTURE) return {};
     glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &texture);
-    glGetTextureLevelParameteriv(static_cast<GLuint>(texture), 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
-    return static_cast<unsigned>(format);
+    return textureTarget(static_cast<GLuint>(texture));
 }
+
+unsigned formatOf(GLenum attachment) { return attached(attachment).format; }
 
 void addColours(State& state) {
     std::array<GLboolean, 4> written{};
@@ -127,6 +128,28 @@ void addColours(State& state) {
 }
 
 } // namespace
+
+Target textureTarget(unsigned texture) {
+    const auto level = [texture](GLenum what) {
+        GLint found = 0;
+        glGetTextureLevelParameteriv(texture, 0, what, &found);
+        return found;
+    };
+    return {static_cast<unsigned>(level(GL_TEXTURE_INTERNAL_FORMAT)), level(GL_TEXTURE_WIDTH), level(GL_TEXTURE_HEIGHT)};
+}
+
+Target clearedBy(unsigned buffer, int drawBuffer) {
+    if (buffer == GL_DEPTH) return attached(GL_DEPTH_ATTACHMENT);
+    if (buffer == GL_STENCIL) return attached(GL_STENCIL_ATTACHMENT);
+    const GLenum colour = number(GL_DRAW_BUFFER0 + static_cast<GLenum>(drawBuffer));
+    return colour == GL_NONE ? Target() : attached(colour);
+}
+
+std::pair<int, int> viewport() {
+    std::array<GLint, 4> found{};
+    glGetIntegerv(GL_VIEWPORT, found.data());
+    return {found[2], found[3]};
+}
 
 std::vector<Shader> currentShaders() {
     std::array<GLuint, 8> ids{};

@@ -27,6 +27,7 @@ void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addPapers(CLI::App& app, Action& action);
 void addShaderCost(CLI::App& app, Action& action);
+void addGpuCost(CLI::App& app, Action& action);
 void addExport(CLI::App& app, Action& action);
 void addCache(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);

@@ -1,6 +1,7 @@
 // `shader-cost` as a user types it.
 #include "tests/support/program.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -91,10 +92,15 @@ TEST_F(ShaderCostVerb, TheSameTwiceAndFromTheCache) {
 
 TEST_F(ShaderCostVerb, ATechniqueHasItsPasses) {
     ASSERT_EQ(asked("--technique sm-uniform --arch navi21 --arch vega10").code, 0);
-    std::vector<std::string> shaders;
+    std::vector<std::string> shaders, clears;
     for (const auto& line : lines()) {
         EXPECT_EQ(line["technique"], "sm-uniform");
         EXPECT_EQ(line["scene"], "simple");
+        if (line.contains("move")) {
+            EXPECT_EQ(line["move"], "clear");
+            clears.push_back(line["pass"].get<std::string>() + " " + line["format"].get<std::string>());
+            continue;
+        }
         EXPECT_GE(line["draws"], 1);
         if (line["architecture"] == "navi21")
             shaders.push_back(line["pass"].get<std::string>() + " " + line["stage"].get<std::string>() + " " +
@@ -107,6 +113,7 @@ TEST_F(ShaderCostVerb, ATechniqueHasItsPasses) {
                                             "resolve vertex gl/screen.vert",
                                             "resolve fragment shared/maps/single_map.frag"};
     EXPECT_EQ(shaders, expected);
+    EXPECT_EQ(std::ranges::count(clears, "depth map Depth32F"), 1) << "once for all architectures";
 }
 
 TEST_F(ShaderCostVerb, ABaseTellsOneInstructionAndNoComment) {

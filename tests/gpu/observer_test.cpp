@@ -67,6 +67,44 @@ TEST_F(Observed, APipelineIsSourcesAndState) {
     EXPECT_TRUE(pipeline.state.attributes.empty());
 }
 
+TEST_F(Observed, ATargetCountsAgainWhenAnotherOneWasDrawnInto) {
+    const gl::Texture small{gl::Format::R8, {4, 2}};
+    const gl::RenderTarget other{&small};
+    Observer observer;
+    draw();
+    draw(); // into the same
+    other.bind();
+    program_.drawScreen();
+    draw();
+    const std::vector<Use> uses = observer.take();
+    ASSERT_EQ(uses.size(), 2U);
+    EXPECT_EQ(uses[0].draws, 3U);
+    EXPECT_EQ(uses[0].extents, (Extents{{{8, 8}, 2}}));
+    EXPECT_EQ(uses[1].extents, (Extents{{{4, 2}, 1}}));
+}
+
+TEST_F(Observed, WhatIsClearedAndReadBackIsOfItsPass) {
+    Observer observer;
+    {
+        const techniques::Pass pass("blur", nullptr);
+        target_.clearColour(0, glm::vec4(0));
+        target_.clearColour(0, glm::vec4(1));
+        target_.clearDepth(1);
+    }
+    (void)target_.readVec4(0);
+    const std::vector<Move> moves = observer.takeMoves();
+    ASSERT_EQ(moves.size(), 3U);
+    EXPECT_EQ(moves[0].pass, "blur");
+    EXPECT_EQ(moves[0].kind, MoveKind::Clear);
+    EXPECT_EQ(moves[0].format, static_cast<unsigned>(GL_RG16F));
+    EXPECT_EQ(moves[0].extents, (Extents{{{8, 8}, 2}}));
+    EXPECT_EQ(moves[1].format, static_cast<unsigned>(GL_DEPTH_COMPONENT32F));
+    EXPECT_EQ(moves[2].pass, "");
+    EXPECT_EQ(moves[2].kind, MoveKind::ReadBack);
+    EXPECT_EQ(name(moves[2].kind), "read back");
+    EXPECT_TRUE(observer.takeMoves().empty());
+}
+
 TEST_F(Observed, NothingIsInTheWayOfACallOtherwise) {
     const auto call = glDrawArrays;
     {

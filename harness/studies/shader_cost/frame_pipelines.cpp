@@ -22,7 +22,7 @@ void addOthers(std::vector<gpu::Use>& uses, const std::vector<gpu::Use>& others)
     }
 }
 
-std::vector<gpu::Use> ofShadow(const Scene& scene, const techniques::Variant& variant) {
+FrameUses ofShadow(const Scene& scene, const techniques::Variant& variant) {
     Stage stage(scene);
     const auto technique = variant.entry->make(variant.parameters);
     const int still = scene.timeline.still - 1;
@@ -32,19 +32,19 @@ std::vector<gpu::Use> ofShadow(const Scene& scene, const techniques::Variant& va
     const auto render = [&] {
         stage.redraw();
         stage.render(*technique, number++, seed);
-        return observer.take();
+        return FrameUses{observer.take(), observer.takeMoves()};
     };
-    const std::vector<gpu::Use> first = render(); // with what is done once
-    std::vector<gpu::Use> steady = render();
-    addOthers(steady, first);
+    const FrameUses first = render(); // with what is done once
+    FrameUses steady = render();
+    addOthers(steady.uses, first.uses);
     if (scene.timeline.moving > 0) {
         stage.show(still + 1);
-        addOthers(steady, render());
+        addOthers(steady.uses, render().uses);
     }
     return steady;
 }
 
-std::vector<gpu::Use> ofLevels(const Scene& scene, const techniques::Variant& variant) {
+FrameUses ofLevels(const Scene& scene, const techniques::Variant& variant) {
     const double aspect = static_cast<double>(scene.size.x) / scene.size.y;
     int most = 0;
     for (std::size_t frame = 0, transitions = 0; frame < static_cast<std::size_t>(scene.lod->frames); ++frame) {
@@ -60,17 +60,17 @@ std::vector<gpu::Use> ofLevels(const Scene& scene, const techniques::Variant& va
     const auto render = [&](int frame) {
         stage.show(frame);
         stage.render(*technique);
-        return observer.take();
+        return FrameUses{observer.take(), observer.takeMoves()};
     };
-    const std::vector<gpu::Use> first = render(std::max(most - 1, 0));
-    std::vector<gpu::Use> steady = render(most);
-    addOthers(steady, first);
+    const FrameUses first = render(std::max(most - 1, 0));
+    FrameUses steady = render(most);
+    addOthers(steady.uses, first.uses);
     return steady;
 }
 
 } // namespace
 
-std::vector<gpu::Use> pipelinesOf(const Scene& scene, const techniques::Variant& variant) {
+FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant) {
     return variant.isLod() ? ofLevels(scene, variant) : ofShadow(scene, variant);
 }
 

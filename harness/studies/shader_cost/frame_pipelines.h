@@ -10,10 +10,15 @@
 
 namespace shadowbench::shaders {
 
+struct FrameUses {
+    std::vector<gpu::Use> uses;
+    std::vector<gpu::Move> moves; // of the steady frame
+};
+
 /// Renders still frames, the first of which does what is done once, and one in which things move, and returns what the
 /// steady frame uses, in order, then what only the others use, with 0 draws. Of levels of detail the steady frame is the one
 /// with most transitions. Needs a GL context.
-std::vector<gpu::Use> pipelinesOf(const Scene& scene, const techniques::Variant& variant);
+FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant);
 
 /// A hash of the sources that this depends on, built-in scenes among them.
 std::string drawingSources();

@@ -11,14 +11,56 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json jsonOf(const gpu::Extents& extents) {
+    Json all = Json::array();
+    for (const auto& [size, times] : extents) all.push_back({size.first, size.second, times});
+    return all;
+}
+
+gpu::Extents extentsOf(const Json& json) {
+    gpu::Extents extents;
+    for (const Json& each : json) extents[{each.at(0).get<int>(), each.at(1).get<int>()}] = each.at(2).get<std::uint64_t>();
+    return extents;
+}
+
+Json jsonOf(const Output& output) {
+    return {{"colours", output.colours},
+            {"blends", output.blends},
+            {"depth", output.depth},
+            {"writes_depth", output.writesDepth},
+            {"extents", jsonOf(output.extents)}};
+}
+
+Output outputOf(const Json& json) {
+    return {json.at("colours").get<std::vector<std::string>>(), json.at("blends").get<bool>(),
+            json.at("depth").get<std::string>(), json.at("writes_depth").get<bool>(), extentsOf(json.at("extents"))};
+}
+
+Json jsonOf(const FrameMove& move) {
+    return {{"technique", move.technique},  {"scene", move.scene},   {"pass", move.pass},
+            {"move", gpu::name(move.kind)}, {"format", move.format}, {"extents", jsonOf(move.extents)}};
+}
+
+FrameMove moveOf(const Json& json) {
+    return {json.at("technique").get<std::string>(), json.at("scene").get<std::string>(),
+            json.at("pass").get<std::string>(),      gpu::moveNamed(json.at("move").get<std::string>()),
+            json.at("format").get<std::string>(),    extentsOf(json.at("extents"))};
+}
+
 Json jsonOf(const ShaderCost& shader, const std::string& compiler) {
     Json statistics = Json::object();
     for (const auto& [statistic, value] : shader.statistics) statistics[statistic] = value;
-    return {{"technique", shader.technique}, {"scene", shader.scene},
-            {"pass", shader.pass},           {"stage", gpu::name(shader.stage)},
-            {"source", shader.source},       {"number", shader.number},
-            {"draws", shader.draws},         {"architecture", shader.architecture},
-            {"compiler", compiler},          {"statistics", statistics}};
+    return {{"technique", shader.technique},
+            {"scene", shader.scene},
+            {"pass", shader.pass},
+            {"stage", gpu::name(shader.stage)},
+            {"source", shader.source},
+            {"number", shader.number},
+            {"draws", shader.draws},
+            {"architecture", shader.architecture},
+            {"compiler", compiler},
+            {"statistics", statistics},
+            {"output", jsonOf(shader.output)}};
 }
 
 ShaderCost shaderOf(const Json& json) {
@@ -33,6 +75,7 @@ ShaderCost shaderOf(const Json& json) {
     json.at("architecture").get_to(shader.architecture);
     for (const auto& [statistic, value] : json.at("statistics").items())
         shader.statistics.emplace_back(statistic, value.get<std::uint64_t>());
+    if (json.contains("output")) shader.output = outputOf(json.at("output"));
     return shader;
 }
 
@@ -54,6 +97,7 @@ std::uint64_t ShaderCost::of(const std::string& statistic) const {
 std::string toLines(const ShaderCosts& costs) {
     std::string lines;
     for (const ShaderCost& shader : costs.shaders) lines += jsonOf(shader, costs.compiler).dump() + "\n";
+    for (const FrameMove& move : costs.moves) lines += jsonOf(move).dump() + "\n";
     return lines;
 }
 
@@ -64,6 +108,10 @@ ShaderCosts parseLines(const std::string& text, const std::string& name) {
     for (int number = 1; std::getline(lines, line); ++number) {
         try {
             const Json json = Json::parse(line);
+            if (json.contains("move")) {
+                costs.moves.push_back(moveOf(json));
+                continue;
+            }
             costs.shaders.push_back(shaderOf(json));
             costs.compiler = json.at("compiler").get<std::string>();
         } catch (const std::exception& error) {
@@ -77,29 +125,36 @@ ShaderCosts parseLines(const std::string& text, const std::string& name) {
 
 ShaderCosts readLines(const std::filesystem::path& file) { return parseLines(readFile(file), file.string()); }
 
-std::string toText(const std::vector<FramePipeline>& pipelines) {
-    Json all = Json::array();
-    for (const FramePipeline& pipeline : pipelines) {
+std::string toText(const FrameList& list) {
+    Json pipelines = Json::array(), moves = Json::array();
+    for (const FramePipeline& pipeline : list.pipelines) {
         Json shaders = Json::array();
         for (const auto& [stage, source] : pipeline.shaders) shaders.push_back({gpu::name(stage), source});
-        all.push_back(
-            {{"pass", pipeline.pass}, {"draws", pipeline.draws}, {"digest", pipeline.digest}, {"shaders", shaders}});
+        pipelines.push_back({{"pass", pipeline.pass},
+                             {"draws", pipeline.draws},
+                             {"digest", pipeline.digest},
+                             {"shaders", shaders},
+                             {"output", jsonOf(pipeline.output)}});
     }
-    return all.dump();
+    for (const FrameMove& move : list.moves) moves.push_back(jsonOf(move));
+    return Json{{"pipelines", pipelines}, {"moves", moves}}.dump();
 }
 
-std::vector<FramePipeline> framePipelines(const std::string& text) {
+FrameList frameList(const std::string& text) {
     try {
-        std::vector<FramePipeline> pipelines;
-        for (const Json& json : Json::parse(text)) {
-            FramePipeline& pipeline = pipelines.emplace_back();
-            json.at("pass").get_to(pipeline.pass);
-            json.at("draws").get_to(pipeline.draws);
-            json.at("digest").get_to(pipeline.digest);
-            for (const Json& shader : json.at("shaders"))
+        FrameList list;
+        const Json json = Json::parse(text);
+        for (const Json& each : json.at("pipelines")) {
+            FramePipeline& pipeline = list.pipelines.emplace_back();
+            each.at("pass").get_to(pipeline.pass);
+            each.at("draws").get_to(pipeline.draws);
+            each.at("digest").get_to(pipeline.digest);
+            for (const Json& shader : each.at("shaders"))
                 pipeline.shaders.emplace_back(gpu::stageNamed(shader.at(0).get<std::string>()), shader.at(1));
+            pipeline.output = outputOf(each.at("output"));
         }
-        return pipelines;
+        for (const Json& each : json.at("moves")) list.moves.push_back(moveOf(each));
+        return list;
     } catch (const Json::exception& error) {
         throw BadInput(std::string("a list of pipelines cannot be read: ") + error.what());
     }

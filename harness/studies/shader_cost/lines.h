@@ -19,11 +19,18 @@ struct FramePipeline {
     std::uint64_t draws = 0;
     std::string digest; // gpu::Pipeline::digest
     FrameShaders shaders;
+    Output output;
+};
+
+/// Of one technique on one scene.
+struct FrameList {
+    std::vector<FramePipeline> pipelines;
+    std::vector<FrameMove> moves; // without technique and scene
 };
 
 /// Back from text throws BadInput where it is damaged.
-std::string toText(const std::vector<FramePipeline>& pipelines);
-std::vector<FramePipeline> framePipelines(const std::string& text);
+std::string toText(const FrameList& list);
+FrameList frameList(const std::string& text);
 
 /// The inverse of toLines; `name` stands for the text in messages.
 ShaderCosts parseLines(const std::string& text, const std::string& name);

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/progress_line.h"
 #include "base/worker_processes.h"
+#include "gpu/formats.h"
 #include "gpu/standalone.h"
 #include "groundtruth/store/cache.h"
 #include "harness/cells/cell.h"
@@ -69,6 +70,20 @@ FrameShaders sourcesOf(const gpu::Pipeline& pipeline) {
     return sources;
 }
 
+FramePipeline pipelineOf(const gpu::Use& use) {
+    FramePipeline pipeline{use.pass, use.draws, use.pipeline.digest(), sourcesOf(use.pipeline), {}};
+    const gpu::State& state = use.pipeline.state;
+    for (const gpu::ColourTarget& colour : state.colours)
+        if (colour.writeMask != 0) {
+            pipeline.output.colours.push_back(gpu::formatName(colour.format));
+            pipeline.output.blends |= colour.blends;
+        }
+    pipeline.output.depth = gpu::formatName(state.depthFormat);
+    pipeline.output.writesDepth = state.depthTest && state.depthWrite;
+    pipeline.output.extents = use.extents;
+    return pipeline;
+}
+
 /// What the workers share: each does items, and this process puts their answers in order.
 class Study {
 public:
@@ -110,7 +125,7 @@ protected:
     [[nodiscard]] virtual std::string nameOf(std::size_t item) const = 0;
     [[nodiscard]] virtual bool isLong(std::size_t /*item*/) const { return false; }
     /// In a worker.
-    virtual std::vector<ShaderCost> rowsOf(std::size_t item) = 0;
+    virtual ShaderCosts costsOf(std::size_t item) = 0;
     virtual void leave() {}
 
     [[nodiscard]] const Architectures& architectures() const { return architectures_; }
@@ -121,7 +136,8 @@ private:
     /// The exit code, then the lines or the error.
     std::string answerOf(std::size_t item) {
         try {
-            ShaderCosts costs{gpu::compilerVersion(), rowsOf(item)};
+            ShaderCosts costs = costsOf(item);
+            costs.compiler = gpu::compilerVersion();
             addNumbers(costs.shaders);
             return "0\n" + toLines(costs);
         } catch (const Error& error) {
@@ -140,6 +156,7 @@ private:
         ShaderCosts costs = parseLines(answer.substr(end + 1), nameOf(item));
         result.costs.compiler = costs.compiler;
         std::ranges::move(costs.shaders, std::back_inserter(result.costs.shaders));
+        std::ranges::move(costs.moves, std::back_inserter(result.costs.moves));
     }
 
     Architectures architectures_;
@@ -157,7 +174,7 @@ protected:
     [[nodiscard]] std::size_t items() const override { return programs_.size(); }
     [[nodiscard]] std::string nameOf(std::size_t item) const override { return programs_[item].front().name; }
 
-    std::vector<ShaderCost> rowsOf(std::size_t item) override {
+    ShaderCosts costsOf(std::size_t item) override {
         const gpu::Pipeline pipeline = gpu::pipelineOf(programs_[item]);
         std::vector<ShaderCost> rows;
         for (const gpu::Architecture* architecture : architectures()) {
@@ -166,7 +183,7 @@ protected:
             shared.architecture = architecture->id;
             addRows(rows, shared, sourcesOf(pipeline), store().get(pipeline, *architecture));
         }
-        return rows;
+        return {"", rows};
     }
 
 private:
@@ -211,23 +228,27 @@ protected:
         return places_[item].variant.entry->environment == techniques::EnvironmentAnswer::Only;
     }
 
-    std::vector<ShaderCost> rowsOf(std::size_t item) override {
+    ShaderCosts costsOf(std::size_t item) override {
         const Place& place = places_[item];
         const std::string key =
             fmt::format("pipelines of {} on {} by {}", place.variant.name, place.scene->id, drawingSources());
         if (place.isBuiltIn)
             if (const auto kept = store().text(key))
-                if (auto rows = keptRows(place, framePipelines(*kept))) return *std::move(rows);
+                if (auto costs = keptCosts(place, frameList(*kept))) return *std::move(costs);
         if (!context_) context_ = contextOfRun(cache(), false);
-        std::vector<FramePipeline> list;
-        std::vector<ShaderCost> rows;
-        for (const gpu::Use& use : pipelinesOf(*place.scene, place.variant)) {
-            list.push_back({use.pass, use.draws, use.pipeline.digest(), sourcesOf(use.pipeline)});
+        FrameList list;
+        ShaderCosts costs;
+        const FrameUses frame = pipelinesOf(*place.scene, place.variant);
+        for (const gpu::Use& use : frame.uses) {
+            const FramePipeline& pipeline = list.pipelines.emplace_back(pipelineOf(use));
             for (const gpu::Architecture* each : architectures())
-                addRows(rows, sharedOf(place, list.back(), *each), list.back().shaders, store().get(use.pipeline, *each));
+                addRows(costs.shaders, sharedOf(place, pipeline, *each), pipeline.shaders, store().get(use.pipeline, *each));
         }
+        for (const gpu::Move& move : frame.moves)
+            list.moves.push_back({"", "", move.pass, move.kind, gpu::formatName(move.format), move.extents});
         if (place.isBuiltIn) store().keepText(key, toText(list));
-        return rows;
+        costs.moves = movesOf(place, std::move(list.moves));
+        return costs;
     }
 
 private:
@@ -258,21 +279,30 @@ private:
         shared.scene = place.scene->id;
         shared.pass = pipeline.pass;
         shared.draws = pipeline.draws;
+        shared.output = pipeline.output;
         shared.architecture = architecture.id;
         return shared;
     }
 
+    static std::vector<FrameMove> movesOf(const Place& place, std::vector<FrameMove> moves) {
+        for (FrameMove& move : moves) {
+            move.technique = place.variant.name;
+            move.scene = place.scene->id;
+        }
+        return moves;
+    }
+
     /// Nothing where the figures of a pipeline are not kept for each architecture.
-    [[nodiscard]] std::optional<std::vector<ShaderCost>> keptRows(const Place& place,
-                                                                  const std::vector<FramePipeline>& list) {
-        std::vector<ShaderCost> rows;
-        for (const FramePipeline& pipeline : list)
+    [[nodiscard]] std::optional<ShaderCosts> keptCosts(const Place& place, const FrameList& list) {
+        ShaderCosts costs;
+        for (const FramePipeline& pipeline : list.pipelines)
             for (const gpu::Architecture* each : architectures()) {
                 const auto figures = store().find(pipeline.digest, *each);
                 if (!figures) return std::nullopt;
-                addRows(rows, sharedOf(place, pipeline, *each), pipeline.shaders, *figures);
+                addRows(costs.shaders, sharedOf(place, pipeline, *each), pipeline.shaders, *figures);
             }
-        return rows;
+        costs.moves = movesOf(place, list.moves);
+        return costs;
     }
 
     std::vector<std::string> names_;

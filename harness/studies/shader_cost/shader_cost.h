@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/error.h"
-#include "gpu/pipeline.h"
+#include "gpu/observer.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +13,15 @@
 #include <vector>
 
 namespace shadowbench::shaders {
+
+/// What the draws of a pipeline write; of a dispatch only `extents`.
+struct Output {
+    std::vector<std::string> colours = {}; // formats
+    bool blends = false;
+    std::string depth = {}; // format; "" where there is none
+    bool writesDepth = false;
+    gpu::Extents extents = {}; // as of gpu::Use
+};
 
 /// One shader of one pass on one architecture.
 struct ShaderCost {
@@ -25,6 +34,7 @@ struct ShaderCost {
     std::uint64_t draws = 0; // and dispatches, of the steady frame; 0: of others only
     std::string architecture;
     std::vector<std::pair<std::string, std::uint64_t>> statistics; // as gpu::StageFigures
+    Output output = {};                                            // empty of a file of the user's, and in older lines
 
     /// What is the same of one shader in two programs.
     [[nodiscard]] std::string name() const;
@@ -33,9 +43,18 @@ struct ShaderCost {
     [[nodiscard]] std::uint64_t of(const std::string& statistic) const;
 };
 
+/// What a pass of the steady frame clears, copies or reads back.
+struct FrameMove {
+    std::string technique, scene, pass;
+    gpu::MoveKind kind;
+    std::string format = {}; // "" of what is read back
+    gpu::Extents extents = {};
+};
+
 struct ShaderCosts {
     std::string compiler; // with its version
     std::vector<ShaderCost> shaders;
+    std::vector<FrameMove> moves = {}; // none in older lines
 };
 
 struct ShaderCostOptions {
@@ -58,7 +77,7 @@ struct ShaderCostResult {
 /// Inconclusive, saying what to install, without the driver, and BadInput for what is not there.
 ShaderCostResult shaderCosts(const ShaderCostOptions& options);
 
-/// Nothing that the program writes depends on the machine or the time: a line of JSON for each element.
+/// Nothing that the program writes depends on the machine or the time: a line of JSON for each shader and move.
 std::string toLines(const ShaderCosts& costs);
 
 /// Throws BadInput naming file and line.

@@ -25,7 +25,9 @@ ShaderCosts costs(std::vector<ShaderCost> shaders) { return {"radv Mesa 1, glsla
 TEST(ShaderCostLines, AreReadAsTheyWereWritten) {
     ShaderCost second = shader("resolve", 700);
     second.number = 2;
-    const ShaderCosts written = costs({shader("resolve", 726), second});
+    second.output = {{"RG32F", "R8"}, true, "Depth32F", true, {{{1024, 1024}, 3}}};
+    ShaderCosts written = costs({shader("resolve", 726), second});
+    written.moves.push_back({"pcss:map=512", "simple", "blur", gpu::MoveKind::ReadBack, "", {{{16, 16}, 1}}});
     const ShaderCosts read = parseLines(toLines(written), "lines");
     EXPECT_EQ(toLines(read), toLines(written));
     EXPECT_EQ(read.compiler, written.compiler);
@@ -42,10 +44,24 @@ TEST(ShaderCostLines, OneThatIsNoneIsRefusedByItsNumber) {
 }
 
 TEST(ShaderCostLines, AListOfPipelinesIsReadAsItWasWritten) {
-    const std::vector<FramePipeline> list{{"resolve", 3, "abc", {{gpu::Stage::Vertex, "a"}, {gpu::Stage::Fragment, "b"}}}};
-    EXPECT_EQ(toText(framePipelines(toText(list))), toText(list));
-    EXPECT_THROW((void)framePipelines("[{}]"), BadInput);
-    EXPECT_THROW((void)framePipelines(""), BadInput);
+    const Output output{{"RGBA16F"}, true, "Depth32F", true, {{{1024, 512}, 2}}};
+    const FrameList list{
+        {{"resolve", 3, "abc", {{gpu::Stage::Vertex, "a"}, {gpu::Stage::Fragment, "b"}}, output}},
+        {{"", "", "resolve", gpu::MoveKind::Clear, "R32F", {{{256, 256}, 1}}}},
+    };
+    EXPECT_EQ(toText(frameList(toText(list))), toText(list));
+    EXPECT_EQ(frameList(toText(list)).pipelines.at(0).output.extents, output.extents);
+    EXPECT_THROW((void)frameList("[{}]"), BadInput);
+    EXPECT_THROW((void)frameList(""), BadInput);
+}
+
+TEST(ShaderCostLines, OlderOnesSayNothingOfTargets) {
+    const ShaderCosts read =
+        parseLines(R"({"technique":"a","scene":"s","pass":"p","stage":"fragment","source":"f","number":1,"draws":1,)"
+                   R"("architecture":"navi21","compiler":"c","statistics":{"VGPRs":4}})",
+                   "old.jsonl");
+    EXPECT_TRUE(read.shaders.at(0).output.extents.empty());
+    EXPECT_TRUE(read.moves.empty());
 }
 
 TEST(ShaderCostChanges, NothingIsSaidOfEqualShaders) {
