@@ -1,5 +1,6 @@
 #include "base/files.h"
 #include "harness/cli/command.h"
+#include "harness/cli/options.h"
 #include "harness/gate/gate_report.h"
 #include "harness/gate/verdict.h"
 
@@ -15,11 +16,6 @@ struct CompareOptions {
     bool annotations = false;
     bool sameProgram = false; // one program on both sides is meant
 };
-
-/// A record file, or the folder that a run wrote it to.
-std::vector<Record> recordsAt(const std::filesystem::path& place) {
-    return readRecords(std::filesystem::is_directory(place) ? place / "results.jsonl" : place);
-}
 
 ExitCode compareAndPrint(const CompareOptions& options) {
     const std::vector<Record> base = recordsAt(options.base), head = recordsAt(options.head);

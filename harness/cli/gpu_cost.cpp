@@ -39,8 +39,7 @@ ExitCode printGpuCosts(const VerbOptions& options) {
     study.size = sizeNamed(options.size);
     std::vector<Record> records;
     for (const std::filesystem::path& place : options.records)
-        std::ranges::move(readRecords(std::filesystem::is_directory(place) ? place / "results.jsonl" : place),
-                          std::back_inserter(records));
+        std::ranges::move(recordsAt(place), std::back_inserter(records));
     const OutputLock alone(options.out);
     const gpucost::GpuCostResult result = gpucost::gpuCosts(records, study);
     for (const std::string& error : result.errors) fmt::print(stderr, "shadowbench: {}\n", error);

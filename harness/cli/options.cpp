@@ -30,4 +30,8 @@ void addSeedOption(CLI::App& verb, std::uint32_t& seed) {
     verb.add_option("--seed", seed, "Seed of pseudo-random choices")->check(CLI::Range(1U, 100000U))->capture_default_str();
 }
 
+std::vector<Record> recordsAt(const std::filesystem::path& place) {
+    return readRecords(std::filesystem::is_directory(place) ? place / "results.jsonl" : place);
+}
+
 } // namespace shadowbench

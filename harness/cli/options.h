@@ -1,8 +1,12 @@
 // Options that several verbs have.
 #pragma once
 
+#include "harness/records/record.h"
+
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -20,5 +24,8 @@ void addGlOption(CLI::App& verb);
 void addStaticOption(CLI::App& verb, bool& standing);
 
 void addSeedOption(CLI::App& verb, std::uint32_t& seed);
+
+/// Of a record file, or of the folder that a run wrote it to.
+std::vector<Record> recordsAt(const std::filesystem::path& place);
 
 } // namespace shadowbench

@@ -50,8 +50,6 @@ void main() {
 }
 )";
 
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 glm::ivec2 screenOf(const Scene& scene, int longer) {
     return glm::max(scene.size * longer / std::max(scene.size.x, scene.size.y), glm::ivec2(1));
 }

@@ -1,6 +1,7 @@
 #include "harness/measure/lod_cost.h"
 
 #include "harness/measure/raster_clock.h"
+#include "harness/measure/rounds.h"
 #include "harness/measure/statistics.h"
 #include "techniques/catalog.h"
 #include "techniques/gl/context.h"
@@ -14,8 +15,6 @@ namespace shadowbench::lod {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 double milliseconds(LodStage& stage, techniques::LodTechnique& technique) {
     gl::Context& context = gl::Context::current();
@@ -53,7 +52,7 @@ LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int
     const auto start = Clock::now();
     std::size_t timed = static_cast<std::size_t>(frames);
     for (Contestant& contestant : contestants) contestant.least.assign(timed, std::numeric_limits<double>::infinity());
-    for (int round = 0; round < limits.maximumRounds && (round == 0 || secondsSince(start) < limits.budgetSeconds);
+    for (int round = 0; round < limits.maximumRounds && (round == 0 || timing::secondsSince(start) < limits.budgetSeconds);
          ++round) {
         technique.reset();
         for (std::size_t frame = 0; frame < timed; ++frame) {
@@ -62,7 +61,7 @@ LodCost measureLodCost(LodStage& stage, techniques::LodTechnique& technique, int
                 contestant.least[frame] = std::min(contestant.least[frame], milliseconds(stage, *contestant.technique));
             std::ranges::reverse(contestants);
             const bool enough = static_cast<int>(frame) + 1 >= limits.leastFrames;
-            if (round == 0 && enough && secondsSince(start) > limits.budgetSeconds) timed = frame + 1;
+            if (round == 0 && enough && timing::secondsSince(start) > limits.budgetSeconds) timed = frame + 1;
         }
     }
     if (contestants.front().technique != &technique) std::ranges::reverse(contestants);

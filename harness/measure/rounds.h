@@ -1,6 +1,7 @@
 // Frames that take turns, so that what the machine does meets all alike.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct Runner {
     std::function<void()> before = {}; // each of its frames, untimed; empty: nothing
     std::vector<double> samples = {};  // ms
 };
+
+double secondsSince(std::chrono::steady_clock::time_point start);
 
 /// Wall time of `work`, all GL work finished on both sides.
 double wallMilliseconds(const std::function<void()>& work);
