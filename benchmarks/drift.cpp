@@ -7,8 +7,8 @@
 // Histories are drawn with a fixed seed. Without --out prints Markdown.
 #include "base/files.h"
 #include "base/random.h"
-#include "harness/gate/paired.h"
-#include "harness/history/changes.h"
+#include "gate/paired.h"
+#include "history/changes.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Measured evaluations of the paired-time tier, kept with all their samples so that they can be judged again.
 #pragma once
 
-#include "harness/gate/paired_run.h"
+#include "gate/paired_run.h"
 
 #include <cstdint>
 #include <filesystem>

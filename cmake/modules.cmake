@@ -35,11 +35,11 @@ function(shadowbench_library target pch sources)
   shadowbench_counted(${target} ${target} counted)
   if(SHADOWBENCH_PRECOMPILE AND NOT counted)
     target_precompile_headers(${target} REUSE_FROM pch_${pch})
-    if(target MATCHES "^harness_")  # mostly templates of the JSON and format libraries, which a compilation instantiates once
+    if(target MATCHES "^(harness_|report|studies|gate|history|site|cli)")  # mostly templates of the JSON and format libraries, which a compilation instantiates once
       set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     endif()
   endif()
-  if(target MATCHES "^harness_(cli|foreign|gate|history|records|report|runs|studies)")  # what they take decides no figure: they need only compile fast
+  if(target MATCHES "^(harness_(foreign|records|runs)|report|studies|gate|history|site|cli)")  # what they take decides no figure: they need only compile fast
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()

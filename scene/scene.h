@@ -90,7 +90,7 @@ struct Expectation {
     std::string reason;
 };
 
-/// Where a technique's error over one axis of `sweep` (harness/studies/sweep/axis.h) first exceeds the scene's tolerance, in
+/// Where a technique's error over one axis of `sweep` (studies/sweep/axis.h) first exceeds the scene's tolerance, in
 /// the order of the axis' own values.
 struct BreakExpectation {
     std::string technique; // a variant; without the axis where that is one of its parameters

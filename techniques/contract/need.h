@@ -1,5 +1,5 @@
 // What a scene, or the game that it stands for, may need of a technique. Entry::lacks states what a technique has no right
-// answer for; advice (harness/report/advice.h) leaves such techniques out.
+// answer for; advice (report/advice.h) leaves such techniques out.
 #pragma once
 
 #include <set>

@@ -1,6 +1,6 @@
 // The pages' scales of colours are told apart with every kind of colour vision, and do not go by colour alone.
 #include "base/temporary_folder.h"
-#include "harness/report/site/pages.h"
+#include "site/pages.h"
 #include "tests/browser/checks.h"
 #include "tests/browser/large_run.h"
 
@@ -67,7 +67,7 @@ TEST(Colours, OfTheHeatMapAreToldApartAndItsBestHasAMarkToo) {
 }
 
 TEST(Colours, OfFalseShadowAndLeakAreToldApartAtEveryStrength) {
-    const glm::dvec3 none(24), falseShadow(255, 150, 40), leak(80, 170, 255); // harness/report/site/viewer/colours.js
+    const glm::dvec3 none(24), falseShadow(255, 150, 40), leak(80, 170, 255); // site/viewer/colours.js
     for (const Vision& vision : visions)
         for (const double strength : {0.25, 0.5, 0.75, 1.0}) {
             const glm::dvec3 dark = labOf(none + strength * (falseShadow - none), vision),

@@ -2,8 +2,8 @@
 #include "base/files.h"
 #include "base/temporary_folder.h"
 #include "harness/records/record.h"
-#include "harness/report/site/names.h"
-#include "harness/report/site/pages.h"
+#include "site/names.h"
+#include "site/pages.h"
 #include "tests/browser/checks.h"
 #include "tests/browser/large_run.h"
 

@@ -1,8 +1,8 @@
 // The viewer of cells in a real browser, from a file.
 #include "base/files.h"
 #include "base/image_io.h"
-#include "harness/report/site/names.h"
-#include "harness/report/site/viewer/cells.h"
+#include "site/names.h"
+#include "site/viewer/cells.h"
 #include "tests/browser/browser.h"
 #include "tests/browser/checks.h"
 #include "tests/browser/tiny_run.h"

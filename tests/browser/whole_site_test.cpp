@@ -2,7 +2,7 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/temporary_folder.h"
-#include "harness/report/site/site.h"
+#include "site/site.h"
 #include "tests/browser/checks.h"
 #include "tests/browser/tiny_run.h"
 

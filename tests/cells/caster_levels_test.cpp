@@ -1,8 +1,8 @@
 // Shadow-caster levels against exact shadows: a closed form, then the three scenes with levels of detail.
 #include "base/error.h"
 #include "groundtruth/cgal/hard/exact.h"
-#include "harness/studies/recommend/caster_levels.h"
 #include "scene/load/load.h"
+#include "studies/recommend/caster_levels.h"
 
 #include <cmath>
 #include <functional>

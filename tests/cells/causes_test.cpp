@@ -2,9 +2,9 @@
 #include "harness/cells/cell.h"
 #include "harness/cells/changed_scene.h"
 #include "harness/metrics/table.h"
-#include "harness/studies/causes/casters_alone.h"
-#include "harness/studies/causes/causes.h"
-#include "harness/studies/sweep/axis.h"
+#include "studies/causes/casters_alone.h"
+#include "studies/causes/causes.h"
+#include "studies/sweep/axis.h"
 #include "techniques/shared/maps/single_map.h"
 #include "tests/support/cell_stage.h"
 

@@ -1,6 +1,6 @@
 // What starts processes has made no context before: a driver of a graphics processor does not outlive a fork, and one of
 // software would not show it.
-#include "harness/studies/sweep/sweep.h"
+#include "studies/sweep/sweep.h"
 #include "techniques/gl/contexts_made.h"
 #include "tests/support/cell_stage.h"
 

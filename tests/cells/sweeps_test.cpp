@@ -1,8 +1,8 @@
 // Where techniques break as one quantity of a scene moves: the `breaks` and `never_breaks` of every scene, in the gate
 // profile.
-#include "harness/studies/sweep/axis.h"
-#include "harness/studies/sweep/sweep.h"
 #include "scene/load/load.h"
+#include "studies/sweep/axis.h"
+#include "studies/sweep/sweep.h"
 #include "tests/support/cell_stage.h"
 #include "tests/support/expected_techniques.h"
 #include "tests/support/test_names.h"

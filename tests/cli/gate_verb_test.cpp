@@ -76,7 +76,7 @@ TEST_F(GateVerb, TheSameCommitTwiceDecidesNothing) {
 TEST_F(GateVerb, CommitsThatMakeTheSameProgramPassAndTheGateSaysSo) {
     SaidOtherwise base(folder_);
     base.identity["commit"] = "decafdecafdecaf";
-    bounds_ = std::string(SOURCE_FOLDER) + "/harness/gate/bounds.toml";
+    bounds_ = std::string(SOURCE_FOLDER) + "/gate/bounds.toml";
     const Outcome outcome = gate(base.program(), "--technique sm-uniform --cost none");
     EXPECT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("make the same program"), std::string::npos) << outcome.output;

@@ -1,9 +1,9 @@
 // Golden references: the committed ones, and the commands that verify and replace them.
 #include "base/error.h"
 #include "base/files.h"
+#include "gate/gate.h"
+#include "gate/gate_config.h"
 #include "harness/cells/golden_lock.h"
-#include "harness/gate/gate.h"
-#include "harness/gate/gate_config.h"
 #include "harness/metrics/table.h"
 #include "scene/load/load.h"
 #include "tests/support/program.h"

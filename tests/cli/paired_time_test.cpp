@@ -1,6 +1,6 @@
 // Two programs timed in turns: with stand-ins that answer any times wanted, and with the built program.
 #include "base/error.h"
-#include "harness/gate/paired_run.h"
+#include "gate/paired_run.h"
 #include "tests/support/program.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "harness/gate/gate_config.h"
-#include "harness/gate/policy.h"
-#include "harness/studies/behaviour/behaviour.h"
-#include "harness/studies/claims/claims.h"
-#include "harness/studies/papers/papers.h"
+#include "gate/gate_config.h"
+#include "gate/policy.h"
+#include "studies/behaviour/behaviour.h"
+#include "studies/claims/claims.h"
+#include "studies/papers/papers.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/target.h"
 

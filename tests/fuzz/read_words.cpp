@@ -5,7 +5,7 @@
 #include "harness/foreign/foreign_row.h"
 #include "harness/measure/callgrind.h"
 #include "harness/runs/manifest.h"
-#include "harness/studies/sweep/axis.h"
+#include "studies/sweep/axis.h"
 #include "techniques/catalog.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/target.h"

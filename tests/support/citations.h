@@ -141,15 +141,14 @@ inline bool matchesPattern(std::string_view pattern, std::string_view path) {
 
 /// Whether a word that looks like one of our paths leads nowhere. What commands write into results/ may be there or not.
 inline bool isStalePath(const Tree& tree, const std::string& word) {
-    static const std::array folders{"base",  "scene", "techniques", "gpu",   "groundtruth", "harness",
-                                    "tests", "tools", "benchmarks", "cmake", "docs",        "results"};
     static const std::array written{"results/latest", "results/mine",      "results/large",
                                     "results/sweep",  "results/recommend", "results/reproduced"};
     static const std::array endings{".h", ".cpp", ".glsl", ".vert", ".frag", ".comp", ".cmake"};
     const auto isBelow = [&](const char* folder) { return word.starts_with(std::string(folder) + "/"); };
     const auto isIn = [&](const char* folder) { return word == folder || isBelow(folder); };
     if (std::ranges::any_of(written, isIn)) return false;
-    if (std::ranges::any_of(folders, isBelow)) {
+    if (const std::size_t slash = word.find('/');
+        slash != 0 && holds(word, '/') && tree.paths.contains(word.substr(0, slash))) {
         if (holds(word, '*'))
             return std::ranges::none_of(tree.paths, [&](auto& path) { return matchesPattern(word, path); });
         return !tree.paths.contains(word);

@@ -13,8 +13,9 @@ namespace fs = std::filesystem;
 class EmbeddedVersion : public testing::Test {
 protected:
     EmbeddedVersion() {
-        for (const char* folder : {"base", "harness/metrics", "results/published", "results/reference"})
+        for (const char* folder : {"base", "cmake", "harness/metrics", "results/published", "results/reference"})
             fs::create_directories(tree_ / folder);
+        tree_.write("cmake/layers.txt", "# lowest first\nbase: | png\nharness/metrics: base\n");
         for (const char* file :
              {"base/a.cpp", "harness/metrics/b.cpp", "results/published/report.md", "results/reference/simple.json"})
             tree_.write(file, "as committed\n");

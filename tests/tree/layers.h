@@ -55,8 +55,6 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 19> p
 /// Libraries that every module links, the operating system's headers, and Valgrind's, which are macros only.
 inline constexpr std::array<std::string_view, 5> headersOfAll{"fmt/", "glm/", "linux/", "sys/", "valgrind/"};
 
-inline constexpr std::array<std::string_view, 6> rootFolders{"base", "scene", "techniques", "gpu", "groundtruth", "harness"};
-
 inline std::vector<std::string> wordsOf(const std::string& text) {
     std::istringstream words(text);
     return {std::istream_iterator<std::string>(words), {}};
@@ -116,10 +114,17 @@ inline void addIncludes(const std::filesystem::path& root, const std::string& fi
     }
 }
 
-/// Of all headers, sources and shaders of the tree.
-inline std::vector<Include> includesOf(const std::filesystem::path& root) {
+/// The folders at the tree's root that hold modules.
+inline std::set<std::string> roomsOf(const std::vector<Module>& modules) {
+    std::set<std::string> rooms;
+    for (const Module& module : modules) rooms.insert(module.folder.substr(0, module.folder.find('/')));
+    return rooms;
+}
+
+/// Of all headers, sources and shaders of the modules' rooms.
+inline std::vector<Include> includesOf(const std::filesystem::path& root, const std::vector<Module>& modules) {
     std::set<std::string> files;
-    for (const std::string_view folder : rootFolders) {
+    for (const std::string& folder : roomsOf(modules)) {
         if (!std::filesystem::exists(root / folder)) continue;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
             const auto ending = entry.path().extension();

@@ -1,7 +1,7 @@
 // The pages in docs/techniques are those that the program makes of the catalogue and of the published records.
 #include "base/files.h"
 #include "harness/records/comparability.h"
-#include "harness/studies/behaviour/technique_page.h"
+#include "studies/behaviour/technique_page.h"
 #include "techniques/catalog.h"
 
 #include <gtest/gtest.h>

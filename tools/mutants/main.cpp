@@ -106,9 +106,8 @@ void report(const std::vector<Outcome>& outcomes, const std::filesystem::path& f
 
 ExitCode run(const Options& options) {
     const std::filesystem::path source = SOURCE_FOLDER;
-    const std::vector<Mutant> all =
-        onTheGatesScenes(readMutants(source / "tools/mutants/mutants.toml"),
-                         gate::readGateConfig(source / "harness/gate/bounds.toml", Profile::Gate));
+    const std::vector<Mutant> all = onTheGatesScenes(readMutants(source / "tools/mutants/mutants.toml"),
+                                                     gate::readGateConfig(source / "gate/bounds.toml", Profile::Gate));
     std::vector<Mutant> chosen = matching(all, options.only);
     if (!options.shard.empty()) chosen = shardOf(chosen, options.shard);
     if (options.list) {

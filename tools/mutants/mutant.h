@@ -1,7 +1,7 @@
 // Faults, slowdowns and benign changes planted in the source, as data (mutants.toml), and how each must be found.
 #pragma once
 
-#include "harness/gate/gate_config.h"
+#include "gate/gate_config.h"
 #include "harness/records/compare.h"
 
 #include <filesystem>

@@ -24,9 +24,7 @@ TreeCopy::TreeCopy(std::filesystem::path source, std::filesystem::path folder)
 }
 
 std::vector<std::string> TreeCopy::trackedFiles() const {
-    std::vector<std::string> words{"-C", source_.string(), "ls-files", "--"};
-    words.insert(words.end(), parts.begin(), parts.end());
-    std::vector<std::string> files = runTool("git", words, source_);
+    std::vector<std::string> files = runTool("git", {"-C", source_.string(), "ls-files"}, source_);
     std::erase_if(files, [&](const std::string& file) { return !std::filesystem::exists(source_ / file); });
     std::ranges::sort(files);
     return files;
@@ -34,10 +32,10 @@ std::vector<std::string> TreeCopy::trackedFiles() const {
 
 /// Sources are globbed: one that is no longer tracked must not be built.
 void TreeCopy::removeAllBut(const std::vector<std::string>& files) const {
-    for (const char* part : parts) {
-        if (!std::filesystem::is_directory(folder_ / part)) continue;
+    for (const auto& top : std::filesystem::directory_iterator(folder_)) {
+        if (!top.is_directory() || top.path().filename() == "build") continue;
         std::vector<std::filesystem::path> stale;
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / part))
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(top.path()))
             if (entry.is_regular_file() &&
                 !std::ranges::binary_search(files, entry.path().lexically_relative(folder_).string()))
                 stale.push_back(entry.path());

@@ -1,7 +1,6 @@
 // A copy of the tracked source files in a folder of its own, in which faults are planted and built.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -11,11 +10,7 @@ namespace shadowbench::mutants {
 
 class TreeCopy {
 public:
-    /// What the program and its tests are built from, and what their tests read.
-    static constexpr std::array parts{"CMakeLists.txt", "CMakePresets.json", "cmake", "base",  "scene",  "techniques", "gpu",
-                                      "groundtruth",    "harness",           "tools", "tests", "results"};
-
-    /// Copies what the program is built from: files that differ, so that only those are built again. A fault left by a
+    /// Copies the tracked files: those that differ, so that only those are built again. A fault left by a
     /// killed run is thus gone. Throws Inconclusive without git.
     TreeCopy(std::filesystem::path source, std::filesystem::path folder);
 

@@ -1,6 +1,7 @@
 // Two headers that define the same qualified type name break the one-definition rule as soon as one program has both; the
 // compiler does not notice. So no two headers of the project may.
 #include "base/files.h"
+#include "tests/tree/layers.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -103,7 +104,7 @@ TEST(FunctionNames, NoTwoHeadersOfTheTestsDefineTheSame) {
 
 TEST(TypeNames, NoTwoHeadersDefineTheSame) {
     std::map<std::string, std::vector<std::string>> headersOf;
-    for (const char* folder : {"base", "scene", "techniques", "gpu", "groundtruth", "harness"})
+    for (const std::string& folder : layers::roomsOf(layers::readList(fs::path(SOURCE_FOLDER) / "cmake/layers.txt")))
         for (const fs::directory_entry& file : fs::recursive_directory_iterator(fs::path(SOURCE_FOLDER) / folder)) {
             if (file.path().extension() != ".h") continue;
             for (const std::string& type : typesOf(readFile(file.path())))

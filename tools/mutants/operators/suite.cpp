@@ -45,14 +45,14 @@ std::string row(const OperatorMutant& mutant, const std::map<std::string, std::s
 const std::vector<Judge>& judges() {
     static const std::vector<Judge> all{
         {"metrics", {"harness/metrics/"}, {"test_harness_metrics"}},
-        {"records", {"harness/records/"}, {"test_harness_records", "test_harness_gate"}}, // the gate's tests compare records
-        {"gate", {"harness/gate/"}, {"test_harness_gate", "test_harness_gate_programs"}},
-        {"studies", {"harness/studies/"}, {"test_harness_studies"}},
-        {"history", {"harness/history/"}, {"test_harness_history"}},
+        {"records", {"harness/records/"}, {"test_harness_records", "test_gate"}}, // the gate's tests compare records
+        {"gate", {"gate/"}, {"test_gate", "test_gate_programs"}},
+        {"studies", {"studies/"}, {"test_studies"}},
+        {"history", {"history/"}, {"test_history"}},
         {"summary",
-         {"harness/report/summary.cpp", "harness/report/terminal_summary.cpp", "harness/report/table.cpp",
-          "harness/report/text_table.cpp", "harness/report/doubts.cpp"},
-         {"test_harness_report"}},
+         {"report/summary.cpp", "report/terminal_summary.cpp", "report/table.cpp", "report/text_table.cpp",
+          "report/doubts.cpp"},
+         {"test_report"}},
         {"certify", {"groundtruth/certify/"}, {"test_groundtruth_certify"}},
     };
     return all;

@@ -1,0 +1,37 @@
+#include "cli/options.h"
+
+#include "techniques/gl/platform.h"
+
+#include <CLI/CLI.hpp>
+
+namespace shadowbench {
+
+void addProfileOption(CLI::App& verb, std::string& profile) {
+    verb.add_option("--profile", profile, "Size of pictures and length of timelines")
+        ->type_name("TEXT:{gate,standard,paper}")
+        ->capture_default_str();
+}
+
+void addGlOption(CLI::App& verb) {
+    verb.add_option_function<std::string>(
+            "--gl", [](const std::string& word) { gl::choosePlatform(gl::platformNamed(word)); },
+            "What draws: auto (in software, the same everywhere: OSMesa, else EGL), osmesa, or egl (a graphics processor, "
+            "else in software) (default: $SHADOWBENCH_GL or auto)")
+        ->check(CLI::IsMember({"auto", "osmesa", "egl"}));
+}
+
+void addStaticOption(CLI::App& verb, bool& standing) {
+    verb.add_flag("--static", standing,
+                  "Costs are of scenes where light and casters stand still: with what techniques keep from frame to frame "
+                  "(default: the dearer of standing and in motion)");
+}
+
+void addSeedOption(CLI::App& verb, std::uint32_t& seed) {
+    verb.add_option("--seed", seed, "Seed of pseudo-random choices")->check(CLI::Range(1U, 100000U))->capture_default_str();
+}
+
+std::vector<Record> recordsAt(const std::filesystem::path& place) {
+    return readRecords(std::filesystem::is_directory(place) ? place / "results.jsonl" : place);
+}
+
+} // namespace shadowbench

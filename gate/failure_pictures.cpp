@@ -1,0 +1,78 @@
+#include "gate/failure_pictures.h"
+
+#include "harness/cells/cell_images.h"
+
+#include <algorithm>
+
+namespace shadowbench::gate {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t mostCells = 12; // more show the same fault again
+
+using Failing = std::vector<std::pair<std::string, std::string>>; // scene, variant
+
+Failing failingCells(const std::vector<Change>& changes, const JudgedCells& judged) {
+    Failing cells;
+    for (const Change& change : changes) {
+        const bool drawn = change.direction == Direction::Worse && change.changeClass != Class::Instructions &&
+                           change.changeClass != Class::Time && change.changeClass != Class::BreakPoint;
+        if (!drawn || change.variant.starts_with(externalPrefix) || !judged.chooses(change.scene, change.variant) ||
+            cells.size() == mostCells)
+            continue;
+        if (std::ranges::find(cells, std::pair(change.scene, change.variant)) == cells.end())
+            cells.emplace_back(change.scene, change.variant);
+    }
+    return cells;
+}
+
+/// Returns the records of what was drawn.
+std::vector<Record> draw(const MeasuredProgram& program, const Failing& cells, const JudgedCells& judged,
+                         const fs::path& out, const Progress& progress) {
+    std::vector<Record> records;
+    for (const JudgedScene& scene : judged.scenes) {
+        Step step{"pictures of " + scene.id,
+                  {"run", "--scene", scene.argument, "--profile", std::string(name(judged.profile)), "--seed",
+                   std::to_string(judged.seed), "--cost", "none", "--images"},
+                  {},
+                  "results.jsonl"};
+        for (const auto& [id, variant] : cells)
+            if (id == scene.id && program.knowsVariant(variant)) step.techniques.push_back(variant);
+        if (step.techniques.empty()) continue;
+        program.run(step, out, 1, progress);
+        for (Record& record : readRecords(out / step.records)) records.push_back(std::move(record));
+    }
+    return records;
+}
+
+std::optional<Record> recordOf(const std::vector<Record>& records, const std::string& scene, const std::string& variant) {
+    const auto found = std::ranges::find_if(
+        records, [&](const Record& record) { return record.scene == scene && record.variant == variant; });
+    return found == records.end() ? std::nullopt : std::optional(*found);
+}
+
+fs::path folderOf(const fs::path& out, const std::string& scene, const std::string& variant) {
+    const fs::path folder = out / "images" / scene / fileName(variant);
+    return fs::exists(folder) ? folder : fs::path();
+}
+
+} // namespace
+
+std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, const JudgedCells& judged,
+                                          const MeasuredProgram* base, const MeasuredProgram& head, const fs::path& out,
+                                          const Progress& progress) {
+    for (const char* side : {"head", "base"}) fs::remove_all(out / side);
+    const Failing cells = failingCells(changes, judged);
+    if (cells.empty()) return {};
+    const std::vector<Record> heads = draw(head, cells, judged, out / "head", progress);
+    const std::vector<Record> bases =
+        base == nullptr ? std::vector<Record>() : draw(*base, cells, judged, out / "base", progress);
+    std::vector<FailurePictures> pictures;
+    for (const auto& [scene, variant] : cells)
+        pictures.push_back({scene, variant, folderOf(out / "head", scene, variant), folderOf(out / "base", scene, variant),
+                            recordOf(heads, scene, variant), recordOf(bases, scene, variant)});
+    return pictures;
+}
+
+} // namespace shadowbench::gate

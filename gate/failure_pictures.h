@@ -1,0 +1,16 @@
+// Pictures of the cells that a gate found worse.
+#pragma once
+
+#include "gate/gate.h"
+#include "gate/judged_cells.h"
+
+namespace shadowbench::gate {
+
+/// Has both programs (`base` may be absent) draw the cells of the Worse changes, at most a dozen: visibility, reference and
+/// error as EXR and PNG under <out>/head and <out>/base. What an earlier gate left there is removed. Changes of cost need no
+/// picture.
+std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, const JudgedCells& judged,
+                                          const MeasuredProgram* base, const MeasuredProgram& head,
+                                          const std::filesystem::path& out, const Progress& progress);
+
+} // namespace shadowbench::gate

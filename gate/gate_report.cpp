@@ -1,0 +1,109 @@
+#include "gate/gate_report.h"
+
+#include "base/one_line.h"
+#include "gate/verdict.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace shadowbench::gate {
+namespace {
+
+constexpr std::size_t mostTimes = 5;
+
+/// A list under a heading; nothing when it is empty.
+std::string section(const std::string& heading, const std::vector<std::string>& lines) {
+    return lines.empty() ? "" : fmt::format("{}:\n  {}\n", heading, fmt::join(lines, "\n  "));
+}
+
+std::vector<std::string> commands(const GateResult& result, const GateOptions& options) {
+    std::vector<std::string> lines;
+    for (const Change& change : result.changes) {
+        if (change.direction != Direction::Worse) continue;
+        const std::string line = reproduction(change, options);
+        if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+    }
+    return lines;
+}
+
+std::vector<std::string> pictureLines(const GateResult& result) {
+    std::vector<std::string> lines;
+    for (const FailurePictures& cell : result.pictures) {
+        std::string line = fmt::format("{} on {}:", cell.variant, cell.scene);
+        for (const std::filesystem::path& folder : {cell.head, cell.base})
+            if (!folder.empty()) line += fmt::format(" {}", (folder / "{visibility,reference,error}.png").string());
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+std::vector<std::string> slowest(std::vector<StepTime> times) {
+    std::ranges::sort(times, std::ranges::greater(), &StepTime::seconds);
+    times.resize(std::min(times.size(), mostTimes));
+    std::vector<std::string> lines;
+    for (const StepTime& time : times)
+        if (time.seconds >= 1) lines.push_back(fmt::format("{:.0f} s  {}", time.seconds, time.name));
+    return lines;
+}
+
+/// An argument as a shell takes it.
+std::string quoted(const std::string& word) {
+    return word.find_first_of("*?[]$&;()<>| '\"~") == std::string::npos ? word : "'" + word + "'";
+}
+
+} // namespace
+
+std::string reproduction(const Change& change, const GateOptions& options) {
+    std::string which = fmt::format("--scene {} --technique {} --profile {} --seed {}", quoted(change.scene),
+                                    quoted(change.variant), name(options.profile), options.seed);
+    for (const auto& file : options.externalFiles)
+        if (change.variant.starts_with(externalPrefix)) which += " --external " + quoted(file.string());
+    switch (change.changeClass) {
+    case Class::Time:
+        return fmt::format("./bench gate --base {} --cost time {}", quoted(options.base), which);
+    case Class::BreakPoint:
+        return fmt::format("./bench sweep --axis {} {}", change.axis, which);
+    case Class::Instructions:
+        return fmt::format("./bench run --cost instructions {}", which);
+    default:
+        return fmt::format("./bench run --images --cost none --out results/reproduced {}", which);
+    }
+}
+
+std::string gateReport(const GateResult& result, const GateOptions& options) {
+    std::string text = section("looser than the base", result.loosened) + changesReport(result) +
+                       section("to see it again", commands(result, options)) + section("pictures", pictureLines(result)) +
+                       section("not compared", result.notCompared) + section("to note", result.notes);
+    text += section(fmt::format("slowest parts of {:.0f} s, some side by side", result.seconds), slowest(result.times));
+    return text + fmt::format("gate: {} (head {}, base {})\n", verdictText(result.code()), result.head, result.base);
+}
+
+std::string gateComment(const GateResult& result, const GateOptions& options) {
+    constexpr std::size_t mostWorst = 10, mostNotCompared = 4, mostOthers = 3, mostCommands = 2; // 40 lines in all
+    std::string text = fmt::format("## shadowbench: {}\n\nHead {}, base {}. {}.\n", verdictText(result.code()), result.head,
+                                   result.base, gate::text(result.presence));
+    const auto list = [&](std::string_view heading, const std::vector<std::string>& lines, std::size_t most) {
+        if (lines.empty()) return;
+        text += fmt::format("\n{}:\n", heading);
+        for (std::size_t i = 0; i < std::min(lines.size(), most); ++i) text += fmt::format("* {}\n", onOneLine(lines[i]));
+        if (lines.size() > most) text += fmt::format("* … and {} more\n", lines.size() - most);
+    };
+    std::vector<std::string> worse, notCompared = result.notCompared, others;
+    for (const Change& change : oneACause(worstFirst(result.changes))) {
+        std::vector<std::string>& lines = change.direction == Direction::Worse         ? worse
+                                          : change.direction == Direction::NotCompared ? notCompared
+                                                                                       : others;
+        lines.push_back(fmt::format("{}: {}", name(change.direction), change.sentence));
+    }
+    list("Looser than the base", result.loosened, mostOthers);
+    list("Not compared", notCompared, mostNotCompared);
+    list("Worse", worse, mostWorst);
+    list("Unclear, waived or better", others, mostOthers);
+    std::vector<std::string> again = commands(result, options);
+    for (std::string& command : again) command = "`" + command + "`";
+    list("To see it again", again, mostCommands);
+    return text;
+}
+
+} // namespace shadowbench::gate

@@ -1,0 +1,207 @@
+#include "gate/measured_program.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/folder_lock.h"
+#include "base/hash.h"
+#include "base/parallel.h"
+#include "base/process.h"
+#include "base/temporary_folder.h"
+#include "harness/cells/environment.h"
+#include "harness/measure/callgrind.h"
+#include "harness/records/comparability.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace shadowbench::gate {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::chrono::hours longestStep{3};
+
+/// What a program's records depend on beside the program.
+std::string surroundings() {
+    const auto context = gl::Context::create();
+    const Environment e = environmentOf(context->info());
+    return countingEnvironment(e) + (findProgram("valgrind") ? "\n" + timing::valgrindVersion() : "");
+}
+
+/// The exit code and the last line; `onLine` sees all of them. It is one of `programs` that run at once.
+std::pair<int, std::string> runToEnd(const fs::path& program, const std::vector<std::string>& arguments,
+                                     const OnLine& onLine, int programs = 1) {
+    const TemporaryFolder folder;
+    Command command{program, arguments, folder.path()};
+    command.threads = std::max(1, availableThreads() / programs);
+    command.limit = longestStep;
+    command.cpuLimit = longestStep;
+    command.memoryLimit = std::uintmax_t{64} << 30U; // of addresses: Valgrind reserves far more than it uses
+    command.fileLimit = std::uintmax_t{1} << 30U;
+    command.inherited = gl::platformVariables();
+    command.grace = std::chrono::seconds(10); // it is writing records and images into the cache
+    std::string last;
+    const Finished finished = runProcess(command, [&](std::string_view line) {
+        last = line;
+        onLine(line);
+    });
+    if (finished.timedOut) return {-1, "it took more than three hours"};
+    if (finished.signal != 0) return {-1, fmt::format("it was ended by signal {}", finished.signal)};
+    return {finished.exitCode, last};
+}
+
+/// Whether a line is of a program's progress ("trees 3/31  sm-uniform"), not of its results.
+bool isProgress(std::string_view line) {
+    const std::size_t slash = line.find('/');
+    const auto digit = [&](std::size_t at) {
+        return at < line.size() && std::isdigit(static_cast<unsigned char>(line[at]));
+    };
+    return slash != std::string_view::npos && slash > 0 && digit(slash - 1) && digit(slash + 1) && line.front() != ' ';
+}
+
+Json listOf(const fs::path& program, const std::string& what) {
+    std::string text;
+    const auto [code, last] =
+        runToEnd(program, {"list", what, "--format", "json"}, [&](std::string_view line) { text += line; });
+    Json list = Json::parse(text, nullptr, false);
+    if (code != 0 || !list.is_array())
+        throw Inconclusive(fmt::format("{} does not say which {} it has: {}", program.string(), what, last));
+    return list;
+}
+
+/// What the program says of itself; nothing where it has no such verb.
+std::optional<BuildInfo> buildOf(const fs::path& program) {
+    std::string text;
+    const auto [code, last] = runToEnd(program, {"policy"}, [&](std::string_view line) { text += line; });
+    if (code != 0) return {};
+    return buildInfoFrom(text);
+}
+
+/// "pcss:taps=32+32,map=2048" → ("taps", "32+32"), ("map", "2048").
+std::vector<std::pair<std::string, std::string>> assignmentsOf(const std::string& variant) {
+    std::vector<std::pair<std::string, std::string>> assignments;
+    for (std::size_t at = variant.find(':'); at != std::string::npos; at = variant.find(',', at + 1)) {
+        const std::size_t equals = variant.find('=', at);
+        assignments.emplace_back(variant.substr(at + 1, equals - at - 1),
+                                 variant.substr(equals + 1, variant.find(',', equals) - equals - 1));
+    }
+    return assignments;
+}
+
+/// Whether a listed domain ("a|b", "1…8") has the value.
+bool allows(const std::string& domain, const std::string& value) {
+    constexpr std::string_view to = "…";
+    if (const std::size_t at = domain.find(to); at != std::string::npos) {
+        const double number = std::strtod(value.c_str(), nullptr);
+        return number >= std::strtod(domain.c_str(), nullptr) &&
+               number <= std::strtod(domain.c_str() + at + to.size(), nullptr);
+    }
+    return ("|" + domain + "|").find("|" + value + "|") != std::string::npos;
+}
+
+std::string text(const Step& step) {
+    return fmt::format("{}\n{}\n{}", fmt::join(step.arguments, "\n"), fmt::join(step.techniques, "\n"), step.inputs);
+}
+
+/// Whether kept records are still those whose hash was written beside them.
+bool isAsLeft(const fs::path& records, const fs::path& hash) {
+    return fs::exists(records) && hash128(readFile(records)).text() == readFile(hash);
+}
+
+} // namespace
+
+MeasuredProgram::MeasuredProgram(const fs::path& file, const fs::path& cache)
+    : file_(fs::absolute(file)), cache_(fs::absolute(cache)) {
+    try {
+        const std::string bytes = readFile(file_);
+        content_ = hash128(bytes).text();
+        records_ = cache_ / "gate" / hash128(bytes + surroundings()).text();
+    } catch (const BadInput& error) {
+        throw Inconclusive(error.what());
+    }
+    build_ = buildOf(file_);
+    for (const Json& scene : listOf(file_, "scenes")) scenes_.push_back(scene.at("id"));
+    for (const Json& technique : listOf(file_, "techniques")) {
+        Technique& known = techniques_.emplace_back(Technique{technique.at("id"), {}, technique.at("variants")});
+        for (const Json& parameter : technique.at("parameters"))
+            known.parameters[parameter.at("name")] = parameter.at("values");
+    }
+}
+
+bool MeasuredProgram::knowsVariant(const std::string& variant) const {
+    const auto technique = std::ranges::find(techniques_, variant.substr(0, variant.find(':')), &Technique::id);
+    if (technique == techniques_.end()) return false;
+    return std::ranges::all_of(assignmentsOf(variant), [&](const auto& assignment) {
+        const auto parameter = technique->parameters.find(assignment.first);
+        return parameter != technique->parameters.end() && allows(parameter->second, assignment.second);
+    });
+}
+
+bool MeasuredProgram::knowsScene(const std::string& id) const { return std::ranges::find(scenes_, id) != scenes_.end(); }
+
+std::vector<std::string> MeasuredProgram::variants() const {
+    std::vector<std::string> variants;
+    for (const Technique& technique : techniques_)
+        for (const std::string& parameters : technique.variants)
+            variants.push_back(parameters.empty() ? technique.id : technique.id + ":" + parameters);
+    return variants;
+}
+
+int MeasuredProgram::run(const Step& step, const fs::path& out, int programs, const Progress& progress) const {
+    std::vector<std::string> arguments = step.arguments;
+    for (const std::string& technique : step.techniques) arguments.insert(arguments.end(), {"--technique", technique});
+    arguments.insert(arguments.end(), {"--out", fs::absolute(out).string(), "--cache", cache_.string()});
+    const auto showProgress = [&](std::string_view line) {
+        if (isProgress(line)) progress(0, line);
+    };
+    const auto [code, last] = runToEnd(file_, arguments, showProgress, programs);
+    if (code < 0 || !fs::exists(out / step.records))
+        throw Inconclusive(fmt::format("{} failed at {}: {}", file_.string(), step.name, last));
+    return code;
+}
+
+Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress& progress) const {
+    using Clock = std::chrono::steady_clock;
+    std::vector<std::vector<Record>> records(steps.size());
+    std::vector<std::optional<StepTime>> times(steps.size());
+    std::mutex mutex;
+    std::size_t ended = 0;
+    // Another gate that measures the same program does so for both.
+    const FolderLock alone(records_, [&] { progress(0, "waiting for another gate that measures this program"); });
+    const int programs = std::min(static_cast<int>(steps.size()), availableThreads());
+    inParallel(static_cast<int>(steps.size()), programs, [&](int index) {
+        const auto i = static_cast<std::size_t>(index);
+        Step step = steps[i];
+        const fs::path out = records_ / hash128(text(step)).text(), done = out / "done";
+        if (step.isAlwaysRun || (fs::exists(done) && !isAsLeft(out / step.records, done))) fs::remove_all(out);
+        if (!fs::exists(done)) {
+            const auto start = Clock::now();
+            if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");
+            const int code = run(step, out, programs, [&](double, std::string_view line) {
+                const std::scoped_lock lock(mutex);
+                progress(static_cast<double>(ended) / static_cast<double>(steps.size()), line);
+            });
+            if (code == 0) writeFile(done, hash128(readFile(out / step.records)).text()); // one with errors is tried again
+            times[i] = {step.name, std::chrono::duration<double>(Clock::now() - start).count()};
+        }
+        records[i] = readRecords(out / step.records);
+        const std::scoped_lock lock(mutex);
+        ++ended;
+    });
+    Measured measured;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        std::ranges::move(records[i], std::back_inserter(measured.records));
+        if (times[i]) measured.times.push_back(*times[i]);
+    }
+    return measured;
+}
+
+} // namespace shadowbench::gate

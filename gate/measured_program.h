@@ -1,0 +1,85 @@
+// The programs that a gate compares: builds of shadowbench of this or another commit, started as a user would.
+#pragma once
+
+#include "base/progress.h"
+#include "gate/policy.h"
+#include "harness/records/record.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowbench::gate {
+
+/// One `run` or `sweep` of a program.
+struct Step {
+    std::string name;                    // as reports name it: "overlapping-occluders, instructions"
+    std::vector<std::string> arguments;  // without --technique, --out, --cache and --quiet
+    std::vector<std::string> techniques; // canonical names
+    std::string records;                 // the file that it leaves in --out
+    std::string inputs = {};             // content of the files that `arguments` name, and keys of truths
+    bool isAlwaysRun = false;            // it depends on programs that nobody can hash: nothing of it is kept
+    std::string scene = {};              // id …
+    std::uint32_t seed = 1;              // … and seed of its records
+
+    [[nodiscard]] bool isSweep() const { return records == "sweep.jsonl"; }
+};
+
+struct StepTime {
+    std::string name;
+    double seconds = 0;
+};
+
+/// What a program's steps gave.
+struct Measured {
+    std::vector<Record> records;
+    std::vector<StepTime> times; // of the steps that were not already there
+};
+
+class MeasuredProgram {
+public:
+    /// `file`: the executable. Its records are kept in `cache`, under a hash of the program, Mesa, Valgrind and processor:
+    /// the same program is not measured twice. Throws Inconclusive when it cannot be read.
+    MeasuredProgram(const std::filesystem::path& file, const std::filesystem::path& cache);
+
+    [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+    /// What it is and judges; nothing of a build from before there was the verb `policy`.
+    [[nodiscard]] const std::optional<BuildInfo>& build() const { return build_; }
+
+    /// Hash of the executable.
+    [[nodiscard]] const std::string& content() const { return content_; }
+
+    /// Whether the program has the variant (its technique, all its parameters and their values), or the built-in scene.
+    [[nodiscard]] bool knowsVariant(const std::string& variant) const;
+    [[nodiscard]] bool knowsScene(const std::string& id) const;
+
+    /// The variants that it shows, in the order of its catalogue, as it lists them.
+    [[nodiscard]] std::vector<std::string> variants() const;
+
+    /// Runs the steps that no earlier call has finished, or whose records somebody has changed since, on all cores, and
+    /// reads the records of all steps. A step that was killed is resumed. Throws Inconclusive when a step fails otherwise
+    /// than in some of its cells.
+    Measured measure(const std::vector<Step>& steps, const Progress& progress) const;
+
+    /// Runs one step in `out`, whatever was run before, and returns its exit code: not 0 when some of its cells failed,
+    /// which have records that say so. Throws Inconclusive when it left no records.
+    int run(const Step& step, const std::filesystem::path& out, int programs, const Progress& progress) const;
+
+private:
+    struct Technique {
+        std::string id;
+        std::map<std::string, std::string> parameters; // with their values: "a|b", "1…8"
+        std::vector<std::string> variants;             // parameter strings
+    };
+
+    std::filesystem::path file_, cache_, records_;
+    std::string content_;
+    std::optional<BuildInfo> build_;
+    std::vector<std::string> scenes_;
+    std::vector<Technique> techniques_;
+};
+
+} // namespace shadowbench::gate

@@ -1,0 +1,100 @@
+#include "report/advice.h"
+
+#include "techniques/catalog.h"
+#include "techniques/contract/entry.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <tuple>
+
+namespace shadowbench::report {
+namespace {
+
+/// Half an interval of a cost, as a share of it, from which on the cost ranks nothing.
+constexpr double widestSpread = 0.5;
+
+/// By cost, then error; those that were not timed last.
+std::tuple<double, double> rank(const Record& record) {
+    const std::optional<Place> here = place(record);
+    return {here ? here->cost : std::numeric_limits<double>::infinity(), headline(record)->value};
+}
+
+bool isUncertain(const Record& record) {
+    const std::optional<Place> here = place(record);
+    return here && here->costSpread > widestSpread;
+}
+
+bool overlap(const Place& a, const Place& b) {
+    return a.cost * (1 - a.costSpread) <= b.cost * (1 + b.costSpread) &&
+           b.cost * (1 - b.costSpread) <= a.cost * (1 + a.costSpread);
+}
+
+} // namespace
+
+std::set<Need> lackedOf(const Record& record, const std::set<Need>& needs) {
+    const auto all = techniques::catalog();
+    const auto entry = std::ranges::find(all, record.technique, &techniques::Entry::id);
+    std::set<Need> lacked;
+    if (entry != all.end()) std::ranges::set_intersection(lacking(*entry), needs, std::inserter(lacked, lacked.end()));
+    return lacked;
+}
+
+Advice adviceFor(const std::vector<Record>& records, const std::string& scene, const std::set<Need>& needs) {
+    const std::vector<Tolerance> limits = tolerances(records, scene);
+    Advice advice;
+    for (const std::size_t i : ofScene(records, scene)) {
+        const Record& record = records[i];
+        if (isBaseline(record) || isExternal(record) || !isWithin(record, limits)) continue;
+        (lackedOf(record, needs).empty() ? advice.within : advice.unsuited).push_back(i);
+    }
+    std::ranges::stable_sort(advice.within, {}, [&](std::size_t i) { return rank(records[i]); });
+    for (const std::size_t i : advice.within) {
+        if (!place(records[i])) continue;
+        if (isUncertain(records[i]))
+            advice.uncertain.push_back(i);
+        else if (!advice.take)
+            advice.take = i;
+        else if (overlap(*place(records[i]), *place(records[*advice.take])))
+            advice.asCheap.push_back(i);
+    }
+    return advice;
+}
+
+std::vector<std::string> notesOn(const Advice& advice, const std::vector<Record>& records, const std::set<Need>& needs) {
+    std::vector<std::string> notes;
+    if (!advice.asCheap.empty())
+        notes.push_back("as cheap, as far as the times tell: " + variantsOf(records, advice.asCheap));
+    if (!advice.uncertain.empty())
+        notes.push_back(
+            fmt::format("within tolerance, but timed too unsteadily to rank: {}", variantsOf(records, advice.uncertain)));
+    std::map<std::set<Need>, std::vector<std::size_t>> byLack;
+    for (const std::size_t i : advice.unsuited) byLack[lackedOf(records[i], needs)].push_back(i);
+    for (const auto& [lacked, rows] : byLack)
+        notes.push_back(
+            fmt::format("within tolerance here, but not for {}: {}", namesOf(lacked), variantsOf(records, rows)));
+    return notes;
+}
+
+std::optional<CommonAdvice> commonAdvice(const std::vector<Record>& records, const std::vector<std::string>& scenes,
+                                         const std::set<Need>& needs) {
+    std::map<std::string, CommonAdvice> common; // by variant, of those within on all scenes so far
+    for (const std::string& scene : scenes) {
+        std::map<std::string, CommonAdvice> still;
+        for (const std::size_t i : adviceFor(records, scene, needs).within) {
+            const std::string& variant = records[i].variant;
+            const std::optional<FrameCost> cost = frameCost(records[i]);
+            if (!cost || (&scene != &scenes.front() && !common.contains(variant))) continue;
+            CommonAdvice advice = common.contains(variant) ? common[variant] : CommonAdvice{variant, scene, 0};
+            if (cost->ratio > advice.cost) advice = {variant, scene, cost->ratio};
+            still[variant] = advice;
+        }
+        common = std::move(still);
+    }
+    const auto least =
+        std::ranges::min_element(common, {}, [](const auto& entry) { return std::tuple(entry.second.cost, entry.first); });
+    return least == common.end() ? std::nullopt : std::optional(least->second);
+}
+
+} // namespace shadowbench::report

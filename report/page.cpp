@@ -1,0 +1,161 @@
+// The records as Markdown for where no browser is: report.md, with results.csv and the charts.
+#include "base/files.h"
+#include "harness/cells/cell_images.h"
+#include "report/charts.h"
+#include "report/cost_report.h"
+#include "report/lod_report.h"
+#include "report/run_report.h"
+#include "report/run_text.h"
+#include "report/slug.h"
+#include "report/summary.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace shadowbench::report {
+namespace {
+
+constexpr const char* columnLegend = R"(## The columns
+
+| column | meaning |
+|:---|:---|
+| error | share of receiver pixels with the wrong label (per cent), or, on scenes lit by an area light, root mean square error of visibility |
+| exact | on scenes lit by an area light: the error against the exact visible share of the light, which the error samples. Two rows that the two put in another order cannot be told apart |
+| false shadow, leak | share of lit pixels called shadowed, share of shadowed pixels called lit |
+| edge error px, median | mean and median displacement in pixels of the technique's shadow edge from the exact one, both ways |
+| missing edges, islands | share of the exact edge that the technique has nothing near; regions of wrong labels away from it (acne, holes), which the displacement leaves out |
+| off-edge error | mismatching pixels more than half a pixel from the exact edge |
+| bad30 | share of pixels off by more than 30/255 |
+| SSIM | structural similarity with the truth |
+| area rmse, bad30, SSIM | against the mean of exact visibility over each pixel's square: how well an image is antialiased |
+| penumbra rmse, dilated, penumbra width | error within the penumbra; the same with 2 pixels around it; relative error of its width |
+| umbra leak | mean visibility where the light is fully hidden |
+| FLIP | difference that an eye sees between the shaded picture and the one with the true shadows (Andersson et al. 2020), mean |
+| flicker, floor, flicker/°, flips | mean change between moving frames beyond that of the true pixel areas; the same for an image without shadows; the first for each degree that view, light and casters turn in a frame; share of pixels whose label changes while the truth's does not |
+| moving rmse | error over the moving frames: a steady trail does not flicker |
+| ghost half-life | frames after which what a history still shows of shadows that came or went has halved |
+| seeds: bias, systematic, noise | of what depends on the seed, over several of them: mean error; rms of the error that all have in common; standard deviation of a pixel |
+| converged at | still frame, counted from 1, from which the error stays within 5 % of its final value |
+| MiB, peak MiB | textures and buffers; the most of them at once |
+| ms, processor | frame time, G-buffer included; of it, the share of passes that ask nothing of the GPU, such as finding edges |
+| × bare | frame time without the processor's share as a multiple of the least that the technique needs: its source's vertices, fragments and texture reads, drawn as passes that do nothing else, beside the same G-buffer |
+| first frame ms, compiling ms | time of the first frame, with precomputation and everything that later frames keep; what a new technique's first frame takes beyond that: compiling shaders, allocating |
+| standing, in motion | frame time, G-buffer included, as a multiple of `sm-uniform` in the same rounds: where nothing has moved since the frame before, and of the same frame after one in which light and casters were elsewhere |
+| moving / standing | the frame in motion as a multiple of the standing one, of techniques that draw less while nothing moves: what a cache saves |
+| cost | the dearer of standing and in motion; where motion was not measured, or is told not to be there (`--static`), standing |
+| front | ● no other technique has both less error and less cost, beyond the intervals of the times; ○ the same for a baseline or an error of more than 10 times the tolerance |
+| front, standing | the same for scenes where light and casters stand still |
+
+– does not apply. Pixels count where the rasteriser and the truth see the same receiver.
+)";
+
+const std::string costPageHead = R"(# Costs, pass by pass
+
+A frame is the G-buffer and the technique's passes; a pass that ran several times is one row. Between passes nothing is drawn.
+Below a technique's standing frame stand the passes that are others in motion and in the first frame (wall time).
+What grows with the screen has fragments in proportion to the pixels of the image; what grows with the map has as many on an
+image of any size. × bare: the pass' time as a multiple of the least that it needs, which its last column states with its
+source. A pass without a least of its own is work of the processor, or what an implementation adds.
+)";
+
+std::string sceneSection(const std::vector<Record>& records, const std::string& scene,
+                         const std::vector<std::string>& charts) {
+    const Record& first = records[ofScene(records, scene).front()];
+    const std::string metric = headlineMetric(records, scene);
+    std::string text = fmt::format("## {}\n\n{} pixels, {} frames", markdownText(scene), imageSize(first), first.frames);
+    if (!metric.empty()) text += ", error = " + meaning(metric);
+    const std::string how = sceneTruth(records, scene);
+    text += how.empty() ? ".\n\n" : fmt::format(". Truth: {}.\n\n", markdownText(how));
+    text += markdownTable(records, scene) + "\n";
+    for (const std::string& chart : charts) text += fmt::format("![{}]({})\n\n", chart.substr(0, chart.find('.')), chart);
+    return text;
+}
+
+/// The pictures that `run --images` has left in the folder: the scene in mid-walk, and one instance's transition by
+/// technique.
+std::string lodPictures(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& folder) {
+    std::string frame, rows;
+    for (const std::size_t i : ofScene(records, scene)) {
+        const std::string place = "images/" + scene + "/" + fileName(records[i].variant) + "/";
+        std::error_code ignored; // a name may be too long for a file
+        if (!isLevelOfDetail(records[i]) || !std::filesystem::exists(folder / (place + "transition.png"), ignored)) continue;
+        if (frame.empty()) frame = fmt::format("![{}]({}frame.png)\n\n", markdownText(scene), place);
+        rows += fmt::format("| {} | ![transition]({}transition.png) |\n", records[i].variant, place);
+    }
+    return rows.empty() ? "" : frame + "| technique | one instance through its transition |\n|:---|:---|\n" + rows + "\n";
+}
+
+constexpr const char* excessNote =
+    "A bare pass is the technique's with its shader's body replaced by a sum of the same texture reads (docs/metrics.md, "
+    "\"Bare passes\"): where a pass has as many fragments as its least, the rest is arithmetic, branches and what it "
+    "writes.\n";
+
+constexpr const char* deviceNote =
+    "Frames are the G-buffer and the technique; × base: as a multiple of sm-uniform's, of levels of detail lod-switch's. "
+    "The "
+    "program's is its own time in passes that draw nothing; it is in a frame as far as the graphics processor waits for it "
+    "(docs/devices.md). Passes below are of the first size.\n";
+
+/// costs.md; "" where no record has passes with times.
+std::string costPage(const std::vector<Record>& records) {
+    std::string text;
+    for (const std::string& scene : scenes(records)) {
+        const std::string table = passTable(records, scene);
+        if (table.empty()) continue;
+        const Record& first = records[ofScene(records, scene).front()];
+        const std::string frames = deviceTable(records, scene);
+        text += fmt::format("\n## {}\n\n", markdownText(scene));
+        if (frames.empty()) text += imageSize(first) + " pixels. ";
+        text += rasteriserNote(records, scene) + "\n\n";
+        if (!frames.empty()) text += fmt::format("{}\n{}\n", deviceNote, frames);
+        text += table;
+        const std::string excess = excessTable(records, scene);
+        if (!excess.empty()) text += fmt::format("\n### Above {} × bare\n\n{}\n{}", closeToBare, excessNote, excess);
+    }
+    return text.empty() ? "" : costPageHead + text;
+}
+
+std::string head(const std::vector<Record>& records) {
+    std::string text = "# Shadow techniques against the truth\n\n";
+    if (records.empty()) return text + "No records.\n";
+    text += fmt::format("Commit {}. Measured on {}. Made again by:\n\n```\n{}\n```\n\n", commitsOf(records),
+                        markdownText(environmentsOf(records)), runCommand(records));
+    return text;
+}
+
+} // namespace
+
+Written writeReport(const std::vector<Record>& records, const std::filesystem::path& folder) {
+    Written written{folder / "report.md", {}};
+    std::string page = head(records);
+    for (const std::string& scene : scenes(records)) {
+        std::vector<std::string> charts;
+        const auto keep = [&](const std::string& kind, const std::optional<std::string>& svg) {
+            if (!svg) return;
+            charts.push_back(kind + "-" + slug(scene) + ".svg");
+            writeFile(folder / charts.back(), *svg);
+            written.charts.push_back(folder / charts.back());
+        };
+        keep("pareto", paretoChart(records, scene));
+        keep("convergence", convergenceChart(records, scene));
+        keep("passes", passChart(records, scene));
+        page += sceneSection(records, scene, charts);
+        const std::string lod = lodMarkdownTable(records, scene);
+        if (lod.empty()) continue;
+        page += fmt::format("### Levels of detail: {}\n\n{}\n", markdownText(scene), lod);
+        charts.clear();
+        keep("lod", lodChart(records, scene));
+        for (const std::string& chart : charts) page += fmt::format("![levels of detail]({})\n\n", chart);
+        page += lodPictures(records, scene, folder);
+    }
+    if (const std::string costs = costPage(records); !costs.empty()) {
+        writeFile(folder / "costs.md", costs);
+        page += "Costs pass by pass: [costs.md](costs.md).\n\n";
+    }
+    if (const std::string passes = passCsv(records); !passes.empty()) writeFile(folder / "passes.csv", passes);
+    writeFile(folder / "results.csv", csv(records));
+    writeFile(written.page, page + columnLegend);
+    return written;
+}
+
+} // namespace shadowbench::report

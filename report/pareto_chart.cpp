@@ -1,0 +1,282 @@
+#include "report/charts.h"
+#include "report/gnuplot.h"
+#include "report/labels.h"
+#include "report/run_report.h"
+#include "report/summary.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace shadowbench::report {
+namespace {
+
+constexpr int width = 960, height = 620;
+constexpr double left = 96, top = 84, bottom = 540; // of the plot, pixels, y down
+constexpr double widest = 936, besideStrip = 700;   // its right side; beside a strip of rows without a place
+constexpr std::size_t longestLabel = 100;           // letters: as wide as two thirds of the plot
+constexpr glm::dvec2 letter(6.4, 16);               // of a label at 12 points, pixels
+constexpr std::size_t longestName = 30;             // letters: what fits into the strip
+constexpr std::size_t mostNames = 35;               // rows of letters in the strip, nearly without room between them
+
+/// A row of a renderer whose cost is not measured here, so that it has an error and no place.
+struct External {
+    std::string variant;
+    double error;
+    bool adequate;
+};
+
+struct Point {
+    std::string name; // the variant, and those that it cannot be told from
+    Place place;
+    bool onFront;
+    bool adequate;
+};
+
+/// Points on the front first, by cost, so that they get the best places for their labels.
+std::vector<Point> points(const std::vector<Record>& records, const std::string& scene) {
+    const std::vector<std::size_t> front = paretoFront(records, scene);
+    const std::vector<Tolerance> limits = tolerances(records, scene);
+    std::vector<std::size_t> order = front;
+    for (const std::size_t i : ofScene(records, scene))
+        if (place(records[i]) && std::find(front.begin(), front.end(), i) == front.end()) order.push_back(i);
+
+    const auto equals = inseparable(records, scene);
+    std::vector<Point> result;
+    for (const std::size_t i : order)
+        result.push_back({records[i].variant.substr(0, longestLabel) +
+                              (equals.contains(i) ? " ≈ " + variantsOf(records, equals.at(i)) : ""),
+                          *place(records[i]), result.size() < front.size(),
+                          isWithin(records[i], limits) && !isBaseline(records[i])});
+    return result;
+}
+
+/// The front of a scene that stands still, by cost; empty where that is the only one known.
+std::vector<Place> standingFront(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<Place> front;
+    bool known = false;
+    for (const std::size_t i : ofScene(records, scene)) known = known || knowsMotion(records[i]);
+    if (known)
+        for (const std::size_t i : paretoFront(records, scene, standingCost))
+            front.push_back(*place(records[i], standingCost));
+    return front;
+}
+
+std::vector<External> externals(const std::vector<Record>& records, const std::string& scene) {
+    const std::vector<Tolerance> limits = tolerances(records, scene);
+    std::vector<External> result;
+    for (const std::size_t i : ofScene(records, scene))
+        if (const auto error = headline(records[i]); error && isExternal(records[i]))
+            result.push_back({records[i].variant, error->value, isWithin(records[i], limits)});
+    return result;
+}
+
+class Canvas {
+public:
+    Canvas(const LogAxis& cost, const LogAxis& error, double right) : cost_(cost), error_(error), right_(right) {}
+
+    [[nodiscard]] double right() const { return right_; }
+    [[nodiscard]] double rowOf(double error) const { return bottom - (bottom - top) * error_.position(error); }
+    [[nodiscard]] glm::dvec2 at(const Place& place) const {
+        return {left + (right_ - left) * cost_.position(place.cost), rowOf(place.error)};
+    }
+    [[nodiscard]] static std::string screen(glm::dvec2 pixel) {
+        return fmt::format("screen {:.5f}, screen {:.5f}", pixel.x / width, 1 - pixel.y / height);
+    }
+    [[nodiscard]] const LogAxis& cost() const { return cost_; }
+    [[nodiscard]] const LogAxis& error() const { return error_; }
+
+private:
+    LogAxis cost_, error_;
+    double right_;
+};
+
+Canvas canvas(const std::vector<Point>& all, const std::vector<Place>& standing, const std::vector<External>& beside,
+              const std::optional<double>& toleranceLine) {
+    std::vector<double> costs, errors;
+    for (const Place& place : standing) costs.push_back(place.cost);
+    for (const External& row : beside) errors.push_back(row.error);
+    for (const Point& point : all) {
+        costs.push_back(point.place.cost);
+        errors.push_back(point.place.error);
+    }
+    if (toleranceLine) errors.push_back(*toleranceLine);
+    return {LogAxis(costs), LogAxis(errors), beside.empty() ? widest : besideStrip};
+}
+
+std::vector<Place> frontOf(const std::vector<Point>& all) {
+    std::vector<Place> front;
+    for (const Point& point : all)
+        if (point.onFront) front.push_back(point.place);
+    return front;
+}
+
+std::vector<Place> corners(const std::vector<Place>& front, const Canvas& canvas) {
+    std::vector<Place> result;
+    for (const Place& place : front) {
+        result.push_back({result.empty() ? canvas.error().high() : result.back().error, place.cost});
+        result.push_back(place);
+    }
+    if (!result.empty()) result.push_back({result.back().error, canvas.cost().high()});
+    return result;
+}
+
+std::string block(const std::string& name, const std::vector<Place>& places, const Canvas& canvas) {
+    std::string text = fmt::format("${} << EOD\n", name);
+    for (const Place& place : places)
+        text += fmt::format("{} {}\n", canvas.cost().drawn(place.cost), canvas.error().drawn(place.error));
+    return text + "EOD\n";
+}
+
+std::string labelScript(const LabelledPoint& point, const PlacedLabel& placed, const char* colour) {
+    const Box& box = placed.box;
+    const int side = placed.side.x;
+    const double x = side > 0 ? box.low.x : side < 0 ? box.high.x : 0.5 * (box.low.x + box.high.x);
+    std::string script = fmt::format("set label {} at {} {} front font ',12' textcolor rgb '{}'\n", literal(point.text),
+                                     Canvas::screen({x, 0.5 * (box.low.y + box.high.y)}),
+                                     side > 0   ? "left"
+                                     : side < 0 ? "right"
+                                                : "center",
+                                     colour);
+    if (!placed.leader) return script;
+    return script + fmt::format("set arrow from {} to {} nohead lc rgb '#9A9A9A' lw 1\n", Canvas::screen(point.at),
+                                Canvas::screen(box.closest(point.at)));
+}
+
+std::string labels(const std::vector<Point>& all, const std::vector<Place>& standing, const Canvas& canvas,
+                   const std::optional<double>& toleranceLine) {
+    std::vector<LabelledPoint> named;
+    named.reserve(all.size());
+    for (const Point& point : all) named.push_back({canvas.at(point.place), point.name});
+    std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;
+    for (const std::vector<Place>& front : {corners(frontOf(all), canvas), corners(standing, canvas)})
+        for (std::size_t i = 1; i < front.size(); ++i) lines.emplace_back(canvas.at(front[i - 1]), canvas.at(front[i]));
+    if (toleranceLine) {
+        const double y = canvas.at({*toleranceLine, 1}).y;
+        lines.emplace_back(glm::dvec2(left, y), glm::dvec2(canvas.right(), y));
+    }
+
+    const std::vector<PlacedLabel> placed =
+        placeLabels(named, {{left + 4, top}, {canvas.right(), bottom - 2}}, lines, letter);
+    std::string script;
+    for (std::size_t i = 0; i < placed.size(); ++i)
+        script += labelScript(named[i], placed[i], all[i].onFront ? blue : "#444444");
+    return script;
+}
+
+/// The rows without a cost, by their errors alone, in a strip of their own right of the plot: a mark each, and the names of
+/// as many as can be read there, those of least error.
+std::string strip(std::vector<External> rows, const Canvas& canvas) {
+    if (rows.empty()) return "";
+    const double x = canvas.right() + 24;
+    const auto text = [&](const std::string& words, double y) {
+        return fmt::format("set label {} at {} left font ',12'\n", literal(words), Canvas::screen({x - 8, y}));
+    };
+    std::string script = text("cost not measured here:", top - 24);
+    std::ranges::stable_sort(rows, {}, &External::error);
+    std::vector<LabelledPoint> named;
+    for (const External& row : rows) {
+        named.push_back({{x, canvas.rowOf(row.error)}, row.variant.substr(externalPrefix.size(), longestName)});
+        script += fmt::format("set label '' at {} point pt {} ps 1.2 lw 2 lc rgb '{}'\n", Canvas::screen(named.back().at),
+                              row.adequate ? 13 : 12, vermilion);
+    }
+    named.resize(std::min(named.size(), mostNames));
+    const std::size_t unnamed = rows.size() - named.size();
+    script += text(unnamed == 0 ? "other renderers" : fmt::format("other renderers ({} not named)", unnamed), top - 8);
+    const std::vector<PlacedLabel> placed = placeInColumn(named, {{x + 36, top}, {width - 4, bottom}}, letter);
+    for (std::size_t i = 0; i < placed.size(); ++i) script += labelScript(named[i], placed[i], "#444444");
+    return script;
+}
+
+std::vector<Place> chosen(const std::vector<Point>& all, bool onFront, bool adequate) {
+    std::vector<Place> result;
+    for (const Point& point : all)
+        if (point.onFront == onFront && point.adequate == adequate) result.push_back(point.place);
+    return result;
+}
+
+std::string plotCommand(const std::vector<Point>& all, const std::vector<Place>& standing, const Canvas& canvas,
+                        const std::optional<double>& toleranceLine) {
+    std::string data = block("front", corners(frontOf(all), canvas), canvas);
+    std::string plots = fmt::format("plot $front with lines lw 2 lc rgb '{}'", blue);
+    if (!standing.empty()) {
+        data += block("standing", corners(standing, canvas), canvas);
+        plots += fmt::format(", $standing with lines lw 1.5 dt 3 lc rgb '{}'", blue);
+    }
+    if (toleranceLine) plots += fmt::format(", {} with lines lw 2 dt 2 lc rgb '{}'", *toleranceLine, vermilion);
+    for (const bool onFront : {true, false}) {
+        for (const bool adequate : {true, false}) {
+            const std::vector<Place> places = chosen(all, onFront, adequate);
+            if (places.empty()) continue;
+            const std::string name = fmt::format("points{}{}", onFront ? 1 : 0, adequate ? 1 : 0);
+            data += block(name, places, canvas);
+            plots += fmt::format(", ${} with points pt {} ps 1.1 lw 2 lc rgb '{}'", name, adequate ? 7 : 6,
+                                 onFront ? blue : grey);
+        }
+    }
+    return data + plots + "\n";
+}
+
+/// What the dotted line means, right of the title.
+std::string standingKey() {
+    const double y = 26;
+    return fmt::format("set arrow from {} to {} nohead lw 1.5 dt 3 lc rgb '{}'\n", Canvas::screen({widest - 300, y}),
+                       Canvas::screen({widest - 272, y}), blue) +
+           fmt::format("set label {} at {} left font ',12'\n", literal("front if light and casters stand still"),
+                       Canvas::screen({widest - 264, y}));
+}
+
+/// What line and points mean, in one row under the title.
+std::string key(const std::vector<Tolerance>& limits) {
+    const double y = 56;
+    const auto text = [y](const std::string& words, double x) {
+        return fmt::format("set label {} at {} left font ',12'\n", literal(words), Canvas::screen({x, y}));
+    };
+    const auto point = [y](int kind, double x) {
+        return fmt::format("set label '' at {} point pt {} ps 1.1 lw 2 lc rgb '{}'\n", Canvas::screen({x, y}), kind, grey);
+    };
+    std::string script = fmt::format("set arrow from {} to {} nohead lw 2 lc rgb '{}'\n", Canvas::screen({left, y}),
+                                     Canvas::screen({left + 28, y}), blue);
+    script += text("Pareto front", left + 36);
+    if (limits.empty()) return script;
+    std::vector<std::string> bounds;
+    for (const Tolerance& limit : limits) bounds.push_back(fmt::format("{} ≤ {}", limit.metric, formatBound(limit)));
+    const std::string within = fmt::format("within tolerance ({})", fmt::join(bounds, ", "));
+    const double end = std::max(440.0, 180 + letter.x * static_cast<double>(within.size()));
+    script += point(7, left + 146) + text(within, left + 160);
+    return script + point(6, left + end) + text("outside", left + end + 14);
+}
+
+} // namespace
+
+std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene) {
+    const std::vector<Point> all = points(records, scene);
+    if (all.empty()) return {};
+    const std::string metric = headlineMetric(records, scene);
+    const std::vector<Tolerance> limits = tolerances(records, scene);
+    const auto limit = std::ranges::find(limits, metric, &Tolerance::metric);
+    const std::optional<double> toleranceLine = limit == limits.end() ? std::nullopt : std::optional(limit->value);
+    const std::vector<External> beside = externals(records, scene);
+    const std::vector<Place> standing = standingFront(records, scene);
+    const Canvas area = canvas(all, standing, beside, toleranceLine);
+    const bool share = isShare(metric);
+
+    std::string script = plotArea(left / width, area.right() / width, top, bottom, height);
+    script += fmt::format("set label {} at {} left font ',18'\n", literal(scene), Canvas::screen({left, 26}));
+    script += "unset key\n" + key(limits);
+    if (toleranceLine)
+        script += fmt::format("set label {} at {} right font ',12' textcolor rgb '{}'\n",
+                              literal("tolerance " + formatBound(*limit)),
+                              Canvas::screen(area.at({*toleranceLine, area.cost().high()}) - glm::dvec2(4, 9)), vermilion);
+    if (!standing.empty()) script += standingKey();
+    script += fmt::format("set xlabel {}\n", literal("cost: " + costMeaning(records, scene)));
+    script += fmt::format("set ylabel {}\n", literal("error: " + meaning(metric)));
+    script += area.cost().script("x", 1, "×");
+    script += area.error().script("y", share ? 100 : 1, share ? " %%" : "");
+    script += labels(all, standing, area, toleranceLine);
+    script += strip(beside, area);
+    script += plotCommand(all, standing, area, toleranceLine);
+    return svgOf(script, width, height);
+}
+
+} // namespace shadowbench::report

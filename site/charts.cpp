@@ -1,0 +1,50 @@
+#include "site/charts.h"
+#include "site/made_file.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/process.h"
+#include "base/temporary_folder.h"
+
+#include <fmt/format.h>
+
+namespace shadowbench::site {
+namespace {
+
+std::string programOf(const char* name, const char* package) {
+    const auto program = findProgram(name);
+    if (!program)
+        throw Inconclusive(fmt::format("drawing charts: {} is not installed; run `apt-get install {}`", name, package));
+    return program->string();
+}
+
+/// A page without a date, so that the same chart is the same file.
+std::string pdfOf(const std::string& svg) {
+    const TemporaryFolder folder;
+    writeFile(folder.path() / "chart.svg", svg);
+    const Command command{programOf("env", "coreutils"),
+                          {"SOURCE_DATE_EPOCH=0", programOf("rsvg-convert", "librsvg2-bin"), "--format=pdf",
+                           "--output=chart.pdf", "chart.svg"},
+                          folder.path()};
+    std::string messages;
+    const Finished end = runProcess(command, [&](std::string_view line) { messages.append(line).append(" "); });
+    if (end.timedOut || end.signal != 0 || end.exitCode != 0)
+        throw Inconclusive(
+            fmt::format("drawing charts: rsvg-convert ended with status {}, signal {} ({}); reinstall librsvg2-bin",
+                        end.exitCode, end.signal, messages));
+    return readFile(folder.path() / "chart.pdf");
+}
+
+} // namespace
+
+void writePdf(const SiteWriter& site, const std::string& name) {
+    const std::filesystem::path& folder = site.folder();
+    writeMade(folder / (name + ".pdf"), pdfOf(readFile(folder / (name + ".svg"))));
+}
+
+void writeChart(const SiteWriter& site, const std::string& name, const std::string& svg) {
+    writeMade(site.folder() / (name + ".svg"), svg);
+    writePdf(site, name);
+}
+
+} // namespace shadowbench::site

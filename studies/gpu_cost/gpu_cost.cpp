@@ -1,0 +1,135 @@
+#include "studies/gpu_cost/gpu_cost.h"
+
+#include "scene/load/load.h"
+#include "studies/gpu_cost/pass_work.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <map>
+
+namespace shadowbench::gpucost {
+namespace {
+
+std::vector<gpu::Card> chosenCards(const std::vector<std::string>& ids) {
+    if (ids.empty()) return gpu::cards();
+    std::vector<gpu::Card> chosen;
+    for (const std::string& id : ids) chosen.push_back(gpu::cardNamed(id));
+    return chosen;
+}
+
+bool hasCounts(const Record& record) { return !record.passes.empty() || !record.deviceCosts.empty(); }
+
+void requireJoinable(const std::vector<Record>& records) {
+    for (const Record& record : records)
+        if (hasCounts(record) && record.profile != "gate")
+            throw BadInput(
+                fmt::format("the record of {} on {} is of the profile {}, and shaders are drawn in the profile gate; "
+                            "name records of that one",
+                            record.variant, record.scene, record.profile));
+    if (std::ranges::none_of(records, hasCounts))
+        throw BadInput("no record counts the work of its passes; name records of `shadowbench run` with costs");
+}
+
+/// A technique's name → its shaders on one scene.
+std::map<std::string, Drawn> drawnOn(const std::string& scene, const std::vector<std::string>& variants,
+                                     const GpuCostOptions& options, GpuCostResult& result) {
+    shaders::ShaderCostOptions asked;
+    asked.techniques = variants;
+    asked.scene = scene;
+    asked.architectures = {architecture};
+    asked.cache = options.cache;
+    asked.quiet = options.quiet;
+    shaders::ShaderCostResult found = shaders::shaderCosts(asked);
+    for (const std::string& error : found.errors) result.errors.push_back(error);
+    if (found.code != ExitCode::Pass) result.code = found.code;
+    const glm::ivec2 screen = loadScene(scene, Profile::Gate).size;
+    std::map<std::string, Drawn> drawn;
+    for (shaders::ShaderCost& shader : found.costs.shaders) drawn[shader.technique].shaders.push_back(std::move(shader));
+    for (shaders::FrameMove& move : found.costs.moves) drawn[move.technique].moves.push_back(std::move(move));
+    for (auto& [variant, each] : drawn) each.screen = screen;
+    return drawn;
+}
+
+bool wasMeasuredOn(const Record& record, const gpu::Card& card) {
+    return !record.deviceCosts.empty() && record.environment.renderer.starts_with(card.name);
+}
+
+ModelledFrame modelled(const Cell& cell, const Drawn& drawn, const gpu::Card& card, glm::ivec2 size) {
+    ModelledFrame frame{cell.front()->scene, cell.front()->variant, card.id, size, {}, false, {}, {}};
+    std::vector<gpu::PassWork> works;
+    for (const NamedWork& named : worksOf(cell, drawn, size)) {
+        works.push_back(named.work);
+        frame.passes.push_back({named.pass, gpu::termsOf(named.work, card), {}});
+        frame.waits |= frame.passes.back().terms.waits;
+    }
+    frame.time = gpu::frameTime(works, card);
+    return frame;
+}
+
+ModelledFrame beside(ModelledFrame frame, const DeviceCost& cost) {
+    frame.measured = cost.median;
+    for (ModelledPass& pass : frame.passes)
+        for (const PassRecord& measured : cost.passes)
+            if (measured.name == pass.name) pass.measured = measured.milliseconds;
+    return frame;
+}
+
+std::vector<ModelledFrame> framesOf(const Cell& cell, const Drawn& drawn, const std::vector<gpu::Card>& cards,
+                                    glm::ivec2 size) {
+    std::vector<ModelledFrame> frames;
+    for (const gpu::Card& card : cards) {
+        frames.push_back(modelled(cell, drawn, card, size));
+        for (const Record* record : cell)
+            if (wasMeasuredOn(*record, card))
+                for (const DeviceCost& cost : record->deviceCosts)
+                    frames.push_back(beside(modelled(cell, drawn, card, {cost.width, cost.height}), cost));
+    }
+    return frames;
+}
+
+/// In the order of the records; of each, those of graphics processors first: they count on images as large as screens.
+std::vector<Cell> cellsOf(const std::vector<Record>& records) {
+    std::vector<Cell> cells;
+    for (const Record& record : records) {
+        if (!hasCounts(record)) continue;
+        const auto isSame = [&](const Cell& cell) {
+            return cell.front()->scene == record.scene && cell.front()->variant == record.variant;
+        };
+        const auto found = std::ranges::find_if(cells, isSame);
+        (found == cells.end() ? cells.emplace_back() : *found).push_back(&record);
+    }
+    for (Cell& cell : cells)
+        std::ranges::stable_partition(cell, [](const Record* record) { return !record->deviceCosts.empty(); });
+    return cells;
+}
+
+} // namespace
+
+const ModelledPass& ModelledFrame::slowest() const {
+    return *std::ranges::max_element(passes, {}, [](const ModelledPass& pass) { return pass.terms.seconds(); });
+}
+
+GpuCostResult gpuCosts(const std::vector<Record>& records, const GpuCostOptions& options) {
+    const std::vector<gpu::Card> cards = chosenCards(options.cards);
+    requireJoinable(records);
+    const std::vector<Cell> cells = cellsOf(records);
+    std::map<std::string, std::vector<std::string>> variants; // of each scene
+    for (const Cell& cell : cells) variants[cell.front()->scene].push_back(cell.front()->variant);
+    std::map<std::string, std::map<std::string, Drawn>> drawn;
+    GpuCostResult result;
+    for (const auto& [scene, names] : variants) drawn[scene] = drawnOn(scene, names, options, result);
+    for (const Cell& cell : cells) {
+        const auto& onScene = drawn.at(cell.front()->scene);
+        const auto found = onScene.find(cell.front()->variant);
+        if (found == onScene.end()) continue;
+        try {
+            std::ranges::move(framesOf(cell, found->second, cards, options.size), std::back_inserter(result.frames));
+        } catch (const BadInput& error) {
+            result.leftOut.emplace_back(error.what());
+        }
+    }
+    return result;
+}
+
+} // namespace shadowbench::gpucost

@@ -1,0 +1,79 @@
+#include "studies/shader_cost/frame_pipelines.h"
+
+#include "embedded_shader_sources.h"
+#include "harness/render/lod_stage.h"
+#include "harness/render/stage.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace shadowbench::shaders {
+namespace {
+
+constexpr std::uint32_t seed = 1;
+
+/// Adds what `uses` does not have.
+void addOthers(std::vector<gpu::Use>& uses, const std::vector<gpu::Use>& others) {
+    for (const gpu::Use& other : others) {
+        const std::string digest = other.pipeline.digest();
+        const bool known = std::ranges::any_of(
+            uses, [&](const gpu::Use& use) { return use.pass == other.pass && use.pipeline.digest() == digest; });
+        if (!known) uses.push_back({other.pass, other.pipeline, 0});
+    }
+}
+
+FrameUses ofShadow(const Scene& scene, const techniques::Variant& variant) {
+    Stage stage(scene);
+    const auto technique = variant.entry->make(variant.parameters);
+    const int still = scene.timeline.still - 1;
+    stage.show(still);
+    gpu::Observer observer;
+    int number = 0;
+    const auto render = [&] {
+        stage.redraw();
+        stage.render(*technique, number++, seed);
+        return FrameUses{observer.take(), observer.takeMoves()};
+    };
+    const FrameUses first = render(); // with what is done once
+    FrameUses steady = render();
+    addOthers(steady.uses, first.uses);
+    if (scene.timeline.moving > 0) {
+        stage.show(still + 1);
+        addOthers(steady.uses, render().uses);
+    }
+    return steady;
+}
+
+FrameUses ofLevels(const Scene& scene, const techniques::Variant& variant) {
+    const double aspect = static_cast<double>(scene.size.x) / scene.size.y;
+    int most = 0;
+    for (std::size_t frame = 0, transitions = 0; frame < static_cast<std::size_t>(scene.lod->frames); ++frame) {
+        const std::size_t here = lod::walkFrame(scene, static_cast<int>(frame), aspect).inTransition();
+        if (here > transitions) {
+            transitions = here;
+            most = static_cast<int>(frame);
+        }
+    }
+    lod::LodStage stage(scene, scene.size);
+    const auto technique = variant.entry->makeLod(variant.parameters);
+    gpu::Observer observer;
+    const auto render = [&](int frame) {
+        stage.show(frame);
+        stage.render(*technique);
+        return FrameUses{observer.take(), observer.takeMoves()};
+    };
+    const FrameUses first = render(std::max(most - 1, 0));
+    FrameUses steady = render(most);
+    addOthers(steady.uses, first.uses);
+    return steady;
+}
+
+} // namespace
+
+FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant) {
+    return variant.isLod() ? ofLevels(scene, variant) : ofShadow(scene, variant);
+}
+
+std::string drawingSources() { return embedded::drawing_sources; }
+
+} // namespace shadowbench::shaders

@@ -1,0 +1,64 @@
+#include "report/text_table.h"
+#include "studies/shader_cost/shader_cost.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace shadowbench::shaders {
+namespace {
+
+struct Column {
+    const char* title;
+    std::vector<std::string> statistics; // added up
+};
+
+/// Of what the compiler gives, what decides first.
+const std::vector<Column>& columns() {
+    static const std::vector<Column> all{{"instructions", {"Instructions"}},
+                                         {"VGPRs", {"VGPRs"}},
+                                         {"waves", {"Subgroups per SIMD"}},
+                                         {"branches", {"Branches"}},
+                                         {"spills", {"Spilled VGPRs", "Spilled SGPRs"}},
+                                         {"latency", {"Latency"}},
+                                         {"inverse throughput", {"Inverse Throughput"}}};
+    return all;
+}
+
+/// "726/701/698"; "0" where all are alike.
+std::string figure(const Column& column, const std::vector<const ShaderCost*>& shader) {
+    std::vector<std::uint64_t> values;
+    for (const ShaderCost* on : shader) {
+        std::uint64_t sum = 0;
+        for (const std::string& statistic : column.statistics) sum += on->of(statistic);
+        values.push_back(sum);
+    }
+    if (std::ranges::adjacent_find(values, std::ranges::not_equal_to()) == values.end())
+        return fmt::format("{}", values.front());
+    return fmt::format("{}", fmt::join(values, "/"));
+}
+
+} // namespace
+
+std::string table(const ShaderCosts& costs) {
+    std::vector<std::string> architectures;
+    std::vector<std::pair<std::string, std::vector<const ShaderCost*>>> rows; // by name, in the order of the list
+    std::map<std::string, std::size_t> known;
+    for (const ShaderCost& shader : costs.shaders) {
+        if (std::ranges::find(architectures, shader.architecture) == architectures.end())
+            architectures.push_back(shader.architecture);
+        const auto [entry, isNew] = known.try_emplace(shader.name(), rows.size());
+        if (isNew) rows.emplace_back(shader.name(), std::vector<const ShaderCost*>());
+        rows[entry->second].second.push_back(&shader);
+    }
+    report::TextTable text{{"shader"}, {}};
+    for (const Column& column : columns()) text.titles.emplace_back(column.title);
+    for (const auto& [name, shader] : rows) {
+        std::vector<std::string>& cells = text.rows.emplace_back(std::vector{name});
+        for (const Column& column : columns()) cells.push_back(figure(column, shader));
+    }
+    return fmt::format("{}; {}\n{}", fmt::join(architectures, "/"), costs.compiler, report::aligned(text));
+}
+
+} // namespace shadowbench::shaders

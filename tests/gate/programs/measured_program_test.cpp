@@ -1,0 +1,177 @@
+// What a gate learns of the programs that it compares, and what it makes of their failures.
+#include "gate/measured_program.h"
+
+#include "base/error.h"
+#include "base/folder_lock.h"
+#include "base/process.h"
+#include "base/temporary_folder.h"
+#include "tests/gate/programs/stand_in.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace shadowbench::gate {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AMeasuredProgram : public testing::Test {
+protected:
+    [[nodiscard]] MeasuredProgram measured() const { return {standIn_.program(), folder_.path() / "cache"}; }
+    [[nodiscard]] Measured measure(const Step& step) const {
+        return measured().measure({step}, [&](double, std::string_view line) { progress_.emplace_back(line); });
+    }
+    /// What is said of a program that fails.
+    [[nodiscard]] std::string complaint() const {
+        try {
+            (void)measure(step_);
+        } catch (const Inconclusive& error) {
+            return error.what();
+        }
+        return "none";
+    }
+
+    TemporaryFolder folder_;
+    StandIn standIn_{folder_.path(), "one"};
+    mutable std::vector<std::string> progress_;
+    Step step_{"tiny", {"run", "--scene", "tiny.toml", "--seed", "1"}, {"pcf"}, "results.jsonl"};
+};
+
+TEST_F(AMeasuredProgram, KnowsItsScenesAndEachParametersValues) {
+    const MeasuredProgram program = measured();
+    EXPECT_TRUE(program.knowsScene("simple"));
+    EXPECT_FALSE(program.knowsScene("trees"));
+    for (const char* variant : {"pcf", "none", "pcf:map=16", "pcf:map=8192,kernel=5", "pcf:kernel=3"})
+        EXPECT_TRUE(program.knowsVariant(variant)) << variant;
+    for (const char* variant :
+         {"pcss", "pcf:map=15", "pcf:map=8193", "pcf:kernel=4", "pcf:taps=3", "pcf:map=16,kernel=35", "none:map=16", "pc"})
+        EXPECT_FALSE(program.knowsVariant(variant)) << variant;
+}
+
+TEST_F(AMeasuredProgram, ShowsItsVariantsInItsOrder) {
+    standIn_.lists("techniques", R"([{"id": "pcf", "variants": ["", "map=512"], "parameters": []},)"
+                                 R"({"id": "esm", "variants": ["map=64"], "parameters": []}])");
+    EXPECT_EQ(measured().variants(), (std::vector<std::string>{"pcf", "pcf:map=512", "esm:map=64"}));
+}
+
+TEST_F(AMeasuredProgram, SaysWhatItIsIfItIsNewEnough) {
+    ASSERT_TRUE(measured().build());
+    EXPECT_EQ(measured().build()->program, "one");
+    standIn_.does("policy", "echo 'there is no verb policy' >&2; exit 2\n");
+    EXPECT_FALSE(measured().build());
+}
+
+TEST_F(AMeasuredProgram, IsMeasuredOnce) {
+    const Measured first = measure(step_), second = measure(step_);
+    ASSERT_EQ(first.records.size(), 1U);
+    EXPECT_EQ(first.records[0].variant, "pcf");
+    EXPECT_EQ(first.times.size(), 1U);
+    EXPECT_EQ(second.records.size(), 1U);
+    EXPECT_TRUE(second.times.empty()) << "it was there";
+    EXPECT_EQ(standIn_.calls("run"), 1);
+    EXPECT_EQ(progress_, std::vector<std::string>{"tiny 1/3  pcf"}) << "of its lines those that are progress";
+}
+
+TEST_F(AMeasuredProgram, IsMeasuredAgainWhereSomebodyChangedOrRemovedItsRecords) {
+    const auto kept = [&] {
+        for (const auto& entry : fs::recursive_directory_iterator(folder_.path() / "cache"))
+            if (entry.path().filename() == "results.jsonl") return entry.path();
+        return fs::path();
+    };
+    (void)measure(step_);
+    std::vector<Record> records = readRecords(kept());
+    records[0].values["accuracy.leak"] = 0.5;
+    writeRecords(kept(), records);
+    EXPECT_EQ(measure(step_).records.at(0).values["accuracy.leak"], standInRecord("pcf").values["accuracy.leak"]);
+    EXPECT_EQ(standIn_.calls("run"), 2);
+    fs::remove(kept());
+    EXPECT_EQ(measure(step_).records.size(), 1U);
+    EXPECT_EQ(standIn_.calls("run"), 3);
+}
+
+TEST_F(AMeasuredProgram, IsMeasuredAgainForOtherInputsAndWithOtherPrograms) {
+    (void)measure(step_);
+    step_.inputs = "another scene";
+    (void)measure(step_);
+    EXPECT_EQ(standIn_.calls("run"), 2);
+    step_.isAlwaysRun = true;
+    (void)measure(step_);
+    (void)measure(step_);
+    EXPECT_EQ(standIn_.calls("run"), 4);
+}
+
+/// Its instructions may be counted there, and are not here.
+TEST_F(AMeasuredProgram, IsMeasuredAgainWhereThereIsNoValgrind) {
+    (void)measure(step_);
+    const fs::path tools = folder_.path() / "tools";
+    fs::create_directories(tools);
+    for (const char* tool : {"basename", "cat", "dirname", "grep", "mkdir"})
+        if (const auto found = findProgram(tool)) fs::create_symlink(*found, tools / tool);
+    const std::string before = std::getenv("PATH");
+    setenv("PATH", tools.c_str(), 1);
+    const Measured without = measure(step_);
+    setenv("PATH", before.c_str(), 1);
+    EXPECT_EQ(without.records.size(), 1U);
+    EXPECT_EQ(standIn_.calls("run"), findProgram("valgrind") ? 2 : 1);
+}
+
+TEST_F(AMeasuredProgram, SaysHowFarItIsInLinesOfTheirOwnForm) {
+    standIn_.does("run", "for line in 'a 1/2 x' '/2' 'x/2' '1/x' '1/' ' 1/2' 'no slash' ''; do echo \"$line\"; done\n");
+    (void)measure(step_);
+    EXPECT_EQ(progress_, (std::vector<std::string>{"a 1/2 x", "tiny 1/3  pcf"}));
+}
+
+TEST_F(AMeasuredProgram, ThatAnotherGateMeasuresIsWaitedFor) {
+    (void)measure(step_); // makes the folder
+    std::optional<FolderLock> other;
+    for (const auto& entry : fs::directory_iterator(folder_.path() / "cache/gate")) other.emplace(entry.path());
+    const Measured waited = measured().measure({step_}, [&](double, std::string_view line) {
+        progress_.emplace_back(line);
+        other.reset();
+    });
+    EXPECT_EQ(waited.records.size(), 1U);
+    EXPECT_EQ(progress_.back(), "waiting for another gate that measures this program");
+}
+
+TEST_F(AMeasuredProgram, WithErrorsInSomeCellsIsTriedAgain) {
+    standIn_.endsWith(5);
+    EXPECT_EQ(measure(step_).records.size(), 1U);
+    EXPECT_EQ(measure(step_).records.size(), 1U);
+    EXPECT_EQ(standIn_.calls("run"), 2);
+}
+
+TEST_F(AMeasuredProgram, ARunIsResumedASweepIsNot) {
+    standIn_.does("run", "echo \"$*\" >\"$here/words\"\n");
+    standIn_.does("sweep", "echo \"$*\" >\"$here/words\"\n");
+    const auto words = [&] { return readFile(standIn_.program().parent_path() / "words"); };
+    (void)measure(step_);
+    EXPECT_NE(words().find(" --resume"), std::string::npos) << words();
+    step_.arguments[0] = "sweep";
+    step_.records = "sweep.jsonl";
+    Record swept = standInRecord("pcf");
+    swept.sweep = SweepStep{"near-plane", "m", "pcf", 1, 0.1};
+    standIn_.measures({swept});
+    EXPECT_TRUE(measure(step_).records.at(0).sweep);
+    EXPECT_EQ(words().find(" --resume"), std::string::npos) << words();
+}
+
+TEST_F(AMeasuredProgram, ThatFailsIsNamedWithItsLastLine) {
+    standIn_.does("run", "echo first >&2; echo; echo 'no disk' >&2; exit 1\n");
+    EXPECT_NE(complaint().find("one/shadowbench failed at tiny: no disk"), std::string::npos) << complaint();
+    standIn_.does("run", "kill -9 $$\n");
+    EXPECT_NE(complaint().find("it was ended by signal 9"), std::string::npos) << complaint();
+}
+
+TEST_F(AMeasuredProgram, ThatIsNoneIsInconclusive) {
+    EXPECT_THROW(MeasuredProgram(folder_.path() / "nowhere", folder_.path()), Inconclusive);
+    standIn_.lists("scenes", "no JSON");
+    EXPECT_NE(complaint().find("does not say which scenes it has: no JSON"), std::string::npos) << complaint();
+    standIn_.lists("scenes", "{}");
+    EXPECT_NE(complaint().find("does not say which scenes"), std::string::npos);
+    standIn_.lists("scenes", "[]");
+    standIn_.does("list", "echo '[]'; exit 1\n");
+    EXPECT_NE(complaint().find("does not say which scenes"), std::string::npos) << "its exit code says otherwise";
+}
+
+} // namespace
+} // namespace shadowbench::gate

@@ -1,0 +1,189 @@
+// Whole sites, made from records.
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "site/gate_page.h"
+#include "site/names.h"
+#include "site/site.h"
+#include "tests/support/report_examples.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+namespace shadowbench::site {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Values of all attributes `name` in the HTML.
+std::vector<std::string> attributes(const std::string& html, const std::string& name) {
+    std::vector<std::string> values;
+    const std::string start = " " + name + "=\"";
+    for (std::size_t at = html.find(start); at != std::string::npos; at = html.find(start, at + 1)) {
+        const std::size_t from = at + start.size();
+        values.push_back(html.substr(from, html.find('"', from) - from));
+    }
+    return values;
+}
+
+std::vector<Record> bothScenes() {
+    std::vector<Record> records = hardScene();
+    for (const Record& record : softScene()) records.push_back(record);
+    return records;
+}
+
+std::vector<fs::path> pagesOf(const fs::path& site) {
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(site))
+        if (entry.path().extension() == ".html") found.push_back(entry.path());
+    return found;
+}
+
+/// Addresses on pages that lead nowhere.
+std::set<std::string> deadLinks(const fs::path& site) {
+    std::set<std::string> dead;
+    for (const fs::path& page : pagesOf(site)) {
+        const std::string html = readFile(page);
+        for (const char* name : {"href", "src"})
+            for (const std::string& address : attributes(html, name)) {
+                const std::string path = address.substr(0, address.find('#'));
+                if (path.empty() || path.starts_with("data:")) continue;
+                if (!fs::exists(page.parent_path() / path)) dead.insert(page.filename().string() + ": " + address);
+            }
+    }
+    return dead;
+}
+
+/// A site of both scenes, made once: drawing its charts takes longest.
+const fs::path& bothSite() {
+    static const TemporaryFolder folder;
+    static const fs::path made = [] {
+        writeFile(folder.path() / "results.jsonl", "");
+        return writeSite({.records = bothScenes()}, folder.path()).parent_path();
+    }();
+    return made;
+}
+
+class Site : public testing::Test {
+protected:
+    [[nodiscard]] const fs::path& folder() const { return folder_.path(); }
+
+private:
+    TemporaryFolder folder_;
+};
+
+TEST(BothSite, HasAPageASceneAndATruthAndNoDeadLink) {
+    for (const char* file : {"index.html", "scenes/dueling-frusta.html", "scenes/overlapping-occluders.html", "truth.html",
+                             "truth/dueling-frusta.html", "assets/d3.js", "pareto-dueling-frusta.svg",
+                             "pareto-dueling-frusta.pdf", "tables/index-answers.tex", "report.md", "results.csv"})
+        EXPECT_TRUE(fs::exists(bothSite() / file)) << file;
+    EXPECT_EQ(deadLinks(bothSite()), std::set<std::string>());
+}
+
+TEST(BothSite, AnswersOnItsFirstPageWhichTechniqueToTake) {
+    const std::string page = readFile(bothSite() / "index.html");
+    const std::string answers =
+        page.substr(page.find("data-table=\"answers\""), page.find("</table>") - page.find("data-table=\"answers\""));
+    EXPECT_TRUE(has(answers, ">sm-uniform<")) << answers; // what errs less lacks moving casters or open meshes
+    EXPECT_TRUE(has(answers, "none is within tolerance; this one is nearest")) << answers;
+}
+
+TEST(BothSite, ShowsEveryFigureUnroundedWithoutAScript) {
+    const std::string page = readFile(bothSite() / "scenes/dueling-frusta.html");
+    for (const char* part : {"data-v=\"0.0487\"", "data-v=\"4.7\"", "<img src=\"../pareto-dueling-frusta.svg\"",
+                             "needs an area light", "data-chart=\"scatter\""})
+        EXPECT_TRUE(has(page, part)) << part;
+    EXPECT_FALSE(has(page, "<style"));
+    EXPECT_EQ(attributes(page, "style"), std::vector<std::string>());
+    EXPECT_EQ(attributes(page, "onclick"), std::vector<std::string>());
+}
+
+TEST_F(Site, OfTheSameRecordsIsTheSameBytes) {
+    writeFile(folder() / "results.jsonl", "");
+    writeSite({.records = bothScenes()}, folder());
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder())) {
+        if (!entry.is_regular_file()) continue;
+        const fs::path twin = bothSite() / entry.path().lexically_relative(folder());
+        EXPECT_EQ(readFile(entry.path()), readFile(twin)) << entry.path();
+    }
+}
+
+TEST_F(Site, HasAPageOfEachClaimWhereItsRecordsDecideOne) {
+    Record history = hardCell("sm-history", 0.0009, 1.19);
+    history.figures["history_bytes"] = 8;
+    writeSite({.records = {history}}, folder());
+    EXPECT_TRUE(has(readFile(folder() / "claims.html"), "claims/K8.html"));
+    for (const char* claim : {"K4", "K8"}) EXPECT_TRUE(fs::exists(folder() / "claims" / (claim + std::string(".html"))));
+    EXPECT_EQ(deadLinks(folder()), std::set<std::string>());
+}
+
+TEST_F(Site, HasNoClaimsWhereItsRecordsDecideNone) {
+    writeSite({.records = {hardScene().front()}}, folder());
+    EXPECT_FALSE(fs::exists(folder() / "claims.html"));
+    EXPECT_FALSE(fs::exists(folder() / "claims"));
+    EXPECT_FALSE(has(readFile(folder() / "index.html"), "claims.html"));
+}
+
+TEST_F(Site, ShowsHostileNamesAsText) {
+    const std::string script = "\"'><script>alert(1)</script><img src=x onerror=alert(1)>", longest(1000000, 'x');
+    std::vector<Record> records = hardScene();
+    for (Record& record : records) record.scene = script;
+    records[1].variant = script;
+    records[1].technique = "NaN";
+    records[2].variant = longest;
+    records[2].profile = records[2].commit = records[2].environment.cpu = script;
+    records[3].variant = "../../../escape";
+    records[4].reason = script;
+    writeSite({.records = records}, folder());
+    EXPECT_EQ(deadLinks(folder()), std::set<std::string>());
+    std::size_t bytes = 0;
+    for (const fs::path& page : pagesOf(folder())) {
+        const std::string html = readFile(page);
+        EXPECT_FALSE(has(html, "<script>")) << page;
+        EXPECT_FALSE(has(html, "<img src=x")) << page;
+        bytes += html.size();
+    }
+    EXPECT_LT(bytes, 1000000U); // the long name is cut
+    EXPECT_TRUE(has(readFile(folder() / "index.html"), "&lt;script&gt;alert(1)&lt;/script&gt;"));
+}
+
+TEST_F(Site, OfNoRecordsSaysSo) {
+    writeSite({.records = {}}, folder());
+    EXPECT_TRUE(has(readFile(folder() / "index.html"), "There are no records."));
+}
+
+TEST_F(Site, FitsIntoOneFileThatNeedsNoOther) {
+    const fs::path file = folder() / "single.html";
+    writeSingleFile(bothSite(), file);
+    const std::string html = readFile(file);
+    std::set<std::string> ids;
+    for (const std::string& id : attributes(html, "id")) EXPECT_TRUE(ids.insert(id).second) << id << " twice";
+    for (const char* name : {"href", "src"})
+        for (const std::string& address : attributes(html.substr(0, html.rfind("<script>")), name)) {
+            EXPECT_TRUE(address.starts_with("#") || address.starts_with("data:")) << address;
+            EXPECT_TRUE(!address.starts_with("#") || ids.contains(address.substr(1))) << address;
+        }
+    EXPECT_TRUE(has(html, "data:image/svg+xml;base64,"));
+}
+
+TEST_F(Site, ComparesWithOlderRecordsAndShowsTheWorstFirst) {
+    std::vector<Record> base = bothScenes(), head = bothScenes();
+    for (Record& record : head) record.commit = "decade";
+    head[2].values["accuracy.mismatch"] = 0.002;
+    head[1].values["accuracy.mismatch"] = 0.4;
+    head[1].images = head[2].images = "drawn otherwise";
+    writeSite({.records = head, .base = base, .baseName = "before.jsonl"}, folder());
+    const std::string page = readFile(folder() / "gate.html");
+    EXPECT_TRUE(has(page, "Accuracy or stability is worse")) << page;
+
+    EXPECT_TRUE(has(page, "./bench run --images --cost none")) << page;
+    EXPECT_TRUE(has(page, "expected results compared")) << page;
+    EXPECT_LT(page.find("worse: "), page.find("id=\"classes\"")) << "the worst, then how many, then all";
+    EXPECT_LT(page.find("id=\"classes\""), page.find("id=\"changes\""));
+    EXPECT_LT(page.find(">sm-uniform<"), page.find(">sm-history:base=lispsm<"));
+}
+
+} // namespace
+} // namespace shadowbench::site

@@ -1,0 +1,104 @@
+// Lines as they are written and read, and what changed from one list to another.
+#include "base/error.h"
+#include "studies/shader_cost/lines.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench::shaders {
+namespace {
+
+ShaderCost shader(const std::string& pass, std::uint64_t instructions, std::uint64_t waves = 16) {
+    ShaderCost cost{};
+    cost.technique = "pcss:map=512";
+    cost.scene = "simple";
+    cost.pass = pass;
+    cost.stage = gpu::Stage::Fragment;
+    cost.source = "soft/pcss/pcss.frag";
+    cost.draws = 1;
+    cost.architecture = "navi21";
+    cost.statistics = {{"Instructions", instructions}, {"Subgroups per SIMD", waves}};
+    return cost;
+}
+
+ShaderCosts costs(std::vector<ShaderCost> shaders) { return {"radv Mesa 1, glslang 1", std::move(shaders)}; }
+
+TEST(ShaderCostLines, AreReadAsTheyWereWritten) {
+    ShaderCost second = shader("resolve", 700);
+    second.number = 2;
+    second.output = {{"RG32F", "R8"}, true, "Depth32F", true, {{{1024, 1024}, 3}}};
+    ShaderCosts written = costs({shader("resolve", 726), second});
+    written.moves.push_back({"pcss:map=512", "simple", "blur", gpu::MoveKind::ReadBack, "", {{{16, 16}, 1}}});
+    const ShaderCosts read = parseLines(toLines(written), "lines");
+    EXPECT_EQ(toLines(read), toLines(written));
+    EXPECT_EQ(read.compiler, written.compiler);
+    EXPECT_EQ(read.shaders.at(1).name(), "pcss:map=512 resolve fragment soft/pcss/pcss.frag #2");
+}
+
+TEST(ShaderCostLines, OneThatIsNoneIsRefusedByItsNumber) {
+    try {
+        (void)parseLines(toLines(costs({shader("resolve", 1)})) + "{\"technique\": 3}\n", "old.jsonl");
+        FAIL();
+    } catch (const BadInput& error) {
+        EXPECT_NE(std::string(error.what()).find("line 2 of old.jsonl"), std::string::npos) << error.what();
+    }
+}
+
+TEST(ShaderCostLines, AListOfPipelinesIsReadAsItWasWritten) {
+    const Output output{{"RGBA16F"}, true, "Depth32F", true, {{{1024, 512}, 2}}};
+    const FrameList list{
+        {{"resolve", 3, "abc", {{gpu::Stage::Vertex, "a"}, {gpu::Stage::Fragment, "b"}}, output}},
+        {{"", "", "resolve", gpu::MoveKind::Clear, "R32F", {{{256, 256}, 1}}}},
+    };
+    EXPECT_EQ(toText(frameList(toText(list))), toText(list));
+    EXPECT_EQ(frameList(toText(list)).pipelines.at(0).output.extents, output.extents);
+    EXPECT_THROW((void)frameList("[{}]"), BadInput);
+    EXPECT_THROW((void)frameList(""), BadInput);
+}
+
+TEST(ShaderCostLines, OlderOnesSayNothingOfTargets) {
+    const ShaderCosts read =
+        parseLines(R"({"technique":"a","scene":"s","pass":"p","stage":"fragment","source":"f","number":1,"draws":1,)"
+                   R"("architecture":"navi21","compiler":"c","statistics":{"VGPRs":4}})",
+                   "old.jsonl");
+    EXPECT_TRUE(read.shaders.at(0).output.extents.empty());
+    EXPECT_TRUE(read.moves.empty());
+}
+
+TEST(ShaderCostChanges, NothingIsSaidOfEqualShaders) {
+    EXPECT_EQ(changes(costs({shader("resolve", 726)}), costs({shader("resolve", 726)})), "no change in 1 shaders\n");
+}
+
+TEST(ShaderCostChanges, NameTotalsThenShaders) {
+    const ShaderCosts before = costs({shader("resolve", 726), shader("blur", 74)});
+    const ShaderCosts after = costs({shader("resolve", 727), shader("blur", 74)});
+    EXPECT_EQ(changes(before, after),
+              "navi21: total Instructions 800 → 801 (+0.12 %); helped 0, hurt 1\n"
+              "navi21: pcss:map=512 resolve fragment soft/pcss/pcss.frag: Instructions 726 → 727 (+0.14 %)\n");
+}
+
+TEST(ShaderCostChanges, FewerWavesAreWorse) {
+    const std::string text = changes(costs({shader("resolve", 726, 16)}), costs({shader("resolve", 726, 12)}));
+    EXPECT_NE(text.find("total Subgroups per SIMD 16 → 12 (-25.00 %); helped 0, hurt 1"), std::string::npos) << text;
+}
+
+TEST(ShaderCostChanges, NewAndGoneShadersAndAnotherCompilerAreNamed) {
+    ShaderCosts after = costs({shader("blur", 74)});
+    after.compiler = "radv Mesa 2, glslang 1";
+    EXPECT_EQ(changes(costs({shader("resolve", 726)}), after),
+              "another compiler: radv Mesa 1, glslang 1 before, radv Mesa 2, glslang 1 after; all changes may be its own\n"
+              "new: pcss:map=512 blur fragment soft/pcss/pcss.frag\n"
+              "gone: pcss:map=512 resolve fragment soft/pcss/pcss.frag\n");
+}
+
+TEST(ShaderCostTable, HasOneFigureWhereArchitecturesAgree) {
+    ShaderCost other = shader("resolve", 700, 16);
+    other.architecture = "vega10";
+    const std::string text = table(costs({shader("resolve", 726), other}));
+    EXPECT_TRUE(text.starts_with("navi21/vega10; radv Mesa 1, glslang 1\n")) << text;
+    EXPECT_NE(text.find(" 726/700 "), std::string::npos) << text;
+    EXPECT_NE(text.find(" 16 "), std::string::npos) << text;
+    EXPECT_EQ(text.find("16/16"), std::string::npos) << text;
+}
+
+} // namespace
+} // namespace shadowbench::shaders
