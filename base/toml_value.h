@@ -42,6 +42,7 @@ public:
     [[nodiscard]] glm::dvec3 vector() const;
     [[nodiscard]] std::vector<TomlValue> list() const;
     [[nodiscard]] bool isList() const { return node_->is_array(); }
+    [[nodiscard]] bool isWhole() const { return node_->is_integer(); } // written without a decimal point
     [[nodiscard]] bool isText() const { return node_->is_string(); }
 
     /// Fails on a key of this table that is not among `known`, with near matches.

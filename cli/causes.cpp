@@ -37,6 +37,7 @@ void addCauses(CLI::App& app, Action& action) {
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
     verb->add_option("--technique", options->techniques,
                      "Variant such as pcf:kernel=7, or a glob over ids; repeatable (default: all)");
+    addTechniqueFolderOption(*verb, options->techniques);
     verb->add_option("--caster-level", options->casterLevel,
                      "Casters so many levels of detail coarser than their finest, while the truth stays the scene's: what "
                      "they cost is a cause, too (default: as the scene draws them)")

@@ -68,6 +68,7 @@ void addGate(CLI::App& app, Action& action) {
                      "A build folder or program, a git revision (built once and kept), or records (then no time is judged)");
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
     verb->add_option("--technique", options->techniques, "Variant, or a glob over ids; repeatable (default: all)");
+    addTechniqueFolderOption(*verb, options->techniques);
     verb->add_option("--external", options->externalFiles,
                      "File that describes renderers to call, whose rows are compared with those of --base; repeatable");
     addProfileOption(*verb, *profile);

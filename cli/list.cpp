@@ -1,5 +1,6 @@
 #include "base/limits.h"
 #include "cli/command.h"
+#include "cli/options.h"
 #include "harness/records/comparability.h"
 #include "report/listing.h"
 #include "studies/behaviour/behaviour.h"
@@ -25,7 +26,8 @@ struct ListOptions {
     std::string format = "text";
     bool standard = false;
     bool table = false;
-    std::filesystem::path pages; // empty: none are written
+    std::vector<std::string> folderRows; // not used: a folder is listed with the others
+    std::filesystem::path pages;         // empty: none are written
     std::vector<std::filesystem::path> records;
 };
 
@@ -95,6 +97,7 @@ void addList(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"text", "md", "json", "ids", "latex"}))
         ->capture_default_str();
     verb->add_flag("--standard", options->standard, "With `scenes --format ids`: only those that a run takes by default");
+    addTechniqueFolderOption(*verb, options->folderRows);
     CLI::Option* table = verb->add_flag(
         "--table", options->table,
         "Of techniques: source, strength and failure, each with the test that asserts it and a figure, as md or latex");

@@ -1,5 +1,6 @@
 #include "cli/options.h"
 
+#include "techniques/catalog.h"
 #include "techniques/gl/platform.h"
 
 #include <CLI/CLI.hpp>
@@ -18,6 +19,18 @@ void addGlOption(CLI::App& verb) {
             "What draws: auto (in software, the same everywhere: OSMesa, else EGL), osmesa, or egl (a graphics processor, "
             "else in software) (default: $SHADOWBENCH_GL or auto)")
         ->check(CLI::IsMember({"auto", "osmesa", "egl"}));
+}
+
+void addTechniqueFolderOption(CLI::App& verb, std::vector<std::string>& techniques) {
+    verb.add_option_function<std::vector<std::filesystem::path>>(
+        "--technique-folder",
+        [&techniques](const std::vector<std::filesystem::path>& folders) {
+            for (const std::filesystem::path& folder : folders) techniques::addTechniqueFolder(folder);
+            if (techniques.empty()) techniques = {"my:*"};
+        },
+        "Folder that is a technique of your own, my:ID (docs/technique-folders.md); repeatable; without --technique its "
+        "rows "
+        "alone run");
 }
 
 void addStaticOption(CLI::App& verb, bool& standing) {

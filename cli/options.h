@@ -20,6 +20,10 @@ void addProfileOption(CLI::App& verb, std::string& profile);
 /// What draws: it is chosen for this process and for those that it starts.
 void addGlOption(CLI::App& verb);
 
+/// Folders that are techniques; their rows are what runs if no other is asked for. To be called after the option that fills
+/// `techniques`.
+void addTechniqueFolderOption(CLI::App& verb, std::vector<std::string>& techniques);
+
 /// `standing` is set where light and casters stand still.
 void addStaticOption(CLI::App& verb, bool& standing);
 

@@ -115,6 +115,7 @@ void addRecommend(CLI::App& app, Action& action) {
         ->capture_default_str();
     verb->add_option("--technique", options.techniques,
                      "For technique, map and samples: variant or glob over ids; repeatable (default: all)");
+    addTechniqueFolderOption(*verb, options.techniques);
     CLI::Option* records = verb->add_option("--records", options.records, "Records that answer technique, map and samples");
     verb->add_option("--out", options.out,
                      "Folder of the records of cells that are run; those of this program that it holds are kept")

@@ -62,10 +62,10 @@ ExitCode runPart(const RunOptions& options, const PartOptions& part) {
     }
 }
 
-/// Not by a pattern.
+/// Not by a pattern, or technique folders.
 bool namesRows(const std::vector<std::string>& techniques) {
     return !techniques.empty() && std::ranges::none_of(techniques, [](const std::string& word) {
-        return word.find_first_of("*?[") != std::string::npos;
+        return word.find_first_of("*?[") != std::string::npos && !word.starts_with("my:");
     });
 }
 
@@ -99,6 +99,7 @@ void addRun(CLI::App& app, Action& action) {
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
     verb->add_option("--technique", options->techniques,
                      "Variant such as pcss:taps=32+32, or a glob over ids; repeatable (default: all)");
+    addTechniqueFolderOption(*verb, options->techniques);
     verb->add_option("--external", *external,
                      "File that describes renderers to call, whose techniques are external:ID; repeatable");
     addProfileOption(*verb, *profile);

@@ -54,6 +54,7 @@ void addShaderCost(CLI::App& app, Action& action) {
         "Shaders: GLSL for OpenGL or Vulkan (.vert, .frag, .comp) or SPIR-V (.spv) (default: those of techniques)");
     verb->add_option("--technique", study.techniques,
                      "Variant such as pcf:kernel=7, or a glob over ids; repeatable (default: all)");
+    addTechniqueFolderOption(*verb, study.techniques);
     verb->add_option("--scene", study.scene,
                      "Scene id or file that techniques are drawn on (default: for each the first that it applies to, from "
                      "`simple` on)");

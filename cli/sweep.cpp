@@ -80,6 +80,7 @@ void addSweep(CLI::App& app, Action& action) {
         ->delimiter(',');
     verb->add_option("--technique", options->techniques,
                      "Variant such as pcss:taps=32+32, or a glob over ids; repeatable (default: all)");
+    addTechniqueFolderOption(*verb, options->techniques);
     addProfileOption(*verb, *profile);
     verb->add_option("--out", *out, "Folder of sweep.jsonl, sweep.md and sweep.svg")->capture_default_str();
     verb->add_option("--cache", options->cache,

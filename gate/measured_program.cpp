@@ -10,6 +10,7 @@
 #include "harness/cells/environment.h"
 #include "harness/measure/callgrind.h"
 #include "harness/records/comparability.h"
+#include "techniques/catalog.h"
 
 #include <algorithm>
 #include <cctype>
@@ -46,7 +47,7 @@ std::pair<int, std::string> runToEnd(const fs::path& program, const std::vector<
     command.cpuLimit = longestStep;
     command.memoryLimit = std::uintmax_t{64} << 30U; // of addresses: Valgrind reserves far more than it uses
     command.fileLimit = std::uintmax_t{1} << 30U;
-    command.inherited = gl::platformVariables();
+    command.inherited = techniques::inheritedVariables();
     command.grace = std::chrono::seconds(10); // it is writing records and images into the cache
     std::string last;
     const Finished finished = runProcess(command, [&](std::string_view line) {

@@ -31,7 +31,7 @@ Json techniquesAsJson() {
             figures.push_back({{"name", figure.name}, {"meaning", figure.meaning}});
         all.push_back({{"id", entry.id},
                        {"title", entry.title},
-                       {"source", fmt::format("{}, {}", techniques::title(entry.source.document), entry.source.where)},
+                       {"source", techniques::citation(entry.source)},
                        {"answer", answerOf(entry)},
                        {"history", entry.temporal},
                        {"computed", entry.computed},

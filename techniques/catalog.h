@@ -3,6 +3,7 @@
 
 #include "techniques/contract/entry.h"
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,8 +12,15 @@
 
 namespace shadowbench::techniques {
 
-/// Every technique, in the order tables print them.
+/// Every technique, in the order tables print them: those that are built in, then those of folders.
 std::span<const Entry> catalog();
+
+/// Adds a technique folder (docs/technique-folders.md) to the catalogue of this process and of those that it starts. Before
+/// the first use of the catalogue, which reads the folders and throws BadInput for what is wrong in one.
+void addTechniqueFolder(const std::filesystem::path& folder);
+
+/// The variables that a child process needs to draw as this one does.
+std::vector<std::string> inheritedVariables();
 
 /// The entry of `id`; throws BadInput with near matches.
 const Entry& entryNamed(std::string_view id);

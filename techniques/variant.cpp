@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/words.h"
+#include "techniques/folder/description.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,7 +35,7 @@ const Entry& entryNamed(std::string_view id) {
 }
 
 Variant parseVariant(std::string_view text) {
-    const std::size_t colon = text.find(':');
+    const std::size_t colon = text.find(':', text.starts_with(folderPrefix) ? folderPrefix.size() : 0);
     const Entry& entry = entryNamed(text.substr(0, colon));
     return make(entry, colon == std::string_view::npos ? "" : text.substr(colon + 1));
 }

@@ -87,6 +87,7 @@ std::string cellId(const Truths& truths, const Scene& scene, const techniques::V
                    const MeasureOptions& options) {
     std::string inputs = fmt::format("schema 2\n{}\n{}\nseed {}\nframes {}+{}\n", scene.id, variant.name, options.seed,
                                      scene.timeline.still, scene.timeline.moving);
+    if (!variant.entry->digest.empty()) inputs += fmt::format("technique {}\n", variant.entry->digest);
     if (scene.timeline.approach > 0) inputs += fmt::format("approach {}\n", scene.timeline.approach);
     if (options.seeds > 1) inputs += fmt::format("seeds {}\n", options.seeds);
     if (options.views > 1) inputs += fmt::format("views {}\n", options.views);

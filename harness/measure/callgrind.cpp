@@ -4,7 +4,7 @@
 #include "base/files.h"
 #include "base/process.h"
 #include "base/temporary_folder.h"
-#include "techniques/gl/platform.h"
+#include "techniques/catalog.h"
 
 #include <algorithm>
 #include <charconv>
@@ -80,7 +80,7 @@ Counts countInstructions(const CountJob& job, const std::function<void(std::stri
     command.limit = longestJob;
     command.cpuLimit = longestJob;
     command.memoryLimit = addressSpace;
-    command.inherited = gl::platformVariables();
+    command.inherited = techniques::inheritedVariables();
     std::string last;
     const Finished finished = runProcess(command, [&](std::string_view line) {
         last = line;

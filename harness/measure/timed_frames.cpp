@@ -121,7 +121,7 @@ struct FrameWorker::Running {
         c.cpuLimit.reset(); // it would spoil the clock
         c.memoryLimit = std::uintmax_t{16} << 30U;
         c.cpu = job.cpu;
-        c.inherited = gl::platformVariables();
+        c.inherited = techniques::inheritedVariables();
         return c;
     }
 

@@ -44,7 +44,7 @@ std::string valueOf(const Asserted& asserted, const std::vector<Record>& records
 std::string sourceOf(const std::string& technique) {
     const auto catalog = techniques::catalog();
     const auto entry = std::ranges::find(catalog, technique, &techniques::Entry::id);
-    return entry == catalog.end() ? "–" : fmt::format("{}, {}", title(entry->source.document), entry->source.where);
+    return entry == catalog.end() ? "–" : citation(entry->source);
 }
 
 report::TextTable table(const std::vector<Behaviour>& behaviours, const std::vector<Record>& records) {

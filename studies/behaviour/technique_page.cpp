@@ -93,8 +93,8 @@ std::string listed(const Entry& entry, const std::vector<Record>& records) {
     for (const std::string& parameters : entry.variants)
         variants.push_back(parameters.empty() ? fmt::format("`{}`", entry.id)
                                               : fmt::format("`{}:{}`", entry.id, parameters));
-    std::string text = fmt::format("* **Source**: {}, {}\n* **Answer**: {}\n", techniques::title(entry.source.document),
-                                   markdownText(entry.source.where), answerOf(entry));
+    std::string text = fmt::format("* **Source**: {}\n* **Answer**: {}\n", markdownText(techniques::citation(entry.source)),
+                                   answerOf(entry));
     if (entry.temporal) text += "* **History**: a frame depends on those before it\n";
     if (!entry.lacks.empty()) text += fmt::format("* **Not for**: {}\n", namesOf(entry.lacks));
     if (!entry.computed.empty()) text += fmt::format("* **Computed**: {}\n", markdownText(entry.computed));

@@ -230,8 +230,8 @@ protected:
 
     ShaderCosts costsOf(std::size_t item) override {
         const Place& place = places_[item];
-        const std::string key =
-            fmt::format("pipelines of {} on {} by {}", place.variant.name, place.scene->id, drawingSources());
+        const std::string key = fmt::format("pipelines of {} {} on {} by {}", place.variant.name,
+                                            place.variant.entry->digest, place.scene->id, drawingSources());
         if (place.isBuiltIn)
             if (const auto kept = store().text(key))
                 if (auto costs = keptCosts(place, frameList(*kept))) return *std::move(costs);

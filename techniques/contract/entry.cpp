@@ -8,6 +8,8 @@
 
 namespace shadowbench::techniques {
 
+namespace {
+
 std::string_view title(Document document) {
     switch (document) {
     case Document::Dissertation:
@@ -18,8 +20,16 @@ std::string_view title(Document document) {
         return "SIGGRAPH 2004 course, Real-Time Shadowing Techniques";
     case Document::Zapotocky:
         return "Zápotocký, thesis";
+    case Document::Other:
+        break;
     }
     return "";
+}
+
+} // namespace
+
+std::string citation(const Source& source) {
+    return source.document == Document::Other ? source.where : fmt::format("{}, {}", title(source.document), source.where);
 }
 
 std::set<Need> lacking(const Entry& entry) {

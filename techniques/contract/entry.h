@@ -19,13 +19,15 @@
 namespace shadowbench::techniques {
 
 /// The documents that techniques are implemented from.
-enum class Document { Dissertation, PixelCorrectPaper, Course, Zapotocky };
-std::string_view title(Document document);
+enum class Document { Dissertation, PixelCorrectPaper, Course, Zapotocky, Other };
 
 struct Source {
     Document document;
-    std::string where; // section, equation, listing
+    std::string where; // section, equation, listing; of another document also which it is
 };
+
+/// "Scherzer, dissertation, 2.2.1".
+std::string citation(const Source& source);
 
 /// What kind of answer a technique gives, hence which ground truth it is scored against.
 enum class Answer {
@@ -71,6 +73,7 @@ struct Entry {
     std::function<std::string(const Parameters&)> costBase = {};
     std::function<std::unique_ptr<Technique>(const Parameters&)> make = {};       // of a shadow
     std::function<std::unique_ptr<LodTechnique>(const Parameters&)> makeLod = {}; // of a picture: Answer::Colour
+    std::string digest = {}; // hash of the folder's files, of a technique that is one; "" of those that are built in
 };
 
 /// Entry::lacks, and NoHistory where the technique keeps a history.

@@ -108,8 +108,26 @@ void Program::findUniforms() {
         glGetActiveUniform(id_, static_cast<GLuint>(i), sizeof buffer, nullptr, &size, &type, buffer);
         std::string name(buffer);
         if (name.ends_with("[0]")) name.resize(name.size() - 3);
-        uniforms_[name] = {glGetUniformLocation(id_, buffer), isSampler(type) ? unit++ : -1};
+        uniforms_[name] = {glGetUniformLocation(id_, buffer), isSampler(type) ? unit++ : -1, type};
     }
+}
+
+std::map<std::string, std::string> Program::uniformTypes() const {
+    static const std::map<GLenum, std::string> words{{GL_INT, "int"},
+                                                     {GL_FLOAT, "float"},
+                                                     {GL_FLOAT_VEC2, "vec2"},
+                                                     {GL_FLOAT_VEC3, "vec3"},
+                                                     {GL_FLOAT_VEC4, "vec4"},
+                                                     {GL_FLOAT_MAT4, "mat4"},
+                                                     {GL_SAMPLER_2D, "sampler2D"},
+                                                     {GL_SAMPLER_2D_SHADOW, "sampler2DShadow"},
+                                                     {GL_UNSIGNED_INT_SAMPLER_2D, "usampler2D"}};
+    std::map<std::string, std::string> types;
+    for (const auto& [name, uniform] : uniforms_) {
+        const auto word = words.find(uniform.type);
+        types[name] = word == words.end() ? "" : word->second;
+    }
+    return types;
 }
 
 Program Program::screen(const std::string& fragmentFile, const Defines& defines) {
@@ -119,6 +137,12 @@ Program Program::screen(const std::string& fragmentFile, const Defines& defines)
 Program Program::screenFromText(const std::string& name, const std::string& fragmentText, const Defines& defines) {
     return Program({{GL_VERTEX_SHADER, "gl/screen.vert", loadShader("gl/screen.vert", {})},
                     {GL_FRAGMENT_SHADER, name, shaderFromText(name, fragmentText, defines)}});
+}
+
+Program Program::ofFolder(const std::string& vertexFile, const ShaderFolder& folder, const std::string& fragmentFile,
+                          const Defines& defines) {
+    return Program({{GL_VERTEX_SHADER, vertexFile, loadShader(vertexFile, {})},
+                    {GL_FRAGMENT_SHADER, folder.path + "/" + fragmentFile, loadShader(folder, fragmentFile, defines)}});
 }
 
 Program Program::compute(const std::string& file, const Defines& defines) {

@@ -34,6 +34,19 @@ ShaderSource loadShader(const std::string& file, const Defines& defines);
 /// The same of a source that is no file; `name` stands for it in messages.
 ShaderSource shaderFromText(const std::string& name, const std::string& text, const Defines& defines);
 
+/// Shaders by the names that `#include` has for them.
+using ShaderFiles = std::map<std::string, std::string>;
+
+/// Shaders that are not embedded, and the folder that stands before their names in messages. What they include is theirs, or
+/// an embedded file.
+struct ShaderFolder {
+    std::string path;
+    const ShaderFiles& files;
+};
+
+/// The same of one of a folder's files.
+ShaderSource loadShader(const ShaderFolder& folder, const std::string& file, const Defines& defines);
+
 class Program {
 public:
     Program(const std::string& vertexFile, const std::string& fragmentFile, const Defines& defines = {});
@@ -43,6 +56,10 @@ public:
 
     /// The same of a source that is no file: for shaders that are put together where they are used.
     static Program screenFromText(const std::string& name, const std::string& fragmentText, const Defines& defines = {});
+
+    /// An embedded vertex shader and a fragment shader of a folder.
+    static Program ofFolder(const std::string& vertexFile, const ShaderFolder& folder, const std::string& fragmentFile,
+                            const Defines& defines);
 
     /// A compute shader.
     static Program compute(const std::string& file, const Defines& defines = {});
@@ -68,6 +85,9 @@ public:
     Program& set(const std::string& sampler, const TextureArray& array);
 
     [[nodiscard]] bool uses(const std::string& uniform) const { return uniforms_.contains(uniform); }
+
+    /// The uniforms in use with their types as GLSL has them; another type than those of `set` is "".
+    [[nodiscard]] std::map<std::string, std::string> uniformTypes() const;
     void use() const;
 
     /// Runs the full-screen pass into the framebuffer that is bound for drawing.
@@ -91,7 +111,8 @@ private:
 
     struct Uniform {
         int location;
-        int unit; // texture unit of a sampler, else −1
+        int unit;      // texture unit of a sampler, else −1
+        unsigned type; // GL's
     };
     void activateUnit(const std::string& sampler) const;
     void drawTriangle() const;

@@ -9,6 +9,10 @@
 namespace shadowbench::gl {
 namespace {
 
+bool isEmbedded(const std::string& file) {
+    return std::ranges::any_of(embedded::shaders(), [&](const auto& f) { return f.path == file; });
+}
+
 std::string_view embeddedText(const std::string& file, const std::string& includedFrom) {
     const auto files = embedded::shaders();
     const auto found = std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.path == file; });
@@ -21,13 +25,21 @@ std::string_view embeddedText(const std::string& file, const std::string& includ
 /// Collects the lines of a source and of what it includes, each included file once.
 class Assembly {
 public:
-    Assembly(const std::string& name, const Defines& defines) {
+    /// `own`: files that are included before embedded ones of their names; may be null.
+    Assembly(const std::string& name, const Defines& defines, const ShaderFolder* own = nullptr) : own_(own) {
         add("#version 450 core", name + ":0");
         for (const auto& [macro, value] : defines) add("#define " + macro + " " + value, name + ":0");
     }
 
     void appendFile(const std::string& file, const std::string& includedFrom) {
-        if (included_.insert(file).second) appendText(file, std::string(embeddedText(file, includedFrom)));
+        if (!included_.insert(file).second) return;
+        if (own_ != nullptr && own_->files.contains(file))
+            appendText(own_->path + "/" + file, own_->files.at(file));
+        else if (own_ != nullptr && !isEmbedded(file))
+            throw InternalError(includedFrom + ": there is no shader \"" + file +
+                                "\", neither in the folder nor among those that come with the program");
+        else
+            appendText(file, std::string(embeddedText(file, includedFrom)));
     }
 
     void appendText(const std::string& name, const std::string& text) {
@@ -50,6 +62,7 @@ private:
         source_.origin.push_back(origin);
     }
 
+    const ShaderFolder* own_;
     ShaderSource source_;
     std::set<std::string> included_;
 };
@@ -65,6 +78,12 @@ ShaderSource loadShader(const std::string& file, const Defines& defines) {
 ShaderSource shaderFromText(const std::string& name, const std::string& text, const Defines& defines) {
     Assembly assembly(name, defines);
     assembly.appendText(name, text);
+    return assembly.take();
+}
+
+ShaderSource loadShader(const ShaderFolder& folder, const std::string& file, const Defines& defines) {
+    Assembly assembly(folder.path + "/" + file, defines, &folder);
+    assembly.appendFile(file, "");
     return assembly.take();
 }
 

@@ -109,12 +109,14 @@ GLuint makeFramebuffer(const TextureArray& array, int layer) {
 
 } // namespace
 
-Texture::Texture(Format format, glm::ivec2 size, Filter filter, Wrap wrap) : format_(format), size_(size) {
+Texture::Texture(Format format, glm::ivec2 size, Filter filter, Wrap wrap, Levels levels)
+    : format_(format), size_(size), levels_(levels) {
     glGenTextures(1, &id_);
     bindToChange(GL_TEXTURE_2D, id_);
-    glTexStorage2D(GL_TEXTURE_2D, 1, facts(format).internal, size.x, size.y);
+    glTexStorage2D(GL_TEXTURE_2D, levels == Levels::All ? fullChain(size) : 1, facts(format).internal, size.x, size.y);
     const GLint sampling = filter == Filter::Linear ? GL_LINEAR : GL_NEAREST;
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, sampling);
+    const GLint betweenLevels = filter == Filter::Linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, levels == Levels::All ? betweenLevels : sampling);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, sampling);
     const GLint wrapping = wrap == Wrap::BorderFar ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE;
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrapping);
@@ -137,7 +139,8 @@ void Texture::release() {
     id_ = 0;
 }
 
-Texture::Texture(Texture&& other) noexcept : id_(std::exchange(other.id_, 0)), format_(other.format_), size_(other.size_) {}
+Texture::Texture(Texture&& other) noexcept
+    : id_(std::exchange(other.id_, 0)), format_(other.format_), size_(other.size_), levels_(other.levels_) {}
 
 Texture& Texture::operator=(Texture&& other) noexcept {
     if (this == &other) return *this;
@@ -145,7 +148,13 @@ Texture& Texture::operator=(Texture&& other) noexcept {
     id_ = std::exchange(other.id_, 0);
     format_ = other.format_;
     size_ = other.size_;
+    levels_ = other.levels_;
     return *this;
+}
+
+void Texture::makeMipmaps() {
+    bindToChange(GL_TEXTURE_2D, id_);
+    glGenerateMipmap(GL_TEXTURE_2D);
 }
 
 void Texture::compareDepth() {
@@ -162,7 +171,11 @@ void Texture::upload(const Image<std::uint8_t>& texels) {
 }
 
 std::size_t Texture::bytes() const {
-    return facts(format_).bytes * static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);
+    std::size_t texels = 0;
+    for (int level = 0; level < (levels_ == Levels::All ? fullChain(size_) : 1); ++level)
+        texels += static_cast<std::size_t>(std::max(size_.x >> level, 1)) *
+                  static_cast<std::size_t>(std::max(size_.y >> level, 1));
+    return facts(format_).bytes * texels;
 }
 
 TextureArray::TextureArray(Format format, glm::ivec2 size, int layers) : size_(size), layers_(layers), bytes_(0) {

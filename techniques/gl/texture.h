@@ -17,6 +17,7 @@ enum class Format { R8, RGBA8, R32F, RG16F, RG32F, RGBA16F, RGBA32F, R32UI, Dept
 
 /// How a sampler reads between texels and outside [0, 1]².
 enum class Filter { Nearest, Linear };
+enum class Levels { One, All };             // All: mipmaps, of which a sampler reads two
 enum class Wrap { ClampToEdge, BorderFar }; // BorderFar: outside reads as the farthest depth
 
 /// The farthest depth of a map of linear depths in metres; a depth texture's is 1.
@@ -24,13 +25,17 @@ inline constexpr float nothingInTheWay = 1e30F;
 
 class Texture {
 public:
-    Texture(Format format, glm::ivec2 size, Filter filter = Filter::Nearest, Wrap wrap = Wrap::ClampToEdge);
+    Texture(Format format, glm::ivec2 size, Filter filter = Filter::Nearest, Wrap wrap = Wrap::ClampToEdge,
+            Levels levels = Levels::One);
     ~Texture();
     Texture(Texture&& other) noexcept;
     Texture& operator=(Texture&& other) noexcept;
 
     /// Makes sampler2DShadow lookups compare (reference ≤ texel); with Filter::Linear the four comparisons are interpolated.
     void compareDepth();
+
+    /// Every level from the one before it, by 2 × 2 means (`Levels::All`).
+    void makeMipmaps();
 
     /// Replaces the texels of an R8 texture of the image's size; row 0 of the image is at texture coordinate 0.
     void upload(const Image<std::uint8_t>& texels);
@@ -45,6 +50,7 @@ private:
     unsigned id_ = 0;
     Format format_;
     glm::ivec2 size_;
+    Levels levels_;
 };
 
 /// Layers of one colour format and size, each with its mipmaps; read trilinearly and clamped to the edge.

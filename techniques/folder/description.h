@@ -1,0 +1,62 @@
+// A technique that is a folder of GLSL and a technique.toml (docs/technique-folders.md): what the folder says.
+#pragma once
+
+#include "techniques/contract/entry.h"
+#include "techniques/gl/program.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace shadowbench::techniques {
+
+/// What the map of a technique sees of the scene.
+enum class FolderView {
+    Scene,   // all of it
+    Focused, // what the camera sees of it (shared/light_views/focused_view.h)
+    Sample   // all of it, from another point of an area light each frame
+};
+
+/// A number, or the name of the parameter that has it.
+using Amount = std::variant<double, std::string>;
+
+struct FolderTarget {
+    std::string name;
+    gl::Format format;
+    bool ofImage = true; // as large as the image; else a square of `side` texels
+    Amount side = 0.0;
+    bool linear = false, compare = false, mipmaps = false;
+    bool history = false; // its texels of the frame before can be read
+};
+
+struct FolderPass {
+    std::string name;
+    bool casters = false;        // draws them into the map; else one triangle over the screen
+    std::string fragment;        // file of the folder; empty: depth alone
+    std::vector<std::string> to; // targets, one of depth at most, or `visibility` alone
+    gl::Defines defines;
+    Amount slopeOffset = 0.0, unitOffset = 0.0; // of casters (shared/maps/depth_map.h, Bias)
+    glm::vec4 clear{0};                         // of colours, before casters are drawn
+};
+
+struct TechniqueFolder {
+    std::filesystem::path path;
+    Entry entry; // all but `make`
+    FolderView view = FolderView::Scene;
+    std::vector<FolderTarget> targets;
+    std::vector<FolderPass> passes;
+    gl::ShaderFiles shaders;
+};
+
+/// What a pass writes that is the technique's answer.
+inline constexpr const char* visibilityTarget = "visibility";
+
+/// The rows of folders are `my:ID`.
+inline constexpr std::string_view folderPrefix = "my:";
+
+/// Throws BadInput with the file, the line and the key of what is wrong, or the file that is missing.
+TechniqueFolder readTechniqueFolder(const std::filesystem::path& folder);
+
+} // namespace shadowbench::techniques

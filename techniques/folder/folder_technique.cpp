@@ -1,0 +1,256 @@
+#include "techniques/folder/folder_technique.h"
+
+#include "base/error.h"
+#include "base/words.h"
+#include "techniques/folder/inputs.h"
+#include "techniques/gl/api.h"
+#include "techniques/shared/light_views/focused_view.h"
+#include "techniques/shared/maps/depth_map.h"
+#include "techniques/shared/sampling/sampling.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+#include <functional>
+#include <unordered_map>
+
+namespace shadowbench::techniques {
+namespace {
+
+constexpr const char* historyPrefix = "previous_"; // of samplers: the texels of the frame before
+
+std::string macroOf(std::string name) {
+    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return name;
+}
+
+/// A parameter is a macro by its name in capitals; a choice is one of name and word.
+gl::Defines definesOf(const Entry& entry, const Parameters& values) {
+    gl::Defines defines;
+    for (const Parameter& parameter : entry.parameters) {
+        const std::string& value = values.text(parameter.name);
+        if (std::holds_alternative<OneOf>(parameter.domain))
+            defines.emplace_back(macroOf(parameter.name + "_" + value), "1");
+        else if (std::holds_alternative<RealRange>(parameter.domain))
+            defines.emplace_back(macroOf(parameter.name), fmt::format("{:#.9g}", values.real(parameter.name)));
+        else
+            defines.emplace_back(macroOf(parameter.name), value);
+    }
+    return defines;
+}
+
+double valueOf(const Amount& amount, const Parameters& values) {
+    if (const double* number = std::get_if<double>(&amount)) return *number;
+    return values.real(std::get<std::string>(amount));
+}
+
+/// What the compiler said first, with the file and line of the folder that it is about.
+[[noreturn]] void throwFirstLine(const InternalError& error) {
+    const std::string text = error.what();
+    const std::size_t begin = text.find('\n');
+    throw BadInput(begin == std::string::npos ? text : text.substr(begin + 1, text.find('\n', begin + 1) - begin - 1));
+}
+
+class FolderTechnique final : public Technique {
+public:
+    FolderTechnique(std::shared_ptr<const TechniqueFolder> folder, const Parameters& values)
+        : folder_(std::move(folder)), values_(values) {
+        for (const FolderPass& pass : folder_->passes) {
+            programs_.push_back(programOf(pass));
+            requireKnownUniforms(programs_.back(), pass);
+        }
+    }
+
+    void reset() override {
+        historyFrames_ = 0;
+        targets_.clear();
+    }
+
+    void render(const Frame& frame, const gl::Texture& visibility) override {
+        view_ = fit(frame);
+        if (imageSize_ != frame.size) reset();
+        imageSize_ = frame.size;
+        if (targets_.empty()) makeTargets();
+        for (std::size_t i = 0; i < folder_->passes.size(); ++i) {
+            const auto pass = frame.pass(folder_->passes[i].name);
+            draw(folder_->passes[i], programs_[i], frame, visibility);
+        }
+        for (auto& [name, target] : targets_)
+            if (target.before) std::swap(target.now, *target.before);
+        ++historyFrames_;
+    }
+
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        const auto casters = std::ranges::find(folder_->passes, true, &FolderPass::casters);
+        if (casters == folder_->passes.end() || targets_.empty()) return {};
+        return texelAt(view_, world, targets_.at(casters->to.front()).now.size());
+    }
+
+private:
+    struct Target {
+        gl::Texture now;
+        std::optional<gl::Texture> before = {}; // of a target with a history
+    };
+
+    [[nodiscard]] gl::Program programOf(const FolderPass& pass) const {
+        const std::string vertex =
+            pass.casters ? (pass.fragment.empty() ? "shared/maps/depth_map.vert" : "folder/casters.vert") : "gl/screen.vert";
+        if (pass.fragment.empty()) return {vertex, "gl/depth_only.frag"};
+        gl::Defines defines = definesOf(folder_->entry, values_);
+        defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
+        try {
+            return gl::Program::ofFolder(vertex, {folder_->path.string(), folder_->shaders}, pass.fragment, defines);
+        } catch (const InternalError& error) {
+            throwFirstLine(error);
+        }
+    }
+
+    /// All but what the program sets by itself for casters.
+    void requireKnownUniforms(const gl::Program& program, const FolderPass& pass) const {
+        static const std::vector<std::string> ofCasters{"clipFromWorld", "lightPlane", "unitDepthOfCaster"};
+        std::vector<std::string> known = pass.casters ? ofCasters : std::vector<std::string>();
+        for (const FolderInput& input : folderInputs()) known.emplace_back(input.name);
+        for (const FolderTarget& target : folder_->targets) {
+            known.push_back(target.name);
+            if (target.history) known.push_back(historyPrefix + target.name);
+        }
+        for (const auto& [name, type] : program.uniformTypes()) {
+            const auto file = [&] { return fmt::format("{}/{}", folder_->path.string(), pass.fragment); };
+            if (std::ranges::find(known, name) == known.end())
+                throw BadInput(fmt::format("{}: nothing sets the uniform \"{}\"{}; parameters are macros in capitals",
+                                           file(), name, didYouMean(name, known)));
+            const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name);
+            if (input != folderInputs().end() && type != input->type)
+                throw BadInput(fmt::format("{}: the uniform \"{}\" is {}, not {}", file(), name, input->type, type));
+            if (std::ranges::find(pass.to, name) != pass.to.end())
+                throw BadInput(fmt::format("{}: the pass \"{}\" reads {}, which it writes", file(), pass.name, name));
+        }
+    }
+
+    [[nodiscard]] LightView fit(const Frame& frame) const {
+        const bool soft = folder_->entry.answer == Answer::Soft;
+        const Light& light = soft ? frame.snapshot.light : frame.hardLight;
+        switch (folder_->view) {
+        case FolderView::Scene:
+            return fitToScene(light, frame.snapshot);
+        case FolderView::Focused:
+            return fitFocused(frame.hardLight, frame.snapshot, frame.snapshot.camera, frame.aspect());
+        case FolderView::Sample:
+            const glm::dvec2 at(haltonOf(frame.index, frame.seed, 2), haltonOf(frame.index, frame.seed, 3));
+            return fitFromSample(light, light.sample(at), boundingCorners(frame.snapshot));
+        }
+        throw InternalError("unknown view of a technique folder");
+    }
+
+    void makeTargets() {
+        for (const FolderTarget& target : folder_->targets) {
+            const int side = static_cast<int>(valueOf(target.side, values_));
+            if (!target.ofImage && (side < 1 || side > 8192))
+                throw BadInput(fmt::format("{}: target {} would have {} texels a side; 1 to 8192 are allowed",
+                                           folder_->path.string(), target.name, side));
+            const glm::ivec2 size = target.ofImage ? imageSize_ : glm::ivec2(side);
+            Target made{textureOf(target, size)};
+            if (target.history) {
+                made.before = textureOf(target, size);
+                clear(*made.before);
+            }
+            targets_.emplace(target.name, std::move(made));
+        }
+    }
+
+    static gl::Texture textureOf(const FolderTarget& target, glm::ivec2 size) {
+        const bool depths = target.format == gl::Format::Depth32F;
+        gl::Texture texture(target.format, size, target.linear ? gl::Filter::Linear : gl::Filter::Nearest,
+                            depths ? gl::Wrap::BorderFar : gl::Wrap::ClampToEdge,
+                            target.mipmaps ? gl::Levels::All : gl::Levels::One);
+        if (target.compare) texture.compareDepth();
+        return texture;
+    }
+
+    static void clear(const gl::Texture& texture) {
+        const gl::RenderTarget target({&texture});
+        if (texture.format() == gl::Format::Depth32F)
+            target.clearDepth(1);
+        else
+            target.clearColour(0, glm::vec4(0));
+    }
+
+    void draw(const FolderPass& pass, gl::Program& program, const Frame& frame, const gl::Texture& visibility) {
+        std::vector<const gl::Texture*> attachments;
+        for (const std::string& name : pass.to)
+            attachments.push_back(name == visibilityTarget ? &visibility : &targets_.at(name).now);
+        setInputs(program, frame);
+        if (pass.casters)
+            drawCasters(pass, program, frame, attachments);
+        else
+            drawScreen(program, attachments);
+        for (const std::string& name : pass.to)
+            if (name != visibilityTarget && hasMipmaps(name)) targets_.at(name).now.makeMipmaps();
+    }
+
+    [[nodiscard]] bool hasMipmaps(const std::string& name) const {
+        return std::ranges::find(folder_->targets, name, &FolderTarget::name)->mipmaps;
+    }
+
+    void setInputs(gl::Program& program, const Frame& frame) const {
+        const FolderState state{frame, view_, historyFrames_};
+        for (const auto& [name, type] : program.uniformTypes()) {
+            const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name);
+            if (input != folderInputs().end()) input->set(program, name, state);
+            if (const auto target = targets_.find(name); target != targets_.end()) program.set(name, target->second.now);
+            if (name.starts_with(historyPrefix))
+                if (const auto target = targets_.find(name.substr(std::string_view(historyPrefix).size()));
+                    target != targets_.end())
+                    program.set(name, *target->second.before);
+        }
+    }
+
+    static void drawScreen(const gl::Program& program, const std::vector<const gl::Texture*>& attachments) {
+        const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
+        target.bind();
+        program.drawScreen();
+    }
+
+    /// Where no depths are kept the nearest casters are found in a buffer of the program's own.
+    void drawCasters(const FolderPass& pass, gl::Program& program, const Frame& frame,
+                     std::vector<const gl::Texture*> attachments) {
+        const auto isDepth = [](const gl::Texture* t) { return t->format() == gl::Format::Depth32F; };
+        if (std::ranges::none_of(attachments, isDepth)) {
+            const glm::ivec2 size = attachments.front()->size();
+            if (!ownDepths_ || ownDepths_->size() != size) ownDepths_.emplace(gl::Format::Depth32F, size);
+            attachments.push_back(&*ownDepths_);
+        }
+        std::ranges::stable_partition(attachments, std::not_fn(isDepth));
+        const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
+        for (std::size_t i = 0; i + 1 < attachments.size(); ++i) target.clearColour(static_cast<int>(i), pass.clear);
+        target.clearDepth(1);
+        target.bind();
+        if (program.uses("unitDepthOfCaster"))
+            program.set("unitDepthOfCaster",
+                        glm::vec4((view_.depthFromWorld - glm::dvec4(0, 0, 0, view_.near)) / (view_.far - view_.near)));
+        const CasterPass casters(program, view_,
+                                 {.factor = static_cast<float>(valueOf(pass.slopeOffset, values_)),
+                                  .units = static_cast<float>(valueOf(pass.unitOffset, values_))});
+        frame.scene.draw();
+    }
+
+    std::shared_ptr<const TechniqueFolder> folder_;
+    Parameters values_;
+    std::vector<gl::Program> programs_; // a pass each
+    std::unordered_map<std::string, Target> targets_;
+    std::optional<gl::Texture> ownDepths_;
+    LightView view_;
+    glm::ivec2 imageSize_{0};
+    int historyFrames_ = 0;
+};
+
+} // namespace
+
+Entry folderEntry(TechniqueFolder folder) {
+    const auto kept = std::make_shared<const TechniqueFolder>(std::move(folder));
+    Entry entry = kept->entry;
+    entry.make = [kept](const Parameters& values) { return std::make_unique<FolderTechnique>(kept, values); };
+    return entry;
+}
+
+} // namespace shadowbench::techniques

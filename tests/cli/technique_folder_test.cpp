@@ -1,0 +1,65 @@
+// A technique folder as a user runs it.
+#include "base/files.h"
+#include "harness/records/record.h"
+#include "tests/support/program.h"
+#include "tests/support/technique_folders.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+class TechniqueFolderRun : public testing::Test {
+protected:
+    TechniqueFolderRun() { out_.write("tiny.toml", tinyScene()); }
+
+    Outcome run(const std::string& more = "") const {
+        return shell("shadowbench run --scene " + out_ / "tiny.toml" + " --technique-folder " + mine_.path().string() +
+                     " --cache " + out_ / "cache" + " --out " + out_ / "out" + " --quiet " + more);
+    }
+    [[nodiscard]] std::vector<Record> records() const { return readRecords(out_ / "out/results.jsonl"); }
+
+    WrittenTechnique mine_;
+    Folder out_;
+};
+
+TEST_F(TechniqueFolderRun, ItsRowsAloneRunAndArePrinted) {
+    const Outcome outcome = run("--cost none");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_NE(outcome.output.find("my:mine"), std::string::npos) << outcome.output;
+    ASSERT_EQ(records().size(), 1U);
+    EXPECT_EQ(records().front().technique, "my:mine");
+    const std::string cell = records().front().cell;
+    run("--cost none --resume");
+    EXPECT_EQ(records().front().cell, cell);
+    mine_.write("resolve.frag", replaced(mapShader, ": 1.0", ": 0.0"));
+    run("--cost none --resume");
+    EXPECT_NE(records().front().cell, cell);
+}
+
+TEST_F(TechniqueFolderRun, ItScoresAndCostsWhatTheRowDoesThatIsBuiltIn) {
+    const Outcome outcome = run("--technique my:mine --technique sm-uniform --cost instructions");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    ASSERT_EQ(records().size(), 2U);
+    const Record mine = records()[0], builtIn = records()[1];
+    EXPECT_EQ(mine.technique, "my:mine");
+    EXPECT_EQ(mine.images, builtIn.images); // the same bits
+    EXPECT_EQ(mine.values["cost.work.fragments"], builtIn.values["cost.work.fragments"]);
+    EXPECT_EQ(mine.values["cost.work.vertices"], builtIn.values["cost.work.vertices"]);
+    EXPECT_EQ(mine.values["cost.work.draws"], builtIn.values["cost.work.draws"]);
+    EXPECT_EQ(mine.values["cost.work.bytes"], builtIn.values["cost.work.bytes"]);
+    // Counted by a process of its own, which reads the folder, too.
+    EXPECT_NEAR(mine.values["cost.instructions"].value() / builtIn.values["cost.instructions"].value(), 1, 0.01);
+}
+
+TEST_F(TechniqueFolderRun, AWrongShaderIsOneLineThatNamesItsPlace) {
+    mine_.write("resolve.frag", replaced(mapShader, "receiver.seen ?", "receiver.sen ?"));
+    const Outcome outcome = run("--cost none");
+    EXPECT_EQ(outcome.code, 2) << outcome.output;
+    EXPECT_NE(outcome.output.find("error: my:mine on tiny: " + (mine_.path() / "resolve.frag").string() + ":8: "),
+              std::string::npos)
+        << outcome.output;
+}
+
+} // namespace
+} // namespace shadowbench

@@ -1,0 +1,75 @@
+// Technique folders that a test writes.
+#pragma once
+
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "techniques/folder/folder_technique.h"
+#include "tests/support/stages.h"
+
+#include <string>
+
+namespace shadowbench {
+
+/// Draws the map of `sm-uniform` and tests it once, as that does.
+inline const std::string mapToml = R"(id = "mine"
+title = "A map"
+answer = "hard"
+
+[parameter.map]
+default = 1024
+range = [16, 8192]
+meaning = "texels per side of the map"
+
+[target.depths]
+format = "Depth32F"
+size = "map"
+compare = true
+
+[[pass]]
+name = "depth map"
+draw = "casters"
+to = "depths"
+offset = [2, 64]
+
+[[pass]]
+name = "resolve"
+draw = "screen"
+fragment = "resolve.frag"
+to = "visibility"
+)";
+inline const std::string mapShader = R"(#include "shared/maps/tested_point.glsl"
+
+uniform sampler2DShadow depths;
+out float visibility;
+
+void main() {
+    Receiver receiver = receiverAt(gl_FragCoord.xy);
+    visibility = receiver.seen ? shadowTest(depths, testedPoint(receiver)) : 1.0;
+}
+)";
+
+class WrittenTechnique {
+public:
+    explicit WrittenTechnique(const std::string& toml = mapToml, const std::string& shader = mapShader) {
+        write("technique.toml", toml);
+        write("resolve.frag", shader);
+    }
+
+    void write(const std::string& file, const std::string& text) const { writeFile(folder_.path() / file, text); }
+    [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
+    techniques::Entry entry() const { return techniques::folderEntry(techniques::readTechniqueFolder(folder_.path())); }
+    std::unique_ptr<techniques::Technique> made(const std::string& parameters = "") const {
+        const techniques::Entry entry = this->entry();
+        return entry.make(techniques::parseParameters(parameters, entry.parameters, entry.id));
+    }
+
+private:
+    TemporaryFolder folder_;
+};
+
+/// `text` with the first `from` in it replaced.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
+} // namespace shadowbench

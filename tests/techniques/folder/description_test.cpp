@@ -1,0 +1,123 @@
+// What technique.toml says, and the one line that a wrong one gets.
+#include "techniques/folder/inputs.h"
+#include "tests/support/message_of.h"
+#include "tests/support/technique_folders.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+using techniques::Answer;
+using techniques::Domain;
+using techniques::IntegerRange;
+using techniques::OneOf;
+using techniques::RealRange;
+
+TEST(TechniqueFolder, IsAnEntryOfTheCatalogue) {
+    const techniques::Entry entry = WrittenTechnique(replaced(mapToml, "title", "source = \"Nobody 2026\"\ntitle")).entry();
+    EXPECT_EQ(entry.id, "my:mine");
+    EXPECT_EQ(entry.title, "A map");
+    EXPECT_EQ(techniques::citation(entry.source), "Nobody 2026");
+    EXPECT_EQ(entry.answer, Answer::Hard);
+    EXPECT_FALSE(entry.temporal);
+    EXPECT_EQ(entry.variants, std::vector<std::string>{""});
+    ASSERT_EQ(entry.parameters.size(), 1U);
+    EXPECT_EQ(entry.parameters.front().defaultValue, "1024");
+    EXPECT_EQ(std::get<IntegerRange>(entry.parameters.front().domain).high, 8192);
+}
+
+TEST(TechniqueFolder, NumbersAreWholeWhereNoneHasADecimalPoint) {
+    const std::string parameter = "[parameter.radius]\ndefault = 2.5\nrange = [1, 8]\nmeaning = \"m\"\n";
+    const std::string choice = "[parameter.kind]\ndefault = \"soft\"\nchoices = [\"hard\", \"soft\"]\nmeaning = \"m\"\n";
+    const techniques::Entry entry = WrittenTechnique(replaced(mapToml, "[target", parameter + choice + "[target")).entry();
+    ASSERT_EQ(entry.parameters.size(), 3U); // by their names
+    EXPECT_EQ(std::get<OneOf>(entry.parameters[0].domain).values, (std::vector<std::string>{"hard", "soft"}));
+    EXPECT_EQ(std::get<RealRange>(entry.parameters[2].domain).low, 1);
+}
+
+TEST(TechniqueFolder, AnyChangeOfAFileIsAnotherDigest) {
+    const WrittenTechnique folder;
+    const std::string before = folder.entry().digest;
+    EXPECT_EQ(folder.entry().digest, before);
+    folder.write("notes.txt", "not drawn with");
+    EXPECT_EQ(folder.entry().digest, before);
+    folder.write("resolve.frag", mapShader + "// a comment\n");
+    const std::string after = folder.entry().digest;
+    EXPECT_NE(after, before);
+    folder.write("technique.toml", mapToml + "# a comment\n");
+    EXPECT_NE(folder.entry().digest, after);
+}
+
+std::string errorOf(const std::string& toml) {
+    const WrittenTechnique folder(toml);
+    const std::string error = test::messageOf<BadInput>([&] { folder.entry(); });
+    const std::string file = (folder.path() / "technique.toml").string();
+    return error.starts_with(file) ? error.substr(file.size()) : error;
+}
+
+TEST(TechniqueFolder, WhatIsWrongIsOneLineWithItsPlace) {
+    const auto with = [](const std::string& from, const std::string& to) { return errorOf(replaced(mapToml, from, to)); };
+    EXPECT_EQ(with("title", "titel"), ":2: titel: unknown key (did you mean \"title\"?)");
+    EXPECT_EQ(with("\"mine\"", "\"My row\""), ":1: id: \"My row\" is no id: lower-case letters, digits and -, 40 at most");
+    EXPECT_EQ(with("\"hard\"", "\"sharp\""), ":3: answer: expected one of hard, filtered, soft, got \"sharp\"");
+    EXPECT_EQ(with("default = 1024", "default = 8"), ":6: parameter.map.default: is not within [16, 8192]");
+    EXPECT_EQ(with("to = \"depths\"", "to = \"depth\""),
+              ":18: pass[1].to: there is no target \"depth\" (did you mean \"depths\"?)");
+    EXPECT_EQ(with("size = \"map\"", "size = \"mat\""),
+              ":12: target.depths.size: \"mat\" is no parameter that is a number (did you mean \"map\"?)");
+    EXPECT_EQ(with("format = \"Depth32F\"", "format = \"R32F\""),
+              ":10: target.depths: only depths compare: format = \"Depth32F\"");
+    EXPECT_NE(
+        with("\"resolve.frag\"", "\"resolv.frag\"").find("has no shader \"resolv.frag\" (did you mean \"resolve.frag\"?)"),
+        std::string::npos);
+    EXPECT_NE(with("to = \"visibility\"", "to = \"depths\"").find("a pass over the screen writes no depths"),
+              std::string::npos);
+    EXPECT_NE(errorOf(mapToml + "[[pass]]\nname = \"more\"\ndraw = \"casters\"\nto = \"depths\"\n")
+                  .find("the last pass writes the answer: to = \"visibility\""),
+              std::string::npos);
+    EXPECT_NE(errorOf("id = [").find(":1:"), std::string::npos);
+    EXPECT_NE(with("answer", "variants = [\"map=1\"]\nanswer").find("map"), std::string::npos);
+    EXPECT_NE(with("compare = true", "history = true").find("say history = true above"), std::string::npos);
+    EXPECT_NE(with("draw = \"casters\"\nto = \"depths\"", "draw = \"casters\"\nto = \"visibility\"")
+                  .find("casters are drawn into a map"),
+              std::string::npos);
+    EXPECT_NE(with("size = \"map\"", "size = 9000").find("target.depths.size"), std::string::npos);
+    EXPECT_NE(with("[parameter.map]", "[parameter.__map]").find("is no name in GLSL"), std::string::npos);
+}
+
+TEST(TechniqueFolder, HoldsItsOwnFilesAlone) {
+    const TemporaryFolder empty;
+    EXPECT_NE(
+        test::messageOf<BadInput>([&] { techniques::readTechniqueFolder(empty.path()); }).find("technique.toml is missing"),
+        std::string::npos);
+    EXPECT_NE(test::messageOf<BadInput>([&] {
+                  techniques::readTechniqueFolder(empty.path() / "none");
+              }).find("there is no technique folder"),
+              std::string::npos);
+    const WrittenTechnique folder;
+    std::filesystem::create_symlink("/etc/hostname", folder.path() / "more.glsl");
+    EXPECT_NE(test::messageOf<BadInput>([&] { folder.entry(); }).find("is no file of the folder"), std::string::npos);
+}
+
+TEST(TechniqueFolder, TheDocumentNamesEveryInputOfShaders) {
+    const std::string page = readFile(std::filesystem::path(SOURCE_FOLDER) / "docs/technique-folders.md");
+    for (const techniques::FolderInput& input : techniques::folderInputs())
+        EXPECT_NE(page.find(fmt::format("| `{}` | {} | {} |", input.name, input.type, input.meaning)), std::string::npos)
+            << input.name;
+}
+
+TEST(TechniqueFolder, TheFirstOneOfTheDocumentIsOne) {
+    const std::string page = readFile(std::filesystem::path(SOURCE_FOLDER) / "docs/technique-folders.md");
+    const auto block = [&](const std::string& language) {
+        const std::size_t begin = page.find("```" + language + "\n") + language.size() + 4;
+        return page.substr(begin, page.find("```", begin) - begin);
+    };
+    const WrittenTechnique folder(block("toml"));
+    folder.write("single_map.frag", block("glsl"));
+    EXPECT_EQ(folder.entry().id, "my:first");
+}
+
+} // namespace
+} // namespace shadowbench
