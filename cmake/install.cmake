@@ -1,15 +1,30 @@
-# What `cmake --install` and `cpack -G DEB` take: the program, its manual page and its completion, which it writes itself.
+# What `cmake --install` and `cpack -G DEB` take: the program, its manual page and completion, documents and examples.
 include(GNUInstallDirs)
 
+# The program writes its own documents, when it is installed: whichever target was built.
 set(documents ${PROJECT_BINARY_DIR}/documents)
-add_custom_command(OUTPUT ${documents}/shadowbench.1 ${documents}/shadowbench.bash ${documents}/_shadowbench
-  COMMAND shadowbench documents ${documents} DEPENDS shadowbench VERBATIM)
-add_custom_target(documents ALL DEPENDS ${documents}/shadowbench.1)
-
 install(TARGETS shadowbench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(CODE "execute_process(COMMAND ${PROJECT_BINARY_DIR}/shadowbench documents ${documents} COMMAND_ERROR_IS_FATAL ANY)")
 install(FILES ${documents}/shadowbench.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${documents}/shadowbench.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME shadowbench)
 install(FILES ${documents}/_shadowbench DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY scene/library/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples/scenes FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY clients DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples PATTERN node_modules EXCLUDE)
+
+# Our notice, and those of the packages whose code is compiled in, as Debian has them.
+set(notices "shadowbench, GPL-3.0-or-later: /usr/share/common-licenses/GPL-3\n")
+foreach(package libboost-dev libcgal-dev libcli11-dev glslang-dev libglm-dev libkainjow-mustache-dev node-d3 nlohmann-json3-dev
+        spirv-tools libtomlplusplus-dev libxxhash-dev)
+  if(EXISTS /usr/share/doc/${package}/copyright)
+    file(READ /usr/share/doc/${package}/copyright notice)
+    string(APPEND notices "\n==== Compiled in: ${package} ====\n\n${notice}")
+  endif()
+endforeach()
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/copyright CONTENT "${notices}" @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The libraries that the program links are found by dpkg-shlibdeps; what it opens and runs while it runs is named here.
 set(CPACK_GENERATOR DEB)

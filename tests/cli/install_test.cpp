@@ -15,6 +15,7 @@ const std::string buildFolder = fs::path(PROGRAM).parent_path();
 class Install : public testing::Test {
 protected:
     void SetUp() override {
+        fs::remove_all(buildFolder + "/documents"); // a build of the program alone has made none
         const Outcome install = shell("cmake --install " + buildFolder + " --prefix " + prefix_ / "");
         ASSERT_EQ(install.code, 0) << install.output;
     }
@@ -57,7 +58,7 @@ TEST_F(Install, BashCompletesVerbsOptionsAndValues) {
     EXPECT_EQ(completions("shadowbench rep"), "report\n");
     EXPECT_EQ(completions("shadowbench cache ver"), "verify\n");
     EXPECT_EQ(completions("shadowbench list met"), "metrics\n");
-    EXPECT_EQ(completions("shadowbench run --tech"), "--technique\n");
+    EXPECT_EQ(completions("shadowbench run --tech"), "--technique --technique-folder\n");
     EXPECT_EQ(completions("shadowbench run --profile "), "gate standard paper\n");
     EXPECT_EQ(completions("shadowbench run --scene duel"), "dueling-frusta\n");
     EXPECT_EQ(completions("shadowbench run --out "), "\n"); // files, which bash knows itself
@@ -75,8 +76,13 @@ TEST_F(Install, TheDebianPackageHoldsTheSameAndNamesWhatItNeeds) {
         EXPECT_NE(depends.output.find(name), std::string::npos) << name << " is not in " << depends.output;
     ASSERT_EQ(shell("dpkg-deb -x " + file + " " + prefix_ / "root").code, 0);
     for (const char* path :
-         {"bin/shadowbench", "share/man/man1/shadowbench.1", completion, "share/zsh/vendor-completions/_shadowbench"})
+         {"bin/shadowbench", "share/man/man1/shadowbench.1", completion, "share/zsh/vendor-completions/_shadowbench",
+          "share/doc/shadowbench/docs/score.md", "share/doc/shadowbench/examples/scenes/simple.toml",
+          "share/doc/shadowbench/examples/clients/threejs/render"})
         EXPECT_TRUE(fs::exists(prefix_ / "root/usr" + ("/" + std::string(path)))) << path;
+    const std::string notices = readFile(prefix_ / "root/usr/share/doc/shadowbench/copyright");
+    for (const char* words : {"GPL-3.0-or-later", "Mike Bostock", "Niels Lohmann", "University of Cincinnati"})
+        EXPECT_NE(notices.find(words), std::string::npos) << words;
 }
 
 } // namespace
