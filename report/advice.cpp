@@ -46,8 +46,11 @@ Advice adviceFor(const std::vector<Record>& records, const std::string& scene, c
     Advice advice;
     for (const std::size_t i : ofScene(records, scene)) {
         const Record& record = records[i];
-        if (isBaseline(record) || isExternal(record) || !isWithin(record, limits)) continue;
-        (lackedOf(record, needs).empty() ? advice.within : advice.unsuited).push_back(i);
+        if (isBaseline(record) || !isWithin(record, limits)) continue;
+        if (isExternal(record))
+            advice.external.push_back(i);
+        else
+            (lackedOf(record, needs).empty() ? advice.within : advice.unsuited).push_back(i);
     }
     std::ranges::stable_sort(advice.within, {}, [&](std::size_t i) { return rank(records[i]); });
     for (const std::size_t i : advice.within) {
@@ -74,6 +77,9 @@ std::vector<std::string> notesOn(const Advice& advice, const std::vector<Record>
     for (const auto& [lacked, rows] : byLack)
         notes.push_back(
             fmt::format("within tolerance here, but not for {}: {}", namesOf(lacked), variantsOf(records, rows)));
+    if (!advice.external.empty())
+        notes.push_back(
+            fmt::format("within tolerance, at a cost that is not measured here: {}", variantsOf(records, advice.external)));
     return notes;
 }
 

@@ -17,12 +17,12 @@ using techniques::Need;
 /// The needs that the record's technique has no right answer for. Empty for one that the catalogue lacks.
 std::set<Need> lackedOf(const Record& record, const std::set<Need>& needs);
 
-/// Indices of the scene's records. Those of `none` and of other renderers are in no list: the one draws no shadow, and what
-/// the others cost is not measured here.
+/// Indices of the scene's records. Those of `none`, which draws no shadow, are in no list.
 struct Advice {
     std::vector<std::size_t> within;    // tolerance, and suited to the needs: by cost, untimed ones last, by error
     std::vector<std::size_t> unsuited;  // within tolerance, but they lack something that is needed
     std::vector<std::size_t> uncertain; // of `within`: timed, but so unsteadily that their rank by cost says nothing
+    std::vector<std::size_t> external;  // within tolerance, of other renderers: what they cost is not measured here
     std::optional<std::size_t> take;    // the first of `within` that is timed and not uncertain
     std::vector<std::size_t> asCheap;   // of `within`: dearer than `take`, but not beyond both intervals
 };

@@ -98,10 +98,12 @@ std::vector<std::string> adviceLines(const std::vector<Record>& records, const s
         const Advice advice = adviceFor(records, scene);
         const bool ofError = limits.size() == 1 && limits.front().metric == headlineMetric(records, scene);
         const std::string bound = ofError ? formatBound(limits.front()) : formatBounds(limits);
+        const bool none = advice.within.empty() && advice.unsuited.empty() && advice.external.empty();
         lines.push_back(
             advice.take ? fmt::format("cheapest within tolerance ({}): {}", bound, withTitle(records[*advice.take]))
+            : none      ? fmt::format("no technique is within tolerance ({})", bound)
             : advice.within.empty()
-                ? fmt::format("no technique is within tolerance ({})", bound)
+                ? fmt::format("tolerance: {}", bound)
                 : fmt::format("within tolerance ({}), none of them timed: {}", bound, variantsOf(records, advice.within)));
         for (std::string& note : notesOn(advice, records, techniques::usualNeeds())) lines.push_back(std::move(note));
     }

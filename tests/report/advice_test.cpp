@@ -58,6 +58,18 @@ TEST(Advice, IsNeverABaselineOrAnotherRenderer) {
     EXPECT_EQ(adviceFor(records, scene, {}).within, std::vector<std::size_t>{2});
 }
 
+TEST(Advice, SaysThatAnotherRendererOrAnUnsuitedRowIsWithinTolerance) {
+    Record other = rowOf("external:mine", 0, 1);
+    other.variant = "external:mine";
+    const std::vector<Record> records = {other, rowOf("sm-uniform", 0.02, 1)};
+    EXPECT_EQ(variants(records, adviceFor(records, scene).external), Names{"external:mine"});
+    const std::string text = terminalTable(records, scene);
+    EXPECT_NE(text.find("within tolerance, at a cost that is not measured here: external:mine"), std::string::npos) << text;
+    EXPECT_EQ(text.find("no technique is within tolerance"), std::string::npos) << text;
+    const std::vector<Record> volumes = {rowOf("volume-zfail", 0, 0.7), rowOf("sm-uniform", 0.02, 1)};
+    EXPECT_EQ(terminalTable(volumes, scene).find("no technique is within tolerance"), std::string::npos);
+}
+
 TEST(Advice, SeesAShadowThatIsASmallShareOfTheReceivers) {
     // A twentieth of the receivers is shadowed: without a third of the shadow 1.5 % of the labels are wrong.
     std::vector<Record> records = {rowOf("sm-tsm", 0.015, 0.5), rowOf("sm-psm", 0.001, 0.6), rowOf("sm-uniform", 0.002, 1)};

@@ -26,7 +26,7 @@ TEST(TerminalTable, ListsEveryTechniqueAndEndsWithTheCheapestWithinTolerance) {
               " sm-history:base=lispsm   0.09 %         0.05 %   0.04 %            0.40    0.0003   1.19       ●\n"
               " volume-zfail             0.00 %         0.05 %   0.04 %            0.40    0.0000   4.70       ●\n"
               " truth: exact (polygon)\n"
-              " no technique is within tolerance (mismatch 0.5 %, leak 5 %, false_shadow 2 %, missing_edges 5 %)\n"
+              " tolerance: mismatch 0.5 %, leak 5 %, false_shadow 2 %, missing_edges 5 %\n"
               " within tolerance here, but not for moving-light, moving-casters: sm-history:base=lispsm\n"
               " within tolerance here, but not for open-meshes: volume-zfail\n"
               " not applicable: pcss (needs an area light)\n");
@@ -41,7 +41,7 @@ TEST(TerminalTable, OfASoftSceneComparesOneMetricAndLeavesOutWhatNoRecordHas) {
         " pcss            0.0312        –   2.94\n"
         " temporal-soft   0.0210        –   2.20       ●\n"
         " truth: exact (polygon); POV-Ray 1024 samples, σ 0.0006\n"
-        " no technique is within tolerance (penumbra_rmse 0.05, umbra_leak 0.05)\n"
+        " tolerance: penumbra_rmse 0.05, umbra_leak 0.05\n"
         " within tolerance here, but not for moving-light, moving-casters: temporal-soft\n");
 }
 
