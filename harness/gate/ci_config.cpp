@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 /// A file of the tree, from its root.
 fs::path fileIn(const TomlValue& value, const fs::path& root) {
     const fs::path file = fs::path(value.text()).lexically_normal();
-    if (file.is_absolute() || *file.begin() == "..")
-        value.fail(fmt::format("\"{}\" lies outside the repository; name a file from its root", file.string()));
+    if (file.empty() || file.is_absolute() || *file.begin() == "..")
+        value.fail(fmt::format("\"{}\" is no file of the repository; name one from its root", file.string()));
     if (!fs::is_regular_file(root / file))
         value.fail(
             fmt::format("the commit has no file {}; name one from the repository's root, and commit it", file.string()));

@@ -301,5 +301,30 @@ TEST_F(Ci, ARowThatIsGoneOrABaseWithoutAFileIsInconclusive) {
     EXPECT_TRUE(contains(bare.output, "shadowbench.toml")) << bare.output;
 }
 
+TEST_F(Ci, FilesToCopyCanBeReadAndNameOptionsThatThereAre) {
+    const std::string root = SOURCE_FOLDER, help = shell("shadowbench ci --help").output;
+    for (const char* file : {"/action.yml", "/docs/ci/engine-github.yml", "/docs/ci/engine-gitlab.yml",
+                             "/docs/ci/github-actions.yml", "/docs/ci/gitlab-ci.yml"}) {
+        const Outcome read =
+            shell("/usr/bin/python3 -c 'import sys, yaml; yaml.safe_load(open(sys.argv[1]))' " + root + file);
+        if (contains(read.output, "No module named 'yaml'")) GTEST_SKIP() << "python3-yaml is not installed";
+        EXPECT_EQ(read.code, 0) << file << read.output;
+    }
+    int options = 0;
+    for (const char* file : {"/action.yml", "/docs/ci/engine-gitlab.yml", "/docs/ci.md"}) {
+        const std::string text = readFile(root + file);
+        for (std::size_t at = text.find("shadowbench ci "); at != std::string::npos;
+             at = text.find("shadowbench ci ", at + 1)) {
+            std::string line = text.substr(at, text.find_first_of("`\n", at + 1) - at);
+            for (std::size_t from = line.find("--"); from != std::string::npos;
+                 from = line.find("--", from + 2), ++options) {
+                const std::string option = line.substr(from, line.find_first_of(" \n", from) - from);
+                EXPECT_TRUE(contains(help, option)) << file << ": " << option;
+            }
+        }
+    }
+    EXPECT_GE(options, 8);
+}
+
 } // namespace
 } // namespace shadowbench
