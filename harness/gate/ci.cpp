@@ -41,7 +41,8 @@ void judgeRecords(const CiSide& base, const CiSide& head, GateResult& result) {
     static_cast<Comparison&>(result) = compare(base.records, head.records, both.policy.rules, expectedOf(base, head));
     std::ranges::move(judgeBounds(head.records, both.policy.config.bounds, true), std::back_inserter(result.changes));
     std::ranges::move(waive(result.changes, both.policy.config.waivers, today()), std::back_inserter(result.notes));
-    if (const auto why = whyMeaningless(base.records, head.records, true)) result.notCompared.push_back(*why);
+    const auto why = whyMeaningless(base.records, head.records, true);
+    if (why && result.presence.failed.empty()) result.notCompared.push_back(*why); // else the failures say it
 }
 
 GateOptions shownOf(const CiOptions& options, const CiSide& head, const JudgedCommit& base) {

@@ -254,11 +254,14 @@ TEST_F(External, TheGateCallsARendererAsRunDoesAndKeepsWhatItSaid) {
     const Outcome green = shell(as + "shadowbench gate --base before" + choice + "after");
     EXPECT_EQ(green.code, 0) << green.output;
     EXPECT_EQ(readFile(folder_ / "seen"), "777 unlimited /somewhere mine\n777 unlimited /somewhere mine\n");
-    write(entry("a", "for i in $(seq 25); do echo line $i of it; done; exit 3"));
+    const std::string crashes = "for i in $(seq 24); do echo line $i of it; done; echo '<i>line 25'; exit 3";
+    write(entry("a", crashes) + entry("b", crashes));
     const Outcome crashed = shell(as + "shadowbench gate --base before" + choice + "after");
     EXPECT_EQ(crashed.code, 5) << crashed.output;
+    EXPECT_TRUE(contains(crashed.output, "external:a on tiny and 1 more that said the same; its last lines, of "))
+        << crashed.output;
     EXPECT_TRUE(contains(crashed.output, "line 6 of it") && !contains(crashed.output, "line 5 of it")) << crashed.output;
-    EXPECT_TRUE(contains(readFile(folder_ / "after/gate.html"), "line 25 of it"));
+    EXPECT_TRUE(contains(readFile(folder_ / "after/gate.html"), "&lt;i&gt;line 25\n"));
     EXPECT_TRUE(readFile(folder_ / "after/logs/tiny/external_a.txt").starts_with("line 1 of it\n"));
 }
 
