@@ -83,6 +83,9 @@ TEST(GateReport, CommandsCanBePastedIntoAShell) {
     Change change = worse("a scene.toml", "external:engine", Class::Instructions);
     EXPECT_EQ(reproduction(change, options), "shadowbench run --cost instructions --scene 'a scene.toml' --technique "
                                              "external:engine --profile gate --seed 1 --external 'my engine.toml'");
+    options.scenes = {"trees", "shadows/yard.toml"};
+    change.scene = "yard";
+    EXPECT_TRUE(contains(reproduction(change, options), " --scene shadows/yard.toml ")) << "its id names no file";
     change.variant = "pcf"; // which needs no other renderer
     EXPECT_FALSE(contains(reproduction(change, options), "--external"));
     change.changeClass = Class::Time;
