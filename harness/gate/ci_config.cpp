@@ -1,5 +1,6 @@
 #include "harness/gate/ci_config.h"
 
+#include "base/error.h"
 #include "base/files.h"
 #include "base/toml_value.h"
 #include "base/words.h"
@@ -63,6 +64,8 @@ std::vector<fs::path> CiConfig::files() const {
 }
 
 CiConfig readCiConfig(const fs::path& root, const fs::path& file) {
+    if (!fs::is_regular_file(root / file))
+        throw BadInput(fmt::format("the commit has no {}; write one (docs/ci.md) and commit it", file.string()));
     CiConfig config;
     config.file = file;
     const toml::table table = parseToml(readFile(root / file), file.string());

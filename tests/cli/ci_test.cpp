@@ -100,6 +100,19 @@ TEST_F(Ci, ACommentIsGreenAndASecondRunCallsNobody) {
     expectNoWorktree();
 }
 
+TEST_F(Ci, WhatWasUsedLastIsKeptAndTheOldestGoes) {
+    write("shadows/render.sh", renders("pcf") + "# a comment\n");
+    commit("a comment");
+    ASSERT_EQ(ci().code, 0);
+    const std::string kept = "cd " + (folder_ / "cache/ci") + "/*; ";
+    ASSERT_EQ(shell(kept + "for i in $(seq 10 29); do mkdir old-$i; touch -d 2020-01-$i old-$i; done").code, 0);
+    EXPECT_EQ(ci().code, 0);
+    EXPECT_EQ(calls(), 2U);
+    const std::string left = shell(kept + "ls").output;
+    EXPECT_EQ(std::ranges::count(left, '\n'), 16) << left;
+    EXPECT_TRUE(contains(left, "old-16") && !contains(left, "old-15")) << left;
+}
+
 TEST_F(Ci, AWorseImageIsRedWithItsFigureAndPicturesOfBothSides) {
     write("shadows/render.sh", renders("pcf_map=64"));
     commit("coarser");
@@ -298,7 +311,10 @@ TEST_F(Ci, ARowThatIsGoneOrABaseWithoutAFileIsInconclusive) {
     ASSERT_EQ(git("checkout -q -f work").code, 0);
     const Outcome bare = ci("--base bare");
     EXPECT_EQ(bare.code, 5);
-    EXPECT_TRUE(contains(bare.output, "shadowbench.toml")) << bare.output;
+    EXPECT_TRUE(contains(bare.output, "the base, bare (")) << bare.output;
+    EXPECT_TRUE(contains(bare.output, "the commit has no shadowbench.toml; write one")) << bare.output;
+    ASSERT_EQ(git("rm -q shadowbench.toml && git commit -q -m 'no file'").code, 0);
+    EXPECT_EQ(ci("--base HEAD~1").code, 2) << "the head's own is what its author has to mend";
 }
 
 TEST_F(Ci, FilesToCopyCanBeReadAndNameOptionsThatThereAre) {
