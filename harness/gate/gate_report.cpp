@@ -17,10 +17,17 @@ std::string section(const std::string& heading, const std::vector<std::string>& 
     return lines.empty() ? "" : fmt::format("{}:\n  {}\n", heading, fmt::join(lines, "\n  "));
 }
 
+/// Another renderer's cell that failed: its author wants to see that again, too.
+bool isFailedCall(const Change& change, const GateResult& result) {
+    const std::string cell = fmt::format("{} on {}", change.variant, change.scene);
+    return change.variant.starts_with(externalPrefix) && change.direction == Direction::NotCompared &&
+           std::ranges::find(result.presence.failed, cell) != result.presence.failed.end();
+}
+
 std::vector<std::string> commands(const GateResult& result, const GateOptions& options) {
     std::vector<std::string> lines;
     for (const Change& change : worstFirst(result.changes)) {
-        if (change.direction != Direction::Worse) continue;
+        if (change.direction != Direction::Worse && !isFailedCall(change, result)) continue;
         const std::string line = reproduction(change, options);
         if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
     }

@@ -58,6 +58,17 @@ TEST(GateReport, NamesEachCommandOnceHoweverMuchOfItsCellIsWorse) {
     EXPECT_FALSE(contains(text, "--technique esm"));
 }
 
+TEST(GateReport, NamesTheCommandOfACallThatFailedButNotOfARowThatIsGone) {
+    GateResult result = resultOf({worse("trees", "external:engine", Class::Status), worse("trees", "external:gone")});
+    for (Change& change : result.changes) change.direction = Direction::NotCompared;
+    result.presence.failed = {"external:engine on trees"};
+    const std::string text = gateReport(result, optionsOf());
+    EXPECT_TRUE(contains(text, "shadowbench run --images --cost none --out results/reproduced --scene trees --technique "
+                               "external:engine"))
+        << text;
+    EXPECT_FALSE(contains(text, "--technique external:gone")) << text;
+}
+
 TEST(GateReport, ShowsThePicturesThatThereAre) {
     GateResult result = resultOf({worse("trees", "pcf")});
     result.pictures = {{"trees", "pcf", "out/head", "", {}, {}}, {"trees", "vsm", "out/head", "out/base", {}, {}}};
