@@ -33,6 +33,7 @@ void addCache(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addHistory(CLI::App& app, Action& action);
 void addGate(CLI::App& app, Action& action);
+void addCi(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
 void addCountFrames(CLI::App& app, Action& action);
 void addTimeFrames(CLI::App& app, Action& action);

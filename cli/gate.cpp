@@ -1,8 +1,8 @@
 #include "gate/gate.h"
 
-#include "base/files.h"
 #include "base/folder_lock.h"
 #include "cli/command.h"
+#include "cli/gate_result.h"
 #include "cli/options.h"
 #include "gate/gate_report.h"
 #include "gate/verdict.h"
@@ -17,20 +17,9 @@
 namespace shadowbench {
 namespace {
 
-/// What is written beside the page and the terminal.
-struct GateFiles {
-    std::filesystem::path junit, summary;
-    bool annotations = false;
-};
-
 ExitCode gateAndPrint(const gate::GateOptions& options, const GateFiles& files) {
     const OutputLock alone(options.out);
-    const gate::GateResult result = gate::gate(options);
-    if (!files.summary.empty()) writeFile(files.summary, gate::gateComment(result, options));
-    if (!files.junit.empty()) writeFile(files.junit, gate::junit(result.changes, result.notCompared));
-    fmt::print("{}page: {}\n", gate::gateReport(result, options), site::writeGateSite(result, options).string());
-    if (files.annotations) fmt::print("{}", gate::annotations(result.changes));
-    return result.code();
+    return writeGate(gate::gate(options), options, files);
 }
 
 /// What a gate asks of its base.
@@ -77,17 +66,15 @@ void addGate(CLI::App& app, Action& action) {
         ->delimiter(',')
         ->check(CLI::IsMember({"instructions", "time", "none"}))
         ->capture_default_str();
-    verb->add_option("--bounds", options->bounds, "Bounds, sweeps and the cells whose cost is judged")
+    verb->add_option("--bounds", options->bounds,
+                     "Bounds, sweeps and the cells whose cost is judged; outside a clone those that the program carries")
         ->capture_default_str();
     verb->add_option("--out", options->out, "Folder of the page and of pictures of failing cells")->capture_default_str();
     verb->add_option("--cache", options->cache,
                      "Folder of references, builds and records (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     addSeedOption(*verb, options->seed);
     addGlOption(*verb);
-    verb->add_option("--junit", files->junit, "Write the verdicts as JUnit XML");
-    verb->add_option("--summary", files->summary,
-                     "Write the verdict and the worst there, in 40 lines of Markdown at most (a comment)");
-    verb->add_flag("--annotations", files->annotations, "Print what is worse as CI annotations, too");
+    addGateFiles(*verb, *files);
     verb->add_flag("--same-program", options->sameProgram,
                    "Base and head are one program, on purpose: does the gate stay silent?");
     verb->add_flag("--quiet", options->quiet, "No progress");

@@ -83,6 +83,7 @@ void addRun(CLI::App& app, Action& action) {
     const auto images = std::make_shared<bool>(false);
     const auto standing = std::make_shared<bool>(false);
     const auto external = std::make_shared<std::vector<std::filesystem::path>>();
+    const auto revision = std::make_shared<std::string>();
     const auto part = std::make_shared<PartOptions>();
     CLI::App* verb = app.add_subcommand("run", "Renders and scores cells: scenes × techniques");
     verb->footer(
@@ -102,6 +103,9 @@ void addRun(CLI::App& app, Action& action) {
     addTechniqueFolderOption(*verb, options->techniques);
     verb->add_option("--external", *external,
                      "File that describes renderers to call, whose techniques are external:ID; repeatable");
+    verb->add_option("--revision", *revision,
+                     "Commit of those renderers' sources, which their records keep (default: as git describes the folder of "
+                     "the file)");
     addProfileOption(*verb, *profile);
     verb->add_option("--out", options->out, "Folder of records and report")->capture_default_str();
     verb->add_option("--cache", options->cache,
@@ -145,9 +149,9 @@ void addRun(CLI::App& app, Action& action) {
     shard->excludes(cell, manifest);
     cell->excludes(manifest);
     verb->add_flag("--quiet", options->quiet, "No progress");
-    verb->callback([&action, options, profile, cost, images, standing, external, part] {
-        action = [options, profile, cost, images, standing, external, part] {
-            options->measure.external = foreign::renderersOf(*external);
+    verb->callback([&action, options, profile, cost, images, standing, external, revision, part] {
+        action = [options, profile, cost, images, standing, external, revision, part] {
+            options->measure.external = foreign::renderersOf(*external, {options->out / "logs", *revision});
             options->profile = profileNamed(*profile);
             options->measure.time = std::find(cost->begin(), cost->end(), "time") != cost->end();
             options->measure.otherScreen = std::find(cost->begin(), cost->end(), "screen") != cost->end();

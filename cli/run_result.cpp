@@ -1,6 +1,8 @@
 #include "cli/run_result.h"
 
 #include "base/error.h"
+#include "harness/cells/kept_images.h"
+#include "harness/cells/renderer_log.h"
 #include "report/lod_report.h"
 #include "report/summary.h"
 #include "report/terminal_summary.h"
@@ -14,6 +16,14 @@
 namespace shadowbench {
 
 namespace {
+
+void printError(const Record& record, const std::filesystem::path& out) {
+    fmt::print(stderr, "error: {} on {}: {}\n", record.variant, record.scene, record.reason);
+    if (!isExternal(record) || !isFolderName(record.scene)) return;
+    const std::filesystem::path log = rendererLog(out / "logs", record.scene, record.variant);
+    const std::vector<std::string> lines = lastLines(log);
+    if (!lines.empty()) fmt::print(stderr, "  {}\nall of its output: {}\n", fmt::join(lines, "\n  "), log.string());
+}
 
 void requireApplicable(const std::vector<Record>& records) {
     if (records.empty() ||
@@ -37,8 +47,7 @@ ExitCode reportResult(const RunResult& result, const std::filesystem::path& out,
             if (!table.empty()) fmt::print("{}\n", table);
     }
     for (const Record& record : result.records)
-        if (record.status == Status::Error)
-            fmt::print(stderr, "error: {} on {}: {}\n", record.variant, record.scene, record.reason);
+        if (record.status == Status::Error) printError(record, out);
     fmt::print("records: {}\n", (out / "results.jsonl").string());
     std::fflush(stdout); // pages take a while, and need a program that may be missing
     const std::filesystem::path page =

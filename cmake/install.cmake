@@ -36,6 +36,6 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6 | libegl1, povray, gnuplot-nox | gnuplot-qt | gnuplot-x11, librsvg2-bin")  # every run: soft references, charts
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "valgrind, mesa-vulkan-drivers")               # counted instructions; costs of shaders
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "git, cmake, g++, ninja-build")                  # `gate --base REVISION` builds one
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "valgrind, mesa-vulkan-drivers, git")          # counted instructions; costs of shaders; `ci`
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, ninja-build")                       # `gate --base REVISION` builds one
 include(CPack)

@@ -10,7 +10,7 @@ namespace {
 Change judged(const Record& record, const Bound& bound) {
     const std::optional<double> value = metrics::bounded(record.values, bound.metric);
     const bool kept = value && (bound.below ? *value < bound.value : *value > bound.value);
-    const std::string is = value ? fmt::format("is {}", *value) : "is not measured";
+    const std::string is = value ? fmt::format("is {:.6g}", *value) : "is not measured";
     const std::string what = bound.below ? fmt::format("must be below {}", bound.value)
                                          : fmt::format("is expected to fail, above {}", bound.value);
     return {

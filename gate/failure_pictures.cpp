@@ -1,8 +1,10 @@
 #include "gate/failure_pictures.h"
 
+#include "gate/verdict.h"
 #include "harness/cells/cell_images.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace shadowbench::gate {
 namespace {
@@ -13,14 +15,12 @@ constexpr std::size_t mostCells = 12; // more show the same fault again
 
 using Failing = std::vector<std::pair<std::string, std::string>>; // scene, variant
 
-Failing failingCells(const std::vector<Change>& changes, const JudgedCells& judged) {
+Failing failingCells(const std::vector<Change>& changes, const std::function<bool(const Change&)>& isDrawable) {
     Failing cells;
     for (const Change& change : changes) {
         const bool drawn = change.direction == Direction::Worse && change.changeClass != Class::Instructions &&
                            change.changeClass != Class::Time && change.changeClass != Class::BreakPoint;
-        if (!drawn || change.variant.starts_with(externalPrefix) || !judged.chooses(change.scene, change.variant) ||
-            cells.size() == mostCells)
-            continue;
+        if (!drawn || !isDrawable(change) || cells.size() == mostCells) continue;
         if (std::ranges::find(cells, std::pair(change.scene, change.variant)) == cells.end())
             cells.emplace_back(change.scene, change.variant);
     }
@@ -52,6 +52,17 @@ std::optional<Record> recordOf(const std::vector<Record>& records, const std::st
     return found == records.end() ? std::nullopt : std::optional(*found);
 }
 
+/// A cell's pictures, with what the scene's cells share.
+void copyCell(const fs::path& images, const std::string& scene, const std::string& variant, const fs::path& to) {
+    const fs::path from = images / scene;
+    if (!fs::exists(from / fileName(variant))) return;
+    fs::create_directories(to / scene);
+    for (const fs::directory_entry& entry : fs::directory_iterator(from))
+        if (entry.is_regular_file())
+            fs::copy_file(entry.path(), to / scene / entry.path().filename(), fs::copy_options::overwrite_existing);
+    fs::copy(from / fileName(variant), to / scene / fileName(variant));
+}
+
 fs::path folderOf(const fs::path& out, const std::string& scene, const std::string& variant) {
     const fs::path folder = out / "images" / scene / fileName(variant);
     return fs::exists(folder) ? folder : fs::path();
@@ -63,7 +74,9 @@ std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, co
                                           const MeasuredProgram* base, const MeasuredProgram& head, const fs::path& out,
                                           const Progress& progress) {
     for (const char* side : {"head", "base"}) fs::remove_all(out / side);
-    const Failing cells = failingCells(changes, judged);
+    const Failing cells = failingCells(changes, [&](const Change& change) {
+        return !change.variant.starts_with(externalPrefix) && judged.chooses(change.scene, change.variant);
+    });
     if (cells.empty()) return {};
     const std::vector<Record> heads = draw(head, cells, judged, out / "head", progress);
     const std::vector<Record> bases =
@@ -72,6 +85,19 @@ std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, co
     for (const auto& [scene, variant] : cells)
         pictures.push_back({scene, variant, folderOf(out / "head", scene, variant), folderOf(out / "base", scene, variant),
                             recordOf(heads, scene, variant), recordOf(bases, scene, variant)});
+    return pictures;
+}
+
+std::vector<FailurePictures> copyFailures(const std::vector<Change>& changes, const DrawnSide& base, const DrawnSide& head,
+                                          const fs::path& out) {
+    for (const char* side : {"head", "base"}) fs::remove_all(out / side);
+    std::vector<FailurePictures> pictures;
+    for (const auto& [scene, variant] : failingCells(worstFirst(changes), [](const Change&) { return true; })) {
+        copyCell(head.images, scene, variant, out / "head" / "images");
+        copyCell(base.images, scene, variant, out / "base" / "images");
+        pictures.push_back({scene, variant, folderOf(out / "head", scene, variant), folderOf(out / "base", scene, variant),
+                            recordOf(head.records, scene, variant), recordOf(base.records, scene, variant)});
+    }
     return pictures;
 }
 

@@ -13,4 +13,14 @@ std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, co
                                           const MeasuredProgram* base, const MeasuredProgram& head,
                                           const std::filesystem::path& out, const Progress& progress);
 
+/// What one side has drawn already.
+struct DrawnSide {
+    const std::vector<Record>& records;
+    std::filesystem::path images; // as `run` keeps them
+};
+
+/// The same of two runs that have kept their pictures.
+std::vector<FailurePictures> copyFailures(const std::vector<Change>& changes, const DrawnSide& base, const DrawnSide& head,
+                                          const std::filesystem::path& out);
+
 } // namespace shadowbench::gate

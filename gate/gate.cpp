@@ -3,6 +3,7 @@
 #include "base/progress_line.h"
 #include "gate/baseline.h"
 #include "gate/bounds.h"
+#include "gate/failure_logs.h"
 #include "gate/failure_pictures.h"
 #include "gate/judged_cells.h"
 #include "gate/truth_sample.h"
@@ -15,8 +16,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -70,6 +69,7 @@ private:
     }
 
     void judgeAgainstRecords(const Baseline& base, const MeasuredProgram& head) {
+        fs::remove_all(options_.out / "logs");
         noteUnknownScenes();
         std::vector<Record> before = readRecords(base.file);
         std::erase_if(before, [&](const Record& r) { return !isJudged(r); });
@@ -81,7 +81,9 @@ private:
             result_.notes.emplace_back("instructions are not compared: the base's records hold none");
         leaveOutWhatNoRecordIsOf(before);
         std::vector<Record> now = measure(head, "head", options_.instructions && counted, &before);
-        std::ranges::move(measureSteps(head, "head", cells_.externalSteps()), std::back_inserter(now));
+        std::vector<Record> others = measureSteps(head, "head", cells_.externalSteps());
+        result_.logs = failureLogs(others, options_.out / "logs");
+        std::ranges::move(others, std::back_inserter(now));
         judgeRecords(before, now, nullptr);
         if (const auto why = whyMeaningless(before, now, options_.sameProgram)) result_.notCompared.push_back(*why);
         addPictures(nullptr, head);
@@ -163,6 +165,8 @@ private:
     std::vector<Record> measureSteps(const MeasuredProgram& program, const char* who, const std::vector<Step>& steps) {
         StageLine line(who, options_.quiet);
         Measured measured = program.measure(steps, line.progress());
+        for (const fs::path& logs : measured.logs)
+            fs::copy(logs, options_.out / "logs", fs::copy_options::recursive | fs::copy_options::overwrite_existing);
         for (const StepTime& step : measured.times)
             result_.times.push_back({fmt::format("{}: {}", who, step.name), step.seconds});
         return std::move(measured.records);
@@ -238,8 +242,7 @@ private:
     }
 
     void addPictures(const MeasuredProgram* base, const MeasuredProgram& head) {
-        const std::string today = fmt::format("{:%F}", fmt::gmtime(std::time(nullptr)));
-        std::ranges::move(waive(result_.changes, cells_.policy.config.waivers, today), std::back_inserter(result_.notes));
+        std::ranges::move(waive(result_.changes, cells_.policy.config.waivers, today()), std::back_inserter(result_.notes));
         StageLine line("pictures of what is worse", options_.quiet);
         result_.pictures = timed("pictures of what is worse", [&] {
             return drawFailures(result_.changes, cells_, base, head, options_.out, line.progress());

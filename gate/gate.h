@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "gate/measured_program.h"
+#include "gate/policy.h"
 #include "harness/records/compare.h"
 
 #include <cstdint>
@@ -26,7 +27,7 @@ struct GateOptions {
     std::vector<std::filesystem::path> externalFiles;   // of renderers that are not ours …
     std::shared_ptr<const ExternalTechniques> external; // … and their techniques; null: none. The base must be records
     Profile profile = Profile::Gate;
-    std::filesystem::path bounds = "gate/bounds.toml";
+    std::filesystem::path bounds = usualBounds;
     std::filesystem::path out = "results/gate"; // of the report and the pictures of failing cells
     std::filesystem::path cache;                // empty: the default
     std::uint32_t seed = 1;
@@ -42,12 +43,20 @@ struct FailurePictures {
     std::optional<Record> headRecord, baseRecord; // of the drawing
 };
 
+/// What a program that is not ours said before it failed.
+struct FailureLog {
+    std::string what;               // that failed, as a sentence's beginning
+    std::filesystem::path file;     // with all that it said
+    std::vector<std::string> lines; // the last ones
+};
+
 struct GateResult : Comparison {
     std::string base, head;               // as reports name them
     std::vector<std::string> loosened;    // sentences: what the base judges more strictly, and what only the head waives
     std::vector<std::string> notCompared; // sentences: what could not be judged, and why
     std::vector<std::string> notes;       // sentences: what was left out on purpose, or is uncertain
     std::vector<FailurePictures> pictures;
+    std::vector<FailureLog> logs;
     std::vector<StepTime> times; // of the parts, some of which ran side by side
     double seconds = 0;          // of all
 

@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "base/toml_value.h"
 #include "harness/metrics/table.h"
+#include "harness/records/record.h"
 #include "scene/load/load.h"
 #include "studies/sweep/axis.h"
 #include "techniques/catalog.h"
@@ -20,6 +21,7 @@ std::vector<std::string> readPatterns(const TomlValue& list) {
     std::vector<std::string> patterns;
     for (const TomlValue& entry : list.list()) {
         patterns.push_back(entry.text());
+        if (patterns.back().starts_with(externalPrefix)) continue; // of renderers that only their file names
         try {
             techniques::matchVariants(patterns.back());
         } catch (const Error& error) {
@@ -100,6 +102,7 @@ std::optional<std::string> canonical(const std::string& variant) {
 bool isGlob(const std::string& pattern) { return pattern.find_first_of("*?[") != std::string::npos; }
 
 bool matches(const std::string& pattern, const std::string& variant) {
+    if (variant.starts_with(externalPrefix)) return fnmatch(pattern.c_str(), variant.c_str(), 0) == 0;
     if (!isGlob(pattern)) return canonical(pattern) == variant;
     return fnmatch(pattern.c_str(), variant.substr(0, variant.find(':')).c_str(), 0) == 0;
 }
@@ -162,6 +165,13 @@ GateConfig parseGateConfig(const std::string& text, const std::string& file, Pro
             readList(root, "sweep", readSweep),       readList(root, "count", readPlainRule),
             readList(root, "time", readPlainRule),    readList(root, "seeds", readPlainRule),
             readList(root, "choices", readPlainRule), readList(root, "waiver", readWaiver)};
+}
+
+GateConfig readJudgements(const TomlValue& root) {
+    GateConfig config;
+    config.bounds = readList(root, "bound", readBound);
+    config.waivers = readList(root, "waiver", readWaiver);
+    return config;
 }
 
 } // namespace shadowbench::gate

@@ -8,6 +8,10 @@
 #include <string>
 #include <vector>
 
+namespace shadowbench {
+class TomlValue;
+}
+
 namespace shadowbench::gate {
 
 /// Techniques on one scene; patterns as `run --technique` takes them.
@@ -79,5 +83,8 @@ GateConfig readGateConfig(const std::filesystem::path& file, Profile profile);
 
 /// The same of its text; `file` is its name in errors.
 GateConfig parseGateConfig(const std::string& text, const std::string& file, Profile profile);
+
+/// Bounds and waivers alone, of a file that says other things beside them.
+GateConfig readJudgements(const TomlValue& root);
 
 } // namespace shadowbench::gate

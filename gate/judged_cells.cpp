@@ -67,13 +67,6 @@ std::vector<std::string> coveredOf(const std::vector<GateRule>& rules, const std
     return result;
 }
 
-Policy policyOf(const GateOptions& options) {
-    if (!fs::exists(options.bounds))
-        throw Inconclusive(
-            fmt::format("the gate's bounds file {} is missing; name another with --bounds", options.bounds.string()));
-    return readPolicy(options.bounds, options.profile);
-}
-
 bool has(const MeasuredProgram& program, const JudgedScene& scene) {
     return !scene.content.empty() || program.knowsScene(scene.id);
 }
@@ -128,7 +121,7 @@ bool belongsTo(const Scene& scene, const std::string& name) {
 JudgedCells::JudgedCells(const GateOptions& options, const std::optional<Policy>& base,
                          const std::vector<std::string>& baseVariants)
     : profile(options.profile), seed(options.seed), externalFiles_(options.externalFiles) {
-    policy = policyOf(options);
+    policy = readPolicy(options.bounds, options.profile);
     if (base) {
         Union both = unite(*base, policy);
         policy = std::move(both.policy);
@@ -190,6 +183,11 @@ std::vector<std::string> JudgedCells::chosenVariants(const GateOptions& options,
 
 void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::string>& chosen) {
     for (const GateRule& rule : policy.config.choices) {
+        const auto isChosen = [&](const std::string& id) {
+            return rule.covers(id) &&
+                   std::ranges::any_of(chosen, [&](const std::string& v) { return techniqueOf(v) == id; });
+        };
+        if (std::ranges::none_of(techniques::catalog(), isChosen, &techniques::Entry::id)) continue;
         const std::string file = (options.bounds.parent_path() / rule.scene).string();
         if (!fs::exists(file)) {
             gone.push_back(goneOf(rule.scene, "*", "on which the base judges choices, no longer exists"));
@@ -197,10 +195,6 @@ void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::
         }
         const Scene scene = loadScene(file, profile);
         std::vector<std::string> variants;
-        const auto isChosen = [&](const std::string& id) {
-            return rule.covers(id) &&
-                   std::ranges::any_of(chosen, [&](const std::string& v) { return techniqueOf(v) == id; });
-        };
         for (const techniques::Entry& entry : techniques::catalog())
             if (isChosen(entry.id))
                 for (std::string& variant : pairwiseVariants(entry))
@@ -261,7 +255,7 @@ std::vector<Step> JudgedCells::externalSteps() const {
                              .arguments = arguments("run", scene, profile, seed, more),
                              .techniques = variants,
                              .records = "results.jsonl",
-                             .isAlwaysRun = true,
+                             .callsRenderers = true,
                              .scene = scene.id,
                              .seed = seed});
     }

@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -37,9 +38,19 @@ std::string surroundings() {
     return countingEnvironment(e) + (findProgram("valgrind") ? "\n" + timing::valgrindVersion() : "");
 }
 
+/// As a user would start it: what it calls depends on where it runs, and needs more than we do.
+void asThisProcess(Command& command) {
+    command.environment = ownEnvironment();
+    command.cpuLimit.reset();
+    command.memoryLimit.reset();
+    command.openFiles.reset();
+    command.fileLimit = std::numeric_limits<std::uintmax_t>::max();
+    command.inherited.clear();
+}
+
 /// The exit code and the last line; `onLine` sees all of them. It is one of `programs` that run at once.
 std::pair<int, std::string> runToEnd(const fs::path& program, const std::vector<std::string>& arguments,
-                                     const OnLine& onLine, int programs = 1) {
+                                     const OnLine& onLine, int programs = 1, bool callsRenderers = false) {
     const TemporaryFolder folder;
     Command command{program, arguments, folder.path()};
     command.threads = std::max(1, availableThreads() / programs);
@@ -49,6 +60,7 @@ std::pair<int, std::string> runToEnd(const fs::path& program, const std::vector<
     command.fileLimit = std::uintmax_t{1} << 30U;
     command.inherited = techniques::inheritedVariables();
     command.grace = std::chrono::seconds(10); // it is writing records and images into the cache
+    if (callsRenderers) asThisProcess(command);
     std::string last;
     const Finished finished = runProcess(command, [&](std::string_view line) {
         last = line;
@@ -163,7 +175,7 @@ int MeasuredProgram::run(const Step& step, const fs::path& out, int programs, co
     const auto showProgress = [&](std::string_view line) {
         if (isProgress(line)) progress(0, line);
     };
-    const auto [code, last] = runToEnd(file_, arguments, showProgress, programs);
+    const auto [code, last] = runToEnd(file_, arguments, showProgress, programs, step.callsRenderers);
     if (code < 0 || !fs::exists(out / step.records))
         throw Inconclusive(fmt::format("{} failed at {}: {}", file_.string(), step.name, last));
     return code;
@@ -173,6 +185,7 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
     using Clock = std::chrono::steady_clock;
     std::vector<std::vector<Record>> records(steps.size());
     std::vector<std::optional<StepTime>> times(steps.size());
+    std::vector<fs::path> logs;
     std::mutex mutex;
     std::size_t ended = 0;
     // Another gate that measures the same program does so for both.
@@ -182,7 +195,7 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
         const auto i = static_cast<std::size_t>(index);
         Step step = steps[i];
         const fs::path out = records_ / hash128(text(step)).text(), done = out / "done";
-        if (step.isAlwaysRun || (fs::exists(done) && !isAsLeft(out / step.records, done))) fs::remove_all(out);
+        if (step.callsRenderers || (fs::exists(done) && !isAsLeft(out / step.records, done))) fs::remove_all(out);
         if (!fs::exists(done)) {
             const auto start = Clock::now();
             if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");
@@ -195,9 +208,11 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
         }
         records[i] = readRecords(out / step.records);
         const std::scoped_lock lock(mutex);
+        if (step.callsRenderers && fs::is_directory(out / "logs")) logs.push_back(out / "logs");
         ++ended;
     });
     Measured measured;
+    measured.logs = std::move(logs);
     for (std::size_t i = 0; i < steps.size(); ++i) {
         std::ranges::move(records[i], std::back_inserter(measured.records));
         if (times[i]) measured.times.push_back(*times[i]);

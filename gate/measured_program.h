@@ -20,9 +20,11 @@ struct Step {
     std::vector<std::string> techniques; // canonical names
     std::string records;                 // the file that it leaves in --out
     std::string inputs = {};             // content of the files that `arguments` name, and keys of truths
-    bool isAlwaysRun = false;            // it depends on programs that nobody can hash: nothing of it is kept
-    std::string scene = {};              // id …
-    std::uint32_t seed = 1;              // … and seed of its records
+    /// It calls renderers that are not ours, which nobody can hash: nothing of it is kept. They see the environment and the
+    /// limits of this process, as with the verb `run`.
+    bool callsRenderers = false;
+    std::string scene = {}; // id …
+    std::uint32_t seed = 1; // … and seed of its records
 
     [[nodiscard]] bool isSweep() const { return records == "sweep.jsonl"; }
 };
@@ -35,7 +37,8 @@ struct StepTime {
 /// What a program's steps gave.
 struct Measured {
     std::vector<Record> records;
-    std::vector<StepTime> times; // of the steps that were not already there
+    std::vector<StepTime> times;             // of the steps that were not already there
+    std::vector<std::filesystem::path> logs; // folders of what renderers said that failed
 };
 
 class MeasuredProgram {

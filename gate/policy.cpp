@@ -136,6 +136,11 @@ Policy withScenes(GateConfig config, Profile profile) {
     return policy;
 }
 
+Policy carriedPolicy(Profile profile) {
+    const embedded::File& bounds = embedded::gate_policy().front();
+    return withScenes(parseGateConfig(std::string(bounds.text), std::string(bounds.path), profile), profile);
+}
+
 bool holdsAll(const std::vector<std::string>& all, const std::vector<std::string>& some) {
     return std::ranges::all_of(some, [&](const auto& s) { return std::ranges::find(all, s) != all.end(); });
 }
@@ -194,14 +199,14 @@ std::vector<std::string> lostScenes(const Policy& base, const Policy& head) {
 } // namespace
 
 Policy readPolicy(const std::filesystem::path& bounds, Profile profile) {
-    return withScenes(readGateConfig(bounds, profile), profile);
+    if (std::filesystem::exists(bounds)) return withScenes(readGateConfig(bounds, profile), profile);
+    if (bounds == usualBounds) return carriedPolicy(profile);
+    throw Inconclusive(fmt::format("the gate's bounds file {} is missing; name another with --bounds", bounds.string()));
 }
 
 BuildInfo ownBuildInfo() {
     const Commit commit = builtFrom();
-    const embedded::File& bounds = embedded::gate_policy().front();
-    return {commit.hash, commit.dirty, programHash(),
-            withScenes(parseGateConfig(std::string(bounds.text), std::string(bounds.path), Profile::Gate), Profile::Gate)};
+    return {commit.hash, commit.dirty, programHash(), carriedPolicy(Profile::Gate)};
 }
 
 std::string toJson(const BuildInfo& build) {

@@ -18,7 +18,11 @@ struct Policy {
     TimeRule time = {};
 };
 
-/// The policy of a file of bounds, with this build's scenes. Throws what reading it throws.
+/// Where a clone has its file of bounds, from the root.
+inline constexpr const char* usualBounds = "gate/bounds.toml";
+
+/// The policy of a file of bounds, with this build's scenes; where the usual one is missing, as it is outside a clone, the
+/// one that this program carries. Throws Inconclusive where another one is missing, and what reading it throws.
 Policy readPolicy(const std::filesystem::path& bounds, Profile profile);
 
 /// A program by its sources, and what it judges.

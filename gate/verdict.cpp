@@ -202,8 +202,10 @@ std::string junit(const std::vector<Change>& changes, const std::vector<std::str
     return xml + "</testsuites>\n";
 }
 
-std::string annotations(const std::vector<Change>& changes) {
+std::string annotations(const std::vector<Change>& changes, const std::vector<std::string>& notCompared) {
     std::string lines;
+    for (const std::string& sentence : notCompared)
+        lines += fmt::format("::warning title=not compared::{}\n", asData(sentence));
     for (const Change& change : oneACause(worstFirst(changes)))
         if (change.direction == Direction::Worse || change.direction == Direction::NotCompared ||
             change.direction == Direction::Unclear)

@@ -36,7 +36,8 @@ std::string changesReport(const Comparison& comparison);
 std::string junit(const std::vector<Change>& changes, const std::vector<std::string>& notCompared = {});
 
 /// One `::error` line for each result and cause that is Worse and one `::warning` for what could not be told, which CI hosts
-/// show beside the commit. Of their text nothing is taken for a command.
-std::string annotations(const std::vector<Change>& changes);
+/// show beside the commit; one for each of `notCompared`, sentences on no cell. Of their text nothing is taken for a
+/// command.
+std::string annotations(const std::vector<Change>& changes, const std::vector<std::string>& notCompared = {});
 
 } // namespace shadowbench::gate

@@ -1,8 +1,12 @@
 #include "gate/waivers.h"
 
+#include <ctime>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 namespace shadowbench::gate {
+
+std::string today() { return fmt::format("{:%F}", fmt::gmtime(std::time(nullptr))); }
 
 std::vector<std::string> waive(std::vector<Change>& changes, const std::vector<Waiver>& waivers, const std::string& today) {
     std::vector<std::string> notes;

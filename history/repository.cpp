@@ -32,6 +32,12 @@ std::optional<Repository> Repository::around(const fs::path& folder) {
     return Repository(present);
 }
 
+std::optional<std::string> Repository::commit(const std::string& revision) const {
+    if (revision.starts_with('-')) return {};
+    const std::string hash = firstLine(git(folder_, {"rev-parse", "--verify", "--quiet", revision + "^{commit}"}));
+    return isHash(hash) ? std::optional(hash) : std::nullopt;
+}
+
 std::optional<std::string> Repository::date(const std::string& commit) const {
     const std::string seconds = askLog(folder_, commit, "%ct");
     if (seconds.empty()) return {};

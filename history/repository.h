@@ -13,6 +13,9 @@ public:
     /// The repository that `folder` lies in, or would if it were made; nothing without one, or without git.
     static std::optional<Repository> around(const std::filesystem::path& folder);
 
+    /// The whole hash of a commit that `revision` names, as `git describe` does, too; nothing if the repository lacks it.
+    [[nodiscard]] std::optional<std::string> commit(const std::string& revision) const;
+
     /// When a commit was made, UTC, as sorts: "20261121T232136Z". Nothing if the repository does not have the commit.
     [[nodiscard]] std::optional<std::string> date(const std::string& commit) const;
 

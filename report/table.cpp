@@ -156,7 +156,7 @@ std::vector<std::string> rendererLines(const std::vector<Record>& records, const
     std::vector<std::string> lines;
     for (const std::size_t i : ofScene(records, scene)) {
         if (!records[i].external) continue;
-        const auto& [title, source, reported] = *records[i].external;
+        const auto& [title, source, reported, revision] = *records[i].external;
         const std::string by = source.empty() ? "" : title.empty() ? source : fmt::format(" ({})", source);
         if (!title.empty() || !by.empty()) lines.push_back(fmt::format("{}: {}{}", records[i].variant, title, by));
     }

@@ -175,6 +175,23 @@ Data sentences(const std::vector<std::string>& lines) {
     return list;
 }
 
+Data logsOf(const std::vector<gate::FailureLog>& logs) {
+    Data list{Data::type::list};
+    for (const gate::FailureLog& log : logs) {
+        Data entry, lines{Data::type::list};
+        for (const std::string& text : log.lines) {
+            Data line;
+            line.set("line", text);
+            lines << line;
+        }
+        entry.set("what", truncate(log.what, sentenceRoom));
+        entry.set("file", log.file.string());
+        entry.set("lines", lines);
+        list << entry;
+    }
+    return list;
+}
+
 } // namespace
 
 void addGatePage(const gate::GateResult& result, const gate::GateOptions& options, const std::vector<ComparedCell>& cells,
@@ -200,6 +217,7 @@ void addGatePage(const gate::GateResult& result, const gate::GateOptions& option
     data.set("loosened", sentences(result.loosened));
     data.set("notCompared", sentences(result.notCompared));
     data.set("notes", sentences(result.notes));
+    data.set("logs", logsOf(result.logs));
     site.add({address, verdictText(result.code()), render("gate.html", data)});
 }
 

@@ -33,6 +33,9 @@ public:
     [[nodiscard]] virtual std::string cellId(const Truths& truths, const Scene& scene,
                                              const techniques::Variant& variant) const = 0;
 
+    /// What is known of a variant before it is called.
+    [[nodiscard]] virtual ExternalInfo describe(const techniques::Variant& variant) const = 0;
+
     /// Renders and scores a variant that applies: fills in its blank record. Throws Inconclusive when the renderer fails or
     /// its images cannot be scored, and what truths throw.
     virtual void score(SceneFrames& frames, const techniques::Variant& variant, Record& record, CellImages& images,

@@ -50,8 +50,14 @@ std::string SceneCells::id(const techniques::Variant& variant) const {
     return variant.isLod() ? lod::lodCellId(scene_, variant) : cellId(truths_, scene_, variant, options_);
 }
 
-Record SceneCells::blank(const techniques::Variant& variant) const {
+Record SceneCells::described(const techniques::Variant& variant) const {
     Record record = blankRecord(scene_, variant, options_.seed);
+    if (isExternal(variant)) record.external = options_.external->describe(variant);
+    return record;
+}
+
+Record SceneCells::blank(const techniques::Variant& variant) const {
+    Record record = described(variant);
     if (const auto reason = notApplicable(variant)) {
         record.status = Status::NotApplicable;
         record.reason = *reason;
@@ -60,7 +66,7 @@ Record SceneCells::blank(const techniques::Variant& variant) const {
 }
 
 Record SceneCells::failed(const techniques::Variant& variant, const std::string& cell, const Error& error) const {
-    Record record = blankRecord(scene_, variant, options_.seed);
+    Record record = described(variant);
     record.cell = cell;
     record.status = Status::Error;
     record.reason = error.what();

@@ -63,6 +63,7 @@ public:
     void measure(const techniques::Variant& variant, Record& record, const Progress& progress);
 
 private:
+    [[nodiscard]] Record described(const techniques::Variant& variant) const;
     void scoreBeside(const techniques::Variant& variant, Record& record);
     void scoreOwn(const techniques::Variant& variant, Record& record, CellImages& images);
     void scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress);

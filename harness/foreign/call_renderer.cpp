@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/process.h"
 #include "base/temporary_folder.h"
 #include "harness/foreign/timing_file.h"
 
@@ -112,7 +111,7 @@ Rendered foundIn(const fs::path& out, const std::vector<int>& frames) {
 }
 
 Rendered callRenderer(const Renderer& renderer, const fs::path& scene, const std::vector<int>& frames, const fs::path& out,
-                      std::vector<std::string> variables) {
+                      std::vector<std::string> variables, const OnLine& onLine) {
     const TemporaryFolder scratch;
     Command command{programOf(renderer), {}, renderer.folder};
     for (std::size_t i = 1; i < renderer.command.size(); ++i)
@@ -129,7 +128,10 @@ Rendered callRenderer(const Renderer& renderer, const fs::path& scene, const std
     command.outputLimit = mostOutput;
     command.endsStrays = true;
     std::string said;
-    const Finished finished = runProcess(command, [&](std::string_view line) { said = line; });
+    const Finished finished = runProcess(command, [&](std::string_view line) {
+        said = line;
+        if (onLine) onLine(line);
+    });
     requireSuccess(renderer, finished, said);
     return foundIn(out, frames);
 }

@@ -151,6 +151,7 @@ std::vector<Renderer> readRenderers(const fs::path& file) {
     for (const TomlValue& entry : list.list()) {
         Renderer renderer = rendererIn(entry);
         renderer.text = textOf(*nodes->get(renderers.size()));
+        renderer.line = static_cast<int>(nodes->get(renderers.size())->source().begin.line);
         renderer.folder = fs::absolute(file).parent_path();
         if (std::ranges::find(renderers, renderer.id, &Renderer::id) != renderers.end())
             entry.get("id").fail(fmt::format("there is another renderer \"{}\" above", renderer.id));

@@ -29,6 +29,7 @@ struct Renderer {
     std::vector<std::pair<std::string, std::string>> environment; // variables beside ours
     std::filesystem::path folder;                                 // of the TOML file: where the command runs
     std::string text;                                             // the entry, with keys sorted and without comments
+    int line = 1;                                                 // of the file, where the entry begins
 };
 
 /// The renderers of a file, in its order. Throws BadInput naming file, line and key of what is wrong or unknown, with near

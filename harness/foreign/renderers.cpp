@@ -2,9 +2,11 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/git.h"
 #include "base/hash.h"
 #include "base/process.h"
 #include "base/temporary_folder.h"
+#include "harness/cells/renderer_log.h"
 #include "harness/foreign/call_renderer.h"
 #include "harness/foreign/renderer.h"
 #include "harness/foreign/score_images.h"
@@ -89,11 +91,20 @@ std::string inWordsOfTheFile(std::string text, const fs::path& folder) {
     return text;
 }
 
+/// As git describes what a file lies in; "" in no repository.
+std::string describedRevision(const fs::path& file) {
+    const auto lines = git(fs::absolute(file).parent_path(), {"describe", "--always", "--dirty"});
+    return lines && !lines->empty() ? lines->back() : ""; // its warnings come first
+}
+
 class Renderers : public ExternalTechniques {
 public:
-    explicit Renderers(const std::vector<fs::path>& files) : variables_(ownEnvironment()) {
-        for (const fs::path& file : files)
-            for (Renderer& renderer : readRenderers(file)) add(std::move(renderer), file);
+    Renderers(const std::vector<fs::path>& files, RendererOptions options)
+        : variables_(ownEnvironment()), options_(std::move(options)) {
+        for (const fs::path& file : files) {
+            const std::string revision = options_.revision.empty() ? describedRevision(file) : options_.revision;
+            for (Renderer& renderer : readRenderers(file)) add(std::move(renderer), file, revision);
+        }
     }
 
     [[nodiscard]] const std::vector<Variant>& variants() const override { return variants_; }
@@ -119,16 +130,37 @@ public:
 
     void score(SceneFrames& frames, const Variant& variant, Record& record, CellImages& images,
                const Progress& progress) const override {
+        progress(0, variant.name);
+        std::string said;
+        try {
+            callAndScore(frames, variant, record, images, said);
+            keepSaid(frames.scene(), variant, "");
+        } catch (const Error&) {
+            keepSaid(frames.scene(), variant, said);
+            throw;
+        }
+    }
+
+    [[nodiscard]] ExternalInfo describe(const Variant& variant) const override {
+        const Renderer& renderer = of(variant);
+        return {renderer.title, renderer.source, {}, revisions_.at(variant.name)};
+    }
+
+private:
+    void callAndScore(SceneFrames& frames, const Variant& variant, Record& record, CellImages& images,
+                      std::string& said) const {
         const Renderer& renderer = of(variant);
         const TemporaryFolder folder;
         const fs::path exported = folder.path() / "scene", out = folder.path() / "out";
         fs::create_directories(out);
-        progress(0, variant.name);
+        const OnLine keepLine = [&](std::string_view line) { said += std::string(line) + "\n"; };
         try {
             exchange::exportScene(frames.scene(), exported);
-            Rendered rendered = callRenderer(renderer, exported, framesOf(frames.scene(), renderer), out, variables_);
+            Rendered rendered =
+                callRenderer(renderer, exported, framesOf(frames.scene(), renderer), out, variables_, keepLine);
             scoreRow(frames, rowOf(renderer, std::move(rendered.frames)), record, images);
-            record.external = {renderer.title, renderer.source, rendered.reported};
+            record.external = describe(variant);
+            record.external->reported = rendered.reported;
         } catch (const BadInput& error) {
             throw Inconclusive(inWordsOfTheFile(error.what(), out));
         } catch (const fs::filesystem_error& error) { // it has removed its folder, or taken our rights away
@@ -136,8 +168,15 @@ public:
         }
     }
 
-private:
-    void add(Renderer renderer, const fs::path& file) {
+    /// In place of what an earlier call said.
+    void keepSaid(const Scene& scene, const Variant& variant, const std::string& said) const {
+        if (options_.logs.empty()) return;
+        const fs::path log = rendererLog(options_.logs, scene.id, variant.name);
+        fs::remove(log);
+        if (!said.empty()) writeFileUnflushed(log, said);
+    }
+
+    void add(Renderer renderer, const fs::path& file, const std::string& revision) {
         const std::string name = std::string(externalPrefix) + renderer.id;
         if (renderers_.contains(name))
             throw BadInput(fmt::format("{}: the renderer {} is in another file of --external, too; give one of them "
@@ -145,6 +184,7 @@ private:
                                        file.string(), renderer.id));
         const techniques::Entry& entry = entries_.emplace_back(entryOf(renderer));
         renderer.text += contentOf(renderer);
+        revisions_.emplace(name, revision);
         variants_.push_back({&entry, techniques::Parameters(renderer.settings), name});
         renderers_.emplace(name, std::move(renderer));
     }
@@ -164,15 +204,17 @@ private:
     }
 
     std::vector<std::string> variables_;
+    RendererOptions options_;
     std::deque<techniques::Entry> entries_; // the variants point to them
     std::vector<Variant> variants_;
-    std::map<std::string, Renderer> renderers_; // by the variant's name
+    std::map<std::string, Renderer> renderers_;    // by the variant's name …
+    std::map<std::string, std::string> revisions_; // … and these
 };
 
 } // namespace
 
-std::shared_ptr<const ExternalTechniques> renderersOf(const std::vector<fs::path>& files) {
-    return files.empty() ? nullptr : std::make_shared<const Renderers>(files);
+std::shared_ptr<const ExternalTechniques> renderersOf(const std::vector<fs::path>& files, const RendererOptions& options) {
+    return files.empty() ? nullptr : std::make_shared<const Renderers>(files, options);
 }
 
 } // namespace shadowbench::foreign

@@ -62,11 +62,17 @@ std::pair<std::string, std::string> digits(double a, double b) {
     }
 }
 
+/// " (+12 %)", or as a factor where per cent would be thousands; nothing where there is no share of it.
+std::string shareText(double before, double now) {
+    if (before <= 0) return "";
+    const double ratio = now / before;
+    return ratio < 10 ? fmt::format(" ({:+.3g} %)", 100 * (ratio - 1)) : fmt::format(" (× {:.3g})", ratio);
+}
+
 std::string sentenceOf(const Record& record, std::string_view what, const Compared& values) {
     const double before = values.before(), now = values.now();
     const auto [first, second] = digits(before, now);
-    return fmt::format("{} on {}: {} {} → {}{}{}", record.variant, record.scene, what, first, second,
-                       before > 0 ? fmt::format(" ({:+.3g} %)", 100 * (now / before - 1)) : "",
+    return fmt::format("{} on {}: {} {} → {}{}{}", record.variant, record.scene, what, first, second, shareText(before, now),
                        values.base.size() > 1 ? fmt::format(", means of {} seeds", values.base.size()) : "");
 }
 

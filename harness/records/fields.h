@@ -133,6 +133,7 @@ void fields(auto& visit, Is<ReportedCost> auto& r) {
 void fields(auto& visit, Is<ExternalInfo> auto& e) {
     visit.text("title", e.title);
     visit.text("source", e.source);
+    visit.text("revision", e.revision);
     visit("reported", e.reported);
 }
 

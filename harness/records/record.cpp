@@ -29,6 +29,10 @@ bool isLevelOfDetail(const Record& record) { return record.values["lod.pop"].has
 
 bool isExternal(const Record& record) { return record.technique.starts_with(externalPrefix); }
 
+const std::string& revisionOf(const Record& record) {
+    return record.external && !record.external->revision.empty() ? record.external->revision : record.commit;
+}
+
 std::optional<Headline> headline(const Record& record) {
     if (!records::hasAccuracy(record)) return {};
     const bool labels = record.values["accuracy.mismatch"].has_value();

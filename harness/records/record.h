@@ -100,6 +100,7 @@ struct ReportedCost {
 struct ExternalInfo {
     std::string title, source; // "" where nobody says
     std::optional<ReportedCost> reported = {};
+    std::string revision = {}; // of its sources, in the words of their own repository; "" where nobody knows
 };
 
 struct Record {
@@ -176,6 +177,10 @@ bool isLevelOfDetail(const Record& record);
 /// What the names of other renderers' techniques begin with, and whether the record is of one.
 inline constexpr std::string_view externalPrefix = "external:";
 bool isExternal(const Record& record);
+
+/// The commit whose figures these are: of another renderer's rows its own revision where that is known, else this program's
+/// commit.
+const std::string& revisionOf(const Record& record);
 
 /// What the environment of such a record says instead of an OpenGL version.
 inline constexpr std::string_view notDrawnHere = "none: not drawn here";

@@ -87,6 +87,7 @@ constexpr const char* withoutMetrics = R"({
       "properties": {
         "title": {"type": "string", "minLength": 1},
         "source": {"type": "string", "minLength": 1},
+        "revision": {"type": "string", "minLength": 1, "description": "of its sources, in the words of their repository"},
         "reported": {
           "type": "object",
           "description": "what the renderer says of its own cost; not measured here, and compared with nothing",

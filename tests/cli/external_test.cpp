@@ -229,14 +229,67 @@ TEST_F(External, CompareAndGateJudgeTheNextVersionOfARenderer) {
     EXPECT_EQ(compared.code, 4) << compared.output;
     EXPECT_TRUE(contains(compared.output, "external:a")) << compared.output;
 
-    const std::string gate = "cd " SOURCE_FOLDER " && shadowbench gate --quiet --cost none --scene " + scene() + options() +
-                             " --technique 'external:*' --external " + file_ + " --out " + (folder_ / "gate") + " --base ";
+    const std::string gate = "cd " + (folder_ / "") + " && shadowbench gate --quiet --cost none --scene " + scene() +
+                             options() + " --technique 'external:*' --external " + file_ + " --out " + (folder_ / "gate") +
+                             " --base ";
     const Outcome judged = shell(gate + before + "/results.jsonl");
     EXPECT_EQ(judged.code, 4) << judged.output;
     EXPECT_TRUE(contains(judged.output, "--external " + file_)) << "how to see it again\n" << judged.output;
     const Outcome program = shell(gate + PROGRAM);
     EXPECT_EQ(program.code, 2) << program.output;
     EXPECT_TRUE(contains(program.output, "--external needs records as --base")) << program.output;
+}
+
+TEST_F(External, TheGateCallsARendererAsRunDoesAndKeepsWhatItSaid) {
+    write(entry("a", "echo $(ulimit -n) $(ulimit -v) $HOME $MINE >> seen; " + copies()));
+    ASSERT_EQ(shell("cd " + (folder_ / "") +
+                    " && git init -q -b main . && git -c user.name=a -c user.email=a@b commit -q "
+                    "--allow-empty -m first")
+                  .code,
+              0);
+    const std::string as = "ulimit -n 777; export HOME=/somewhere MINE=mine; cd " + (folder_ / "") + "; ";
+    const std::string choice =
+        " --quiet --cost none --scene " + scene() + options() + " --technique 'external:*' --external renderers.toml --out ";
+    ASSERT_EQ(shell(as + "shadowbench run" + choice + "before").code, 0);
+    const Outcome green = shell(as + "shadowbench gate --base before" + choice + "after");
+    EXPECT_EQ(green.code, 0) << green.output;
+    EXPECT_EQ(readFile(folder_ / "seen"), "777 unlimited /somewhere mine\n777 unlimited /somewhere mine\n");
+    const std::string crashes = "for i in $(seq 24); do echo line $i of it; done; echo '<i>line 25'; exit 3";
+    write(entry("a", crashes) + entry("b", crashes));
+    const Outcome crashed = shell(as + "shadowbench gate --base before" + choice + "after");
+    EXPECT_EQ(crashed.code, 5) << crashed.output;
+    EXPECT_TRUE(contains(crashed.output, "external:a on tiny and 1 more that said the same; its last lines, of "))
+        << crashed.output;
+    EXPECT_TRUE(contains(crashed.output, "line 6 of it") && !contains(crashed.output, "line 5 of it")) << crashed.output;
+    EXPECT_TRUE(contains(readFile(folder_ / "after/gate.html"), "&lt;i&gt;line 25\n"));
+    EXPECT_TRUE(readFile(folder_ / "after/logs/tiny/external_a.txt").starts_with("line 1 of it\n"));
+}
+
+TEST_F(External, RecordsSayTheRevisionOfTheRenderer) {
+    const auto revision = [&](const std::string& id) { return record("external:" + id)->external->revision; };
+    write(entry("a", copies()) + entry("b", "exit 1") + entry("soft", "true", "definition = \"area\""));
+    const std::string git = "cd " + (folder_ / "") + " && git -c user.name=a -c user.email=a@b ";
+    ASSERT_EQ(
+        shell(git + "init -q . && git add renderers.toml && git -c user.name=a -c user.email=a@b commit -q -m one").code, 0);
+    const std::string hash = shell(git + "rev-parse HEAD").output.substr(0, 40);
+    EXPECT_EQ(run("--technique 'external:*'").code, 5);
+    for (const char* id : {"a", "b", "soft"}) EXPECT_TRUE(!revision(id).empty() && hash.starts_with(revision(id))) << id;
+    write("# changed\n" + readFile(file_));
+    (void)run("--technique 'external:*'");
+    EXPECT_TRUE(revision("a").ends_with("-dirty")) << revision("a");
+    (void)run("--technique 'external:*' --revision v4.2");
+    EXPECT_EQ(revision("b"), "v4.2");
+}
+
+TEST_F(External, WhatARendererSaidBeforeItFailedIsKept) {
+    write(entry("a", "echo one; echo two >&2; exit 3"));
+    const Outcome failed = run("--technique 'external:*'");
+    EXPECT_TRUE(contains(failed.output, "\n  one\n  two\nall of its output: " + out_ + "/logs/tiny/external_a.txt\n"))
+        << failed.output;
+    EXPECT_EQ(readFile(out_ + "/logs/tiny/external_a.txt"), "one\ntwo\n");
+    write(entry("a", "echo one; " + copies()));
+    ASSERT_EQ(run("--technique 'external:*'").code, 0);
+    EXPECT_FALSE(fs::exists(out_ + "/logs/tiny/external_a.txt")) << "it did not fail";
 }
 
 TEST_F(External, WrongChoicesAreRefusedBeforeAnythingRuns) {

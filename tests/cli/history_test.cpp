@@ -101,6 +101,33 @@ TEST_F(History, WhatIsNotOfOneKnownCleanCommitIsRefused) {
     EXPECT_EQ(add(records(hashes_[0], 0.1, true), "--dirty").code, 0);
 }
 
+TEST_F(History, RowsOfAnotherRendererAreOfItsOwnCommits) {
+    const auto ofRenderer = [&](const std::string& revision, double leak) {
+        const std::string file = records(std::string(40, 'a'), leak, true); // of this program, which its owner need not have
+        std::vector<Record> changed = readRecords(file);
+        changed[0].technique = changed[0].variant = "external:engine";
+        changed[0].external = ExternalInfo{.title = "", .source = "", .reported = {}, .revision = revision};
+        writeRecords(file, changed);
+        return file;
+    };
+    ASSERT_EQ(git("tag -a v1 -m v1 " + hashes_[0]).code, 0);
+    const std::string described = git("describe " + hashes_[3]).output;
+    ASSERT_TRUE(described.starts_with("v1-3-g")) << described;
+    const Outcome last = add(ofRenderer(described.substr(0, described.size() - 1), 0.4));
+    ASSERT_EQ(last.code, 0) << last.output;
+    EXPECT_NE(last.output.find("/20260104T120000Z-" + hashes_[3].substr(0, 12)), std::string::npos) << last.output;
+    ASSERT_EQ(add(ofRenderer(hashes_[0].substr(0, 7), 0.1)).code, 0);
+    const auto json = nlohmann::json::parse(show("--format json").output);
+    ASSERT_EQ(json["commits"].size(), 2U);
+    EXPECT_EQ(json["commits"][0]["commit"], hashes_[0]);
+    EXPECT_EQ(json["changes"].at(0)["suspects"], 3);
+    const Outcome dirty = add(ofRenderer(hashes_[1].substr(0, 7) + "-dirty", 0.2));
+    EXPECT_EQ(dirty.code, 2);
+    EXPECT_NE(dirty.output.find("--dirty"), std::string::npos) << dirty.output;
+    EXPECT_EQ(add(ofRenderer(hashes_[1].substr(0, 7) + "-dirty", 0.2), "--dirty").code, 0);
+    EXPECT_EQ(add(ofRenderer("v9.9", 0.2)).code, 2) << "no such commit";
+}
+
 TEST_F(History, AChangeNamesItsCommitsAndHowToNarrowItDown) {
     ASSERT_EQ(add(records(hashes_[3], 0.4)).code, 0); // the order of adding does not matter
     ASSERT_EQ(add(records(hashes_[0], 0.1)).code, 0);

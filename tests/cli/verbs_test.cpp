@@ -50,7 +50,7 @@ TEST(CommandLine, HelpOfTheProgramNamesEveryVerbAndEachHasAnExample) {
     for (const char* verb :
          {"list",      "inspect", "run",        "merge",        "score",       "reference",   "sweep",       "causes",
           "recommend", "claims",  "export",     "compare",      "gate",        "history",     "history add", "history show",
-          "report",    "cache",   "cache list", "cache verify", "cache prune", "shader-cost", "gpu-cost"})
+          "report",    "cache",   "cache list", "cache verify", "cache prune", "shader-cost", "gpu-cost",    "ci"})
         EXPECT_EQ(std::ranges::count(verbs, verb), 1) << verb;
     EXPECT_EQ(std::ranges::count(verbs, "count-frames"), 0) << "for the program's own use";
 }

@@ -54,6 +54,20 @@ TEST(Bounds, ConcernNeitherSweepsNorWhatWasNotScored) {
     EXPECT_EQ(judgeBounds({swept, failed, scoredRecord()}, {leak}).size(), 1U);
 }
 
+TEST(Bounds, MayBeOfOtherRenderersWhichOnlyTheirFileNames) {
+    const GateConfig config = parseGateConfig("[[bound]]\nscene = \"dueling-frusta\"\ntechniques = [\"external:e*\"]\n"
+                                              "metric = \"leak\"\nbelow = 0.01\nreason = \"a test\"\n",
+                                              "bounds.toml", Profile::Gate);
+    Record engine = scoredRecord(), other = scoredRecord();
+    engine.technique = engine.variant = "external:engine";
+    other.technique = other.variant = "external:other";
+    const std::vector<Change> changes = judgeBounds({engine, other, scoredRecord()}, config.bounds);
+    ASSERT_EQ(changes.size(), 1U);
+    EXPECT_EQ(changes[0].variant, "external:engine");
+    EXPECT_EQ(changes[0].direction, Direction::Worse);
+    EXPECT_NE(changes[0].sentence.find("leak is 0.02 and must be below 0.01"), std::string::npos) << changes[0].sentence;
+}
+
 TEST(Bounds, ConcernTheirCellsOnly) {
     Record elsewhere = scoredRecord();
     elsewhere.scene = "trees";

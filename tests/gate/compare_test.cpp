@@ -295,6 +295,7 @@ TEST(Compare, ASentenceHasThreeDigitsOrAsManyAsShowTheChangeAndThePercentage) {
     };
     EXPECT_EQ(sentence(0.0123456, 0.0223456), "leak 0.0123 → 0.0223 (+81 %)");
     EXPECT_EQ(sentence(0.2, 0.3), "leak 0.2 → 0.3 (+50 %)");
+    EXPECT_EQ(sentence(0.002, 0.4), "leak 0.002 → 0.4 (× 200)");
     EXPECT_EQ(sentence(0.91151, 0.91249), "leak 0.9115 → 0.9125 (+0.108 %)");
 }
 

@@ -58,6 +58,17 @@ TEST(GateReport, NamesEachCommandOnceHoweverMuchOfItsCellIsWorse) {
     EXPECT_FALSE(contains(text, "--technique esm"));
 }
 
+TEST(GateReport, NamesTheCommandOfACallThatFailedButNotOfARowThatIsGone) {
+    GateResult result = resultOf({worse("trees", "external:engine", Class::Status), worse("trees", "external:gone")});
+    for (Change& change : result.changes) change.direction = Direction::NotCompared;
+    result.presence.failed = {"external:engine on trees"};
+    const std::string text = gateReport(result, optionsOf());
+    EXPECT_TRUE(contains(text, "shadowbench run --images --cost none --out results/reproduced --scene trees --technique "
+                               "external:engine"))
+        << text;
+    EXPECT_FALSE(contains(text, "--technique external:gone")) << text;
+}
+
 TEST(GateReport, ShowsThePicturesThatThereAre) {
     GateResult result = resultOf({worse("trees", "pcf")});
     result.pictures = {{"trees", "pcf", "out/head", "", {}, {}}, {"trees", "vsm", "out/head", "out/base", {}, {}}};
@@ -81,8 +92,11 @@ TEST(GateReport, CommandsCanBePastedIntoAShell) {
     GateOptions options = optionsOf("HEAD~1");
     options.externalFiles = {"my engine.toml"};
     Change change = worse("a scene.toml", "external:engine", Class::Instructions);
-    EXPECT_EQ(reproduction(change, options), "./bench run --cost instructions --scene 'a scene.toml' --technique "
+    EXPECT_EQ(reproduction(change, options), "shadowbench run --cost instructions --scene 'a scene.toml' --technique "
                                              "external:engine --profile gate --seed 1 --external 'my engine.toml'");
+    options.scenes = {"trees", "shadows/yard.toml"};
+    change.scene = "yard";
+    EXPECT_TRUE(contains(reproduction(change, options), " --scene shadows/yard.toml ")) << "its id names no file";
     change.variant = "pcf"; // which needs no other renderer
     EXPECT_FALSE(contains(reproduction(change, options), "--external"));
     change.changeClass = Class::Time;
@@ -142,6 +156,15 @@ TEST(GateComment, HasFortyLinesHoweverMuchIsWorse) {
     EXPECT_TRUE(comment.starts_with("## shadowbench: inconclusive\n")) << comment;
     EXPECT_LT(comment.find("Looser than the base:"), comment.find("Worse:"));
     EXPECT_TRUE(contains(comment, "* … and 90 more\n")) << comment;
+
+    result.logs = {{"external:engine on trees", "out/log.txt", std::vector<std::string>(20, "````lost")},
+                   {"another", "", {}}};
+    const std::string failed = gateComment(result, optionsOf());
+    EXPECT_LE(std::ranges::count(failed, '\n'), 40) << failed;
+    EXPECT_TRUE(contains(failed, "\nexternal:engine on trees, in its own words (1 more on the page):\n````\n")) << failed;
+    EXPECT_TRUE(contains(failed, " ```lost\n````\n")) << "what it said ends no block";
+    EXPECT_TRUE(
+        contains(gateReport(result, optionsOf()), "external:engine on trees; its last lines, of out/log.txt:\n  ````l"));
 }
 
 TEST(Annotations, AreOneForEachResultAndCauseAndWarnOfWhatIsUnclearOrNotJudged) {

@@ -94,7 +94,7 @@ TEST_F(AMeasuredProgram, IsMeasuredAgainForOtherInputsAndWithOtherPrograms) {
     step_.inputs = "another scene";
     (void)measure(step_);
     EXPECT_EQ(standIn_.calls("run"), 2);
-    step_.isAlwaysRun = true;
+    step_.callsRenderers = true;
     (void)measure(step_);
     (void)measure(step_);
     EXPECT_EQ(standIn_.calls("run"), 4);

@@ -30,6 +30,7 @@ public:
                                      const techniques::Variant& /*variant*/) const override {
         return "";
     }
+    [[nodiscard]] ExternalInfo describe(const techniques::Variant& /*variant*/) const override { return {}; }
     void score(SceneFrames& /*frames*/, const techniques::Variant& /*variant*/, Record& /*record*/, CellImages& /*images*/,
                const Progress& /*progress*/) const override {}
 

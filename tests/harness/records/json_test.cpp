@@ -329,11 +329,12 @@ TEST(RecordJson, NamesTheCellWhoseTextIsNotUtf8) {
 TEST(RecordJson, KeepsWhatAnotherRendererSaysOfItself) {
     Record record = hardRecord();
     record.technique = record.variant = "external:engine";
-    record.external = ExternalInfo{"Engine", "its page", ReportedCost{2.5, "a GPU"}};
+    record.external = ExternalInfo{"Engine", "its page", ReportedCost{2.5, "a GPU"}, "v4.2-3-gabcdef0"};
     const Record read = parseRecord(toJson(record));
     EXPECT_TRUE(isExternal(read));
     EXPECT_FALSE(isExternal(hardRecord()));
     EXPECT_EQ(read.external->title, "Engine");
+    EXPECT_EQ(read.external->revision, "v4.2-3-gabcdef0");
     EXPECT_EQ(read.external->reported->milliseconds, 2.5);
     EXPECT_EQ(toJson(read), toJson(record));
 }
