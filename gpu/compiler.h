@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu/figures.h"
+#include "gpu/machine_code.h"
 #include "gpu/pipeline.h"
 
 #include <memory>
@@ -41,8 +42,14 @@ public:
     /// Stage by stage. Throws BadInput for shaders that do not compile.
     [[nodiscard]] std::vector<StageFigures> compile(const Pipeline& pipeline) const;
 
+    /// What each mark of the text (gpu/marks.h) of its fragment or compute shader executes.
+    [[nodiscard]] std::vector<Busy> busyOfMarks(const Pipeline& pipeline) const;
+
 private:
     struct Device;
+    struct Compiled;
+    [[nodiscard]] std::vector<Compiled> compiled(const Pipeline& pipeline) const;
+
     std::unique_ptr<Device> device_;
 };
 
