@@ -90,9 +90,9 @@ std::string compilerVersion() {
 }
 
 struct Compiler::Device {
-    explicit Device(std::string_view family)
-        : isRdna(family != "vega10"), vulkan(openNullDevice(std::string(family))) {
-        createDevice(vulkan); }
+    explicit Device(std::string_view family) : isRdna(family != "vega10"), vulkan(openNullDevice(std::string(family))) {
+        createDevice(vulkan);
+    }
     ~Device() { close(vulkan); }
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -145,14 +145,22 @@ std::vector<StageFigures> Compiler::compile(const Pipeline& pipeline) const {
     return figures;
 }
 
-std::vector<Busy> Compiler::busyOfMarks(const Pipeline& pipeline) const {
-    Pipeline with = pipeline;
-    Shader& counted = with.shaders.back(); // vertex shaders come first
-    const Marked text = marked(counted);
-    counted.text = placingText(text);
-    for (const Compiled& stage : compiled(with))
-        if (stage.figures.stage == counted.stage) return gpu::busyOfMarks(codeBlocks(stage.assembly), text.marks);
+std::vector<CodeBlock> Compiler::blocksOf(Pipeline pipeline, const std::string& text) const {
+    Shader& counted = pipeline.shaders.back(); // vertex shaders come first
+    counted.text = text;
+    for (const Compiled& stage : compiled(pipeline))
+        if (stage.figures.stage == counted.stage) return codeBlocks(stage.assembly);
     throw InternalError("the driver compiled " + counted.name + " without saying to what");
+}
+
+std::vector<Busy> Compiler::busyOfMarks(const Pipeline& pipeline) const {
+    const Marked text = marked(pipeline.shaders.back());
+    std::vector<CodeBlock> blocks = blocksOf(pipeline, placingText(text));
+    if (text.hasInner && loopCount(blocks) > loopCount(blocksOf(pipeline, pipeline.shaders.back().text))) {
+        std::vector<CodeBlock> unrolled = blocksOf(pipeline, placingText(text, false));
+        if (loopCount(unrolled) < loopCount(blocks)) blocks = std::move(unrolled);
+    }
+    return gpu::busyOfMarks(blocks, text.marks);
 }
 
 } // namespace shadowbench::gpu

@@ -22,7 +22,8 @@ struct Region {
 std::vector<Region> loopsOf(const std::vector<CodeBlock>& blocks) {
     std::map<std::size_t, std::size_t> ends; // by the first block
     for (std::size_t b = 0; b < blocks.size(); ++b)
-        if (blocks[b].jump != Jump::None && blocks[b].target <= b && b > 0 && blocks[b].target > 0) ends[blocks[b].target] = b;
+        if (blocks[b].jump != Jump::None && blocks[b].target <= b && b > 0 && blocks[b].target > 0)
+            ends[blocks[b].target] = b;
     std::vector<Region> loops;
     for (const auto& [first, last] : ends) loops.push_back({Kind::Loop, first, last});
     return loops;
@@ -71,8 +72,8 @@ double cyclesOf(const Busy& busy, double waves) {
     return std::max({busy[Part::Latency] / waves, busy[Part::Vector], busy[Part::Complex], busy[Part::Scalar]});
 }
 
-/// As aco_statistics.cpp says: loops 8 times, 4 times within another, twice further in; a side of a uniform condition half of
-/// the times, of a divergent one three quarters.
+/// As aco_statistics.cpp says: loops 8 times, 4 times within another, twice further in; a side of a uniform condition half
+/// of the times, of a divergent one three quarters.
 std::vector<double> guessedWeights(const std::vector<CodeBlock>& blocks) {
     const std::vector<Region> regions = regionsOf(blocks);
     std::vector<double> weights;
@@ -98,6 +99,8 @@ Busy guessedBusy(const std::vector<CodeBlock>& blocks) {
     return all;
 }
 
+std::size_t loopCount(const std::vector<CodeBlock>& blocks) { return loopsOf(blocks).size(); }
+
 std::vector<Busy> busyOfMarks(const std::vector<CodeBlock>& blocks, unsigned marks) {
     const std::vector<Region> regions = regionsOf(blocks), loops = loopsOf(blocks);
     std::vector<double> places(marks, 0); // an unrolled loop's mark stands in many
@@ -112,18 +115,29 @@ std::vector<Busy> busyOfMarks(const std::vector<CodeBlock>& blocks, unsigned mar
     const auto isWithin = [&](std::size_t b, std::size_t other) {
         return std::ranges::all_of(regions, [&](const Region& region) { return region.has(b) || !region.has(other); });
     };
+    const auto unmarkedRounds = [&](std::size_t b) {
+        double rounds = 1;
+        for (const Region& loop : loops) {
+            bool hasMark = false;
+            for (std::size_t inside = loop.first; inside <= loop.last; ++inside) hasMark |= !blocks[inside].marks.empty();
+            if (loop.has(b) && !hasMark) rounds *= rounds == 1 ? 8 : 4;
+        }
+        return rounds;
+    };
     std::vector<Busy> busy(marks);
     const auto add = [&](unsigned mark, const Busy& what) { busy[mark].add(what, 1 / places[mark]); };
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         std::size_t before = b + 1; // the block of its mark, + 1
         while (before > 0 && !(markOf(before - 1) && isWithin(b, before - 1))) --before;
-        if (before == 0) {
-            busy[0].add(blocks[b].busy, 1); // runs once: what stands before main's own mark
+        if (before == 0) { // runs once: what stands before main's own mark
+            busy[0].add(blocks[b].busy, 1);
         } else {
-            add(*markOf(before - 1), blocks[b].busy);
+            Busy rounds;
+            rounds.add(blocks[b].busy, unmarkedRounds(b));
+            add(*markOf(before - 1), rounds);
         }
         const auto loop = loopOf(loops, b);
-        if (!loop || (before > 0 && loops[*loop].has(before - 1))) continue;
+        if (!loop || unmarkedRounds(b) > 1 || (before > 0 && loops[*loop].has(before - 1))) continue;
         for (std::size_t inside = b; inside <= loops[*loop].last; ++inside)
             if (markOf(inside) && loopOf(loops, inside) == loop) {
                 add(*markOf(inside), blocks[b].busy);
@@ -137,7 +151,8 @@ Executed executed(const StageFigures& figures, std::span<const Busy> marks, cons
     const auto throughput = static_cast<double>(figures.of("Inverse Throughput"));
     const auto latency = static_cast<double>(figures.of("Latency"));
     const Busy quad = marks.empty() ? figures.guessed : meanOf(marks, passes.quads);
-    Executed all{throughput, throughput, latency, latency, quad[Part::TextureReads], quad[Part::BufferReads], quad[Part::Stores]};
+    Executed all{throughput,        throughput, latency, latency, quad[Part::TextureReads], quad[Part::BufferReads],
+                 quad[Part::Stores]};
     if (marks.empty()) return all;
     const double cycle = throughput / cyclesOf(figures.guessed, figures.waves);
     all.cycles32 = cycle * cyclesOf(meanOf(marks, passes.waves32), figures.waves);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "gpu/figures.h"
-#include "gpu/wave_passes.h"
 #include "gpu/machine_code.h"
+#include "gpu/wave_passes.h"
 
 #include <span>
 #include <vector>
@@ -17,8 +17,12 @@ double cyclesOf(const Busy& busy, double waves);
 std::vector<double> guessedWeights(const std::vector<CodeBlock>& blocks);
 Busy guessedBusy(const std::vector<CodeBlock>& blocks);
 
-/// What each of `marks` marks executes. A block that has none is of the nearest before it that is passed wherever it is; what
-/// stands in a loop before its first mark, which is its test, once more than that.
+/// How many loops are left in it.
+std::size_t loopCount(const std::vector<CodeBlock>& blocks);
+
+/// What each of `marks` marks executes. A block that has none is of the nearest before it that is passed wherever it is;
+/// what stands in a loop before its first mark, which is its test, once more than that; a loop without any mark runs as
+/// often as the compiler guesses.
 std::vector<Busy> busyOfMarks(const std::vector<CodeBlock>& blocks, unsigned marks);
 
 /// Of one fragment or compute shader, the mean of its waves.

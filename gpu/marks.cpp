@@ -3,8 +3,10 @@
 #include "base/error.h"
 #include "gpu/spirv.h"
 
+#include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -15,13 +17,14 @@ namespace {
 /// How a lane may leave a statement other than at its end.
 struct Ways {
     bool function = false; // return, discard
-    bool loop = false;     // break, continue
+    bool breaks = false, continues = false;
 
     void operator|=(Ways other) {
         function |= other.function;
-        loop |= other.loop;
+        breaks |= other.breaks;
+        continues |= other.continues;
     }
-    [[nodiscard]] bool any() const { return function || loop; }
+    [[nodiscard]] bool any() const { return function || breaks || continues; }
 };
 
 /// A word, a number or one character of others, with the space before it.
@@ -69,11 +72,33 @@ private:
 
     void copy() {
         if (atEnd()) throw BadInput("marking a shader failed: it ends within a statement; does it compile?");
-        last_ = tokens_[next_].text;
+        if (beforeLast_ == "const") constants_.insert(tokens_[next_].text); // "const int run"
+        beforeLast_ = std::exchange(last_, tokens_[next_].text);
         put(tokens_[next_++].space + (last_ == "main" ? "sbMain" : last_));
     }
 
-    void putMark() { put(fmt::format(" SB_MARK({});", marked_.marks++)); }
+    void putMark() {
+        put(fmt::format(" {}({});", constantLoops_ > 0 ? "SB_INNER" : "SB_MARK", marked_.marks++));
+        marked_.hasInner |= constantLoops_ > 0;
+    }
+
+    /// Of the head of a loop that comes next, `for (int i = 0; i < COUNT; ++i)`: whether numbers, constants and variables of
+    /// loops around it alone are in its test. Remembers its variable.
+    bool hasConstantLength() {
+        std::size_t at = next_;
+        const auto upTo = [&](std::string_view end) {
+            std::vector<std::string> words;
+            for (; at < tokens_.size() && tokens_[at].text != end; ++at)
+                if (std::isalpha(static_cast<unsigned char>(tokens_[at].text[0])) != 0) words.push_back(tokens_[at].text);
+            ++at;
+            return words;
+        };
+        (void)upTo("(");
+        const std::vector<std::string> first = upTo(";"), test = upTo(";");
+        if (first.size() < 2) return false;
+        constants_.insert(first[1]); // "int i = 0"
+        return std::ranges::all_of(test, [this](const std::string& word) { return constants_.contains(word); });
+    }
 
     /// Up to what closes the bracket that comes next.
     void copyBracket() {
@@ -129,7 +154,8 @@ private:
     Ways simple() {
         Ways ways;
         ways.function = is("return") || is("discard");
-        ways.loop = is("break") || is("continue");
+        ways.breaks = is("break");
+        ways.continues = is("continue");
         const bool leaves = is("discard");
         if (leaves) {
             put(" { SB_LEAVE ");
@@ -166,9 +192,13 @@ private:
 
     /// What breaks or continues a loop goes on behind it.
     Ways loop() {
+        const bool isConstant = is("for") && hasConstantLength();
         copy();
         copyBracket();
-        return {branch().function, false};
+        constantLoops_ += isConstant ? 1 : 0;
+        const Ways ways = branch();
+        constantLoops_ -= isConstant ? 1 : 0;
+        return {ways.function, false, false};
     }
 
     Ways loopWithTestAtEnd() {
@@ -176,7 +206,7 @@ private:
         const Ways ways = branch();
         while (!is(";")) copy();
         copy();
-        return {ways.function, false};
+        return {ways.function, false, false};
     }
 
     Ways choice() {
@@ -185,12 +215,14 @@ private:
         copy();
         const Ways ways = statements();
         copy();
-        return ways;
+        return {ways.function, false, ways.continues}; // what breaks it goes on behind it
     }
 
     std::vector<Token> tokens_;
     std::size_t next_ = 0;
-    std::string last_;
+    std::string last_, beforeLast_;
+    int constantLoops_ = 0;           // around what comes next
+    std::set<std::string> constants_; // names
     Marked marked_;
 };
 
@@ -199,7 +231,8 @@ Marked split(const std::string& text) {
     Marked parts;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
-        const bool isDirective = line.find_first_not_of(" \t") != std::string::npos && line[line.find_first_not_of(" \t")] == '#';
+        const bool isDirective =
+            line.find_first_not_of(" \t") != std::string::npos && line[line.find_first_not_of(" \t")] == '#';
         (isDirective ? parts.head : parts.body) += line + "\n";
     }
     return parts;
@@ -236,20 +269,22 @@ std::string countingText(const Marked& marked, Stage stage, unsigned binding) {
     const bool isFragment = stage == Stage::Fragment;
     return fmt::format("{}{}layout(std430, binding = {}) buffer SbCounts {{ uint sbHeader[4]; uint sbCounts[]; }};\n"
                        "uint sbMarks[{}] = uint[]({});\n"
-                       "void sbLeave();\n#define SB_MARK(k) ++sbMarks[k]\n#define SB_LEAVE sbLeave();\n{}\n",
+                       "void sbLeave();\n#define SB_MARK(k) ++sbMarks[k]\n#define SB_INNER SB_MARK\n#define SB_LEAVE "
+                       "sbLeave();\n{}\n",
                        marked.head, isFragment && mayBeTestedEarly(marked) ? "layout(early_fragment_tests) in;\n" : "",
                        binding, marked.marks, zeros, marked.body) +
            fmt::format("void sbLeave() {{\n    uint place = {};\n"
                        "    uint band = place / sbHeader[1];\n    if (band % sbHeader[2] != 0u) return;\n"
-                       "    place = (band / sbHeader[2] * sbHeader[1] + place % sbHeader[1]) * {}u;\n{}}}\nvoid main() {{\n    sbMain();\n    sbLeave();\n}}\n",
+                       "    place = (band / sbHeader[2] * sbHeader[1] + place % sbHeader[1]) * {}u;\n{}}}\nvoid main() {{\n "
+                       "   sbMain();\n    sbLeave();\n}}\n",
                        isFragment ? fragmentPlace : invocationPlace, marked.marks, sums);
 }
 
-std::string placingText(const Marked& marked) {
+std::string placingText(const Marked& marked, bool inner) {
     return fmt::format("{}layout(std430) volatile buffer SbPlaces {{ uint sbPlaces[]; }};\n"
-                       "#define SB_MARK(k) sbPlaces[k] = {}u + uint(k)\n#define SB_LEAVE\n"
+                       "#define SB_MARK(k) sbPlaces[k] = {}u + uint(k)\n#define SB_INNER(k) {}\n#define SB_LEAVE\n"
                        "{}\nvoid main() {{ sbMain(); }}\n",
-                       marked.head, firstPlace, marked.body);
+                       marked.head, firstPlace, inner ? "SB_MARK(k)" : "", marked.body);
 }
 
 } // namespace shadowbench::gpu

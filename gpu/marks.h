@@ -15,6 +15,7 @@ struct Marked {
     std::string head; // #version and #extension
     std::string body; // in which main is called sbMain, and `SB_LEAVE` stands before each discard
     unsigned marks = 1;
+    bool hasInner = false; // marks in loops of constant length: `SB_INNER(k);`
     bool discards = false;
 };
 
@@ -27,8 +28,9 @@ Marked marked(const Shader& shader);
 /// 1 says, each word 2-th is counted, one behind another.
 std::string countingText(const Marked& marked, Stage stage, unsigned binding);
 
-/// GLSL for Vulkan in which mark k stores the word firstPlace + k.
-std::string placingText(const Marked& marked);
+/// GLSL for Vulkan in which mark k stores the word firstPlace + k; without `inner`, those in loops of constant length do
+/// not.
+std::string placingText(const Marked& marked, bool inner = true);
 inline constexpr unsigned firstPlace = 0x5B000000, mostMarks = 0x10000;
 
 } // namespace shadowbench::gpu

@@ -123,13 +123,16 @@ private:
         work_.reads += count * (executed.textureReads + executed.bufferReads);
     }
 
-    /// On the straight line in the number of pixels through the two images that it was counted on; what is less on the
+    /// By the power of the number of pixels that goes through the two images that it was counted on; what is less on the
     /// larger one stays as it is there.
     void dispatch(const shaders::ShaderCost& shader) {
         if (!shader.executed || !shader.larger) return run(shader, pixelsOf(shader.output.extents));
         const double drawn = static_cast<double>(drawn_.screen.x) * drawn_.screen.y;
-        const double share = (static_cast<double>(size_.x) * size_.y / drawn - 1) / 3;
-        const auto at = [share](double small, double large) { return large > small ? small + share * (large - small) : large; };
+        const double pixels = std::log(static_cast<double>(size_.x) * size_.y / drawn);
+        const double power = pixels / std::log(shaders::largerBy * shaders::largerBy);
+        const auto at = [power](double small, double large) {
+            return small > 0 && large > small ? small * std::pow(large / small, power) : large;
+        };
         const gpu::Executed &small = *shader.executed, &large = shader.larger->executed;
         run({at(small.cycles32, large.cycles32), at(small.cycles64, large.cycles64), at(small.longest32, large.longest32),
              at(small.longest64, large.longest64), at(small.textureReads, large.textureReads),

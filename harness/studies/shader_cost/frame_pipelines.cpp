@@ -4,6 +4,7 @@
 #include "gpu/counter.h"
 #include "harness/render/lod_stage.h"
 #include "harness/render/stage.h"
+#include "harness/studies/shader_cost/shader_cost.h"
 
 #include <algorithm>
 #include <functional>
@@ -90,7 +91,7 @@ FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant) {
     FrameUses frame = ofShadow(scene, variant);
     if (std::ranges::none_of(frame.uses, isSteadyDispatch)) return frame;
     Scene large = scene;
-    large.size *= 2;
+    large.size *= largerBy;
     frame.largerDispatches = ofShadow(large, variant).uses;
     std::erase_if(frame.largerDispatches, std::not_fn(isSteadyDispatch));
     return frame;

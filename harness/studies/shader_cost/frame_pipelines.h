@@ -12,8 +12,8 @@ namespace shadowbench::shaders {
 
 struct FrameUses {
     std::vector<gpu::Use> uses;
-    std::vector<gpu::Move> moves;              // of the steady frame
-    std::vector<gpu::Use> largerDispatches = {}; // of the steady frame on an image of twice the width and height
+    std::vector<gpu::Move> moves;                // of the steady frame
+    std::vector<gpu::Use> largerDispatches = {}; // of the steady frame on a larger image (largerBy)
 
     /// The same dispatch among these; null where it is none.
     [[nodiscard]] const gpu::Use* larger(const gpu::Use& use) const;

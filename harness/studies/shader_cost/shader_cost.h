@@ -25,7 +25,11 @@ struct Output {
     gpu::Extents extents = {}; // as of gpu::Use
 };
 
-/// A dispatch on an image of twice the width and height.
+/// Of the image on which dispatches are counted again, to each side that of the scene's: what they do may grow with the
+/// pixels.
+inline constexpr int largerBy = 4;
+
+/// A dispatch on that image.
 struct Larger {
     gpu::Extents extents;
     gpu::Executed executed;
