@@ -120,7 +120,7 @@ private:
 
     void run(const gpu::Executed& executed, double count) {
         work_.shading.push_back({count, executed.cycles64, executed.cycles32, executed.longest64, executed.longest32});
-        work_.reads += count * (executed.textureReads + executed.bufferReads);
+        work_.reads += count * executed.textureReads;
     }
 
     /// By the power of the number of pixels that goes through the two images that it was counted on; what is less on the
