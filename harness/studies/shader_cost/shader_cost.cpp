@@ -261,12 +261,12 @@ protected:
                 Counted counted{pipeline, {}};
                 if (!pipeline.passes.empty()) counted.marks = store().getMarks(use.pipeline, *each);
                 addRows(costs.shaders, sharedOf(place, pipeline, *each), pipeline.shaders, store().get(use.pipeline, *each),
-                        &counted);
+                        frame.isCounted ? &counted : nullptr);
             }
         }
         for (const gpu::Move& move : frame.moves)
             list.moves.push_back({"", "", move.pass, move.kind, gpu::formatName(move.format), move.extents});
-        if (place.isBuiltIn) store().keepText(key, toText(list));
+        if (place.isBuiltIn && frame.isCounted) store().keepText(key, toText(list));
         costs.moves = movesOf(place, std::move(list.moves));
         return costs;
     }

@@ -110,5 +110,25 @@ TEST(ShaderCostTable, HasOneFigureWhereArchitecturesAgree) {
     EXPECT_EQ(text.find("16/16"), std::string::npos) << text;
 }
 
+TEST(ShaderCostTable, ShowsWhatIsExecutedWhereSomethingIsCounted) {
+    EXPECT_EQ(table(costs({shader("resolve", 726)})).find("executed"), std::string::npos);
+    ShaderCost counted = shader("resolve", 726);
+    counted.executed = gpu::Executed{10, 1234.4, 0, 0, 0, 0, 0};
+    const std::string text = table(costs({counted, shader("blur", 74)}));
+    EXPECT_NE(text.find("executed"), std::string::npos) << text;
+    EXPECT_NE(text.find(" 1234"), std::string::npos) << text;
+    EXPECT_NE(text.find("–"), std::string::npos) << text;
+}
+
+TEST(ShaderCostChanges, WhatIsExecutedIsComparedToTheDigit) {
+    ShaderCost before = shader("resolve", 726), after = before;
+    before.executed = gpu::Executed{0, 1000, 0, 0, 0, 0, 0};
+    after.executed = gpu::Executed{0, 1000.5, 0, 0, 0, 0, 0};
+    const std::string text = changes(costs({before}), costs({after}));
+    EXPECT_NE(text.find("total executed cycles 1000 → 1000.5 (+0.05 %); helped 0, hurt 1"), std::string::npos) << text;
+    EXPECT_EQ(changes(costs({shader("resolve", 726)}), costs({after})), "no change in 1 shaders\n")
+        << "an older list has none";
+}
+
 } // namespace
 } // namespace shadowbench::shaders
