@@ -72,8 +72,8 @@ double cyclesOf(const Busy& busy, double waves) {
     return std::max({busy[Part::Latency] / waves, busy[Part::Vector], busy[Part::Complex], busy[Part::Scalar]});
 }
 
-/// As aco_statistics.cpp says: loops 8 times, 4 times within another, twice further in; a side of a uniform condition half
-/// of the times, of a divergent one three quarters.
+/// As Mesa's compiler says (ACO, collect_preasm_stats): loops 8 times, 4 times within another, twice further in; a side of a
+/// uniform condition half of the times, of a divergent one three quarters.
 std::vector<double> guessedWeights(const std::vector<CodeBlock>& blocks) {
     const std::vector<Region> regions = regionsOf(blocks);
     std::vector<double> weights;

@@ -16,7 +16,10 @@ std::string toText(const std::vector<StageFigures>& figures) {
     for (const StageFigures& each : figures) {
         nlohmann::ordered_json statistics;
         for (const auto& [statistic, value] : each.statistics) statistics[statistic] = value;
-        json.push_back({{"stage", name(each.stage)}, {"statistics", statistics}, {"waves", each.waves}, {"guessed", each.guessed.parts}});
+        json.push_back({{"stage", name(each.stage)},
+                        {"statistics", statistics},
+                        {"waves", each.waves},
+                        {"guessed", each.guessed.parts}});
     }
     return json.dump();
 }

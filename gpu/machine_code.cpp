@@ -62,7 +62,7 @@ std::vector<std::string> registersOf(const std::string& text) {
     return found;
 }
 
-/// What Mesa's own estimate (aco_statistics.cpp) takes for the kinds of instructions of RDNA in waves of 64, which a SIMD of
+/// What Mesa's own estimate (ACO, get_perf_info) takes for the kinds of instructions of RDNA in waves of 64, which a SIMD of
 /// 32 lanes does in two steps. On GCN 5 vector instructions take twice as long, each in the same ratio to the others.
 struct Timing {
     double latency = 2; // until the result can be used
@@ -148,7 +148,8 @@ private:
     void wait(const std::string& text) {
         const auto left = [&](const char* counter) {
             const std::size_t at = text.find(counter);
-            return at == std::string::npos ? std::string::npos : std::stoul(text.substr(at + std::string_view(counter).size()));
+            return at == std::string::npos ? std::string::npos
+                                           : std::stoul(text.substr(at + std::string_view(counter).size()));
         };
         for (std::size_t many = left("vmcnt("); vector_.size() > many; vector_.pop_front())
             now_ = std::max(now_, vector_.front());
@@ -244,7 +245,8 @@ std::vector<CodeBlock> codeBlocks(const std::string& assembly) {
             if (!i.name.starts_with("s_branch") && !i.name.starts_with("s_cbranch")) continue;
             const auto target = i.operands.empty() ? code.labels.end() : code.labels.find(i.operands.front());
             if (target == code.labels.end())
-                throw BadInput("machine code jumps to \"" + i.text + "\", which it does not have; is Mesa of another version?");
+                throw BadInput("machine code jumps to \"" + i.text +
+                               "\", which it does not have; is Mesa of another version?");
             block.target = target->second;
         }
     }

@@ -96,8 +96,11 @@ private:
         (void)upTo("(");
         const std::vector<std::string> first = upTo(";"), test = upTo(";");
         if (first.size() < 2) return false;
-        constants_.insert(first[1]); // "int i = 0"
-        return std::ranges::all_of(test, [this](const std::string& word) { return constants_.contains(word); });
+        const std::string& variable = first[1]; // "int i = 0"
+        const bool isConstant = std::ranges::all_of(
+            test, [&](const std::string& word) { return word == variable || constants_.contains(word); });
+        if (isConstant) constants_.insert(variable);
+        return isConstant;
     }
 
     /// Up to what closes the bracket that comes next.

@@ -57,8 +57,7 @@ Term Terms::limit() const {
 Terms termsOf(const PassWork& work, const Card& card) {
     Terms terms;
     double bytes = work.bytes;
-    for (const Shading& shading : work.shading)
-        terms.arithmetic += secondsOf(shading, card);
+    for (const Shading& shading : work.shading) terms.arithmetic += secondsOf(shading, card);
     terms.texture = work.reads / card[Rate::Texture];
     for (const Written& written : work.output) {
         terms.output += secondsOf(written, card);

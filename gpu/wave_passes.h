@@ -12,7 +12,7 @@ namespace shadowbench::gpu {
 /// takes. Mark 0 is main's: how many waves ran.
 struct WavePasses {
     std::vector<std::uint64_t> quads, waves32, waves64; // of 4, 32 and 64 lanes
-    std::vector<std::uint64_t> longest32, longest64;    // of the wave alone that passes most marks; then of the next target's
+    std::vector<std::uint64_t> longest32, longest64; // of the wave alone that passes most marks; then of the next target's
 
     void add(const WavePasses& other);
     [[nodiscard]] bool empty() const { return waves64.empty() || waves64.front() == 0; }

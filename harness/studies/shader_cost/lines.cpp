@@ -51,18 +51,17 @@ gpu::WavePasses passesOf(const Json& json) {
 }
 
 Json jsonOf(const gpu::Executed& executed) {
-    return {{"cycles_32", executed.cycles32},
-            {"cycles_64", executed.cycles64},
-            {"longest_32", executed.longest32},
-            {"longest_64", executed.longest64},
-            {"texture_reads", executed.textureReads},
-            {"buffer_reads", executed.bufferReads},
-            {"stores", executed.stores}};
+    return {
+        {"cycles_32", executed.cycles32},   {"cycles_64", executed.cycles64},         {"longest_32", executed.longest32},
+        {"longest_64", executed.longest64}, {"texture_reads", executed.textureReads}, {"buffer_reads", executed.bufferReads},
+        {"stores", executed.stores}};
 }
 
 gpu::Executed executedOf(const Json& json) {
-    return {json.at("cycles_32").get<double>(), json.at("cycles_64").get<double>(), json.at("longest_32").get<double>(), json.at("longest_64").get<double>(), json.at("texture_reads").get<double>(),
-            json.at("buffer_reads").get<double>(), json.at("stores").get<double>()};
+    return {json.at("cycles_32").get<double>(),     json.at("cycles_64").get<double>(),
+            json.at("longest_32").get<double>(),    json.at("longest_64").get<double>(),
+            json.at("texture_reads").get<double>(), json.at("buffer_reads").get<double>(),
+            json.at("stores").get<double>()};
 }
 
 Json jsonOf(const FrameMove& move) {
@@ -80,16 +79,16 @@ Json jsonOf(const ShaderCost& shader, const std::string& compiler) {
     Json statistics = Json::object();
     for (const auto& [statistic, value] : shader.statistics) statistics[statistic] = value;
     Json json{{"technique", shader.technique},
-            {"scene", shader.scene},
-            {"pass", shader.pass},
-            {"stage", gpu::name(shader.stage)},
-            {"source", shader.source},
-            {"number", shader.number},
-            {"draws", shader.draws},
-            {"architecture", shader.architecture},
-            {"compiler", compiler},
-            {"statistics", statistics},
-            {"output", jsonOf(shader.output)}};
+              {"scene", shader.scene},
+              {"pass", shader.pass},
+              {"stage", gpu::name(shader.stage)},
+              {"source", shader.source},
+              {"number", shader.number},
+              {"draws", shader.draws},
+              {"architecture", shader.architecture},
+              {"compiler", compiler},
+              {"statistics", statistics},
+              {"output", jsonOf(shader.output)}};
     if (shader.executed) json["executed"] = jsonOf(*shader.executed);
     if (shader.larger)
         json["larger"] = {{"extents", jsonOf(shader.larger->extents)}, {"executed", jsonOf(shader.larger->executed)}};

@@ -21,7 +21,7 @@ struct FramePipeline {
     std::string digest; // gpu::Pipeline::digest
     FrameShaders shaders;
     Output output;
-    gpu::WavePasses passes = {};                                            // as of gpu::Use
+    gpu::WavePasses passes = {};                                         // as of gpu::Use
     std::optional<std::pair<gpu::Extents, gpu::WavePasses>> larger = {}; // of dispatches, as of Larger
 };
 
