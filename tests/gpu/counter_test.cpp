@@ -2,6 +2,7 @@
 #include "gpu/counter.h"
 
 #include "gpu/executed.h"
+#include "gpu/marks.h"
 #include "gpu/observer.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
@@ -166,6 +167,24 @@ TEST_F(Counted, MarksChangeNoBit) {
     const Image<float> with = drawn(text, true), without = drawn(text, false);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) ASSERT_EQ(with(x, y), without(x, y)) << x << ", " << y;
+}
+
+TEST_F(Counted, ALoopIsOfConstantLengthByItsTest) {
+    const auto hasInner = [](const std::string& body) {
+        return marked({Stage::Fragment, "test",
+                       "#version 450 core\nuniform int n;\nconst int most = 4;\nvoid main() { " + body + " }\n"})
+            .hasInner;
+    };
+    EXPECT_TRUE(hasInner("for (int i = 0; i < 2 * most; ++i) {}"));
+    EXPECT_FALSE(hasInner("for (int i = 0; i < n; ++i) {}"));
+    EXPECT_FALSE(hasInner("for (int i = 0; i < n; ++i) for (int j = 0; j < i; ++j) {}"));
+    EXPECT_TRUE(hasInner("for (int i = 0; i < most; ++i) for (int j = 0; j < i; ++j) {}"));
+    EXPECT_FALSE(hasInner("int i = 0; while (i < most) ++i;"));
+}
+
+TEST_F(Counted, ABrokenShaderIsRefused) {
+    EXPECT_THROW((void)marked({Stage::Fragment, "test", "#version 450 core\nvoid main() { if (true) {"}), BadInput);
+    EXPECT_THROW((void)marked({Stage::Fragment, "test", "#version 450 core\n#if 1\nvoid main() {}\n"}), BadInput);
 }
 
 TEST_F(Counted, TheSourceIsStillTheOneThatWasGiven) {
