@@ -44,7 +44,8 @@ void addShaderCost(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
         "shader-cost", "Compiles shaders for AMD's graphics processors that are not there: instructions, registers, waves");
     verb->footer(
-        "Figures are of machine code and not of its run: loops count as often as the compiler guesses (docs/gpu-cost.md).\n"
+        "Figures are of machine code, whose loops count as often as the compiler guesses; `executed` is what waves of the\n"
+        "technique's frame run, counted on llvmpipe (docs/gpu-cost.md).\n"
         "Files that differ in .vert and .frag alone are one program.\n"
         "Examples:\n  shadowbench shader-cost --technique sm-uniform --technique pcss\n"
         "  shadowbench shader-cost blur.vert blur.frag --arch navi21\n"

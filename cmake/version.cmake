@@ -51,7 +51,7 @@ digest_of(program "${COMPILER}${beside}" "^$" ${rooms} cmake)
 digest_of(metric_code "" "^$" harness/cells harness/measure harness/metrics harness/records harness/render)
 
 # The hashes of what decides which pipelines a frame uses and of what compiles them, which name what is kept of them.
-digest_of(drawing "" "^$" scene techniques gpu/observer gpu/pipeline gpu/state harness/render studies/shader_cost/frame_pipelines)
+digest_of(drawing "" "^$" scene techniques gpu/counter gpu/marks gpu/observer gpu/pipeline gpu/spirv gpu/state gpu/wave_passes harness/render studies/shader_cost/frame_pipelines)
 digest_of(compiling "" "gpu/(card|model)" gpu)
 file(WRITE ${OUT}/embedded_shader_sources.h.new
      "#pragma once\n\nnamespace shadowbench::embedded {\n\n"

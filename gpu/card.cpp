@@ -11,6 +11,7 @@ namespace {
 
 constexpr Words<Rate, rateCount> rateNames{"rate",
                                            {{{Rate::Arithmetic, "arithmetic"},
+                                             {Rate::Clock, "clock"},
                                              {Rate::Texture, "texture"},
                                              {Rate::Output, "output"},
                                              {Rate::OutputBytes, "output_bytes"},
@@ -23,6 +24,12 @@ constexpr Words<Rate, rateCount> rateNames{"rate",
                                              {Rate::Passes, "passes"},
                                              {Rate::Dependents, "dependents"},
                                              {Rate::ReadBacks, "read_backs"}}}};
+
+int lanesOf(const TomlValue& value) {
+    const int lanes = value.integer(32, 64);
+    if (lanes != 32 && lanes != 64) value.fail("is neither 32 nor 64, the widths that waves are counted for");
+    return lanes;
+}
 
 std::vector<Card> builtInCards() {
     std::vector<Card> all;
@@ -40,9 +47,9 @@ Card parseCard(const std::string& text, const std::string& file) {
     const TomlSource source{file};
     const TomlValue root(source, "", table);
     std::vector<std::string> keys = rateNames.all();
-    keys.emplace_back("name");
+    keys.insert(keys.end(), {"name", "lanes"});
     root.only(keys);
-    Card card{std::filesystem::path(file).stem().string(), root.get("name").text()};
+    Card card{std::filesystem::path(file).stem().string(), root.get("name").text(), lanesOf(root.get("lanes"))};
     for (const auto& [rate, word] : rateNames.words) {
         const TomlValue given = root.get(word);
         card.rates.at(static_cast<std::size_t>(rate)) = given.only({"rate", "source"}).get("rate").positive();

@@ -12,7 +12,8 @@ namespace shadowbench::gpu {
 /// What is counted, all in a second.
 enum class Rate {
     Arithmetic,   // cycles of all SIMDs together, each of 32 lanes
-    Texture,      // reads of a texture
+    Clock,        // cycles of one SIMD
+    Texture,      // reads of a texture, and of buffers at places that lanes do not share
     Output,       // pixels of a colour target, however few bytes they have
     OutputBytes,  // bytes of colour targets that are written or cleared
     BlendedBytes, // bytes of targets of 32-bit floats that are blended
@@ -25,10 +26,11 @@ enum class Rate {
     Dependents, // targets, dispatches and copies that read what the one before wrote
     ReadBacks
 };
-inline constexpr std::size_t rateCount = 13;
+inline constexpr std::size_t rateCount = 14;
 
 struct Card {
     std::string id, name;
+    int lanes = 32; // of a wave: 32 or 64
     std::array<double, rateCount> rates{};
 
     [[nodiscard]] double operator[](Rate rate) const { return rates.at(static_cast<std::size_t>(rate)); }

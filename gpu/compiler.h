@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu/figures.h"
+#include "gpu/machine_code.h"
 #include "gpu/pipeline.h"
 
 #include <memory>
@@ -41,8 +42,17 @@ public:
     /// Stage by stage. Throws BadInput for shaders that do not compile.
     [[nodiscard]] std::vector<StageFigures> compile(const Pipeline& pipeline) const;
 
+    /// What each mark of the text (gpu/marks.h) of its fragment or compute shader executes. Where marks keep the compiler
+    /// from unrolling a loop, those in loops of constant length are left out: they execute nothing, and what is around them
+    /// does.
+    [[nodiscard]] std::vector<Busy> busyOfMarks(const Pipeline& pipeline) const;
+
 private:
     struct Device;
+    struct Compiled;
+    [[nodiscard]] std::vector<Compiled> compiled(const Pipeline& pipeline) const;
+    [[nodiscard]] std::vector<CodeBlock> blocksOf(Pipeline pipeline, const std::string& text) const;
+
     std::unique_ptr<Device> device_;
 };
 

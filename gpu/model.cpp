@@ -9,8 +9,6 @@
 namespace shadowbench::gpu {
 namespace {
 
-constexpr double lanesOfWave = 64;
-
 constexpr Words<Term, 7> terms{"term",
                                {{{Term::Arithmetic, "arithmetic"},
                                  {Term::Texture, "texture"},
@@ -24,6 +22,13 @@ constexpr Words<Term, 7> terms{"term",
 double secondsOf(const Written& written, const Card& card) {
     const Rate bytes = written.blends && written.fullFloats ? Rate::BlendedBytes : Rate::OutputBytes;
     return std::max(written.pixels / card[Rate::Output], written.pixels * written.bytes / card[bytes]);
+}
+
+/// Work that is shared by all SIMDs, but by no more than there are waves.
+double secondsOf(const Shading& shading, const Card& card) {
+    const bool narrow = card.lanes == 32;
+    return std::max(shading.count / 64 * (narrow ? shading.cycles32 : shading.cycles) / card[Rate::Arithmetic],
+                    (narrow ? shading.longest32 : shading.longest) / card[Rate::Clock]);
 }
 
 double sumOf(std::span<const PassWork> passes, const Card& card) {
@@ -52,8 +57,7 @@ Term Terms::limit() const {
 Terms termsOf(const PassWork& work, const Card& card) {
     Terms terms;
     double bytes = work.bytes;
-    for (const Shading& shading : work.shading)
-        terms.arithmetic += shading.count / lanesOfWave * shading.cycles / card[Rate::Arithmetic];
+    for (const Shading& shading : work.shading) terms.arithmetic += secondsOf(shading, card);
     terms.texture = work.reads / card[Rate::Texture];
     for (const Written& written : work.output) {
         terms.output += secondsOf(written, card);

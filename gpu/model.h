@@ -13,7 +13,10 @@ namespace shadowbench::gpu {
 /// Vertices, fragments or invocations that run one shader.
 struct Shading {
     double count = 0;
-    double cycles = 0; // of a SIMD for a wave of 64: the compiler's inverse throughput
+    double cycles =
+        0; // of a SIMD for 64 lanes that run as a wave of 64: the compiler's inverse throughput or what is executed
+    double cycles32 = 0;               // for as many in waves of 32
+    double longest = 0, longest32 = 0; // of the longest wave alone; of dispatches and targets one after another, their sum
 };
 
 /// Pixels of a colour target that are written, blended or cleared.

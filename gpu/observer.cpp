@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/words.h"
+#include "gpu/counter.h"
 #include "techniques/gl/api.h"
 
 #include <algorithm>
@@ -104,7 +105,7 @@ struct Hooks {
     }
 };
 
-Observer::Observer() {
+Observer::Observer(Counter* counter) : counter_(counter) {
     if (living != nullptr) throw InternalError("a second observer of a frame's pipelines was made beside a living one");
     living = this;
     Hooks::each([](auto hook) { decltype(hook)::install(); });
@@ -116,6 +117,9 @@ Observer::~Observer() {
 }
 
 std::vector<Use> Observer::take() {
+    if (counter_ != nullptr)
+        for (auto& [key, passes] : counter_->take())
+            if (const auto known = known_.find(key); known != known_.end()) uses_[known->second].passes = std::move(passes);
     known_.clear();
     return std::exchange(uses_, {});
 }
@@ -123,7 +127,10 @@ std::vector<Use> Observer::take() {
 std::vector<Move> Observer::takeMoves() { return std::exchange(moves_, {}); }
 
 void Observer::draw(unsigned topology) {
-    Use& use = note({currentShaders(), drawState(topology)});
+    Pipeline pipeline{currentShaders(), drawState(topology)};
+    const std::string key = keyOf(pipeline);
+    if (counter_ != nullptr) counter_->draw(key);
+    Use& use = note(std::move(pipeline), key);
     const DrawnInto into{bound(GL_DRAW_FRAMEBUFFER_BINDING), viewport()};
     if (into != drawnInto_) ++use.extents[into.second];
     drawnInto_ = into;
@@ -132,12 +139,18 @@ void Observer::draw(unsigned topology) {
 void Observer::dispatch(unsigned x, unsigned y, unsigned z) {
     std::array<GLint, 3> group{};
     glGetProgramiv(bound(GL_CURRENT_PROGRAM), GL_COMPUTE_WORK_GROUP_SIZE, group.data());
-    Use& use = note({currentShaders(), {}});
+    Pipeline pipeline{currentShaders(), {}};
+    const std::string key = keyOf(pipeline);
+    const int invocations = group[0] * group[1] * group[2];
+    if (counter_ != nullptr) counter_->dispatch(key, {x, y, z}, static_cast<unsigned>(invocations));
+    Use& use = note(std::move(pipeline), key);
     ++use.extents[{static_cast<int>(x) * group[0], static_cast<int>(y * z) * group[1] * group[2]}];
 }
 
-Use& Observer::note(Pipeline pipeline) {
-    const auto [entry, isNew] = known_.try_emplace(pass_ + "\n" + pipeline.digest(), uses_.size());
+std::string Observer::keyOf(const Pipeline& pipeline) const { return pass_ + "\n" + pipeline.digest(); }
+
+Use& Observer::note(Pipeline pipeline, const std::string& key) {
+    const auto [entry, isNew] = known_.try_emplace(key, uses_.size());
     if (isNew) uses_.push_back({pass_, std::move(pipeline)});
     Use& use = uses_[entry->second];
     ++use.draws;

@@ -5,6 +5,7 @@
 
 #include "gpu/pipeline.h"
 #include "gpu/state.h"
+#include "gpu/wave_passes.h"
 
 #include <cstdint>
 #include <map>
@@ -24,6 +25,7 @@ struct Use {
     Pipeline pipeline;
     std::uint64_t draws = 0; // and dispatches
     Extents extents = {}; // of targets, each time that another one is drawn into; of each dispatch, invocations in x, y · z
+    WavePasses passes = {}; // of its fragment or compute shader; empty where nothing counted
 };
 
 enum class MoveKind { Clear, Copy, Mipmap, ReadBack };
@@ -42,10 +44,12 @@ std::string_view name(MoveKind kind);
 /// Throws BadInput for another word.
 MoveKind moveNamed(std::string_view word);
 
-/// One at a time, of the context that is current and outlives it.
+class Counter;
+
+/// One at a time, of the context that is current and outlives it; `counter`, made before it, too.
 class Observer {
 public:
-    Observer();
+    explicit Observer(Counter* counter = nullptr);
     ~Observer();
     Observer(const Observer&) = delete;
     Observer& operator=(const Observer&) = delete;
@@ -60,9 +64,11 @@ private:
     friend struct Hooks;
     void draw(unsigned topology);
     void dispatch(unsigned x, unsigned y, unsigned z);
-    Use& note(Pipeline pipeline);
+    Use& note(Pipeline pipeline, const std::string& key);
+    [[nodiscard]] std::string keyOf(const Pipeline& pipeline) const;
     void move(MoveKind kind, const Target& target);
 
+    Counter* counter_;
     std::string pass_;
     std::vector<Use> uses_;
     std::vector<Move> moves_;

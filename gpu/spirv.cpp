@@ -38,6 +38,11 @@ std::string firstError(const std::string& log) {
     return log;
 }
 
+void start() {
+    static const bool ready = glslang::InitializeProcess();
+    if (!ready) throw InternalError("glslang did not start");
+}
+
 std::unique_ptr<glslang::TShader> parsed(const Shader& source) {
     const EShLanguage language = languageOf(source.stage);
     auto shader = std::make_unique<glslang::TShader>(language);
@@ -68,8 +73,7 @@ void removeUnused(std::vector<std::uint32_t>& module) {
 } // namespace
 
 std::vector<std::vector<std::uint32_t>> toSpirv(const std::vector<Shader>& shaders) {
-    static const bool ready = glslang::InitializeProcess();
-    if (!ready) throw InternalError("glslang did not start");
+    start();
     std::vector<std::unique_ptr<glslang::TShader>> parts; // outlive the program
     glslang::TProgram program;
     for (const Shader& shader : shaders) program.addShader(parts.emplace_back(parsed(shader)).get());
@@ -88,6 +92,21 @@ std::vector<std::vector<std::uint32_t>> toSpirv(const std::vector<Shader>& shade
         removeUnused(module);
     }
     return modules;
+}
+
+std::string preprocessed(const Shader& shader) {
+    start();
+    const EShLanguage language = languageOf(shader.stage);
+    glslang::TShader source(language);
+    const char* text = shader.text.c_str();
+    const char* name = shader.name.c_str();
+    const int length = static_cast<int>(shader.text.size());
+    source.setStringsWithLengthsAndNames(&text, &length, &name, 1);
+    glslang::TShader::ForbidIncluder includer;
+    std::string result;
+    if (!source.preprocess(GetDefaultResources(), 450, ECoreProfile, false, false, EShMsgDefault, &result, includer))
+        throw BadInput("compiling GLSL failed: " + firstError(source.getInfoLog()));
+    return result;
 }
 
 std::string spirvCompiler() {

@@ -11,7 +11,8 @@
 namespace shadowbench::gpu {
 namespace {
 
-constexpr VkPipelineCreateFlags keepStatistics = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
+constexpr VkPipelineCreateFlags keepStatistics =
+    VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR | VK_PIPELINE_CREATE_CAPTURE_INTERNAL_REPRESENTATIONS_BIT_KHR;
 
 VkDescriptorType descriptorType(Resource resource) {
     switch (resource) {

@@ -84,15 +84,14 @@ private:
     }
 
     void addShader(const shaders::ShaderCost& shader) {
-        const auto cycles = static_cast<double>(shader.of("Inverse Throughput"));
         if (shader.stage == gpu::Stage::Compute) {
-            work_.shading.push_back({pixelsOf(shader.output.extents), cycles});
+            dispatch(shader);
             work_.dependents += static_cast<double>(shader.draws);
             return;
         }
         const double share = draws_ > 0 ? static_cast<double>(shader.draws) / draws_ : 0;
         if (shader.stage == gpu::Stage::Vertex) {
-            work_.shading.push_back({share * static_cast<double>(counts_.vertices), cycles});
+            run(shader, share * static_cast<double>(counts_.vertices));
             return;
         }
         targets_ += timesOf(shader.output.extents);
@@ -100,13 +99,45 @@ private:
         // Where no record counts fragments of depth alone, the target is taken to be covered once.
         const double fragments = isDepthAlone && counts_.fragments == 0 ? pixelsOf(shader.output.extents)
                                                                         : share * static_cast<double>(counts_.fragments);
-        if (counts_.fragments > 0) work_.shading.push_back({fragments, cycles});
+        if (counts_.fragments > 0) run(shader, fragments);
         for (const std::string& colour : shader.output.colours)
             work_.output.push_back({fragments, gpu::bytesOf(colour), gpu::hasFullFloats(colour), shader.output.blends});
         if (shader.output.writesDepth)
             work_.depthPixels += fragments;
         else if (isDepthAlone)
             work_.testedPixels += fragments;
+    }
+
+    /// What it executes, where that is counted; else what the compiler guesses.
+    void run(const shaders::ShaderCost& shader, double count) {
+        const auto guessed = static_cast<double>(shader.of("Inverse Throughput"));
+        if (!shader.executed) {
+            work_.shading.push_back({count, guessed, guessed});
+            return;
+        }
+        run(*shader.executed, count);
+    }
+
+    void run(const gpu::Executed& executed, double count) {
+        work_.shading.push_back({count, executed.cycles64, executed.cycles32, executed.longest64, executed.longest32});
+        work_.reads += count * executed.textureReads;
+    }
+
+    /// By the power of the number of pixels that goes through the two images that it was counted on; what is less on the
+    /// larger one stays as it is there.
+    void dispatch(const shaders::ShaderCost& shader) {
+        if (!shader.executed || !shader.larger) return run(shader, pixelsOf(shader.output.extents));
+        const double drawn = static_cast<double>(drawn_.screen.x) * drawn_.screen.y;
+        const double pixels = std::log(static_cast<double>(size_.x) * size_.y / drawn);
+        const double power = pixels / std::log(shaders::largerBy * shaders::largerBy);
+        const auto at = [power](double small, double large) {
+            return small > 0 && large > small ? small * std::pow(large / small, power) : large;
+        };
+        const gpu::Executed &small = *shader.executed, &large = shader.larger->executed;
+        run({at(small.cycles32, large.cycles32), at(small.cycles64, large.cycles64), at(small.longest32, large.longest32),
+             at(small.longest64, large.longest64), at(small.textureReads, large.textureReads),
+             at(small.bufferReads, large.bufferReads), at(small.stores, large.stores)},
+            at(pixelsOf(shader.output.extents), pixelsOf(shader.larger->extents)));
     }
 
     void addMove(const shaders::FrameMove& move) {
@@ -136,24 +167,6 @@ private:
     gpu::PassWork work_;
     double draws_ = 0, targets_ = 0; // of the pipelines that rasterise
 };
-
-/// Of all pixels, those that see a receiver whose exact label is known: all that is scored.
-double seenShare(const Record& record) {
-    return record.values["accuracy.pixels.labelled"].value_or(static_cast<double>(record.width) * record.height) /
-           (static_cast<double>(record.width) * record.height);
-}
-
-/// Reads of textures that the pass' source asks for, which are counted beside the record's own work: with the fragments
-/// where these grow with the screen. A pass over the whole screen reads for pixels that see a surface.
-double readsOf(const Record& record, const PassRecord& counts, glm::ivec2 size) {
-    const PassRecord* small = passNamed(record.passes, counts.name);
-    if (small == nullptr || !small->bare) return 0;
-    const auto reads = static_cast<double>(small->bare->taps);
-    if (small->fragments == 0) return reads;
-    const auto screen = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
-    const double seen = counts.fragments % screen == 0 ? seenShare(record) : 1;
-    return seen * reads * static_cast<double>(counts.fragments) / static_cast<double>(small->fragments);
-}
 
 /// Whether a pass draws as many fragments on an image of another size: none of its targets is the screen then, though one
 /// may happen to be as large as the screen that was drawn was.
@@ -209,7 +222,6 @@ std::vector<NamedWork> worksOf(const Cell& cell, const Drawn& drawn, glm::ivec2 
     for (const PassRecord& counts : countsOn(cell, size)) {
         works.push_back(
             {counts.name, Join(drawn, counts, isOfMap(*cell.front(), counts, size) ? drawn.screen : size).work()});
-        works.back().work.reads = readsOf(*cell.front(), counts, size);
     }
     return works;
 }

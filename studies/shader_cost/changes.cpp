@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
+#include <tuple>
 
 namespace shadowbench::shaders {
 namespace {
@@ -19,18 +20,28 @@ ByName byName(const ShaderCosts& costs) {
 /// More of all others is worse.
 bool isBetterHigher(const std::string& statistic) { return statistic == "Subgroups per SIMD"; }
 
-std::string share(std::uint64_t before, std::uint64_t after) {
+std::string share(double before, double after) {
     if (before == 0) return after == 0 ? "0.00 %" : "new";
-    return fmt::format("{:+.2f} %", 100 * (static_cast<double>(after) / static_cast<double>(before) - 1));
+    return fmt::format("{:+.2f} %", 100 * (after / before - 1));
 }
 
-std::string change(const std::string& statistic, std::uint64_t before, std::uint64_t after) {
-    return fmt::format("{} {} → {} ({})", statistic, before, after, share(before, after));
+std::string change(const std::string& statistic, double before, double after) {
+    return fmt::format("{} {:.10g} → {:.10g} ({})", statistic, before, after, share(before, after));
+}
+
+/// What the compiler gives, and what is executed in waves of 64 where both lists count it.
+std::vector<std::tuple<std::string, double, double>> pairs(const ShaderCost& before, const ShaderCost& after) {
+    std::vector<std::tuple<std::string, double, double>> all;
+    for (const auto& [statistic, value] : after.statistics)
+        all.emplace_back(statistic, static_cast<double>(before.of(statistic)), static_cast<double>(value));
+    if (before.executed && after.executed)
+        all.emplace_back("executed cycles", before.executed->cycles64, after.executed->cycles64);
+    return all;
 }
 
 /// Of one statistic on one architecture.
 struct Total {
-    std::uint64_t before = 0, after = 0;
+    double before = 0, after = 0;
     int helped = 0, hurt = 0;
 };
 
@@ -63,8 +74,7 @@ public:
 private:
     void compare(const ShaderCost& before, const ShaderCost& after) {
         std::string changes;
-        for (const auto& [statistic, value] : after.statistics) {
-            const std::uint64_t was = before.of(statistic);
+        for (const auto& [statistic, was, value] : pairs(before, after)) {
             Total& total = totals_[{after.architecture, statistic}];
             total.before += was;
             total.after += value;

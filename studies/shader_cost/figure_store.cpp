@@ -10,9 +10,20 @@
 namespace shadowbench::shaders {
 namespace {
 
-std::string keyOf(const std::string& digest, const gpu::Architecture& architecture) {
-    return fmt::format("figures of {} on {} by {}, {}", digest, architecture.id, gpu::compilerVersion(),
+std::string keyOf(const char* what, const std::string& digest, const gpu::Architecture& architecture) {
+    return fmt::format("{} of {} on {} by {}, {}", what, digest, architecture.id, gpu::compilerVersion(),
                        embedded::compiling_sources);
+}
+
+/// Nothing where the text was cut off by a power cut: as good as not there.
+template <typename Read>
+auto readKept(const std::optional<std::string>& kept, const Read& read) -> std::optional<decltype(read(*kept))> {
+    if (!kept) return std::nullopt;
+    try {
+        return read(*kept);
+    } catch (const BadInput&) {
+        return std::nullopt;
+    }
 }
 
 } // namespace
@@ -42,23 +53,34 @@ void FigureStore::keepText(const std::string& key, const std::string& text) cons
 
 std::optional<std::vector<gpu::StageFigures>> FigureStore::find(const std::string& digest,
                                                                 const gpu::Architecture& architecture) const {
-    const auto kept = text(keyOf(digest, architecture));
-    if (!kept) return std::nullopt;
-    try {
-        return gpu::figuresOf(*kept);
-    } catch (const BadInput&) { // cut off by a power cut: as good as not there
-        return std::nullopt;
-    }
+    return readKept(text(keyOf("figures", digest, architecture)), gpu::figuresOf);
+}
+
+std::optional<std::vector<gpu::Busy>> FigureStore::findMarks(const std::string& digest,
+                                                             const gpu::Architecture& architecture) const {
+    return readKept(text(keyOf("marks", digest, architecture)), gpu::busyOf);
+}
+
+const gpu::Compiler& FigureStore::compilerFor(const gpu::Architecture& architecture) {
+    auto compiler = compilers_.find(architecture.id);
+    if (compiler == compilers_.end()) compiler = compilers_.try_emplace(architecture.id, architecture).first;
+    return compiler->second;
 }
 
 std::vector<gpu::StageFigures> FigureStore::get(const gpu::Pipeline& pipeline, const gpu::Architecture& architecture) {
     const std::string digest = pipeline.digest();
     if (auto kept = find(digest, architecture)) return *std::move(kept);
-    auto compiler = compilers_.find(architecture.id);
-    if (compiler == compilers_.end()) compiler = compilers_.try_emplace(architecture.id, architecture).first;
-    std::vector<gpu::StageFigures> figures = compiler->second.compile(pipeline);
-    keepText(keyOf(digest, architecture), gpu::toText(figures));
+    std::vector<gpu::StageFigures> figures = compilerFor(architecture).compile(pipeline);
+    keepText(keyOf("figures", digest, architecture), gpu::toText(figures));
     return figures;
+}
+
+std::vector<gpu::Busy> FigureStore::getMarks(const gpu::Pipeline& pipeline, const gpu::Architecture& architecture) {
+    const std::string digest = pipeline.digest();
+    if (auto kept = findMarks(digest, architecture)) return *std::move(kept);
+    std::vector<gpu::Busy> marks = compilerFor(architecture).busyOfMarks(pipeline);
+    keepText(keyOf("marks", digest, architecture), gpu::toText(marks));
+    return marks;
 }
 
 } // namespace shadowbench::shaders

@@ -25,11 +25,17 @@ public:
     /// The same, compiled and kept where they are not.
     std::vector<gpu::StageFigures> get(const gpu::Pipeline& pipeline, const gpu::Architecture& architecture);
 
+    /// Likewise what the marks of its counted shader execute (gpu::Compiler::busyOfMarks).
+    [[nodiscard]] std::optional<std::vector<gpu::Busy>> findMarks(const std::string& digest,
+                                                                  const gpu::Architecture& architecture) const;
+    std::vector<gpu::Busy> getMarks(const gpu::Pipeline& pipeline, const gpu::Architecture& architecture);
+
     /// Text by a key of any kind; one that cannot be written is not kept.
     [[nodiscard]] std::optional<std::string> text(const std::string& key) const;
     void keepText(const std::string& key, const std::string& text) const;
 
 private:
+    const gpu::Compiler& compilerFor(const gpu::Architecture& architecture);
     [[nodiscard]] std::filesystem::path fileOf(const std::string& key) const;
 
     std::filesystem::path folder_;

@@ -1,16 +1,30 @@
 #include "studies/shader_cost/frame_pipelines.h"
 
 #include "embedded_shader_sources.h"
+#include "gpu/counter.h"
 #include "harness/render/lod_stage.h"
 #include "harness/render/stage.h"
+#include "studies/shader_cost/shader_cost.h"
+#include "techniques/gl/context.h"
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <utility>
 
 namespace shadowbench::shaders {
 namespace {
 
 constexpr std::uint32_t seed = 1;
+
+bool isSteadyDispatch(const gpu::Use& use) {
+    return use.draws > 0 && use.pipeline.shaders.front().stage == gpu::Stage::Compute;
+}
+
+/// Null on a graphics processor, where fragments of one pixel may be counted at once.
+std::unique_ptr<gpu::Counter> counterOf(const gl::Context& context) {
+    return context.info().software ? std::make_unique<gpu::Counter>() : nullptr;
+}
 
 /// Adds what `uses` does not have.
 void addOthers(std::vector<gpu::Use>& uses, const std::vector<gpu::Use>& others) {
@@ -23,16 +37,17 @@ void addOthers(std::vector<gpu::Use>& uses, const std::vector<gpu::Use>& others)
 }
 
 FrameUses ofShadow(const Scene& scene, const techniques::Variant& variant) {
+    const auto counter = counterOf(gl::Context::current()); // before anything is compiled
     Stage stage(scene);
     const auto technique = variant.entry->make(variant.parameters);
     const int still = scene.timeline.still - 1;
     stage.show(still);
-    gpu::Observer observer;
+    gpu::Observer observer(counter.get());
     int number = 0;
     const auto render = [&] {
         stage.redraw();
         stage.render(*technique, number++, seed);
-        return FrameUses{observer.take(), observer.takeMoves()};
+        return FrameUses{observer.take(), observer.takeMoves(), counter != nullptr};
     };
     const FrameUses first = render(); // with what is done once
     FrameUses steady = render();
@@ -54,13 +69,14 @@ FrameUses ofLevels(const Scene& scene, const techniques::Variant& variant) {
             most = static_cast<int>(frame);
         }
     }
+    const auto counter = counterOf(gl::Context::current()); // before anything is compiled
     lod::LodStage stage(scene, scene.size);
     const auto technique = variant.entry->makeLod(variant.parameters);
-    gpu::Observer observer;
+    gpu::Observer observer(counter.get());
     const auto render = [&](int frame) {
         stage.show(frame);
         stage.render(*technique);
-        return FrameUses{observer.take(), observer.takeMoves()};
+        return FrameUses{observer.take(), observer.takeMoves(), counter != nullptr};
     };
     const FrameUses first = render(std::max(most - 1, 0));
     FrameUses steady = render(most);
@@ -70,8 +86,22 @@ FrameUses ofLevels(const Scene& scene, const techniques::Variant& variant) {
 
 } // namespace
 
+const gpu::Use* FrameUses::larger(const gpu::Use& use) const {
+    const auto found = std::ranges::find_if(largerDispatches, [digest = use.pipeline.digest(), &use](const gpu::Use& other) {
+        return other.pass == use.pass && other.pipeline.digest() == digest;
+    });
+    return found == largerDispatches.end() ? nullptr : &*found;
+}
+
 FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant) {
-    return variant.isLod() ? ofLevels(scene, variant) : ofShadow(scene, variant);
+    if (variant.isLod()) return ofLevels(scene, variant);
+    FrameUses frame = ofShadow(scene, variant);
+    if (!frame.isCounted || std::ranges::none_of(frame.uses, isSteadyDispatch)) return frame;
+    Scene large = scene;
+    large.size *= largerBy;
+    frame.largerDispatches = ofShadow(large, variant).uses;
+    std::erase_if(frame.largerDispatches, std::not_fn(isSteadyDispatch));
+    return frame;
 }
 
 std::string drawingSources() { return embedded::drawing_sources; }

@@ -12,7 +12,12 @@ namespace shadowbench::shaders {
 
 struct FrameUses {
     std::vector<gpu::Use> uses;
-    std::vector<gpu::Move> moves; // of the steady frame
+    std::vector<gpu::Move> moves;                // of the steady frame
+    bool isCounted = false;                      // how often waves take its loops and branches: llvmpipe draws
+    std::vector<gpu::Use> largerDispatches = {}; // of the steady frame on a larger image (largerBy)
+
+    /// The same dispatch among these; null where it is none.
+    [[nodiscard]] const gpu::Use* larger(const gpu::Use& use) const;
 };
 
 /// Renders still frames, the first of which does what is done once, and one in which things move, and returns what the

@@ -36,6 +36,34 @@ Output outputOf(const Json& json) {
             json.at("depth").get<std::string>(), json.at("writes_depth").get<bool>(), extentsOf(json.at("extents"))};
 }
 
+Json jsonOf(const gpu::WavePasses& passes) {
+    return {passes.quads, passes.waves32, passes.waves64, passes.longest32, passes.longest64};
+}
+
+gpu::WavePasses passesOf(const Json& json) {
+    gpu::WavePasses passes;
+    json.at(0).get_to(passes.quads);
+    json.at(1).get_to(passes.waves32);
+    json.at(2).get_to(passes.waves64);
+    json.at(3).get_to(passes.longest32);
+    json.at(4).get_to(passes.longest64);
+    return passes;
+}
+
+Json jsonOf(const gpu::Executed& executed) {
+    return {
+        {"cycles_32", executed.cycles32},   {"cycles_64", executed.cycles64},         {"longest_32", executed.longest32},
+        {"longest_64", executed.longest64}, {"texture_reads", executed.textureReads}, {"buffer_reads", executed.bufferReads},
+        {"stores", executed.stores}};
+}
+
+gpu::Executed executedOf(const Json& json) {
+    return {json.at("cycles_32").get<double>(),     json.at("cycles_64").get<double>(),
+            json.at("longest_32").get<double>(),    json.at("longest_64").get<double>(),
+            json.at("texture_reads").get<double>(), json.at("buffer_reads").get<double>(),
+            json.at("stores").get<double>()};
+}
+
 Json jsonOf(const FrameMove& move) {
     return {{"technique", move.technique},  {"scene", move.scene},   {"pass", move.pass},
             {"move", gpu::name(move.kind)}, {"format", move.format}, {"extents", jsonOf(move.extents)}};
@@ -50,17 +78,21 @@ FrameMove moveOf(const Json& json) {
 Json jsonOf(const ShaderCost& shader, const std::string& compiler) {
     Json statistics = Json::object();
     for (const auto& [statistic, value] : shader.statistics) statistics[statistic] = value;
-    return {{"technique", shader.technique},
-            {"scene", shader.scene},
-            {"pass", shader.pass},
-            {"stage", gpu::name(shader.stage)},
-            {"source", shader.source},
-            {"number", shader.number},
-            {"draws", shader.draws},
-            {"architecture", shader.architecture},
-            {"compiler", compiler},
-            {"statistics", statistics},
-            {"output", jsonOf(shader.output)}};
+    Json json{{"technique", shader.technique},
+              {"scene", shader.scene},
+              {"pass", shader.pass},
+              {"stage", gpu::name(shader.stage)},
+              {"source", shader.source},
+              {"number", shader.number},
+              {"draws", shader.draws},
+              {"architecture", shader.architecture},
+              {"compiler", compiler},
+              {"statistics", statistics},
+              {"output", jsonOf(shader.output)}};
+    if (shader.executed) json["executed"] = jsonOf(*shader.executed);
+    if (shader.larger)
+        json["larger"] = {{"extents", jsonOf(shader.larger->extents)}, {"executed", jsonOf(shader.larger->executed)}};
+    return json;
 }
 
 ShaderCost shaderOf(const Json& json) {
@@ -75,6 +107,9 @@ ShaderCost shaderOf(const Json& json) {
     json.at("architecture").get_to(shader.architecture);
     for (const auto& [statistic, value] : json.at("statistics").items())
         shader.statistics.emplace_back(statistic, value.get<std::uint64_t>());
+    if (json.contains("executed")) shader.executed = executedOf(json.at("executed"));
+    if (json.contains("larger"))
+        shader.larger = {extentsOf(json.at("larger").at("extents")), executedOf(json.at("larger").at("executed"))};
     if (json.contains("output")) shader.output = outputOf(json.at("output"));
     return shader;
 }
@@ -134,7 +169,11 @@ std::string toText(const FrameList& list) {
                              {"draws", pipeline.draws},
                              {"digest", pipeline.digest},
                              {"shaders", shaders},
-                             {"output", jsonOf(pipeline.output)}});
+                             {"output", jsonOf(pipeline.output)},
+                             {"passes", jsonOf(pipeline.passes)}});
+        if (pipeline.larger)
+            pipelines.back()["larger"] = {{"extents", jsonOf(pipeline.larger->first)},
+                                          {"passes", jsonOf(pipeline.larger->second)}};
     }
     for (const FrameMove& move : list.moves) moves.push_back(jsonOf(move));
     return Json{{"pipelines", pipelines}, {"moves", moves}}.dump();
@@ -152,6 +191,9 @@ FrameList frameList(const std::string& text) {
             for (const Json& shader : each.at("shaders"))
                 pipeline.shaders.emplace_back(gpu::stageNamed(shader.at(0).get<std::string>()), shader.at(1));
             pipeline.output = outputOf(each.at("output"));
+            pipeline.passes = passesOf(each.at("passes"));
+            if (each.contains("larger"))
+                pipeline.larger = {extentsOf(each.at("larger").at("extents")), passesOf(each.at("larger").at("passes"))};
         }
         for (const Json& each : json.at("moves")) list.moves.push_back(moveOf(each));
         return list;

@@ -4,6 +4,7 @@
 #include "studies/shader_cost/shader_cost.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,8 @@ struct FramePipeline {
     std::string digest; // gpu::Pipeline::digest
     FrameShaders shaders;
     Output output;
+    gpu::WavePasses passes = {};                                         // as of gpu::Use
+    std::optional<std::pair<gpu::Extents, gpu::WavePasses>> larger = {}; // of dispatches, as of Larger
 };
 
 /// Of one technique on one scene.

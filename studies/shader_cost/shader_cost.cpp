@@ -51,9 +51,22 @@ void addNumbers(std::vector<ShaderCost>& shaders) {
     }
 }
 
+/// Of the counted shader of a pipeline that the steady frame uses; no marks where it has neither loop nor branch.
+struct Counted {
+    const FramePipeline& pipeline;
+    std::vector<gpu::Busy> marks;
+};
+
+void addExecuted(ShaderCost& row, const gpu::StageFigures& figures, const Counted& counted) {
+    if (row.stage == gpu::Stage::Vertex || counted.pipeline.draws == 0) return;
+    row.executed = gpu::executed(figures, counted.marks, counted.pipeline.passes);
+    if (const auto& larger = counted.pipeline.larger)
+        row.larger = {larger->first, gpu::executed(figures, counted.marks, larger->second)};
+}
+
 /// The rows of one pipeline on one architecture; shaders without a name are none of the user's.
 void addRows(std::vector<ShaderCost>& rows, const ShaderCost& shared, const FrameShaders& sources,
-             const std::vector<gpu::StageFigures>& figures) {
+             const std::vector<gpu::StageFigures>& figures, const Counted* counted = nullptr) {
     for (const gpu::StageFigures& stage : figures) {
         const auto source = std::ranges::find(sources, stage.stage, &std::pair<gpu::Stage, std::string>::first);
         if (source == sources.end() || source->second.empty()) continue;
@@ -61,6 +74,7 @@ void addRows(std::vector<ShaderCost>& rows, const ShaderCost& shared, const Fram
         row.stage = stage.stage;
         row.source = source->second;
         row.statistics = stage.statistics;
+        if (counted != nullptr) addExecuted(row, stage, *counted);
     }
 }
 
@@ -70,7 +84,7 @@ FrameShaders sourcesOf(const gpu::Pipeline& pipeline) {
     return sources;
 }
 
-FramePipeline pipelineOf(const gpu::Use& use) {
+FramePipeline pipelineOf(const gpu::Use& use, const gpu::Use* larger) {
     FramePipeline pipeline{use.pass, use.draws, use.pipeline.digest(), sourcesOf(use.pipeline), {}};
     const gpu::State& state = use.pipeline.state;
     for (const gpu::ColourTarget& colour : state.colours)
@@ -81,6 +95,8 @@ FramePipeline pipelineOf(const gpu::Use& use) {
     pipeline.output.depth = gpu::formatName(state.depthFormat);
     pipeline.output.writesDepth = state.depthTest && state.depthWrite;
     pipeline.output.extents = use.extents;
+    pipeline.passes = use.passes;
+    if (larger != nullptr) pipeline.larger = {larger->extents, larger->passes};
     return pipeline;
 }
 
@@ -240,13 +256,17 @@ protected:
         ShaderCosts costs;
         const FrameUses frame = pipelinesOf(*place.scene, place.variant);
         for (const gpu::Use& use : frame.uses) {
-            const FramePipeline& pipeline = list.pipelines.emplace_back(pipelineOf(use));
-            for (const gpu::Architecture* each : architectures())
-                addRows(costs.shaders, sharedOf(place, pipeline, *each), pipeline.shaders, store().get(use.pipeline, *each));
+            const FramePipeline& pipeline = list.pipelines.emplace_back(pipelineOf(use, frame.larger(use)));
+            for (const gpu::Architecture* each : architectures()) {
+                Counted counted{pipeline, {}};
+                if (!pipeline.passes.empty()) counted.marks = store().getMarks(use.pipeline, *each);
+                addRows(costs.shaders, sharedOf(place, pipeline, *each), pipeline.shaders, store().get(use.pipeline, *each),
+                        frame.isCounted ? &counted : nullptr);
+            }
         }
         for (const gpu::Move& move : frame.moves)
             list.moves.push_back({"", "", move.pass, move.kind, gpu::formatName(move.format), move.extents});
-        if (place.isBuiltIn) store().keepText(key, toText(list));
+        if (place.isBuiltIn && frame.isCounted) store().keepText(key, toText(list));
         costs.moves = movesOf(place, std::move(list.moves));
         return costs;
     }
@@ -299,7 +319,13 @@ private:
             for (const gpu::Architecture* each : architectures()) {
                 const auto figures = store().find(pipeline.digest, *each);
                 if (!figures) return std::nullopt;
-                addRows(costs.shaders, sharedOf(place, pipeline, *each), pipeline.shaders, *figures);
+                Counted counted{pipeline, {}};
+                if (!pipeline.passes.empty()) {
+                    auto marks = store().findMarks(pipeline.digest, *each);
+                    if (!marks) return std::nullopt;
+                    counted.marks = *std::move(marks);
+                }
+                addRows(costs.shaders, sharedOf(place, pipeline, *each), pipeline.shaders, *figures, &counted);
             }
         costs.moves = movesOf(place, list.moves);
         return costs;

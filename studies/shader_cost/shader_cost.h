@@ -3,11 +3,13 @@
 #pragma once
 
 #include "base/error.h"
+#include "gpu/executed.h"
 #include "gpu/observer.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +25,16 @@ struct Output {
     gpu::Extents extents = {}; // as of gpu::Use
 };
 
+/// Of the image on which dispatches are counted again, to each side that of the scene's: what they do may grow with the
+/// pixels.
+inline constexpr int largerBy = 4;
+
+/// A dispatch on that image.
+struct Larger {
+    gpu::Extents extents;
+    gpu::Executed executed;
+};
+
 /// One shader of one pass on one architecture.
 struct ShaderCost {
     std::string technique; // variant; "" of a file of the user's
@@ -34,6 +46,8 @@ struct ShaderCost {
     std::uint64_t draws = 0; // and dispatches, of the steady frame; 0: of others only
     std::string architecture;
     std::vector<std::pair<std::string, std::uint64_t>> statistics; // as gpu::StageFigures
+    std::optional<gpu::Executed> executed = {};                    // of the steady frame's fragment and compute shaders
+    std::optional<Larger> larger = {};                             // of its dispatches
     Output output = {};                                            // empty of a file of the user's, and in older lines
 
     /// What is the same of one shader in two programs.

@@ -39,6 +39,14 @@ std::string figure(const Column& column, const std::vector<const ShaderCost*>& s
     return fmt::format("{}", fmt::join(values, "/"));
 }
 
+/// Likewise of what waves of 64 execute; "–" where nothing counted.
+std::string executedFigure(const std::vector<const ShaderCost*>& shader) {
+    std::vector<std::string> values;
+    for (const ShaderCost* on : shader) values.push_back(on->executed ? fmt::format("{:.0f}", on->executed->cycles64) : "–");
+    if (std::ranges::adjacent_find(values, std::ranges::not_equal_to()) == values.end()) return values.front();
+    return fmt::format("{}", fmt::join(values, "/"));
+}
+
 } // namespace
 
 std::string table(const ShaderCosts& costs) {
@@ -54,9 +62,13 @@ std::string table(const ShaderCosts& costs) {
     }
     report::TextTable text{{"shader"}, {}};
     for (const Column& column : columns()) text.titles.emplace_back(column.title);
+    const bool isCounted =
+        std::ranges::any_of(costs.shaders, [](const ShaderCost& each) { return each.executed.has_value(); });
+    if (isCounted) text.titles.emplace_back("executed");
     for (const auto& [name, shader] : rows) {
         std::vector<std::string>& cells = text.rows.emplace_back(std::vector{name});
         for (const Column& column : columns()) cells.push_back(figure(column, shader));
+        if (isCounted) cells.push_back(executedFigure(shader));
     }
     return fmt::format("{}; {}\n{}", fmt::join(architectures, "/"), costs.compiler, report::aligned(text));
 }

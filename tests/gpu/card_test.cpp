@@ -9,12 +9,12 @@
 namespace shadowbench::gpu {
 namespace {
 
-const std::vector<std::string> words{"arithmetic", "texture",    "output",    "output_bytes", "blended_bytes",
-                                     "depth",      "tested",     "geometry",  "memory",       "draws",
-                                     "passes",     "dependents", "read_backs"};
+const std::vector<std::string> words{"arithmetic",    "clock",  "texture",    "output",    "output_bytes",
+                                     "blended_bytes", "depth",  "tested",     "geometry",  "memory",
+                                     "draws",         "passes", "dependents", "read_backs"};
 
-std::string fileOf(const std::string& left = "", const std::string& source = "a table") {
-    std::string text = "name = \"A Card\"\n";
+std::string fileOf(const std::string& left = "", const std::string& source = "a table", int lanes = 64) {
+    std::string text = "name = \"A Card\"\nlanes = " + std::to_string(lanes) + "\n";
     double rate = 1;
     for (const std::string& word : words) {
         rate *= 10;
@@ -36,9 +36,10 @@ TEST(Card, HasTheRatesOfItsFileAndItsNameFromIt) {
     const Card card = parseCard(fileOf(), "folder/my-card.toml");
     EXPECT_EQ(card.id, "my-card");
     EXPECT_EQ(card.name, "A Card");
+    EXPECT_EQ(card.lanes, 64);
     EXPECT_EQ(card[Rate::Arithmetic], 10);
-    EXPECT_EQ(card[Rate::Depth], 1e6);
-    EXPECT_EQ(card[Rate::ReadBacks], 1e13);
+    EXPECT_EQ(card[Rate::Depth], 1e7);
+    EXPECT_EQ(card[Rate::ReadBacks], 1e14);
 }
 
 TEST(Card, ARateThatIsMissingWrongOrWithoutSourceIsRefused) {
@@ -47,6 +48,12 @@ TEST(Card, ARateThatIsMissingWrongOrWithoutSourceIsRefused) {
         << errorOf(fileOf("", ""));
     EXPECT_NE(errorOf(fileOf() + "[textures]\nrate = 1\nsource = \"x\"\n").find("textures"), std::string::npos);
     EXPECT_NE(errorOf(fileOf("depth") + "[depth]\nrate = -1\nsource = \"x\"\n").find("depth.rate"), std::string::npos);
+}
+
+TEST(Card, WavesAreOf32Or64Lanes) {
+    EXPECT_EQ(parseCard(fileOf("", "x", 32), "a.toml").lanes, 32);
+    EXPECT_NE(errorOf(fileOf("", "x", 48)).find("lanes: is neither 32 nor 64"), std::string::npos)
+        << errorOf(fileOf("", "x", 48));
 }
 
 TEST(Card, TheBuiltInOnesAreReadAndNamed) {

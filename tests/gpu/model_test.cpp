@@ -11,6 +11,7 @@ Card roundCard() {
     Card card{"round", "Round"};
     const auto set = [&](Rate rate, double value) { card.rates.at(static_cast<std::size_t>(rate)) = value; };
     set(Rate::Arithmetic, 32e9);
+    set(Rate::Clock, 1e9);
     set(Rate::Texture, 20e9);
     set(Rate::Output, 16e9);
     set(Rate::OutputBytes, 64e9);
@@ -28,8 +29,26 @@ Card roundCard() {
 
 TEST(Model, ArithmeticIsWavesTimesCycles) {
     // 2^20 fragments are 2^14 waves of 320 cycles; 640 vertices are 10 waves of 32 cycles.
-    const PassWork work{.shading = {{1048576, 320}, {640, 32}}};
+    const PassWork work{.shading = {{1048576, 320, 320}, {640, 32, 32}}};
     EXPECT_DOUBLE_EQ(termsOf(work, roundCard()).arithmetic, (16384 * 320 + 10 * 32) / 32e9);
+}
+
+TEST(Model, ACardRunsWavesOfItsOwnWidth) {
+    const PassWork work{.shading = {{1048576, 320, 200}}};
+    Card card = roundCard();
+    EXPECT_DOUBLE_EQ(termsOf(work, card).arithmetic, 16384 * 200 / 32e9);
+    card.lanes = 64;
+    EXPECT_DOUBLE_EQ(termsOf(work, card).arithmetic, 16384 * 320 / 32e9);
+}
+
+TEST(Model, FewWavesTakeAsLongAsTheLongest) {
+    // One wave of a million cycles keeps one SIMD of the card busy, for a millisecond.
+    EXPECT_DOUBLE_EQ(termsOf({.shading = {{64, 5e5, 5e5, 2e6, 1e6}}}, roundCard()).arithmetic, 1e-3);
+    Card wide = roundCard();
+    wide.lanes = 64;
+    EXPECT_DOUBLE_EQ(termsOf({.shading = {{64, 5e5, 5e5, 2e6, 1e6}}}, wide).arithmetic, 2e-3);
+    EXPECT_DOUBLE_EQ(termsOf({.shading = {{64e6, 32, 32, 2e5, 1e5}}}, roundCard()).arithmetic, 1e-3)
+        << "hidden by the others";
 }
 
 TEST(Model, AThinTargetCostsPixelsAWideOneBytes) {
@@ -54,7 +73,7 @@ TEST(Model, TargetsAndDepthAddUpAndTheirBytesAreMemory) {
 
 TEST(Model, APassTakesTheLargestTermAndTheFixedOne) {
     const PassWork work{
-        .shading = {{64e6, 32}}, .reads = 40e6, .triangles = 1.5e6, .draws = 3, .passes = 2, .dependents = 1};
+        .shading = {{64e6, 32, 32}}, .reads = 40e6, .triangles = 1.5e6, .draws = 3, .passes = 2, .dependents = 1};
     const Terms terms = termsOf(work, roundCard());
     EXPECT_DOUBLE_EQ(terms.arithmetic, 1e-3);
     EXPECT_DOUBLE_EQ(terms.texture, 2e-3);

@@ -159,22 +159,43 @@ TEST(PassWork, ADispatchHasItsInvocations) {
     EXPECT_EQ(work.shading.at(0).cycles, 90);
 }
 
-TEST(PassWork, ReadsOfTexturesGrowWithTheFragments) {
-    PassRecord pass = counted("resolve", 10000);
-    pass.bare = BareCost{"course", {}, 10000, 3, 40000};
-    const Record record = recordOf(pass);
-    EXPECT_EQ(workOf(record, {}, 100).reads, 40000);
-    EXPECT_EQ(workOf(record, {}, 200).reads, 160000);
+TEST(PassWork, WhatIsExecutedStandsInPlaceOfTheGuess) {
+    shaders::ShaderCost cost = shader("resolve", gpu::Stage::Fragment, 64, {{"R8"}, false, "", false, {{{50, 50}, 1}}});
+    cost.executed = gpu::Executed{30, 40, 300, 400, 2, 3, 5};
+    const gpu::PassWork work = workOf(recordOf(counted("resolve", 10000)), {{cost}, {}, {}}, 200);
+    ASSERT_EQ(work.shading.size(), 1U);
+    EXPECT_EQ(work.shading[0].count, 40000);
+    EXPECT_EQ(work.shading[0].cycles, 40);
+    EXPECT_EQ(work.shading[0].cycles32, 30);
+    EXPECT_EQ(work.shading[0].longest, 400);
+    EXPECT_EQ(work.shading[0].longest32, 300);
+    EXPECT_EQ(work.reads, 40000 * 2) << "of textures";
 }
 
-TEST(PassWork, APassOverTheScreenReadsForPixelsThatSeeASurface) {
-    PassRecord pass = counted("resolve", 20000); // twice over the screen
-    pass.bare = BareCost{"course", {}, 10000, 3, 40000};
-    Record record = recordOf(pass);
-    record.values["accuracy.pixels.labelled"] = 2500;
-    EXPECT_EQ(workOf(record, {}, 200).reads, 40000);
-    record.passes[0].fragments = record.otherScreen->passes[0].fragments = 777; // of a part of the screen
-    EXPECT_EQ(workOf(record, {}, 100).reads, 40000);
+TEST(PassWork, ADispatchGrowsByThePowerOfItsTwoImages) {
+    // Counted on 50 × 50 and on 200 × 200: twice the rounds, and as many times the invocations as pixels.
+    shaders::ShaderCost cost = shader("lists", gpu::Stage::Compute, 90, {{}, false, "", false, {{{2560, 1}, 1}}});
+    cost.executed = gpu::Executed{100, 120, 1000, 1200, 1, 0, 0};
+    cost.larger = shaders::Larger{{{{40960, 1}, 1}}, {200, 240, 4000, 4800, 1, 0, 0}};
+    const auto shadingOn = [&](int side) {
+        return workOf(recordOf(counted("lists", 0, 0)), {{cost}, {}, {}}, side).shading.at(0);
+    };
+    EXPECT_DOUBLE_EQ(shadingOn(50).cycles32, 100);
+    EXPECT_DOUBLE_EQ(shadingOn(200).cycles32, 200);
+    EXPECT_DOUBLE_EQ(shadingOn(200).count, 40960);
+    EXPECT_NEAR(shadingOn(800).cycles32, 400, 1e-9);
+    EXPECT_NEAR(shadingOn(800).longest32, 16000, 1e-9);
+    EXPECT_NEAR(shadingOn(800).count, 16 * 40960, 1e-6);
+}
+
+TEST(PassWork, WhatIsLessOnTheLargerImageStaysAsItIsThere) {
+    shaders::ShaderCost cost = shader("lists", gpu::Stage::Compute, 90, {{}, false, "", false, {{{64, 1}, 1}}});
+    cost.executed = gpu::Executed{100, 120, 1000, 1200, 1, 0, 0};
+    cost.larger = shaders::Larger{{{{64, 1}, 1}}, {90, 120, 0, 0, 1, 0, 0}};
+    const gpu::PassWork work = workOf(recordOf(counted("lists", 0, 0)), {{cost}, {}, {}}, 800);
+    EXPECT_EQ(work.shading.at(0).cycles32, 90);
+    EXPECT_EQ(work.shading.at(0).count, 64);
+    EXPECT_EQ(work.shading.at(0).longest32, 0);
 }
 
 ModelledFrame frame(const std::string& variant, double seconds, std::optional<double> measured, bool waits = false) {

@@ -26,11 +26,16 @@ TEST(ShaderCostLines, AreReadAsTheyWereWritten) {
     ShaderCost second = shader("resolve", 700);
     second.number = 2;
     second.output = {{"RG32F", "R8"}, true, "Depth32F", true, {{{1024, 1024}, 3}}};
+    second.executed = gpu::Executed{1.5, 2.25, 100, 200, 3, 4, 5};
+    second.larger = Larger{{{{64, 2}, 1}}, {6, 7, 8, 9, 10, 11, 12}};
     ShaderCosts written = costs({shader("resolve", 726), second});
     written.moves.push_back({"pcss:map=512", "simple", "blur", gpu::MoveKind::ReadBack, "", {{{16, 16}, 1}}});
     const ShaderCosts read = parseLines(toLines(written), "lines");
     EXPECT_EQ(toLines(read), toLines(written));
     EXPECT_EQ(read.compiler, written.compiler);
+    EXPECT_FALSE(read.shaders.at(0).executed);
+    EXPECT_EQ(read.shaders.at(1).executed->stores, 5);
+    EXPECT_EQ(read.shaders.at(1).larger->executed.cycles32, 6);
     EXPECT_EQ(read.shaders.at(1).name(), "pcss:map=512 resolve fragment soft/pcss/pcss.frag #2");
 }
 
@@ -49,6 +54,11 @@ TEST(ShaderCostLines, AListOfPipelinesIsReadAsItWasWritten) {
         {{"resolve", 3, "abc", {{gpu::Stage::Vertex, "a"}, {gpu::Stage::Fragment, "b"}}, output}},
         {{"", "", "resolve", gpu::MoveKind::Clear, "R32F", {{{256, 256}, 1}}}},
     };
+    FrameList withCounts = list;
+    withCounts.pipelines[0].passes = {{4, 9}, {2, 5}, {1, 3}, {1, 3}, {1, 3}};
+    withCounts.pipelines[0].larger = {{{{64, 1}, 2}}, {{8, 9}, {4, 5}, {2, 3}, {1, 2}, {1, 2}}};
+    EXPECT_EQ(toText(frameList(toText(withCounts))), toText(withCounts));
+    EXPECT_EQ(frameList(toText(withCounts)).pipelines.at(0).passes.waves32, (std::vector<std::uint64_t>{2, 5}));
     EXPECT_EQ(toText(frameList(toText(list))), toText(list));
     EXPECT_EQ(frameList(toText(list)).pipelines.at(0).output.extents, output.extents);
     EXPECT_THROW((void)frameList("[{}]"), BadInput);
@@ -98,6 +108,26 @@ TEST(ShaderCostTable, HasOneFigureWhereArchitecturesAgree) {
     EXPECT_NE(text.find(" 726/700 "), std::string::npos) << text;
     EXPECT_NE(text.find(" 16 "), std::string::npos) << text;
     EXPECT_EQ(text.find("16/16"), std::string::npos) << text;
+}
+
+TEST(ShaderCostTable, ShowsWhatIsExecutedWhereSomethingIsCounted) {
+    EXPECT_EQ(table(costs({shader("resolve", 726)})).find("executed"), std::string::npos);
+    ShaderCost counted = shader("resolve", 726);
+    counted.executed = gpu::Executed{10, 1234.4, 0, 0, 0, 0, 0};
+    const std::string text = table(costs({counted, shader("blur", 74)}));
+    EXPECT_NE(text.find("executed"), std::string::npos) << text;
+    EXPECT_NE(text.find(" 1234"), std::string::npos) << text;
+    EXPECT_NE(text.find("–"), std::string::npos) << text;
+}
+
+TEST(ShaderCostChanges, WhatIsExecutedIsComparedToTheDigit) {
+    ShaderCost before = shader("resolve", 726), after = before;
+    before.executed = gpu::Executed{0, 1000, 0, 0, 0, 0, 0};
+    after.executed = gpu::Executed{0, 1000.5, 0, 0, 0, 0, 0};
+    const std::string text = changes(costs({before}), costs({after}));
+    EXPECT_NE(text.find("total executed cycles 1000 → 1000.5 (+0.05 %); helped 0, hurt 1"), std::string::npos) << text;
+    EXPECT_EQ(changes(costs({shader("resolve", 726)}), costs({after})), "no change in 1 shaders\n")
+        << "an older list has none";
 }
 
 } // namespace
