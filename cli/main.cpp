@@ -79,9 +79,10 @@ ExitCode dispatch(int argc, char** argv) {
         "5 inconclusive.\nEvery verb has --help with an example.");
 
     Action action;
-    for (const auto& add : {addList,    addInspect,   addRun,     addMerge,  addScore,      addReference,   addSweep,
-                            addCauses,  addRecommend, addClaims,  addPapers, addShaderCost, addGpuCost,     addExport,
-                            addCompare, addGate,      addHistory, addCache,  addReport,     addCountFrames, addTimeFrames})
+    for (const auto& add :
+         {addList,    addInspect,   addRun,    addMerge,  addScore,       addReference, addSweep,  addCauses,
+          addDevelop, addRecommend, addClaims, addPapers, addShaderCost,  addGpuCost,   addExport, addCompare,
+          addGate,    addHistory,   addCache,  addReport, addCountFrames, addTimeFrames})
         add(app, action);
     addDocuments(app, action);
 
