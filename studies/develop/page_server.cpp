@@ -4,6 +4,7 @@
 #include "embedded_develop_page.h"
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <fmt/format.h>
 #include <httplib.h>
@@ -72,6 +73,7 @@ struct PageServer::Running {
     LiveState& state;
     Server server;
     int port = 0;
+    std::atomic<bool> ended = false;
     std::thread thread;
 
     Running(LiveState& shown, std::optional<int> wanted) : state(shown) {
@@ -88,12 +90,16 @@ struct PageServer::Running {
         if (port < 0 && wanted)
             throw BadInput(fmt::format("port {} cannot be had; choose another with --port, or leave it out", *wanted));
         if (port < 0) throw Inconclusive("there is no free port on the loopback address; end a server and try again");
-        thread = std::thread([this] { server.listen_after_bind(); });
+        thread = std::thread([this] {
+            server.listen_after_bind();
+            ended = true;
+        });
     }
 
     ~Running() {
         state.close();
-        while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1)); // to be stopped, it must run
+        while (!server.is_running() && !ended)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1)); // to be stopped, it must run
         server.stop();
         thread.join();
     }
