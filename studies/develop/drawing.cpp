@@ -9,11 +9,13 @@
 #include "harness/cells/cell_selection.h"
 #include "harness/cells/kept_images.h"
 #include "harness/cells/scene_cells.h"
+#include "harness/records/record.h"
 #include "harness/runs/cell_file.h"
 #include "harness/runs/manifest.h"
 #include "techniques/catalog.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <fmt/format.h>
 
@@ -85,7 +87,8 @@ Command commandOf(const Request& request, const fs::path& room) {
     command.arguments.insert(command.arguments.end(), {"--out", (room / "out").string()});
     command.inherited = techniques::inheritedVariables();
     command.inherited.emplace_back("SHADOWBENCH_THREADS");
-    command.openFiles.reset();
+    command.openFiles.reset(); // as for a run that the user starts
+    command.memoryLimit.reset();
     return command;
 }
 
