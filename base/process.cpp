@@ -138,10 +138,12 @@ Finished runProcess(const Command& command, const OnLine& onLine) {
                                Failure::Transient);
         }
         const bool late = Clock::now() >= end, flooded = command.outputLimit && lines.bytes() > *command.outputLimit;
-        if (!status && (late || flooded)) {
+        const bool unwanted = !status && command.stops && command.stops();
+        if (!status && (late || flooded || unwanted)) {
             Finished stopped = decoded(child.kill());
             stopped.timedOut = late;
             stopped.flooded = flooded && !late;
+            stopped.stopped = unwanted && !late && !flooded;
             return stopped;
         }
     }

@@ -37,6 +37,8 @@ struct Command {
     // When the user interrupts, the group is told to end (SIGTERM) and has this long to leave nothing half done.
     std::chrono::milliseconds grace{0};
     bool endsStrays = false; // processes that left the group (setsid, daemons) are killed as well, as soon as the child ends
+    std::function<bool()> stops =
+        {}; // asked again and again: whether nobody wants the child any more; its group is then killed
 };
 
 /// The variables of this process, for Command::environment.
@@ -47,6 +49,7 @@ struct Finished {
     int signal = 0;   // that ended the child; 0 if it exited
     bool timedOut = false;
     bool flooded = false; // wrote more than Command::outputLimit
+    bool stopped = false; // since Command::stops said so
 };
 
 /// Called with each complete line but empty ones (ended by '\n' or '\r', which is removed) of the child's two outputs.

@@ -23,6 +23,8 @@ void addScore(CLI::App& app, Action& action);
 void addReference(CLI::App& app, Action& action);
 void addSweep(CLI::App& app, Action& action);
 void addCauses(CLI::App& app, Action& action);
+void addDevelop(CLI::App& app, Action& action);
+void addNewTechnique(CLI::App& app, Action& action);
 void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);
 void addPapers(CLI::App& app, Action& action);

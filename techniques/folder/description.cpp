@@ -93,8 +93,7 @@ private:
     void readFacts(const TomlValue& root) {
         Entry& entry = read_.entry;
         const std::string id = root.get("id").text();
-        const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
-        if (id.empty() || id.size() > 40 || !std::ranges::all_of(id, allowed))
+        if (!isFolderId(id))
             root.get("id").fail(fmt::format("\"{}\" is no id: lower-case letters, digits and -, 40 at most", id));
         entry.id = std::string(folderPrefix) + id;
         entry.title = root.get("title").text();
@@ -296,6 +295,11 @@ private:
 };
 
 } // namespace
+
+bool isFolderId(std::string_view id) {
+    const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
+    return !id.empty() && id.size() <= 40 && std::ranges::all_of(id, allowed);
+}
 
 TechniqueFolder readTechniqueFolder(const fs::path& folder) { return Reader(folder).read(); }
 

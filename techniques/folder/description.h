@@ -56,6 +56,9 @@ inline constexpr const char* visibilityTarget = "visibility";
 /// The rows of folders are `my:ID`.
 inline constexpr std::string_view folderPrefix = "my:";
 
+/// Lower-case letters, digits and -, 40 at most.
+bool isFolderId(std::string_view id);
+
 /// Throws BadInput with the file, the line and the key of what is wrong, or the file that is missing.
 TechniqueFolder readTechniqueFolder(const std::filesystem::path& folder);
 

@@ -90,6 +90,15 @@ TEST_F(RunningAProgram, EndsWhatLeftItsGroupToo) {
     EXPECT_FALSE(isAlive("stray"));
 }
 
+TEST_F(RunningAProgram, EndsOneThatNobodyWantsAnyMore) {
+    Command command = script("sleep 300 & echo $! > grandchild; echo begun; wait");
+    command.stops = [&] { return said_ == "begun"; };
+    const Finished finished = run(command);
+    EXPECT_TRUE(finished.stopped);
+    EXPECT_FALSE(finished.timedOut);
+    EXPECT_TRUE(endsSoon("grandchild"));
+}
+
 TEST_F(RunningAProgram, EndsOneThatFloodsItsOutput) {
     Command command = script("yes");
     command.outputLimit = 1 << 20;

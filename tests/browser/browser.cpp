@@ -231,13 +231,17 @@ void Tab::see(const Json& event) {
 void Tab::open(const std::filesystem::path& file, const std::string& hash) {
     call("Page.navigate", {{"url", "about:blank"}}); // or a file with another hash would not be loaded again
     waitFor("document.readyState === 'complete' && location.href === 'about:blank'");
-    const int before = loads_;
     std::string address = "file://";
     for (const char letter : std::filesystem::absolute(file).string())
         address += std::string_view("%?#").find(letter) == std::string_view::npos
                        ? std::string(1, letter)
                        : fmt::format("%{:02X}", static_cast<unsigned char>(letter));
-    const Json answer = call("Page.navigate", {{"url", address + hash}});
+    visit(address + hash);
+}
+
+void Tab::visit(const std::string& address) {
+    const int before = loads_;
+    const Json answer = call("Page.navigate", {{"url", address}});
     if (answer.contains("errorText")) throw std::runtime_error(address + ": " + answer["errorText"].get<std::string>());
     for (const auto start = Clock::now(); loads_ == before;) {
         if (Clock::now() - start > patience) throw std::runtime_error(address + " was not loaded in time");

@@ -30,6 +30,8 @@ public:
 
     /// Loads a file, with what may follow its name ("#pcf"), and waits until it has been loaded.
     void open(const std::filesystem::path& file, const std::string& hash = "");
+    /// The same of an address.
+    void visit(const std::string& address);
 
     /// The value of a JavaScript expression; a promise is waited for.
     nlohmann::json value(const std::string& expression);

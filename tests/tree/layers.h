@@ -31,7 +31,7 @@ struct Include {
 };
 
 /// Whose a header is by how its path begins. `<thread>` needs no line: every module reaches base, which links threads.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 19> packageOfHeader{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 20> packageOfHeader{
     {{"CGAL/", "cgal"},
      {"CLI/", "cli11"},
      {"EGL/", "gl"},
@@ -41,6 +41,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 19> p
      {"boost/", "boost"},
      {"embree3/", "embree"},
      {"glslang/", "glslang"},
+     {"httplib.h", "httplib"},
      {"meshoptimizer.h", "meshoptimizer"},
      {"mustache.hpp", "mustache"},
      {"nlohmann/", "json"},

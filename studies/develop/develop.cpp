@@ -1,0 +1,50 @@
+#include "studies/develop/develop.h"
+
+#include "base/error.h"
+#include "base/interrupts.h"
+#include "base/temporary_folder.h"
+#include "harness/cells/cell_selection.h"
+#include "studies/develop/folder_watch.h"
+#include "studies/develop/live_state.h"
+#include "studies/develop/page_server.h"
+
+#include <chrono>
+#include <thread>
+
+namespace shadowbench::develop {
+namespace {
+
+/// What cannot be drawn for a reason outside of the folder is shown, too: a full disk may be emptied.
+void drawInto(LiveState& state, FolderWatch& watch, const Request& request, const std::filesystem::path& room) {
+    watch.settle(DeferredInterrupts::pending);
+    state.begin();
+    try {
+        if (auto drawing = draw(request, room, [&] { return watch.changed(); })) state.finish(std::move(*drawing));
+    } catch (const Error& error) {
+        if (!DeferredInterrupts::pending()) state.finish({{}, error.what(), 0});
+    }
+}
+
+} // namespace
+
+void develop(Request request, const std::string& command, std::optional<int> port, const std::function<void(int)>& ready) {
+    {
+        const std::vector<Scene> scenes = chosenScenes(request.scenes, request.profile);
+        computeTruths(scenes, request.cache);
+        request.limit = limitFor(scenes);
+    }
+    const TemporaryFolder room; // an interrupt waits until it is gone
+    LiveState state(request.folder.filename().string(), command);
+    const PageServer server(state, port);
+    ready(server.port());
+    FolderWatch watch(request.folder);
+    while (!DeferredInterrupts::pending()) {
+        constexpr std::chrono::milliseconds tick{50};
+        if (watch.changed())
+            drawInto(state, watch, request, room.path());
+        else
+            std::this_thread::sleep_for(tick);
+    }
+}
+
+} // namespace shadowbench::develop

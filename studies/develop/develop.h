@@ -1,0 +1,16 @@
+// `develop`: a technique folder's rows on a page that shows each state of the folder as it is saved.
+#pragma once
+
+#include "studies/develop/drawing.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace shadowbench::develop {
+
+/// Draws the folder now and after each change of it, until the user interrupts. `ready` is called with the page's port once
+/// it can be opened; `command` is what shows a state again. Throws BadInput for a scene or a port that cannot be had.
+void develop(Request request, const std::string& command, std::optional<int> port, const std::function<void(int)>& ready);
+
+} // namespace shadowbench::develop
