@@ -1,6 +1,7 @@
 #include "cli/options.h"
 
 #include "techniques/catalog.h"
+#include "techniques/folder/description.h"
 #include "techniques/gl/platform.h"
 
 #include <CLI/CLI.hpp>
@@ -26,11 +27,11 @@ void addTechniqueFolderOption(CLI::App& verb, std::vector<std::string>& techniqu
         "--technique-folder",
         [&techniques](const std::vector<std::filesystem::path>& folders) {
             for (const std::filesystem::path& folder : folders) techniques::addTechniqueFolder(folder);
-            if (techniques.empty()) techniques = {"my:*"};
+            if (techniques.empty()) techniques = {std::string(techniques::folderPrefix) + "*"};
         },
-        "Folder that is a technique of your own, my:ID (docs/technique-folders.md); repeatable; without --technique its "
-        "rows "
-        "alone run");
+        "Folder that is a technique of your own, my:ID (docs/technique-folders.md); repeatable; without --technique only "
+        "its "
+        "rows run");
 }
 
 void addStaticOption(CLI::App& verb, bool& standing) {

@@ -5,6 +5,7 @@
 #include "cli/options.h"
 #include "cli/run_result.h"
 #include "harness/foreign/renderers.h"
+#include "techniques/folder/description.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -65,7 +66,7 @@ ExitCode runPart(const RunOptions& options, const PartOptions& part) {
 /// Not by a pattern, or technique folders.
 bool namesRows(const std::vector<std::string>& techniques) {
     return !techniques.empty() && std::ranges::none_of(techniques, [](const std::string& word) {
-        return word.find_first_of("*?[") != std::string::npos && !word.starts_with("my:");
+        return word.find_first_of("*?[") != std::string::npos && !word.starts_with(techniques::folderPrefix);
     });
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int mostTargets = 32, mostPasses = 64, mostParameters = 32, mostVariants = 32, mostSide = 8192;
+constexpr int mostTargets = 32, mostPasses = 64, mostParameters = 32, mostVariants = 32;
 constexpr std::size_t mostFiles = 64, mostBytes = 1 << 20; // of a file
 
 constexpr Words<gl::Format, 8> formats{"format",
@@ -182,7 +182,7 @@ private:
         target.ofImage = size.isText() && size.text() == "image";
         if (!target.ofImage) target.side = amount(size);
         if (const double* texels = std::get_if<double>(&target.side); !target.ofImage && texels != nullptr)
-            target.side = static_cast<double>(size.integer(1, mostSide));
+            target.side = static_cast<double>(size.integer(1, mostTexelsOfSide));
         if (target.compare && target.format != gl::Format::Depth32F)
             value.fail("only depths compare: format = \"Depth32F\"");
         if (target.mipmaps && target.format == gl::Format::Depth32F) value.fail("depths have no mipmaps");

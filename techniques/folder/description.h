@@ -50,6 +50,9 @@ struct TechniqueFolder {
     gl::ShaderFiles shaders;
 };
 
+/// Texels per side of a target that is no image.
+inline constexpr int mostTexelsOfSide = 8192;
+
 /// What a pass writes that is the technique's answer.
 inline constexpr const char* visibilityTarget = "visibility";
 

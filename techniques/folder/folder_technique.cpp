@@ -107,7 +107,7 @@ private:
 
     /// All but what the program sets by itself for casters.
     void requireKnownUniforms(const gl::Program& program, const FolderPass& pass) const {
-        static const std::vector<std::string> ofCasters{"clipFromWorld", "lightPlane", "unitDepthOfCaster"};
+        static const std::vector<std::string> ofCasters{"clipFromWorld", "lightPlane"};
         std::vector<std::string> known = pass.casters ? ofCasters : std::vector<std::string>();
         for (const FolderInput& input : folderInputs()) known.emplace_back(input.name);
         for (const FolderTarget& target : folder_->targets) {
@@ -145,9 +145,9 @@ private:
     void makeTargets() {
         for (const FolderTarget& target : folder_->targets) {
             const int side = static_cast<int>(valueOf(target.side, values_));
-            if (!target.ofImage && (side < 1 || side > 8192))
-                throw BadInput(fmt::format("{}: target {} would have {} texels a side; 1 to 8192 are allowed",
-                                           folder_->path.string(), target.name, side));
+            if (!target.ofImage && (side < 1 || side > mostTexelsOfSide))
+                throw BadInput(fmt::format("{}: target {} would have {} texels a side; 1 to {} are allowed",
+                                           folder_->path.string(), target.name, side, mostTexelsOfSide));
             const glm::ivec2 size = target.ofImage ? imageSize_ : glm::ivec2(side);
             Target made{textureOf(target, size)};
             if (target.history) {
@@ -225,9 +225,6 @@ private:
         for (std::size_t i = 0; i + 1 < attachments.size(); ++i) target.clearColour(static_cast<int>(i), pass.clear);
         target.clearDepth(1);
         target.bind();
-        if (program.uses("unitDepthOfCaster"))
-            program.set("unitDepthOfCaster",
-                        glm::vec4((view_.depthFromWorld - glm::dvec4(0, 0, 0, view_.near)) / (view_.far - view_.near)));
         const CasterPass casters(program, view_,
                                  {.factor = static_cast<float>(valueOf(pass.slopeOffset, values_)),
                                   .units = static_cast<float>(valueOf(pass.unitOffset, values_))});

@@ -323,7 +323,6 @@ TEST_F(Ci, FilesToCopyCanBeReadAndNameOptionsThatThereAre) {
                              "/docs/ci/github-actions.yml", "/docs/ci/gitlab-ci.yml"}) {
         const Outcome read =
             shell("/usr/bin/python3 -c 'import sys, yaml; yaml.safe_load(open(sys.argv[1]))' " + root + file);
-        if (contains(read.output, "No module named 'yaml'")) GTEST_SKIP() << "python3-yaml is not installed";
         EXPECT_EQ(read.code, 0) << file << read.output;
     }
     int options = 0;
