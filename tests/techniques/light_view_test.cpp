@@ -222,6 +222,21 @@ TEST(Lispsm, OfASceneThatIsAlikeOnBothSidesIsAlikeOnBothSides) {
     }
 }
 
+// The near plane cuts through the scene, behind the light: the corners of the cut are equally near to the eye, up to
+// rounding.
+TEST(Lispsm, RoundingDoesNotChooseTheMap) {
+    Snapshot scene = slabScene({LightKind::Point, {-0.4, 2, 0.3}, {0, -1, 0}, {}, {}});
+    scene.batches.front().mesh = std::make_shared<Mesh>(box({10, 5, 10}));
+    scene.camera = {{0.77, 13.31, 7.13}, {-0.07, 0.41, 0.03}, {0, 1, 0}, 43, 13, 40};
+    const glm::dvec3 p(0.3, 0.1, 0.5);
+    const glm::dvec3 before = mapped(fitLispsm(scene.light, scene, scene.camera, 1), p);
+    for (int i = 0; i < 27; ++i) {
+        Camera moved = scene.camera;
+        moved.eye += 1e-14 * glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+        EXPECT_LT(glm::distance(mapped(fitLispsm(scene.light, scene, moved, 1), p), before), 1e-6) << i;
+    }
+}
+
 TEST(Jitter, CoversTheSamePointsAfterAnyTurnAndShift) {
     const Light light{LightKind::Point, {3, 25, 4}, {0, -1, 0}, {}, {}};
     const LightView view = fitToScene(light, slabScene(light));

@@ -18,6 +18,21 @@ double lispsmNear(double d, double z0, double z1) {
     return d / (std::sqrt(z1 / z0) - 1);
 }
 
+namespace {
+
+/// The middle of what of `body` lies `first` before the eye. Where the near plane cuts the body these are several corners,
+/// of which rounding alone would choose one.
+glm::dvec3 middleAt(double first, double deepest, std::span<const glm::dvec3> body, const Camera& camera) {
+    Bounds corners; // on an image of one pixel, and metres into it
+    for (const glm::dvec3& p : body) {
+        const glm::dvec3 seen = camera.project(p, {1, 1});
+        if (seen.z <= first + 1e-9 * (deepest - first)) corners.add(seen);
+    }
+    return camera.eye + first * camera.ray(corners.centre(), {1, 1}); // within the corners, which are convex
+}
+
+} // namespace
+
 LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect,
                     std::span<const glm::dvec4> within) {
     LightView view = fitToScene(light, snapshot);
@@ -36,7 +51,7 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& 
     const double deepest = eyeDepth(*last);
     const glm::dvec3 onAxis = camera.eye + eyeDepth(*first) * forward;
     const bool lit = glm::dot(view.depthFromWorld, glm::dvec4(onAxis, 1)) > view.near;
-    const glm::dvec3 nearest = lit ? onAxis : *first;
+    const glm::dvec3 nearest = lit ? onAxis : middleAt(eyeDepth(*first), deepest, body, camera);
     // Clip space with the map's own proportions, so that right angles are right angles.
     const glm::dmat4 light1 = glm::scale(glm::dmat4(1), glm::dvec3(0.5 * view.span, 1)) * view.clipFromWorld;
     const auto toLight = [&](const glm::dvec3& p) { return divided(light1 * glm::dvec4(p, 1)); };
