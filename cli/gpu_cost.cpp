@@ -1,6 +1,5 @@
 #include "studies/gpu_cost/gpu_cost.h"
 
-#include "base/files.h"
 #include "base/folder_lock.h"
 #include "cli/command.h"
 #include "cli/options.h"
@@ -18,7 +17,7 @@ namespace {
 struct VerbOptions {
     gpucost::GpuCostOptions study;
     std::vector<std::filesystem::path> records; // files, or folders that runs wrote them to
-    std::string size = "1920x1080";
+    std::vector<std::string> sizes{"1920x1080"};
     std::filesystem::path out = "results/latest/gpu-cost";
 };
 
@@ -36,7 +35,8 @@ glm::ivec2 sizeNamed(const std::string& text) {
 
 ExitCode printGpuCosts(const VerbOptions& options) {
     gpucost::GpuCostOptions study = options.study;
-    study.size = sizeNamed(options.size);
+    study.sizes.clear();
+    for (const std::string& size : options.sizes) study.sizes.push_back(sizeNamed(size));
     std::vector<Record> records;
     for (const std::filesystem::path& place : options.records)
         std::ranges::move(recordsAt(place), std::back_inserter(records));
@@ -45,9 +45,10 @@ ExitCode printGpuCosts(const VerbOptions& options) {
     for (const std::string& error : result.errors) fmt::print(stderr, "shadowbench: {}\n", error);
     for (const std::string& reason : result.leftOut) fmt::print(stderr, "{}\n", reason);
     if (result.frames.empty()) return result.code == ExitCode::Pass ? ExitCode::BadInput : result.code;
-    const std::filesystem::path file = options.out / "gpu-cost.jsonl";
-    writeFile(file, gpucost::toLines(result.frames));
-    fmt::print("{}{}lines: {}\n", gpucost::tables(result.frames), gpucost::comparison(result.frames), file.string());
+    const std::filesystem::path file = options.out / "results.jsonl";
+    gpucost::addTo(records, result.frames);
+    writeRecords(file, records);
+    fmt::print("{}{}records: {}\n", gpucost::tables(result.frames), gpucost::comparison(result.frames), file.string());
     return result.code;
 }
 
@@ -62,13 +63,15 @@ void addGpuCost(CLI::App& app, Action& action) {
         "Times are modelled and not measured (docs/gpu-cost.md). Records that were measured on one of the cards are\n"
         "modelled in the sizes that were measured, too, and both are compared.\n"
         "Examples:\n  shadowbench gpu-cost results/latest --card gtx-1080 --size 3840x2160\n"
+        "  shadowbench gpu-cost results/latest --card gtx-1080 --size 1920x1080 --size 3840x2160 --out results/latest\n"
         "  shadowbench gpu-cost results/gpu --card h200");
     verb->add_option("RECORDS", options->records, "Files of records, or folders with results.jsonl, of the profile `gate`")
         ->required();
     verb->add_option("--card", study.cards, "Card; repeatable (default: all)")
         ->type_name("TEXT:{geforce-7600-gt,gtx-1080,h200,rtx-2080-ti,rx-6800-xt}");
-    verb->add_option("--size", options->size, "Image in pixels")->capture_default_str();
-    verb->add_option("--out", options->out, "Folder of gpu-cost.jsonl, a line for each frame with every term of every pass")
+    verb->add_option("--size", options->sizes, "Image in pixels; repeatable")->capture_default_str();
+    verb->add_option("--out", options->out,
+                     "Folder of results.jsonl: the records with every term of every pass; may be that of RECORDS")
         ->capture_default_str();
     verb->add_option("--cache", study.cache,
                      "Folder of references, which keeps figures, too (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");

@@ -39,6 +39,8 @@ public:
     void operator()(const char*, const std::optional<OtherScreen>&) {} // passCsv() has them, a row each
     template <typename T>
     void objects(const char*, const std::vector<T>&) {}
+    template <typename T>
+    void named(const char*, const std::map<std::string, T>&) {}
 
     template <typename Inner>
     void group(const char* key, bool has, const Inner& inner) {

@@ -125,6 +125,24 @@ void fields(auto& visit, Is<DeviceCost> auto& d) {
     visit.objects("by_pass", d.passes);
 }
 
+void fields(auto& visit, Is<PassTerms> auto& p) {
+    visit("name", p.name);
+    visit("arithmetic", p.arithmetic);
+    visit("texture", p.texture);
+    visit("output", p.output);
+    visit("geometry", p.geometry);
+    visit("memory", p.memory);
+    visit("fixed", p.fixed);
+}
+
+void fields(auto& visit, Is<ModelledCost> auto& m) {
+    visit("milliseconds", m.milliseconds);
+    visit("least", m.least);
+    visit("most", m.most);
+    visit("waits", m.waits);
+    visit.objects("by_pass", m.passes);
+}
+
 void fields(auto& visit, Is<ReportedCost> auto& r) {
     visit("milliseconds", r.milliseconds);
     visit.text("device", r.device);
@@ -146,6 +164,7 @@ void costFields(auto& visit, Is<Record> auto& r) {
         inner.objects("cold_by_pass", r.coldPasses);
         inner("other_screen", r.otherScreen);
         inner.objects("device", r.deviceCosts);
+        inner.named("gpu", r.modelled);
     });
 }
 

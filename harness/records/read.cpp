@@ -69,6 +69,14 @@ public:
         for (const Json& item : *json) read(key, item, items.emplace_back());
     }
 
+    template <typename T>
+    void named(const char* key, std::map<std::string, T>& items) {
+        const Json* json = find(key);
+        if (json == nullptr) return;
+        if (!json->is_object()) refuse(pathOf(key), "is not an object");
+        for (const auto& [name, item] : json->items()) read((std::string(key) + "." + name).c_str(), item, items[name]);
+    }
+
     void text(const char* key, std::string& value) {
         if (const Json* json = find(key)) read(key, *json, value);
     }

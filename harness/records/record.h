@@ -90,6 +90,19 @@ struct DeviceCost {
     std::vector<PassRecord> passes;
 };
 
+/// Milliseconds that a pass takes on a card by the model of docs/gpu-cost.md, by what takes them.
+struct PassTerms {
+    std::string name; // as in PassRecord
+    double arithmetic = 0, texture = 0, output = 0, geometry = 0, memory = 0, fixed = 0;
+};
+
+/// Of a standing frame on one card and an image of one size, by the model: nothing was drawn there.
+struct ModelledCost {
+    double milliseconds = 0, least = 0, most = 0; // as the card says, and if one of its rates is another
+    bool waits = false;                           // for the program, in some pass: what that takes is in no number
+    std::vector<PassTerms> passes;
+};
+
 /// What a renderer that is not ours says of its own cost: never compared with what is measured here.
 struct ReportedCost {
     double milliseconds = 0; // of a frame
@@ -123,18 +136,19 @@ struct Record {
     std::string time;       // ISO 8601, UTC
     Environment environment;
     std::optional<ReferenceInfo> reference;
-    std::optional<ReferenceInfo> softReference;  // the second truth of a hard technique on an area-light scene
-    std::optional<ReferenceInfo> pixelReference; // the truth of pixel areas that `flicker` and `pixel_area` are against
-    std::optional<SweepStep> sweep;              // of `sweep` only
-    metrics::Values values;                      // of every metric; a record has either "accuracy" or "lod"
-    std::vector<PassRecord> passes;              // of the frame whose work was measured; empty in older records
-    std::vector<PassRecord> motionPasses;        // of the frame in motion; empty where their work is that of `passes`
-    std::vector<PassRecord> coldPasses;          // of the first frame, likewise
-    std::optional<OtherScreen> otherScreen;      // where costs were measured on an image of another size, too
-    std::vector<DeviceCost> deviceCosts;         // of larger images, where a graphics processor drew
-    std::map<std::string, double> figures;       // of the scored frame, by names that `list techniques` explains
-    std::optional<ExternalInfo> external;        // of renderers that the program called
-    std::map<std::string, double> tolerances;    // the scene's: the worst error that a viewer accepts, by names for bounds
+    std::optional<ReferenceInfo> softReference;   // the second truth of a hard technique on an area-light scene
+    std::optional<ReferenceInfo> pixelReference;  // the truth of pixel areas that `flicker` and `pixel_area` are against
+    std::optional<SweepStep> sweep;               // of `sweep` only
+    metrics::Values values;                       // of every metric; a record has either "accuracy" or "lod"
+    std::vector<PassRecord> passes;               // of the frame whose work was measured; empty in older records
+    std::vector<PassRecord> motionPasses;         // of the frame in motion; empty where their work is that of `passes`
+    std::vector<PassRecord> coldPasses;           // of the first frame, likewise
+    std::optional<OtherScreen> otherScreen;       // where costs were measured on an image of another size, too
+    std::vector<DeviceCost> deviceCosts;          // of larger images, where a graphics processor drew
+    std::map<std::string, ModelledCost> modelled; // by card and size: "gtx-1080@1920x1080" (gpu-cost)
+    std::map<std::string, double> figures;        // of the scored frame, by names that `list techniques` explains
+    std::optional<ExternalInfo> external;         // of renderers that the program called
+    std::map<std::string, double> tolerances;     // the scene's: the worst error that a viewer accepts, by names for bounds
 };
 
 /// One JSON line, keys in schema order, no newline. Numbers are written so that they read back equal; a parameter that is a

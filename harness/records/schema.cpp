@@ -187,6 +187,41 @@ constexpr const char* withoutMetrics = R"({
         }
       }
     },
+    "gpu": {
+      "type": "object",
+      "description": "milliseconds of a standing frame by a model, by card and size of the image; nothing was drawn on that card",
+      "minProperties": 1,
+      "additionalProperties": {
+        "type": "object",
+        "additionalProperties": false,
+        "required": ["milliseconds", "least", "most", "waits", "by_pass"],
+        "properties": {
+          "milliseconds": {"$ref": "#/definitions/size"},
+          "least": {"$ref": "#/definitions/size", "description": "if one rate of the card is twice what is said of it"},
+          "most": {"$ref": "#/definitions/size", "description": "if one is half of it"},
+          "waits": {"type": "boolean", "description": "for the program, which is in no number"},
+          "by_pass": {
+            "type": "array",
+            "description": "a pass takes the largest of the first five, and the fixed term",
+            "minItems": 1,
+            "items": {
+              "type": "object",
+              "additionalProperties": false,
+              "required": ["name", "arithmetic", "texture", "output", "geometry", "memory", "fixed"],
+              "properties": {
+                "name": {"type": "string", "minLength": 1},
+                "arithmetic": {"$ref": "#/definitions/size"},
+                "texture": {"$ref": "#/definitions/size"},
+                "output": {"$ref": "#/definitions/size"},
+                "geometry": {"$ref": "#/definitions/size"},
+                "memory": {"$ref": "#/definitions/size"},
+                "fixed": {"$ref": "#/definitions/size"}
+              }
+            }
+          }
+        }
+      }
+    },
     "reference": {
       "type": "object",
       "additionalProperties": false,
@@ -261,6 +296,7 @@ std::string recordSchema() {
         costs[passes] = {{"$ref", "#/definitions/by_pass"}};
     costs["other_screen"] = {{"$ref", "#/definitions/other_screen"}};
     costs["device"] = {{"$ref", "#/definitions/device"}};
+    costs["gpu"] = {{"$ref", "#/definitions/gpu"}};
     return schema.dump(2) + "\n";
 }
 

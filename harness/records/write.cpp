@@ -46,6 +46,11 @@ public:
         for (const T& item : items) object_[key].push_back(written(key, item));
     }
 
+    template <typename T>
+    void named(const char* key, const std::map<std::string, T>& items) {
+        for (const auto& [name, item] : items) object_[key][name] = written(key, item);
+    }
+
     void text(const char* key, const std::string& value) {
         if (!value.empty()) object_[key] = value;
     }

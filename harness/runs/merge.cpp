@@ -131,6 +131,7 @@ Record withoutTimings(Record record) {
         }
     record.otherScreen.reset(); // measured for its times
     record.deviceCosts.clear();
+    record.modelled.clear(); // another verb adds them
     if (record.external) record.external->reported.reset();
     return record;
 }

@@ -76,10 +76,10 @@ ModelledFrame beside(ModelledFrame frame, const DeviceCost& cost) {
 }
 
 std::vector<ModelledFrame> framesOf(const Cell& cell, const Drawn& drawn, const std::vector<gpu::Card>& cards,
-                                    glm::ivec2 size) {
+                                    const std::vector<glm::ivec2>& sizes) {
     std::vector<ModelledFrame> frames;
     for (const gpu::Card& card : cards) {
-        frames.push_back(modelled(cell, drawn, card, size));
+        for (const glm::ivec2& size : sizes) frames.push_back(modelled(cell, drawn, card, size));
         for (const Record* record : cell)
             if (wasMeasuredOn(*record, card))
                 for (const DeviceCost& cost : record->deviceCosts)
@@ -110,6 +110,25 @@ const ModelledPass& ModelledFrame::slowest() const {
     return *std::ranges::max_element(passes, {}, [](const ModelledPass& pass) { return pass.terms.seconds(); });
 }
 
+std::pair<std::string, ModelledCost> modelledCost(const ModelledFrame& frame) {
+    ModelledCost cost{1e3 * frame.time.seconds, 1e3 * frame.time.least, 1e3 * frame.time.most, frame.waits, {}};
+    for (const ModelledPass& pass : frame.passes) {
+        const gpu::Terms& terms = pass.terms;
+        cost.passes.push_back({pass.name, 1e3 * terms.arithmetic, 1e3 * terms.texture, 1e3 * terms.output,
+                               1e3 * terms.geometry, 1e3 * terms.memory, 1e3 * terms.fixed});
+    }
+    return {fmt::format("{}@{}x{}", frame.card, frame.size.x, frame.size.y), std::move(cost)};
+}
+
+void addTo(std::vector<Record>& records, const std::vector<ModelledFrame>& frames) {
+    std::map<std::pair<std::string, std::string>, Record*> first; // by scene and variant
+    for (Record& record : records) {
+        record.modelled.clear();
+        if (hasCounts(record)) first.try_emplace({record.scene, record.variant}, &record);
+    }
+    for (const ModelledFrame& frame : frames) first.at({frame.scene, frame.variant})->modelled.insert(modelledCost(frame));
+}
+
 GpuCostResult gpuCosts(const std::vector<Record>& records, const GpuCostOptions& options) {
     const std::vector<gpu::Card> cards = chosenCards(options.cards);
     requireJoinable(records);
@@ -124,7 +143,7 @@ GpuCostResult gpuCosts(const std::vector<Record>& records, const GpuCostOptions&
         const auto found = onScene.find(cell.front()->variant);
         if (found == onScene.end()) continue;
         try {
-            std::ranges::move(framesOf(cell, found->second, cards, options.size), std::back_inserter(result.frames));
+            std::ranges::move(framesOf(cell, found->second, cards, options.sizes), std::back_inserter(result.frames));
         } catch (const BadInput& error) {
             result.leftOut.emplace_back(error.what());
         }

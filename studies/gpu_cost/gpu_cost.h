@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shadowbench::gpucost {
@@ -35,7 +36,7 @@ struct ModelledFrame {
 
 struct GpuCostOptions {
     std::vector<std::string> cards; // ids; empty: all
-    glm::ivec2 size{1920, 1080};
+    std::vector<glm::ivec2> sizes{{1920, 1080}};
     std::filesystem::path cache; // empty: as of references
     bool quiet = false;
 };
@@ -47,13 +48,16 @@ struct GpuCostResult {
     ExitCode code = ExitCode::Pass;
 };
 
-/// All frames of `size` on all cards; then, where a record was measured on one of these cards, of the sizes that it was
+/// All frames of the sizes on all cards; then, where a record was measured on one of these cards, of the sizes that it was
 /// measured on. Throws BadInput for records that cannot be joined with shaders: of other profiles than `gate`, or all
 /// without counts.
 GpuCostResult gpuCosts(const std::vector<Record>& records, const GpuCostOptions& options);
 
-/// Nothing in it depends on the machine or the time: a line of JSON for each frame, with every term of every pass.
-std::string toLines(const std::vector<ModelledFrame>& frames);
+/// What a frame says in a record, by its name there (Record::modelled).
+std::pair<std::string, ModelledCost> modelledCost(const ModelledFrame& frame);
+
+/// Puts each frame into the first record of its technique and scene that counts work, in place of what was modelled before.
+void addTo(std::vector<Record>& records, const std::vector<ModelledFrame>& frames);
 
 /// For a terminal: a table for each scene, size and card; then, of measured frames, how near the model comes.
 std::string tables(const std::vector<ModelledFrame>& frames);

@@ -2,43 +2,10 @@
 #include "studies/gpu_cost/gpu_cost.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace shadowbench::gpucost {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json jsonOf(const ModelledPass& pass) {
-    const gpu::Terms& terms = pass.terms;
-    Json json{{"name", pass.name},
-              {"modelled_ms", 1e3 * terms.seconds()},
-              {"limit", gpu::name(terms.limit())},
-              {"arithmetic_ms", 1e3 * terms.arithmetic},
-              {"texture_ms", 1e3 * terms.texture},
-              {"output_ms", 1e3 * terms.output},
-              {"geometry_ms", 1e3 * terms.geometry},
-              {"memory_ms", 1e3 * terms.memory},
-              {"fixed_ms", 1e3 * terms.fixed}};
-    if (pass.measured) json["measured_ms"] = *pass.measured;
-    return json;
-}
-
-Json jsonOf(const ModelledFrame& frame) {
-    Json json{{"scene", frame.scene},
-              {"variant", frame.variant},
-              {"card", frame.card},
-              {"size", {frame.size.x, frame.size.y}},
-              {"modelled_ms", 1e3 * frame.time.seconds},
-              {"least_ms", 1e3 * frame.time.least},
-              {"most_ms", 1e3 * frame.time.most},
-              {"waits_for_program", frame.waits}};
-    if (frame.measured) json["measured_ms"] = *frame.measured;
-    json["passes"] = Json::array();
-    for (const ModelledPass& pass : frame.passes) json["passes"].push_back(jsonOf(pass));
-    return json;
-}
 
 std::string limitOf(const ModelledFrame& frame) {
     if (frame.waits) return "waits for the program";
@@ -51,12 +18,6 @@ std::string titleOf(const ModelledFrame& frame) {
 }
 
 } // namespace
-
-std::string toLines(const std::vector<ModelledFrame>& frames) {
-    std::string lines;
-    for (const ModelledFrame& frame : frames) lines += jsonOf(frame).dump() + "\n";
-    return lines;
-}
 
 std::string tables(const std::vector<ModelledFrame>& frames) {
     std::vector<std::pair<std::string, report::TextTable>> all; // in the order of first frames

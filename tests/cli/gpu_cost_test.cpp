@@ -1,6 +1,7 @@
 // `gpu-cost` as a user types it, on records that were measured on a card.
 #include "tests/support/program.h"
 
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -33,11 +34,20 @@ protected:
         throw std::runtime_error("results/gpu has no record of " + variant);
     }
 
-    [[nodiscard]] std::vector<nlohmann::json> lines() const {
+    /// The records that were written.
+    [[nodiscard]] std::vector<nlohmann::json> written() const {
         std::vector<nlohmann::json> all;
-        std::ifstream file(folder_ / "out/gpu-cost.jsonl");
+        std::ifstream file(folder_ / "out/results.jsonl");
         for (std::string line; std::getline(file, line);) all.push_back(nlohmann::json::parse(line));
         return all;
+    }
+
+    /// Cards and sizes of the first.
+    [[nodiscard]] std::vector<std::string> modelled() const {
+        const nlohmann::json first = written().at(0)["cost"]["gpu"];
+        std::vector<std::string> names;
+        for (const auto& [name, cost] : first.items()) names.push_back(name);
+        return names;
     }
 
     Folder folder_;
@@ -49,25 +59,35 @@ TEST_F(GpuCostVerb, ModelsAFrameOnACardNearWhatWasMeasuredThere) {
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("simple at 1280×720 on NVIDIA H200, modelled"), std::string::npos) << outcome.output;
     EXPECT_NE(outcome.output.find("Modelled against measured"), std::string::npos) << outcome.output;
-    const auto all = lines();
-    ASSERT_EQ(all.size(), 6U) << "two techniques, on the size that was asked for and on the two that were measured";
-    for (const auto& line : all) {
-        const double modelled = line["modelled_ms"];
-        EXPECT_LT(line["least_ms"], modelled);
-        EXPECT_GT(line["most_ms"], modelled);
-        if (!line.contains("measured_ms")) continue;
-        const double ratio = modelled / line["measured_ms"].get<double>();
-        EXPECT_GT(ratio, 0.7) << line;
-        EXPECT_LT(ratio, 1.4) << line;
+    const auto all = written();
+    ASSERT_EQ(all.size(), 2U);
+    for (const auto& record : all) {
+        const auto& modelled = record["cost"]["gpu"];
+        EXPECT_EQ(modelled.size(), 3U) << "the size that was asked for and the two that were measured";
+        EXPECT_LT(modelled["h200@1280x720"]["least"], modelled["h200@1280x720"]["milliseconds"]);
+        EXPECT_GT(modelled["h200@1280x720"]["most"], modelled["h200@1280x720"]["milliseconds"]);
+        for (const auto& device : record["cost"]["device"]) {
+            const int side = device["size"][0];
+            const double ratio = modelled[fmt::format("h200@{}x{}", side, side)]["milliseconds"].get<double>() /
+                                 device["median"].get<double>();
+            EXPECT_GT(ratio, 0.7) << record;
+            EXPECT_LT(ratio, 1.4) << record;
+        }
     }
+}
+
+TEST_F(GpuCostVerb, RecordsMayTakeTheirOwnPlace) {
+    ASSERT_EQ(asked(folder_.write("results.jsonl", recordOf("sm-uniform")) + " --card gtx-1080").code, 0);
+    ASSERT_EQ(asked(folder_ / "out" + " --card h200 --size 1280x720 --size 640x360").code, 0);
+    EXPECT_EQ(modelled(), (std::vector<std::string>{"h200@1024x1024", "h200@1280x720", "h200@2048x2048", "h200@640x360"}));
 }
 
 TEST_F(GpuCostVerb, AllCardsAreModelledUnlessOneIsNamed) {
     const std::string records = folder_.write("results.jsonl", recordOf("sm-uniform"));
     ASSERT_EQ(asked(records).code, 0);
     std::vector<std::string> cards;
-    for (const auto& line : lines())
-        if (!line.contains("measured_ms")) cards.push_back(line["card"]);
+    for (const std::string& name : modelled())
+        if (name.ends_with("@1920x1080")) cards.push_back(name.substr(0, name.find('@')));
     EXPECT_EQ(cards, (std::vector<std::string>{"geforce-7600-gt", "gtx-1080", "h200", "rtx-2080-ti", "rx-6800-xt"}));
 }
 
@@ -75,7 +95,7 @@ TEST_F(GpuCostVerb, WhatReadsBackWaitsForTheProgram) {
     const Outcome outcome = asked(folder_.write("results.jsonl", recordOf("sm-tiled")) + " --card h200");
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("waits for the program"), std::string::npos) << outcome.output;
-    EXPECT_EQ(lines().at(0)["waits_for_program"], true);
+    EXPECT_EQ(written().at(0)["cost"]["gpu"]["h200@1920x1080"]["waits"], true);
 }
 
 TEST_F(GpuCostVerb, WhatIsWrongIsNamedWithARemedy) {

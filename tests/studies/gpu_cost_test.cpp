@@ -5,7 +5,6 @@
 #include "studies/gpu_cost/pass_work.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <regex>
 
 namespace shadowbench::gpucost {
@@ -235,15 +234,24 @@ TEST(GpuCostText, ComparesWhatDoesNotWait) {
     EXPECT_NE(comparison({frame("a", 0.001, 2), frame("b", 0.001, 2.1)}).find("1 of 2 measured frames"), std::string::npos);
 }
 
-TEST(GpuCostLines, HaveEveryTermOfEveryPass) {
-    const auto line = nlohmann::json::parse(toLines({frame("pcf", 0.002, 3)}));
-    EXPECT_EQ(line["modelled_ms"], 2);
-    EXPECT_EQ(line["least_ms"], 1);
-    EXPECT_EQ(line["measured_ms"], 3);
-    const auto& pass = line["passes"][0];
-    EXPECT_EQ(pass["limit"], "arithmetic");
-    for (const char* term : {"arithmetic", "texture", "output", "geometry", "memory", "fixed"})
-        EXPECT_TRUE(pass.contains(std::string(term) + "_ms")) << term;
+TEST(GpuCostRecords, HaveWhatWasModelledOfTheirTechniqueAlone) {
+    Record bare;
+    bare.scene = "simple";
+    bare.variant = "vsm"; // of one that counts no work
+    std::vector<Record> records{bare, recordOf(counted("resolve", 10000)), recordOf(counted("resolve", 10000))};
+    records[2].variant = "pcf";
+    for (Record& record : records) record.modelled["h200@1x1"] = {}; // of before
+    addTo(records, {frame("vsm", 0.002, 3), frame("pcf", 0.004, {})});
+    EXPECT_TRUE(records[0].modelled.empty());
+    ASSERT_EQ(records[1].modelled.size(), 1U);
+    const ModelledCost& cost = records[1].modelled.at("h200@1024x1024");
+    EXPECT_EQ(cost.milliseconds, 2);
+    EXPECT_EQ(cost.least, 1);
+    EXPECT_EQ(cost.most, 4);
+    EXPECT_EQ(cost.passes.at(0).name, "resolve");
+    EXPECT_EQ(cost.passes.at(0).arithmetic, 2);
+    EXPECT_EQ(cost.passes.at(0).fixed, 0);
+    EXPECT_EQ(records[2].modelled.at("h200@1024x1024").milliseconds, 4);
 }
 
 TEST(GpuCosts, RecordsThatCannotBeJoinedAreRefused) {

@@ -99,6 +99,29 @@ TEST(RecordJson, KeepsTheCostsOfAGraphicsProcessor) {
     EXPECT_TRUE(parseRecord(toJson(hardRecord())).deviceCosts.empty());
 }
 
+TEST(RecordJson, KeepsWhatIsModelled) {
+    Record record = hardRecord();
+    record.modelled["gtx-1080@1920x1080"] = {3, 2, 5, true, {{"resolve", 1, 2, 3, 4, 5, 0.5}}};
+    record.modelled["h200@1920x1080"] = {1, 0.5, 2, false, {{"resolve", 0.25, 0, 0, 0, 0, 0}}};
+    const Record r = parseRecord(toJson(record));
+    ASSERT_EQ(r.modelled.size(), 2U);
+    const ModelledCost& cost = r.modelled.at("gtx-1080@1920x1080");
+    EXPECT_EQ(cost.milliseconds, 3);
+    EXPECT_EQ(cost.least, 2);
+    EXPECT_EQ(cost.most, 5);
+    EXPECT_TRUE(cost.waits);
+    EXPECT_EQ(cost.passes.at(0).geometry, 4);
+    EXPECT_EQ(cost.passes.at(0).fixed, 0.5);
+    Json broken = Json::parse(toJson(record));
+    broken["cost"]["gpu"]["h200@1920x1080"].erase("least");
+    try {
+        (void)parseRecord(broken.dump());
+        ADD_FAILURE();
+    } catch (const BadInput& error) {
+        EXPECT_TRUE(contains(error.what(), "h200@1920x1080.least")) << error.what();
+    }
+}
+
 TEST(RecordJson, KeepsAllTolerancesAndReadsTheOneOfOlderRecords) {
     Record record = hardRecord();
     record.tolerances = {{"leak", 0.1}, {"mismatch", 0.005}};

@@ -69,6 +69,17 @@ TEST_F(RecordSchema, RefusesATypoInCostsOfAGraphicsProcessor) {
     }
 }
 
+TEST_F(RecordSchema, RefusesATypoInModelledCosts) {
+    for (const char* place : {"/cost/gpu/h200@1x1", "/cost/gpu/h200@1x1/by_pass/0"}) {
+        Record modelled = hardRecord();
+        modelled.modelled["h200@1x1"] = {1, 0.5, 2, false, {{"resolve", 0.25, 0, 0, 0, 0, 0}}};
+        Json record = Json::parse(toJson(modelled));
+        ASSERT_TRUE(valid(record)) << why_;
+        record[Json::json_pointer(place)]["leastt"] = 0.1;
+        EXPECT_FALSE(valid(record)) << place;
+    }
+}
+
 TEST_F(RecordSchema, ALevelOfDetailRecordHasNoAccuracyAndNoTypos) {
     for (const char* place : {"/lod", "/lod/time", "/lod/by_frame"}) {
         Json record = Json::parse(toJson(lodRecord()));
