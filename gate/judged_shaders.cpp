@@ -20,6 +20,10 @@ using shaders::SharedShader;
 /// As of instructions: what a rewrite that means nothing may move. Figures themselves are exact.
 constexpr double cyclesAllowed = 0.005;
 
+/// More executed cycles of rewritten loops and branches are certain from here on: more than any rewrite moved them by that
+/// compiled to the same (docs/gate.md, "Shaders").
+constexpr double rewrittenAllowed = 0.03;
+
 constexpr const char* waves = "Subgroups per SIMD";
 constexpr std::array spills{"Spilled VGPRs", "Spilled SGPRs"};
 
@@ -41,15 +45,20 @@ Found foundOf(const std::string& what, double base, double head, double allowed 
 
 double of(const shaders::ShaderCost& shader, const char* statistic) { return static_cast<double>(shader.of(statistic)); }
 
-Found cyclesOf(const SharedShader& shader) {
-    const bool counted = shader.isCounted();
-    const double base = counted ? shader.before->executed->cycles64 : of(*shader.before, "Inverse Throughput");
-    const double head = counted ? shader.after->executed->cycles64 : of(*shader.after, "Inverse Throughput");
+Found cyclesFound(const char* which, double base, double head) {
     const std::string share = base > 0 ? fmt::format("{:+.2f} %", 100 * (head / base - 1)) : "new";
-    Found found = foundOf(fmt::format("{} cycles {}", counted ? "executed" : "estimated", share), base, head, cyclesAllowed);
-    if (found.direction == Direction::Worse && counted && shader.isRewritten()) {
+    return foundOf(fmt::format("{} cycles {}", which, share), base, head, cyclesAllowed);
+}
+
+Found cyclesOf(const SharedShader& shader) {
+    const Found estimated =
+        cyclesFound("estimated", of(*shader.before, "Inverse Throughput"), of(*shader.after, "Inverse Throughput"));
+    if (!shader.isCounted()) return estimated;
+    Found found = cyclesFound("executed", shader.before->executed->cycles64, shader.after->executed->cycles64);
+    const bool isSmall = found.head < found.base * (1 + rewrittenAllowed) && estimated.direction != Direction::Worse;
+    if (found.direction == Direction::Worse && shader.isRewritten() && isSmall) {
         found.direction = Direction::Unclear;
-        found.what += " of the same machine code, whose loops and branches are written otherwise";
+        found.what += ", which the compiler's estimate is not, of loops and branches that are written otherwise";
     }
     return found;
 }

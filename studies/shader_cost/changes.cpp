@@ -112,7 +112,7 @@ bool SharedShader::isCounted() const {
     return before->executed && after->executed && before->scene == after->scene && before->frame == after->frame;
 }
 
-bool SharedShader::isRewritten() const { return before->marks != after->marks && before->statistics == after->statistics; }
+bool SharedShader::isRewritten() const { return before->marks != after->marks; }
 
 ComparedShaders compared(const ShaderCosts& before, const ShaderCosts& after) {
     std::vector<const ShaderCost*> gone = pointersTo(before.shaders), added = pointersTo(after.shaders);

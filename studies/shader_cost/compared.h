@@ -16,8 +16,8 @@ struct SharedShader {
     /// Whether what waves execute was counted on both sides, as far as lines say in one frame.
     [[nodiscard]] bool isCounted() const;
 
-    /// Whether the compiler says the same of two texts whose loops and branches are written otherwise (`?:` as `if`, or the
-    /// reverse). The marks that count them then stand elsewhere in one machine code, which moves the count by itself.
+    /// Whether their loops and branches are written otherwise (`?:` as `if`, or the reverse). The marks that count them then
+    /// stand elsewhere, which by itself moves what is executed.
     [[nodiscard]] bool isRewritten() const;
 };
 
