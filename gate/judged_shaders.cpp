@@ -58,7 +58,7 @@ Found cyclesOf(const SharedShader& shader) {
     const bool isSmall = found.head < found.base * (1 + rewrittenAllowed) && estimated.direction != Direction::Worse;
     if (found.direction == Direction::Worse && shader.isRewritten() && isSmall) {
         found.direction = Direction::Unclear;
-        found.what += ", which the compiler's estimate is not, of loops and branches that are written otherwise";
+        found.what += " (loops or branches are written otherwise, and the compiler's estimate is not worse)";
     }
     return found;
 }
