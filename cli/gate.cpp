@@ -41,7 +41,7 @@ void addGate(CLI::App& app, Action& action) {
     const auto options = std::make_shared<gate::GateOptions>();
     const auto files = std::make_shared<GateFiles>();
     const auto profile = std::make_shared<std::string>("gate");
-    const auto cost = std::make_shared<std::vector<std::string>>(std::vector<std::string>{"instructions", "time"});
+    const auto cost = std::make_shared<std::vector<std::string>>(std::vector<std::string>{"shader", "instructions", "time"});
     CLI::App* verb = app.add_subcommand("gate", "Judges this build against another: is anything worse?");
     verb->footer(
         "Examples:\n  shadowbench gate --base origin/main --junit gate.xml --summary gate.md --annotations\n"
@@ -54,17 +54,19 @@ void addGate(CLI::App& app, Action& action) {
         "left "
         "in --out: as the --base of\nlater gates they accept what this one found.");
     verb->add_option("--base", options->base,
-                     "A build folder or program, a git revision (built once and kept), or records (then no time is judged)");
+                     "A build folder or program, a git revision (built once and kept), or records (then neither time nor "
+                     "shaders are judged)");
     verb->add_option("--scene", options->scenes, "Scene id or file; repeatable (default: the standard scenes)");
     verb->add_option("--technique", options->techniques, "Variant, or a glob over ids; repeatable (default: all)");
     addTechniqueFolderOption(*verb, options->techniques);
     verb->add_option("--external", options->externalFiles,
                      "File that describes renderers to call, whose rows are compared with those of --base; repeatable");
     addProfileOption(*verb, *profile);
-    verb->add_option("--cost", *cost,
-                     "What is judged beside accuracy and stability: instructions, time, both as instructions,time, or none")
+    verb->add_option(
+            "--cost", *cost,
+            "What is judged beside accuracy and stability: shader, instructions, time, several as shader,time, or none")
         ->delimiter(',')
-        ->check(CLI::IsMember({"instructions", "time", "none"}))
+        ->check(CLI::IsMember({"shader", "instructions", "time", "none"}))
         ->capture_default_str();
     verb->add_option("--bounds", options->bounds,
                      "Bounds, sweeps and the cells whose cost is judged; outside a clone those that the program carries")
@@ -82,6 +84,7 @@ void addGate(CLI::App& app, Action& action) {
         action = [options, files, profile, cost] {
             options->profile = profileNamed(*profile);
             options->instructions = std::ranges::find(*cost, "instructions") != cost->end();
+            options->shader = std::ranges::find(*cost, "shader") != cost->end();
             options->time = std::ranges::find(*cost, "time") != cost->end();
             options->external = foreign::renderersOf(options->externalFiles);
             return gateAndPrint(*options, *files);

@@ -6,6 +6,7 @@
 #include "cli/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -29,6 +30,11 @@ ExitCode printShaderCosts(const VerbOptions& options) {
     for (const auto& [variant, reason] : result.notApplicable)
         fmt::print(stderr, "{} is not applicable: {}\n", variant, reason);
     if (result.costs.shaders.empty()) return result.code == ExitCode::Pass ? ExitCode::BadInput : result.code;
+    if (!options.study.techniques.empty()) // the base may be of more
+        std::erase_if(before.shaders, [&](const shaders::ShaderCost& shader) {
+            return std::ranges::find(result.costs.shaders, shader.technique, &shaders::ShaderCost::technique) ==
+                   result.costs.shaders.end();
+        });
     const std::filesystem::path file = options.out / "shader-cost.jsonl";
     writeFile(file, shaders::toLines(result.costs));
     fmt::print("{}lines: {}\n", options.base.empty() ? shaders::table(result.costs) : shaders::changes(before, result.costs),

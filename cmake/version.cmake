@@ -50,8 +50,9 @@ list(REMOVE_DUPLICATES rooms)
 digest_of(program "${COMPILER}${beside}" "^$" ${rooms} cmake)
 digest_of(metric_code "" "^$" harness/cells harness/measure harness/metrics harness/records harness/render)
 
-# The hashes of what decides which pipelines a frame uses and of what compiles them, which name what is kept of them.
-digest_of(drawing "" "^$" scene techniques gpu/counter gpu/marks gpu/observer gpu/pipeline gpu/spirv gpu/state gpu/wave_passes harness/render studies/shader_cost/frame_pipelines)
+# The hashes of what decides which pipelines a frame uses, beside the texts of shaders, and of what compiles them, which name what is
+# kept of them.
+digest_of(drawing "" "\\.(comp|frag|glsl|vert)$" scene techniques gpu/counter gpu/marks gpu/observer gpu/pipeline gpu/spirv gpu/state gpu/wave_passes harness/render studies/shader_cost/frame_pipelines)
 digest_of(compiling "" "gpu/(card|model)" gpu)
 file(WRITE ${OUT}/embedded_shader_sources.h.new
      "#pragma once\n\nnamespace shadowbench::embedded {\n\n"

@@ -19,7 +19,8 @@ Failing failingCells(const std::vector<Change>& changes, const std::function<boo
     Failing cells;
     for (const Change& change : changes) {
         const bool drawn = change.direction == Direction::Worse && change.changeClass != Class::Instructions &&
-                           change.changeClass != Class::Time && change.changeClass != Class::BreakPoint;
+                           change.changeClass != Class::Shader && change.changeClass != Class::Time &&
+                           change.changeClass != Class::BreakPoint;
         if (!drawn || !isDrawable(change) || cells.size() == mostCells) continue;
         if (std::ranges::find(cells, std::pair(change.scene, change.variant)) == cells.end())
             cells.emplace_back(change.scene, change.variant);

@@ -6,10 +6,12 @@
 #include "gate/failure_logs.h"
 #include "gate/failure_pictures.h"
 #include "gate/judged_cells.h"
+#include "gate/judged_shaders.h"
 #include "gate/truth_sample.h"
 #include "gate/verdict.h"
 #include "gate/waivers.h"
 #include "groundtruth/store/cache.h"
+#include "harness/cells/cell_selection.h"
 #include "harness/cells/environment.h"
 #include "harness/measure/callgrind.h"
 #include "scene/load/load.h"
@@ -77,6 +79,8 @@ private:
             std::ranges::any_of(before, [](const Record& r) { return r.values["cost.instructions"].has_value(); });
         result_.notes.emplace_back("the base is a file of records: this build's policy alone judges");
         if (options_.time) result_.notes.emplace_back("time is not compared: the base is a file of records, not a program");
+        if (options_.shader)
+            result_.notes.emplace_back("shaders are not compared: the base is a file of records, not a program");
         if (options_.instructions && !counted)
             result_.notes.emplace_back("instructions are not compared: the base's records hold none");
         leaveOutWhatNoRecordIsOf(before);
@@ -93,12 +97,27 @@ private:
         if (isDecidedAlready(base, head)) return;
         unitePolicies(base);
         noteUnknownScenes();
+        if (options_.shader) judgeShadersOf(base, head);
         const std::vector<Record> before = measure(base, "base", options_.instructions);
         const std::vector<Record> now = measure(head, "head", options_.instructions);
         judgeRecords(before, now, &base);
         if (const auto why = whyMeaningless(before, now, true)) result_.notCompared.push_back(*why);
         if (options_.time) judgeTimes(base, head);
         addPictures(&base, head);
+    }
+
+    void judgeShadersOf(const MeasuredProgram& base, const MeasuredProgram& head) {
+        StageLine line("shaders", options_.quiet);
+        std::vector<std::string> variants; // none: all that shader-cost knows
+        if (!options_.techniques.empty())
+            for (const techniques::Variant& variant : chosenVariants(options_.techniques, options_.external.get()))
+                if (base.knowsVariant(variant.name)) variants.push_back(variant.name);
+        if (variants.empty() && !options_.techniques.empty()) return;
+        ShaderJudgement judged =
+            timed("shaders", [&] { return judgeShaders(base, head, variants, shaderFolder(options_), line.progress()); });
+        std::ranges::move(judged.changes, std::back_inserter(result_.changes));
+        std::ranges::move(judged.notCompared, std::back_inserter(result_.notCompared));
+        std::ranges::move(judged.notes, std::back_inserter(result_.notes));
     }
 
     /// Of what is judged beside the standard scenes, records as a base may hold nothing: a run makes none of it.
@@ -243,6 +262,7 @@ private:
 
     void addPictures(const MeasuredProgram* base, const MeasuredProgram& head) {
         std::ranges::move(waive(result_.changes, cells_.policy.config.waivers, today()), std::back_inserter(result_.notes));
+        result_.changes = oneAShader(std::move(result_.changes));
         StageLine line("pictures of what is worse", options_.quiet);
         result_.pictures = timed("pictures of what is worse", [&] {
             return drawFailures(result_.changes, cells_, base, head, options_.out, line.progress());
@@ -279,6 +299,8 @@ private:
 };
 
 } // namespace
+
+fs::path shaderFolder(const GateOptions& options) { return options.out / "shader-cost"; }
 
 ExitCode GateResult::code() const { return notCompared.empty() ? verdictOf(changes) : ExitCode::Inconclusive; }
 

@@ -31,8 +31,8 @@ struct GateOptions {
     std::filesystem::path out = "results/gate"; // of the report and the pictures of failing cells
     std::filesystem::path cache;                // empty: the default
     std::uint32_t seed = 1;
-    bool instructions = true, time = true; // which costs are judged
-    bool sameProgram = false;              // base and head may be one program
+    bool instructions = true, time = true, shader = true; // which costs are judged
+    bool sameProgram = false;                             // base and head may be one program
     bool quiet = false;
 };
 
@@ -70,6 +70,9 @@ GateResult gate(const GateOptions& options);
 /// Two sets of records as a gate's result: this build's rules judge. One program on both sides decides nothing, unless
 /// `sameProgram`.
 GateResult comparedRecords(const std::vector<Record>& base, const std::vector<Record>& head, bool sameProgram = false);
+
+/// Where a gate leaves what `shader-cost` said, in folders `base` and `head`.
+std::filesystem::path shaderFolder(const GateOptions& options);
 
 /// The command that shows a change again. `base` as the user named it.
 std::string reproduction(const Change& change, const GateOptions& options);

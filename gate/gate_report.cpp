@@ -104,6 +104,9 @@ std::string reproduction(const Change& change, const GateOptions& options) {
         return fmt::format("{} gate --base {} --cost time {}", program, quoted(options.base), which);
     case Class::BreakPoint:
         return fmt::format("{} sweep --axis {} {}", program, change.axis, which);
+    case Class::Shader:
+        return fmt::format("{} shader-cost --technique {} --base {}", program, quoted(change.variant),
+                           quoted((shaderFolder(options) / "base/shader-cost.jsonl").string()));
     case Class::Instructions:
         return fmt::format("{} run --cost instructions {}", program, which);
     default:

@@ -181,6 +181,24 @@ int MeasuredProgram::run(const Step& step, const fs::path& out, int programs, co
     return code;
 }
 
+ShaderFigures MeasuredProgram::shaderFigures(const std::vector<std::string>& variants, const fs::path& out,
+                                             const Progress& progress) const {
+    constexpr std::string_view prefix = "shadowbench: ";
+    std::vector<std::string> arguments{"shader-cost", "--out", fs::absolute(out).string(), "--cache", cache_.string()};
+    for (const std::string& variant : variants)
+        if (knowsVariant(variant)) arguments.insert(arguments.end(), {"--technique", variant});
+    ShaderFigures figures;
+    fs::remove_all(out);
+    const auto [code, last] = runToEnd(file_, arguments, [&](std::string_view line) {
+        if (isProgress(line)) progress(0, line);
+        if (line.starts_with(prefix)) figures.errors.emplace_back(line.substr(prefix.size()));
+    });
+    figures.code = code < 0 ? ExitCode::Internal : static_cast<ExitCode>(code);
+    figures.last = last.starts_with(prefix) ? last.substr(prefix.size()) : last;
+    if (const fs::path file = out / "shader-cost.jsonl"; fs::exists(file)) figures.file = file;
+    return figures;
+}
+
 Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress& progress) const {
     using Clock = std::chrono::steady_clock;
     std::vector<std::vector<Record>> records(steps.size());

@@ -1,6 +1,7 @@
 // The programs that a gate compares: builds of shadowbench of this or another commit, started as a user would.
 #pragma once
 
+#include "base/error.h"
 #include "base/progress.h"
 #include "gate/policy.h"
 #include "harness/records/record.h"
@@ -41,6 +42,14 @@ struct Measured {
     std::vector<std::filesystem::path> logs; // folders of what renderers said that failed
 };
 
+/// What a program's `shader-cost` left.
+struct ShaderFigures {
+    ExitCode code = ExitCode::Pass;
+    std::string last;                          // line that it printed
+    std::optional<std::filesystem::path> file; // of its lines; nothing: it left none
+    std::vector<std::string> errors;           // a sentence for each variant that has no figures
+};
+
 class MeasuredProgram {
 public:
     /// `file`: the executable. Its records are kept in `cache`, under a hash of the program, Mesa, Valgrind and processor:
@@ -70,6 +79,11 @@ public:
     /// Runs one step in `out`, whatever was run before, and returns its exit code: not 0 when some of its cells failed,
     /// which have records that say so. Throws Inconclusive when it left no records.
     int run(const Step& step, const std::filesystem::path& out, int programs, const Progress& progress) const;
+
+    /// Runs `shader-cost` in `out`, which keeps itself what it drew and compiled: of those of `variants` that the program
+    /// has, of all if there are none.
+    ShaderFigures shaderFigures(const std::vector<std::string>& variants, const std::filesystem::path& out,
+                                const Progress& progress) const;
 
 private:
     struct Technique {

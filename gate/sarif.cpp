@@ -39,12 +39,13 @@ std::map<std::string, Place> placesOf(const std::vector<fs::path>& files, const 
 
 /// One a cell and direction: what is worst, and how much more there is.
 std::vector<Change> oneACell(const std::vector<Change>& changes) {
-    std::map<std::tuple<std::string, std::string, Direction>, std::size_t> places;
+    std::map<std::tuple<std::string, std::string, Direction, std::string>, std::size_t> places; // shaders each at its file
     std::vector<Change> cells;
     std::vector<int> more;
     for (const Change& change : worstFirst(changes)) {
         if (change.direction != Direction::Worse && change.direction != Direction::NotCompared) continue;
-        const auto [place, isFirst] = places.try_emplace({change.scene, change.variant, change.direction}, cells.size());
+        const auto [place, isFirst] =
+            places.try_emplace({change.scene, change.variant, change.direction, change.file}, cells.size());
         if (!isFirst) {
             ++more[place->second];
             continue;
@@ -67,7 +68,9 @@ SarifJson resultOf(const Change& change, const Place& place) {
     result["level"] = change.direction == Direction::Worse ? "error" : "warning";
     result["message"]["text"] = change.sentence;
     result["locations"] = SarifJson::array({at});
-    result["partialFingerprints"]["cell/v1"] = fmt::format("{} on {}: {}", change.variant, change.scene, rule);
+    result["partialFingerprints"]["cell/v1"] = change.file.empty()
+                                                   ? fmt::format("{} on {}: {}", change.variant, change.scene, rule)
+                                                   : fmt::format("{}: {}", change.metric, rule);
     return result;
 }
 
@@ -111,7 +114,10 @@ std::string sarif(const GateResult& result, const GateOptions& options, const fs
     run["results"] = SarifJson::array();
     for (const Change& cell : cells) {
         const auto found = places.find(cell.variant);
-        run["results"].push_back(resultOf(cell, found == places.end() ? others : found->second));
+        const Place place = found != places.end() ? found->second
+                            : cell.file.empty()   ? others
+                                                  : Place{"techniques/" + cell.file};
+        run["results"].push_back(resultOf(cell, place));
     }
     SarifJson log;
     log["$schema"] = "https://json.schemastore.org/sarif-2.1.0.json";

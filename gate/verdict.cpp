@@ -15,7 +15,7 @@ namespace {
 
 bool isCost(const Change& change) {
     return change.changeClass == Class::Work || change.changeClass == Class::Instructions ||
-           change.changeClass == Class::Time;
+           change.changeClass == Class::Shader || change.changeClass == Class::Time;
 }
 
 /// In the order of reports; the rest is the same.
@@ -173,8 +173,10 @@ std::vector<Change> worstFirst(const std::vector<Change>& changes) {
 }
 
 std::vector<Change> oneACause(const std::vector<Change>& worstFirst) {
-    using Cause = std::tuple<std::string, std::string, Class, Direction>;
-    const auto causeOf = [](const Change& c) { return Cause{c.scene, c.variant, c.changeClass, c.direction}; };
+    using Cause = std::tuple<std::string, std::string, Class, Direction, std::string>;
+    const auto causeOf = [](const Change& c) { // of shaders each is a cause
+        return Cause{c.scene, c.variant, c.changeClass, c.direction, c.changeClass == Class::Shader ? c.metric : ""};
+    };
     std::map<Cause, int> counts;
     std::vector<Change> worst;
     for (const Change& change : worstFirst)

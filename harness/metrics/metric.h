@@ -25,6 +25,7 @@ enum class Class {
     BreakPoint,   // stability over parameters
     Work,         // cost: what is drawn and held, the same on every machine
     Instructions, // cost, the same in every run
+    Shader,       // cost of a shader's machine code, the same in every run
     Time,         // cost, measured in pairs of frames
     Figure,       // numbers that only the technique knows
     Status,       // a cell that is no longer scored, or no longer there

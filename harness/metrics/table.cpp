@@ -51,6 +51,8 @@ std::string_view name(Class c) {
         return "work";
     case Class::Instructions:
         return "instructions";
+    case Class::Shader:
+        return "shader";
     case Class::Time:
         return "time";
     case Class::Figure:

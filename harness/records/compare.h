@@ -43,6 +43,7 @@ struct Change {
     Direction direction = Direction::Same;
     std::string sentence;  // what changed and by how much, as reports print it
     std::string axis = {}; // of the sweep, for a break point
+    std::string file = {}; // of a shader, below techniques/
 };
 
 struct Comparison {

@@ -1,19 +1,38 @@
 // Before and after, as Mesa's shader-db reports them.
-#include "studies/shader_cost/shader_cost.h"
+#include "studies/shader_cost/compared.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <map>
 #include <set>
 #include <tuple>
 
 namespace shadowbench::shaders {
 namespace {
 
-using ByName = std::map<std::pair<std::string, std::string>, const ShaderCost*>; // architecture, then shader
+/// What tells shaders apart, on one architecture.
+using Key = std::string (*)(const ShaderCost&);
 
-ByName byName(const ShaderCosts& costs) {
-    ByName all;
-    for (const ShaderCost& shader : costs.shaders) all[{shader.architecture, shader.name()}] = &shader;
+constexpr std::array<Key, 3> keys{
+    [](const ShaderCost& s) { return fmt::format("{} {}", s.architecture, s.name()); },
+    [](const ShaderCost& s) {
+        return fmt::format("{} {} {} {}", s.architecture, s.technique, gpu::name(s.stage), s.source);
+    },
+    [](const ShaderCost& s) { return fmt::format("{} {} {} {}", s.architecture, s.technique, s.pass, gpu::name(s.stage)); },
+};
+
+/// By a key that two of them share there is none.
+std::map<std::string, const ShaderCost*> byKey(const std::vector<const ShaderCost*>& shaders, Key key) {
+    std::map<std::string, const ShaderCost*> all;
+    for (const ShaderCost* shader : shaders)
+        if (const auto [place, isFirst] = all.try_emplace(key(*shader), shader); !isFirst) place->second = nullptr;
+    return all;
+}
+
+std::vector<const ShaderCost*> pointersTo(const std::vector<ShaderCost>& shaders) {
+    std::vector<const ShaderCost*> all;
+    for (const ShaderCost& shader : shaders) all.push_back(&shader);
     return all;
 }
 
@@ -30,12 +49,12 @@ std::string change(const std::string& statistic, double before, double after) {
 }
 
 /// What the compiler gives, and what is executed in waves of 64 where both lists count it.
-std::vector<std::tuple<std::string, double, double>> pairs(const ShaderCost& before, const ShaderCost& after) {
+std::vector<std::tuple<std::string, double, double>> pairs(const SharedShader& shader) {
     std::vector<std::tuple<std::string, double, double>> all;
-    for (const auto& [statistic, value] : after.statistics)
-        all.emplace_back(statistic, static_cast<double>(before.of(statistic)), static_cast<double>(value));
-    if (before.executed && after.executed)
-        all.emplace_back("executed cycles", before.executed->cycles64, after.executed->cycles64);
+    for (const auto& [statistic, value] : shader.after->statistics)
+        all.emplace_back(statistic, static_cast<double>(shader.before->of(statistic)), static_cast<double>(value));
+    if (shader.isCounted())
+        all.emplace_back("executed cycles", shader.before->executed->cycles64, shader.after->executed->cycles64);
     return all;
 }
 
@@ -47,16 +66,10 @@ struct Total {
 
 class Comparison {
 public:
-    Comparison(const ShaderCosts& before, const ShaderCosts& after) : before_(byName(before)), after_(byName(after)) {
-        for (const ShaderCost& shader : after.shaders) {
-            const auto known = before_.find({shader.architecture, shader.name()});
-            if (known == before_.end())
-                new_.insert(shader.name());
-            else
-                compare(*known->second, shader);
-        }
-        for (const ShaderCost& shader : before.shaders)
-            if (!after_.contains({shader.architecture, shader.name()})) gone_.insert(shader.name());
+    explicit Comparison(const ComparedShaders& shaders) : shaders_(shaders) {
+        for (const SharedShader& shader : shaders.both) add(shader);
+        for (const ShaderCost* shader : shaders.added) new_.insert(shader->name());
+        for (const ShaderCost* shader : shaders.gone) gone_.insert(shader->name());
     }
 
     [[nodiscard]] std::string text() const {
@@ -68,13 +81,14 @@ public:
         all += changed_;
         for (const std::string& name : new_) all += "new: " + name + "\n";
         for (const std::string& name : gone_) all += "gone: " + name + "\n";
-        return all.empty() ? fmt::format("no change in {} shaders\n", after_.size()) : all;
+        return all.empty() ? fmt::format("no change in {} shaders\n", shaders_.both.size()) : all;
     }
 
 private:
-    void compare(const ShaderCost& before, const ShaderCost& after) {
+    void add(const SharedShader& shader) {
+        const ShaderCost& after = *shader.after;
         std::string changes;
-        for (const auto& [statistic, was, value] : pairs(before, after)) {
+        for (const auto& [statistic, was, value] : pairs(shader)) {
             Total& total = totals_[{after.architecture, statistic}];
             total.before += was;
             total.after += value;
@@ -86,7 +100,7 @@ private:
         if (!changes.empty()) changed_ += fmt::format("{}: {}: {}\n", after.architecture, after.name(), changes);
     }
 
-    ByName before_, after_;
+    const ComparedShaders& shaders_;
     std::map<std::pair<std::string, std::string>, Total> totals_;
     std::string changed_;
     std::set<std::string> new_, gone_;
@@ -94,12 +108,38 @@ private:
 
 } // namespace
 
+bool SharedShader::isCounted() const {
+    return before->executed && after->executed && before->scene == after->scene && before->frame == after->frame;
+}
+
+bool SharedShader::isRewritten() const { return before->marks != after->marks; }
+
+ComparedShaders compared(const ShaderCosts& before, const ShaderCosts& after) {
+    std::vector<const ShaderCost*> gone = pointersTo(before.shaders), added = pointersTo(after.shaders);
+    std::map<const ShaderCost*, const ShaderCost*> partners; // by what is after
+    for (const Key key : keys) {
+        const auto was = byKey(gone, key), is = byKey(added, key);
+        for (const auto& [word, shader] : is)
+            if (const auto found = was.find(word); shader != nullptr && found != was.end() && found->second != nullptr)
+                partners[shader] = found->second;
+        std::erase_if(added, [&](const ShaderCost* shader) { return partners.contains(shader); });
+        std::set<const ShaderCost*> known;
+        for (const auto& [shader, partner] : partners) known.insert(partner);
+        std::erase_if(gone, [&](const ShaderCost* shader) { return known.contains(shader); });
+    }
+    ComparedShaders all{{}, std::move(gone), std::move(added)};
+    for (const ShaderCost& shader : after.shaders)
+        if (const auto partner = partners.find(&shader); partner != partners.end())
+            all.both.push_back({partner->second, &shader});
+    return all;
+}
+
 std::string changes(const ShaderCosts& before, const ShaderCosts& after) {
     std::string other;
     if (before.compiler != after.compiler)
         other = fmt::format("another compiler: {} before, {} after; all changes may be its own\n", before.compiler,
                             after.compiler);
-    return other + Comparison(before, after).text();
+    return other + Comparison(compared(before, after)).text();
 }
 
 } // namespace shadowbench::shaders

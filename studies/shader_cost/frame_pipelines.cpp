@@ -1,13 +1,17 @@
 #include "studies/shader_cost/frame_pipelines.h"
 
+#include "base/hash.h"
 #include "embedded_shader_sources.h"
+#include "embedded_shaders.h"
 #include "gpu/counter.h"
+#include "groundtruth/contract/reference_key.h"
 #include "harness/render/lod_stage.h"
 #include "harness/render/stage.h"
 #include "studies/shader_cost/shader_cost.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -24,6 +28,11 @@ bool isSteadyDispatch(const gpu::Use& use) {
 /// Null on a graphics processor, where fragments of one pixel may be counted at once.
 std::unique_ptr<gpu::Counter> counterOf(const gl::Context& context) {
     return context.info().software ? std::make_unique<gpu::Counter>() : nullptr;
+}
+
+std::string hashOf(Snapshot snapshot, glm::ivec2 size, std::size_t transitions = 0) {
+    const groundtruth::Request request(std::move(snapshot), size);
+    return groundtruth::key(request, {{"transitions", std::to_string(transitions)}}).substr(0, 12);
 }
 
 /// Adds what `uses` does not have.
@@ -51,6 +60,7 @@ FrameUses ofShadow(const Scene& scene, const techniques::Variant& variant) {
     };
     const FrameUses first = render(); // with what is done once
     FrameUses steady = render();
+    steady.frame = hashOf(stage.shown(), scene.size);
     addOthers(steady.uses, first.uses);
     if (scene.timeline.moving > 0) {
         stage.show(still + 1);
@@ -80,6 +90,9 @@ FrameUses ofLevels(const Scene& scene, const techniques::Variant& variant) {
     };
     const FrameUses first = render(std::max(most - 1, 0));
     FrameUses steady = render(most);
+    Snapshot shown = snapshot(scene, 0); // the objects, which stand still
+    shown.camera = stage.shown().camera;
+    steady.frame = hashOf(std::move(shown), scene.size, stage.shown().inTransition());
     addOthers(steady.uses, first.uses);
     return steady;
 }
@@ -94,16 +107,27 @@ const gpu::Use* FrameUses::larger(const gpu::Use& use) const {
 }
 
 FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant) {
-    if (variant.isLod()) return ofLevels(scene, variant);
-    FrameUses frame = ofShadow(scene, variant);
-    if (!frame.isCounted || std::ranges::none_of(frame.uses, isSteadyDispatch)) return frame;
-    Scene large = scene;
-    large.size *= largerBy;
-    frame.largerDispatches = ofShadow(large, variant).uses;
-    std::erase_if(frame.largerDispatches, std::not_fn(isSteadyDispatch));
+    std::set<std::string>& files = gl::Context::current().shaderFiles();
+    files.clear();
+    FrameUses frame = variant.isLod() ? ofLevels(scene, variant) : ofShadow(scene, variant);
+    if (frame.isCounted && !variant.isLod() && std::ranges::any_of(frame.uses, isSteadyDispatch)) {
+        Scene large = scene;
+        large.size *= largerBy;
+        frame.largerDispatches = ofShadow(large, variant).uses;
+        std::erase_if(frame.largerDispatches, std::not_fn(isSteadyDispatch));
+    }
+    frame.shaderFiles = files;
     return frame;
 }
 
 std::string drawingSources() { return embedded::drawing_sources; }
+
+std::string textsOf(const std::set<std::string>& shaderFiles) {
+    std::string all;
+    for (const embedded::File& file : embedded::shaders())
+        if (shaderFiles.contains(std::string(file.path)))
+            all += fmt::format("{} {}\n", file.path, hash128(file.text).text());
+    return hash128(all).text();
+}
 
 } // namespace shadowbench::shaders

@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 #include "techniques/contract/entry.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct FrameUses {
     std::vector<gpu::Move> moves;                // of the steady frame
     bool isCounted = false;                      // how often waves take its loops and branches: llvmpipe draws
     std::vector<gpu::Use> largerDispatches = {}; // of the steady frame on a larger image (largerBy)
+    std::string frame = {};                      // hash of what the steady frame shows: camera, light and meshes
+    std::set<std::string> shaderFiles = {};      // that were compiled for it, by their names
 
     /// The same dispatch among these; null where it is none.
     [[nodiscard]] const gpu::Use* larger(const gpu::Use& use) const;
@@ -25,7 +28,10 @@ struct FrameUses {
 /// with most transitions. Needs a GL context.
 FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant);
 
-/// A hash of the sources that this depends on, built-in scenes among them.
+/// What this depends on of the program beside shaders, built-in scenes among it: a hash of sources …
 std::string drawingSources();
+
+/// … and one of the texts that shaders of these names have in the program.
+std::string textsOf(const std::set<std::string>& shaderFiles);
 
 } // namespace shadowbench::shaders

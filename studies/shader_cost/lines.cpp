@@ -89,7 +89,9 @@ Json jsonOf(const ShaderCost& shader, const std::string& compiler) {
               {"compiler", compiler},
               {"statistics", statistics},
               {"output", jsonOf(shader.output)}};
+    if (!shader.frame.empty()) json["frame"] = shader.frame;
     if (shader.executed) json["executed"] = jsonOf(*shader.executed);
+    if (shader.marks > 0) json["marks"] = shader.marks;
     if (shader.larger)
         json["larger"] = {{"extents", jsonOf(shader.larger->extents)}, {"executed", jsonOf(shader.larger->executed)}};
     return json;
@@ -107,7 +109,9 @@ ShaderCost shaderOf(const Json& json) {
     json.at("architecture").get_to(shader.architecture);
     for (const auto& [statistic, value] : json.at("statistics").items())
         shader.statistics.emplace_back(statistic, value.get<std::uint64_t>());
+    if (json.contains("frame")) json.at("frame").get_to(shader.frame);
     if (json.contains("executed")) shader.executed = executedOf(json.at("executed"));
+    if (json.contains("marks")) json.at("marks").get_to(shader.marks);
     if (json.contains("larger"))
         shader.larger = {extentsOf(json.at("larger").at("extents")), executedOf(json.at("larger").at("executed"))};
     if (json.contains("output")) shader.output = outputOf(json.at("output"));
@@ -116,9 +120,11 @@ ShaderCost shaderOf(const Json& json) {
 
 } // namespace
 
-std::string ShaderCost::name() const {
-    std::string all = technique;
-    for (const std::string& part : {pass, std::string(gpu::name(stage)), source})
+std::string ShaderCost::name() const { return technique.empty() ? place() : technique + " " + place(); }
+
+std::string ShaderCost::place() const {
+    std::string all = pass;
+    for (const std::string& part : {std::string(gpu::name(stage)), source})
         if (!part.empty()) all += (all.empty() ? "" : " ") + part;
     return number == 1 ? all : fmt::format("{} #{}", all, number);
 }
@@ -176,13 +182,14 @@ std::string toText(const FrameList& list) {
                                           {"passes", jsonOf(pipeline.larger->second)}};
     }
     for (const FrameMove& move : list.moves) moves.push_back(jsonOf(move));
-    return Json{{"pipelines", pipelines}, {"moves", moves}}.dump();
+    return Json{{"frame", list.frame}, {"pipelines", pipelines}, {"moves", moves}}.dump();
 }
 
 FrameList frameList(const std::string& text) {
     try {
         FrameList list;
         const Json json = Json::parse(text);
+        json.at("frame").get_to(list.frame);
         for (const Json& each : json.at("pipelines")) {
             FramePipeline& pipeline = list.pipelines.emplace_back();
             each.at("pass").get_to(pipeline.pass);

@@ -29,6 +29,7 @@ struct FramePipeline {
 struct FrameList {
     std::vector<FramePipeline> pipelines;
     std::vector<FrameMove> moves; // without technique and scene
+    std::string frame = {};       // as of ShaderCost
 };
 
 /// Back from text throws BadInput where it is damaged.

@@ -19,10 +19,13 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <sstream>
 
 namespace shadowbench::shaders {
 namespace {
@@ -60,6 +63,7 @@ struct Counted {
 void addExecuted(ShaderCost& row, const gpu::StageFigures& figures, const Counted& counted) {
     if (row.stage == gpu::Stage::Vertex || counted.pipeline.draws == 0) return;
     row.executed = gpu::executed(figures, counted.marks, counted.pipeline.passes);
+    row.marks = counted.pipeline.passes.waves64.size();
     if (const auto& larger = counted.pipeline.larger)
         row.larger = {larger->first, gpu::executed(figures, counted.marks, larger->second)};
 }
@@ -249,24 +253,25 @@ protected:
         const std::string key = fmt::format("pipelines of {} {} on {} by {}", place.variant.name,
                                             place.variant.entry->digest, place.scene->id, drawingSources());
         if (place.isBuiltIn)
-            if (const auto kept = store().text(key))
+            if (const auto kept = keptList(key))
                 if (auto costs = keptCosts(place, frameList(*kept))) return *std::move(costs);
         if (!context_) context_ = contextOfRun(cache(), false);
         FrameList list;
         ShaderCosts costs;
         const FrameUses frame = pipelinesOf(*place.scene, place.variant);
+        list.frame = frame.frame;
         for (const gpu::Use& use : frame.uses) {
             const FramePipeline& pipeline = list.pipelines.emplace_back(pipelineOf(use, frame.larger(use)));
             for (const gpu::Architecture* each : architectures()) {
                 Counted counted{pipeline, {}};
                 if (!pipeline.passes.empty()) counted.marks = store().getMarks(use.pipeline, *each);
-                addRows(costs.shaders, sharedOf(place, pipeline, *each), pipeline.shaders, store().get(use.pipeline, *each),
-                        frame.isCounted ? &counted : nullptr);
+                addRows(costs.shaders, sharedOf(place, list, pipeline, *each), pipeline.shaders,
+                        store().get(use.pipeline, *each), frame.isCounted ? &counted : nullptr);
             }
         }
         for (const gpu::Move& move : frame.moves)
             list.moves.push_back({"", "", move.pass, move.kind, gpu::formatName(move.format), move.extents});
-        if (place.isBuiltIn && frame.isCounted) store().keepText(key, toText(list));
+        if (place.isBuiltIn && frame.isCounted) keepList(key, frame.shaderFiles, list);
         costs.moves = movesOf(place, std::move(list.moves));
         return costs;
     }
@@ -293,10 +298,28 @@ private:
         return scene;
     }
 
-    static ShaderCost sharedOf(const Place& place, const FramePipeline& pipeline, const gpu::Architecture& architecture) {
+    /// A list is kept by the texts of all shaders that were compiled for it, and their names by all else: what compiles
+    /// other shaders than before has either another program or another text of one that is named.
+    [[nodiscard]] std::optional<std::string> keptList(const std::string& key) {
+        const auto names = store().text(key);
+        if (!names) return std::nullopt;
+        std::istringstream lines(*names);
+        std::set<std::string> files;
+        for (std::string line; std::getline(lines, line);) files.insert(line);
+        return store().text(fmt::format("{} with {}", key, textsOf(files)));
+    }
+
+    void keepList(const std::string& key, const std::set<std::string>& files, const FrameList& list) {
+        store().keepText(fmt::format("{} with {}", key, textsOf(files)), toText(list));
+        store().keepText(key, fmt::format("{}\n", fmt::join(files, "\n")));
+    }
+
+    static ShaderCost sharedOf(const Place& place, const FrameList& list, const FramePipeline& pipeline,
+                               const gpu::Architecture& architecture) {
         ShaderCost shared{};
         shared.technique = place.variant.name;
         shared.scene = place.scene->id;
+        shared.frame = list.frame;
         shared.pass = pipeline.pass;
         shared.draws = pipeline.draws;
         shared.output = pipeline.output;
@@ -325,7 +348,7 @@ private:
                     if (!marks) return std::nullopt;
                     counted.marks = *std::move(marks);
                 }
-                addRows(costs.shaders, sharedOf(place, pipeline, *each), pipeline.shaders, *figures, &counted);
+                addRows(costs.shaders, sharedOf(place, list, pipeline, *each), pipeline.shaders, *figures, &counted);
             }
         costs.moves = movesOf(place, list.moves);
         return costs;

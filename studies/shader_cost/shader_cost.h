@@ -39,7 +39,8 @@ struct Larger {
 struct ShaderCost {
     std::string technique; // variant; "" of a file of the user's
     std::string scene;     // "" of such a file
-    std::string pass;      // "" of such a file, and of what is drawn between passes
+    std::string frame; // hash of what the steady frame shows: counts of two programs are of one frame where it is the same
+    std::string pass;  // "" of such a file, and of what is drawn between passes
     gpu::Stage stage;
     std::string source;      // file of the shader
     int number = 1;          // 2 and more: others of the same technique, pass, stage and source, in order
@@ -47,11 +48,15 @@ struct ShaderCost {
     std::string architecture;
     std::vector<std::pair<std::string, std::uint64_t>> statistics; // as gpu::StageFigures
     std::optional<gpu::Executed> executed = {};                    // of the steady frame's fragment and compute shaders
-    std::optional<Larger> larger = {};                             // of its dispatches
-    Output output = {};                                            // empty of a file of the user's, and in older lines
+    std::size_t marks = 0;             // of its text, which what is executed was counted by; 0 where nothing is counted
+    std::optional<Larger> larger = {}; // of its dispatches
+    Output output = {};                // empty of a file of the user's, and in older lines
 
     /// What is the same of one shader in two programs.
     [[nodiscard]] std::string name() const;
+
+    /// The same without its technique: "resolve fragment soft/pcss/pcss.frag".
+    [[nodiscard]] std::string place() const;
 
     /// 0 where the compiler does not give it.
     [[nodiscard]] std::uint64_t of(const std::string& statistic) const;

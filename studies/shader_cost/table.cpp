@@ -1,5 +1,5 @@
 #include "report/text_table.h"
-#include "studies/shader_cost/shader_cost.h"
+#include "studies/shader_cost/compared.h"
 
 #include <algorithm>
 #include <array>
@@ -26,14 +26,16 @@ const std::vector<Column>& columns() {
     return all;
 }
 
+std::uint64_t sumOf(const Column& column, const ShaderCost& shader) {
+    std::uint64_t sum = 0;
+    for (const std::string& statistic : column.statistics) sum += shader.of(statistic);
+    return sum;
+}
+
 /// "726/701/698"; "0" where all are alike.
 std::string figure(const Column& column, const std::vector<const ShaderCost*>& shader) {
     std::vector<std::uint64_t> values;
-    for (const ShaderCost* on : shader) {
-        std::uint64_t sum = 0;
-        for (const std::string& statistic : column.statistics) sum += on->of(statistic);
-        values.push_back(sum);
-    }
+    for (const ShaderCost* on : shader) values.push_back(sumOf(column, *on));
     if (std::ranges::adjacent_find(values, std::ranges::not_equal_to()) == values.end())
         return fmt::format("{}", values.front());
     return fmt::format("{}", fmt::join(values, "/"));
@@ -47,7 +49,23 @@ std::string executedFigure(const std::vector<const ShaderCost*>& shader) {
     return fmt::format("{}", fmt::join(values, "/"));
 }
 
+std::string step(const std::string& before, const std::string& after) {
+    return before == after ? after : fmt::format("{} → {}", before, after);
+}
+
 } // namespace
+
+std::string beforeAndAfter(const SharedShader& shader) {
+    std::vector<std::string> parts;
+    for (const Column& column : columns())
+        parts.push_back(
+            fmt::format("{} {}", column.title,
+                        step(std::to_string(sumOf(column, *shader.before)), std::to_string(sumOf(column, *shader.after)))));
+    if (shader.isCounted())
+        parts.push_back(fmt::format("executed {}", step(fmt::format("{:.1f}", shader.before->executed->cycles64),
+                                                        fmt::format("{:.1f}", shader.after->executed->cycles64))));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
 
 std::string table(const ShaderCosts& costs) {
     std::vector<std::string> architectures;

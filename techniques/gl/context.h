@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace shadowbench::gl {
@@ -48,6 +49,9 @@ public:
     [[nodiscard]] Tally& tally() { return tally_; }
     [[nodiscard]] Framebuffers& framebuffers() { return framebuffers_; }
 
+    /// Files of which the shaders consist that were compiled so far: what is drawn depends on no others.
+    [[nodiscard]] std::set<std::string>& shaderFiles() { return shaderFiles_; }
+
     /// A vertex array without attributes: what full-screen passes draw from.
     [[nodiscard]] unsigned noAttributes();
 
@@ -71,6 +75,7 @@ private:
     ContextInfo info_;
     Tally tally_;
     Framebuffers framebuffers_; // end with the context, as the vertex array does
+    std::set<std::string> shaderFiles_;
     unsigned noAttributes_ = 0;
     std::string firstError_;
     friend void noteMessage(Context&, unsigned type, const char* message);

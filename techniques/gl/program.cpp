@@ -30,6 +30,7 @@ std::string withOrigins(const std::string& log, const ShaderSource& source) {
 }
 
 GLuint compile(GLenum stage, const std::string& name, const ShaderSource& source) {
+    Context::current().shaderFiles().insert(source.files.begin(), source.files.end());
     const GLuint shader = glCreateShader(stage);
     glObjectLabel(GL_SHADER, shader, static_cast<GLsizei>(name.size()), name.data()); // what debuggers and gpu/ call it
     const char* text = source.text.c_str();

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -22,10 +23,12 @@ class TextureArray;
 /// Preprocessor definitions put before the source.
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
-/// A shader's source with its includes in place. `origin[i]` names file and line of line i + 1 of `text`.
+/// A shader's source with its includes in place. `origin[i]` names file and line of line i + 1 of `text`, `files` the files
+/// that it was put together from.
 struct ShaderSource {
     std::string text;
     std::vector<std::string> origin;
+    std::set<std::string> files = {};
 };
 
 /// Throws InternalError naming a file that is not there, and what includes it.

@@ -54,7 +54,10 @@ public:
         }
     }
 
-    ShaderSource take() { return std::move(source_); }
+    ShaderSource take() {
+        source_.files = std::move(included_);
+        return std::move(source_);
+    }
 
 private:
     void add(const std::string& line, const std::string& origin) {

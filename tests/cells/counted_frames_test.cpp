@@ -99,5 +99,29 @@ TEST(CountedFrames, DispatchesAreCountedOnALargerImageToo) {
     EXPECT_EQ(dispatches, 3) << "lists of pixels, triangles, large triangles";
 }
 
+TEST(CountedFrames, NameWhatTheyShowAndTheShadersThatTheyCompiled) {
+    testContext();
+    const Scene scene = smallScene("simple", 64);
+    Scene moved = scene;
+    moved.light.centre.x += 0.1;
+    const auto of = [](const Scene& shown, const char* name) {
+        return shaders::pipelinesOf(shown, techniques::parseVariant(name));
+    };
+    const shaders::FrameUses pcf = of(scene, "pcf");
+    EXPECT_EQ(pcf.frame.size(), 12U);
+    EXPECT_EQ(of(scene, "sm-uniform").frame, pcf.frame);
+    EXPECT_NE(of(smallScene("simple", 32), "pcf").frame, pcf.frame);
+    EXPECT_NE(of(moved, "pcf").frame, pcf.frame);
+    for (const char* file : {"filtered/pcf/pcf.frag", "shared/filters/pcf.glsl", "gl/gbuffer.frag"})
+        EXPECT_TRUE(pcf.shaderFiles.contains(file)) << file;
+    EXPECT_FALSE(pcf.shaderFiles.contains("shared/maps/single_map.frag")) << "of what was drawn before";
+}
+
+TEST(CountedFrames, AreKeptByTheTextsOfTheirShaders) {
+    EXPECT_EQ(shaders::textsOf({"gl/receiver.glsl"}), shaders::textsOf({"gl/receiver.glsl", "no/shader.glsl"}));
+    EXPECT_NE(shaders::textsOf({"gl/receiver.glsl"}), shaders::textsOf({"gl/normal.glsl"}));
+    EXPECT_NE(shaders::textsOf({"gl/receiver.glsl"}), shaders::textsOf({"gl/receiver.glsl", "gl/normal.glsl"}));
+}
+
 } // namespace
 } // namespace shadowbench

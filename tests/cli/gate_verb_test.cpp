@@ -44,6 +44,16 @@ TEST_F(GateVerb, TheSameProgramPasses) {
     EXPECT_NE(readFile(folder_ / "out/gate.html").find("Nothing is worse"), std::string::npos);
 }
 
+TEST_F(GateVerb, ShadersOfTheSameProgramAreTheSame) {
+    const Outcome outcome = gate(PROGRAM, "--same-program --cost shader --technique sm-uniform --annotations");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    const bool isCompared = outcome.output.find("shaders are not compared") == std::string::npos; // else without the driver
+    for (const char* side : {"base", "head"})
+        EXPECT_EQ(fs::exists(folder_ / "out/shader-cost/" + side + "/shader-cost.jsonl"), isCompared) << side;
+    EXPECT_EQ(readFile(folder_ / "out/gate.html").find("<th scope=\"row\" class=\"\">shader<") != std::string::npos,
+              isCompared);
+}
+
 /// This program, saying something else of itself.
 class SaidOtherwise {
 public:

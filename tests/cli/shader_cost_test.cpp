@@ -129,6 +129,12 @@ TEST_F(ShaderCostVerb, ABaseTellsOneInstructionAndNoComment) {
     EXPECT_NE(slower.output.find("navi21: fragment " + folder_ / "blur.frag" + ": "), std::string::npos) << slower.output;
 }
 
+TEST_F(ShaderCostVerb, ABaseOfMoreTechniquesIsComparedInThoseThatAreChosen) {
+    ASSERT_EQ(asked("--technique sm-uniform --technique pcf --arch navi21", "before").code, 0);
+    const Outcome outcome = asked("--technique sm-uniform --arch navi21 --base " + folder_ / "before/shader-cost.jsonl");
+    EXPECT_TRUE(outcome.output.starts_with("no change in 6 shaders\n")) << outcome.output;
+}
+
 TEST_F(ShaderCostVerb, WhatIsNoShaderIsRefusedWithARemedy) {
     const Outcome broken = asked(changed("colour = sharp;"));
     EXPECT_EQ(broken.code, 2);

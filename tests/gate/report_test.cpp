@@ -1,6 +1,7 @@
 // The gate's report: the verdict in words, how to see again what is worse, pictures, notes and the slowest parts.
 #include "gate/gate.h"
 #include "gate/gate_report.h"
+#include "gate/sarif.h"
 #include "gate/verdict.h"
 
 #include <algorithm>
@@ -101,6 +102,26 @@ TEST(GateReport, CommandsCanBePastedIntoAShell) {
     EXPECT_FALSE(contains(reproduction(change, options), "--external"));
     change.changeClass = Class::Time;
     EXPECT_TRUE(contains(reproduction(change, options), "--base 'HEAD~1'"));
+}
+
+TEST(GateReport, AShaderIsShownAgainByWhatTheBaseSaidOfIt) {
+    GateOptions options = optionsOf();
+    options.out = "results/gate";
+    EXPECT_EQ(reproduction(worse("simple", "pcss:taps=32+32", Class::Shader), options),
+              "./bench shader-cost --technique pcss:taps=32+32 --base results/gate/shader-cost/base/shader-cost.jsonl");
+}
+
+TEST(Sarif, HasAShaderAtItsFile) {
+    Change pcf = worse("simple", "pcf", Class::Shader), mean = pcf;
+    pcf.metric = "resolve fragment filtered/pcf/pcf.frag";
+    pcf.file = "filtered/pcf/pcf.frag";
+    mean.metric = "mean fragment shared/sampling/mean.frag";
+    mean.file = "shared/sampling/mean.frag";
+    const std::string text = sarif(resultOf({pcf, mean, worse("simple", "pcf")}), optionsOf(), "");
+    for (const char* part :
+         {"\"uri\": \"techniques/filtered/pcf/pcf.frag\"", "\"uri\": \"techniques/shared/sampling/mean.frag\"",
+          "\"uri\": \"techniques/catalog.inc\"", "\"cell/v1\": \"mean fragment shared/sampling/mean.frag: shader\""})
+        EXPECT_TRUE(contains(text, part)) << part << text;
 }
 
 /// One change of each direction.

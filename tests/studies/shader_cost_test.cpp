@@ -27,6 +27,8 @@ TEST(ShaderCostLines, AreReadAsTheyWereWritten) {
     second.number = 2;
     second.output = {{"RG32F", "R8"}, true, "Depth32F", true, {{{1024, 1024}, 3}}};
     second.executed = gpu::Executed{1.5, 2.25, 100, 200, 3, 4, 5};
+    second.frame = "0123456789ab";
+    second.marks = 7;
     second.larger = Larger{{{{64, 2}, 1}}, {6, 7, 8, 9, 10, 11, 12}};
     ShaderCosts written = costs({shader("resolve", 726), second});
     written.moves.push_back({"pcss:map=512", "simple", "blur", gpu::MoveKind::ReadBack, "", {{{16, 16}, 1}}});
@@ -34,6 +36,8 @@ TEST(ShaderCostLines, AreReadAsTheyWereWritten) {
     EXPECT_EQ(toLines(read), toLines(written));
     EXPECT_EQ(read.compiler, written.compiler);
     EXPECT_FALSE(read.shaders.at(0).executed);
+    EXPECT_EQ(read.shaders.at(1).frame, "0123456789ab");
+    EXPECT_EQ(read.shaders.at(1).marks, 7U);
     EXPECT_EQ(read.shaders.at(1).executed->stores, 5);
     EXPECT_EQ(read.shaders.at(1).larger->executed.cycles32, 6);
     EXPECT_EQ(read.shaders.at(1).name(), "pcss:map=512 resolve fragment soft/pcss/pcss.frag #2");
@@ -55,6 +59,7 @@ TEST(ShaderCostLines, AListOfPipelinesIsReadAsItWasWritten) {
         {{"", "", "resolve", gpu::MoveKind::Clear, "R32F", {{{256, 256}, 1}}}},
     };
     FrameList withCounts = list;
+    withCounts.frame = "0123456789ab";
     withCounts.pipelines[0].passes = {{4, 9}, {2, 5}, {1, 3}, {1, 3}, {1, 3}};
     withCounts.pipelines[0].larger = {{{{64, 1}, 2}}, {{8, 9}, {4, 5}, {2, 3}, {1, 2}, {1, 2}}};
     EXPECT_EQ(toText(frameList(toText(withCounts))), toText(withCounts));
@@ -91,12 +96,36 @@ TEST(ShaderCostChanges, FewerWavesAreWorse) {
     EXPECT_NE(text.find("total Subgroups per SIMD 16 → 12 (-25.00 %); helped 0, hurt 1"), std::string::npos) << text;
 }
 
+TEST(ShaderCostChanges, ARenamedPassOrFileIsTheOnlyShaderThatIsLeft) {
+    ShaderCost pass = shader("shade", 730), file = shader("resolve", 730), second = shader("again", 730);
+    file.source = "soft/pcss/shade.frag";
+    for (const ShaderCost& renamed : {pass, file}) {
+        const std::string text = changes(costs({shader("resolve", 726)}), costs({renamed}));
+        EXPECT_NE(text.find(": Instructions 726 → 730"), std::string::npos) << text;
+        EXPECT_EQ(text.find("new: "), std::string::npos) << text;
+    }
+    const std::string two = changes(costs({shader("resolve", 726)}), costs({pass, second})); // which of the two is it?
+    EXPECT_NE(two.find("gone: pcss:map=512 resolve"), std::string::npos) << two;
+    EXPECT_EQ(two.find("726 → 730"), std::string::npos) << two;
+}
+
+TEST(ShaderCostChanges, ExecutedCyclesOfAnotherFrameAreNotCompared) {
+    ShaderCost before = shader("resolve", 726), after = before;
+    before.executed = gpu::Executed{1, 100, 0, 0, 0, 0, 0};
+    after.executed = gpu::Executed{1, 200, 0, 0, 0, 0, 0};
+    EXPECT_NE(changes(costs({before}), costs({after})).find("executed cycles 100 → 200"), std::string::npos);
+    after.frame = "another";
+    EXPECT_EQ(changes(costs({before}), costs({after})), "no change in 1 shaders\n");
+}
+
 TEST(ShaderCostChanges, NewAndGoneShadersAndAnotherCompilerAreNamed) {
-    ShaderCosts after = costs({shader("blur", 74)});
+    ShaderCost blur = shader("blur", 74);
+    blur.source = "blur.frag";
+    ShaderCosts after = costs({blur});
     after.compiler = "radv Mesa 2, glslang 1";
     EXPECT_EQ(changes(costs({shader("resolve", 726)}), after),
               "another compiler: radv Mesa 1, glslang 1 before, radv Mesa 2, glslang 1 after; all changes may be its own\n"
-              "new: pcss:map=512 blur fragment soft/pcss/pcss.frag\n"
+              "new: pcss:map=512 blur fragment blur.frag\n"
               "gone: pcss:map=512 resolve fragment soft/pcss/pcss.frag\n");
 }
 

@@ -72,9 +72,13 @@ TEST(Mutants, EveryOneRunsWhatThereIs) {
 TEST(Mutants, ThereAreAsManyAsTheGateHasToBeShownTo) {
     std::set<std::string> techniques;
     std::set<gate::Class> classes;
-    int faults = 0, slowdowns = 0, harness = 0, benign = 0;
+    int faults = 0, slowdowns = 0, harness = 0, benign = 0, shaders = 0, benignShaders = 0;
     for (const Mutant& mutant : all()) {
         if (mutant.expected) classes.insert(*mutant.expected);
+        if (mutant.means == Means::Shader) {
+            ++(mutant.benign ? benignShaders : shaders);
+            continue;
+        }
         const bool inTechniques = mutant.file.string().starts_with("techniques/");
         ++(mutant.benign ? benign : mutant.isSlowdown() ? slowdowns : inTechniques ? faults : harness);
         if (mutant.isSlowdown() || mutant.benign) continue;
@@ -85,7 +89,9 @@ TEST(Mutants, ThereAreAsManyAsTheGateHasToBeShownTo) {
     EXPECT_GE(benign, 15);
     EXPECT_GE(techniques.size(), 10U);
     EXPECT_GE(slowdowns, 8);
-    EXPECT_EQ(classes.size(), 10U); // all but the status of a cell
+    EXPECT_GE(shaders, 10);
+    EXPECT_GE(benignShaders, 20);
+    EXPECT_EQ(classes.size(), 11U); // all but the status of a cell
 }
 
 TEST(Mutants, ATextThatIsMissingOrAmbiguousIsAnErrorThatNamesTheMutant) {
@@ -209,6 +215,31 @@ TEST(Mutants, OnlyTheExpectedClassCounts) {
     const Outcome caught = outcomeOf(mutant, recorded(base), recorded(head));
     EXPECT_TRUE(caught.caughtInClass());
     EXPECT_EQ(strongest(caught)->metric, "accuracy.leak"); // though false shadow grew more
+}
+
+TEST(Mutants, OfAShaderTheExpectedPassCounts) {
+    const auto costs = [](double executed) {
+        shaders::ShaderCost cost{};
+        cost.technique = "vsm";
+        cost.pass = "resolve";
+        cost.stage = gpu::Stage::Fragment;
+        cost.source = "vsm.frag";
+        cost.architecture = "navi21";
+        cost.executed = gpu::Executed{executed, executed, 0, 0, 0, 0, 0};
+        return Trial{{}, "", {"radv", {cost}}};
+    };
+    Mutant mutant = example();
+    mutant.means = Means::Shader;
+    mutant.expected = gate::Class::Shader;
+    mutant.pass = "resolve";
+    EXPECT_EQ(verdict(outcomeOf(mutant, costs(1000), costs(1010))), "caught");
+    EXPECT_EQ(verdict(outcomeOf(mutant, costs(1000), costs(1001))), "**survives**");
+    mutant.pass = "blur";
+    EXPECT_EQ(verdict(outcomeOf(mutant, costs(1000), costs(1010))), "caught in another class");
+    mutant.benign = true;
+    EXPECT_EQ(verdict(outcomeOf(mutant, costs(1000), costs(1001))), "green");
+    EXPECT_EQ(verdict(outcomeOf(mutant, costs(1000), costs(1010))), "**false red**");
+    EXPECT_EQ(arguments(mutant), (std::vector<std::string>{"shader-cost", "--quiet", "--technique", "sm-history"}));
 }
 
 TEST(Mutants, ARefusalIsADetectionAndOfABenignChangeAFalseRed) {

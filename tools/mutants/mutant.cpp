@@ -41,7 +41,7 @@ Sweep readSweep(const TomlValue& value) {
     return sweep;
 }
 
-/// `detected_by`: "gate", "refusal", "truth:SCENE/TRUTH" or "test:NAME".
+/// `detected_by`: "gate", "refusal", "shader", "truth:SCENE/TRUTH" or "test:NAME".
 void readMeans(const TomlValue& value, Mutant& mutant) {
     const std::string text = value.text();
     const std::string word = text.substr(0, text.find(':'));
@@ -51,18 +51,32 @@ void readMeans(const TomlValue& value, Mutant& mutant) {
         mutant.means = Means::Gate;
     else if (text == "refusal")
         mutant.means = Means::Refusal;
+    else if (text == "shader")
+        mutant.means = Means::Shader;
     else if (word == "truth" && (targets == 1 || targets == 2))
         mutant.means = Means::Truth;
     else if (word == "test" && targets > 0)
         mutant.means = Means::Test;
     else
-        value.fail(R"(expected "gate", "refusal", "truth:SCENE/TRUTH", "truth:SCENE/TRUTH/FRAME" or "test:NAME")");
+        value.fail(R"(expected "gate", "refusal", "shader", "truth:SCENE/TRUTH", "truth:SCENE/TRUTH/FRAME" or "test:NAME")");
+}
+
+void readTechniques(const TomlValue& value, Mutant& mutant) {
+    mutant.techniques = texts(value.get("techniques"));
+    if (mutant.techniques.empty()) value.get("techniques").fail("names no technique");
+}
+
+/// Techniques and pass of a mutant that its shaders detect.
+void readShader(const TomlValue& value, Mutant& mutant) {
+    readTechniques(value, mutant);
+    if (mutant.benign) return;
+    mutant.expected = Class::Shader;
+    mutant.pass = value.get("pass").text();
 }
 
 /// Techniques, scenes and class of a mutant that records detect.
 void readCells(const TomlValue& value, Mutant& mutant) {
-    mutant.techniques = texts(value.get("techniques"));
-    if (mutant.techniques.empty()) value.get("techniques").fail("names no technique");
+    readTechniques(value, mutant);
     if (const auto scenes = value.find("scenes")) mutant.scenes = texts(*scenes);
     if (const auto sweep = value.find("sweep")) mutant.sweep = readSweep(*sweep);
     if (mutant.sweep && mutant.scenes.size() != 1) value.get("sweep").fail("needs exactly one scene");
@@ -76,6 +90,8 @@ Mutant readMutant(const TomlValue& value) {
     std::vector<std::string> known{"id", "what", "file", "find", "replace", "benign", "detected_by", "survives"};
     if (mutant.makesRecords()) known.insert(known.end(), {"techniques", "scenes", "sweep"});
     if (mutant.means == Means::Gate && !mutant.benign) known.emplace_back("class");
+    if (mutant.means == Means::Shader) known.emplace_back("techniques");
+    if (mutant.means == Means::Shader && !mutant.benign) known.emplace_back("pass");
     value.only(known);
     mutant.id = value.get("id").text();
     mutant.what = value.get("what").text();
@@ -84,6 +100,7 @@ Mutant readMutant(const TomlValue& value) {
     mutant.replace = value.get("replace").text();
     if (mutant.find.empty()) value.get("find").fail("is empty");
     if (mutant.makesRecords()) readCells(value, mutant);
+    if (mutant.means == Means::Shader) readShader(value, mutant);
     if (const auto survives = value.find("survives")) mutant.survives = survives->text();
     return mutant;
 }
@@ -163,6 +180,7 @@ std::string expectedText(const Mutant& mutant) {
     if (mutant.benign) return "nothing";
     switch (mutant.means) {
     case Means::Gate:
+    case Means::Shader:
         return std::string(name(*mutant.expected));
     case Means::Refusal:
         return "refusal";
@@ -188,8 +206,10 @@ std::vector<std::string> arguments(const Mutant& mutant) {
         if (truth != std::string::npos) words.insert(words.end(), {"--frame", mutant.target.substr(truth + 1)});
         return words;
     }
-    std::vector<std::string> words{mutant.sweep ? "sweep" : "run", "--quiet"};
+    const bool isShader = mutant.means == Means::Shader;
+    std::vector<std::string> words{isShader ? "shader-cost" : mutant.sweep ? "sweep" : "run", "--quiet"};
     for (const std::string& technique : mutant.techniques) words.insert(words.end(), {"--technique", technique});
+    if (isShader) return words;
     for (const std::string& scene : mutant.scenes) words.insert(words.end(), {"--scene", scene});
     if (mutant.sweep)
         words.insert(words.end(),

@@ -24,6 +24,7 @@ enum class Means {
     Refusal, // no records come, a cell ends as an error, or the records are refused for comparison
     Truth,   // a golden reference, computed again, is another one, or its certificate refuses it
     Test,    // a test of CTest fails
+    Shader,  // the machine code of its shaders is compared, as the gate does; nothing is drawn for accuracy
 };
 
 struct Mutant {
@@ -33,10 +34,11 @@ struct Mutant {
     std::string find, replace;
     Means means = Means::Gate;
     std::string target; // of Truth: scene, truth and, if one is meant, frame, with slashes between; of Test: its name
-    std::vector<std::string> techniques; // variants, of what is found by records at least one
+    std::vector<std::string> techniques; // variants, of what is found by records or shaders at least one
+    std::string pass;                    // of Shader: that must be named; "" of a benign change
     std::vector<std::string> scenes;     // empty: those that the gate judges; exactly one with a sweep
     std::optional<Sweep> sweep;
-    std::optional<gate::Class> expected; // of Gate: in which it must be detected; nothing for a benign change
+    std::optional<gate::Class> expected; // of Gate and Shader: in which it must be detected; nothing for a benign change
     bool benign = false;                 // no fault: nothing may be worse
     std::vector<std::string> byChance;   // "scene variant": cells that the gate measures with several seeds
     std::string survives;                // why it is not detected, or why a benign change is, if that is known

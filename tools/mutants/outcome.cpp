@@ -1,11 +1,13 @@
 #include "tools/mutants/outcome.h"
 
 #include "base/error.h"
+#include "gate/judged_shaders.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -83,6 +85,12 @@ std::string benignRow(const Outcome& outcome) {
                        verdict(outcome));
 }
 
+std::string shaderRow(const Outcome& outcome) {
+    const auto seen = strongest(outcome);
+    return fmt::format("| {} | {} | {} | {} | {} |\n", outcome.mutant.id, outcome.mutant.what, outcome.mutant.pass,
+                       seen ? seen->sentence : seenOf(outcome), verdict(outcome));
+}
+
 std::string slowdownRow(const Outcome& outcome) {
     const Mutant& mutant = outcome.mutant;
     const auto seen = strongest(outcome);
@@ -140,6 +148,9 @@ bool isHarness(const Outcome& outcome) { return !outcome.mutant.file.string().st
 bool Outcome::caughtInClass() const {
     if (mutant.means == Means::Truth || mutant.means == Means::Test) return !refused.empty();
     if (mutant.means == Means::Refusal && !refused.empty()) return true;
+    if (mutant.means == Means::Shader)
+        return std::ranges::any_of(worse,
+                                   [&](const Change& change) { return change.metric.starts_with(mutant.pass + " "); });
     const std::optional<Class> expected = mutant.means == Means::Refusal ? Class::Status : mutant.expected;
     return std::ranges::any_of(worse, [&](const Change& change) { return isOf(change, expected); });
 }
@@ -152,6 +163,12 @@ std::string verdict(const Outcome& outcome) {
 
 Outcome outcomeOf(const Mutant& mutant, const Trial& base, const Trial& head) {
     Outcome outcome{mutant, {}, {}, head.refused};
+    if (mutant.means == Means::Shader && head.refused.empty()) {
+        const gate::ShaderJudgement judged = gate::judgeShaders(base.shaders, head.shaders);
+        if (!judged.notCompared.empty()) outcome.refused = judged.notCompared.front();
+        std::ranges::copy_if(judged.changes, std::back_inserter(outcome.worse),
+                             [](const Change& change) { return change.direction == gate::Direction::Worse; });
+    }
     if (!mutant.makesRecords() || !head.refused.empty()) return outcome;
     for (Change& change : gate::compare(base.records, head.records).changes) {
         // Other truths, environments or metrics' code: never a silent pass.
@@ -180,7 +197,9 @@ std::string mutantsReport(const std::vector<Outcome>& outcomes, const std::strin
     const std::vector<Outcome> benign = select(outcomes, isBenign);
     const std::vector<Outcome> planted = select(outcomes, std::not_fn(isBenign));
     const std::vector<Outcome> slowdowns = select(planted, isSlowdown);
-    const std::vector<Outcome> faults = select(planted, std::not_fn(isSlowdown));
+    const auto isShader = [](const Outcome& o) { return o.mutant.means == Means::Shader; };
+    const std::vector<Outcome> shaders = select(planted, isShader);
+    const std::vector<Outcome> faults = select(planted, [&](const Outcome& o) { return !isSlowdown(o) && !isShader(o); });
     const std::vector<Outcome> techniques = select(faults, std::not_fn(isHarness));
     const std::vector<Outcome> harness = select(faults, isHarness);
 
@@ -204,6 +223,8 @@ std::string mutantsReport(const std::vector<Outcome>& outcomes, const std::strin
     text += fmt::format("* Slowdowns: {} caught by instructions; of 1 % or more, {}.\n",
                         share(count(slowdowns, &Outcome::caughtInClass), slowdowns.size()),
                         share(count(noticeable, &Outcome::caughtInClass), noticeable.size()));
+    text += fmt::format("* Slowdowns of shaders: {} named with their pass by figures of machine code.\n",
+                        share(count(shaders, &Outcome::caughtInClass), shaders.size()));
     text += fmt::format("* Benign changes: {} red.\n", share(count(benign, &Outcome::caught), benign.size()));
     text += byClass(planted);
 
@@ -217,6 +238,8 @@ std::string mutantsReport(const std::vector<Outcome>& outcomes, const std::strin
     text += "\n## Slowdowns\n\n| slowdown | technique | scenes | what | instructions | also worse | verdict |\n"
             "|---|---|---|---|--:|---|---|\n";
     for (const Outcome& outcome : slowdowns) text += slowdownRow(outcome);
+    text += "\n## Slowdowns of shaders\n\n| slowdown | what | pass | seen | verdict |\n|---|---|---|---|---|\n";
+    for (const Outcome& outcome : shaders) text += shaderRow(outcome);
     text += "\n## Benign changes\n\n| change | technique | what | seen | verdict |\n|---|---|---|---|---|\n";
     for (const Outcome& outcome : benign) text += benignRow(outcome);
     return text + unexpected(outcomes);

@@ -64,7 +64,7 @@ std::set<std::string> modulesOfRecords(const Mutant& mutant, const std::vector<s
     addWithIncludes("harness/cells", modules, familiesOf(modules), all);
     for (const std::string& variant : mutant.techniques)
         addWithIncludes(familyOf(variant, files, modules), modules, {}, all);
-    if (mutant.sweep) addWithIncludes("studies", modules, familiesOf(modules), all);
+    if (mutant.sweep || mutant.means == Means::Shader) addWithIncludes("studies", modules, familiesOf(modules), all);
     return all;
 }
 

@@ -19,18 +19,22 @@ std::string hashOf(const std::vector<std::string>& words) {
     return fmt::format("{:016x}", hash64(all));
 }
 
-/// Records are kept as they are; what has none, as the sentence.
+/// Records and figures are kept as they are; what has none, as the sentence.
 void write(const std::filesystem::path& file, const Trial& trial) {
-    if (trial.refused.empty() && !trial.records.empty())
+    if (!trial.shaders.shaders.empty())
+        writeFile(file, shaders::toLines(trial.shaders));
+    else if (trial.refused.empty() && !trial.records.empty())
         writeRecords(file, trial.records);
     else
         writeFile(file, fmt::format("refused: {}\n", trial.refused));
 }
 
-Trial read(const std::filesystem::path& file) {
+Trial read(const std::filesystem::path& file, const Mutant& mutant) {
     constexpr std::string_view heading = "refused: ";
     const std::string text = readFile(file);
-    if (!text.starts_with(heading)) return {readRecords(file), ""};
+    const bool isRefused = text.starts_with(heading);
+    if (!isRefused && mutant.means == Means::Shader) return {{}, "", shaders::readLines(file)};
+    if (!isRefused) return {readRecords(file), ""};
     return {{}, text.substr(heading.size(), text.size() - heading.size() - 1)};
 }
 
@@ -72,8 +76,8 @@ std::filesystem::path Trials::file(const Mutant& mutant) const {
 
 bool Trials::hasBase(const Mutant& mutant) const { return std::filesystem::exists(baseFile(mutant)); }
 bool Trials::has(const Mutant& mutant) const { return std::filesystem::exists(file(mutant)); }
-Trial Trials::base(const Mutant& mutant) const { return read(baseFile(mutant)); }
-Trial Trials::of(const Mutant& mutant) const { return read(file(mutant)); }
+Trial Trials::base(const Mutant& mutant) const { return read(baseFile(mutant), mutant); }
+Trial Trials::of(const Mutant& mutant) const { return read(file(mutant), mutant); }
 
 void Trials::makeBase(const Mutant& mutant) const {
     const Trial trial = run(mutant);
@@ -90,6 +94,7 @@ void Trials::make(const Mutant& mutant) const {
 
 Trial Trials::run(const Mutant& mutant) const {
     if (mutant.makesRecords()) return runProgram(mutant);
+    if (mutant.means == Means::Shader) return runShaderCost(mutant);
     ToolResult result;
     if (mutant.means == Means::Test) {
         tree_.build(testTarget(mutant.target));
@@ -102,6 +107,17 @@ Trial Trials::run(const Mutant& mutant) const {
         result = tryTool(tree_.program(), arguments(mutant), tree_.folder());
     }
     return {{}, result.succeeded ? "" : fmt::format("{} failed: {}", mutant.target, result.complaint())};
+}
+
+Trial Trials::runShaderCost(const Mutant& mutant) const {
+    tree_.build("shadowbench");
+    const std::filesystem::path out = tree_.folder() / "running", file = out / "shader-cost.jsonl";
+    std::filesystem::remove_all(out);
+    std::vector<std::string> words = arguments(mutant);
+    words.insert(words.end(), {"--out", out.string(), "--cache", groundtruth::defaultCacheFolder().string()});
+    const ToolResult result = tryTool(tree_.program(), words, tree_.folder());
+    if (!result.succeeded) return {{}, result.complaint()};
+    return {{}, "", shaders::readLines(file)};
 }
 
 Trial Trials::runProgram(const Mutant& mutant) const {

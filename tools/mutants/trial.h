@@ -1,6 +1,7 @@
 // What building and running a program with a fault in it gave, kept in files.
 #pragma once
 
+#include "studies/shader_cost/shader_cost.h"
 #include "tools/mutants/mutant.h"
 #include "tools/mutants/tree_copy.h"
 
@@ -10,10 +11,11 @@
 
 namespace shadowbench::mutants {
 
-/// Records, or the sentence with which program, truth or test refused; "": they did not.
+/// Records, or figures of shaders, or the sentence with which program, truth or test refused; "": they did not.
 struct Trial {
     std::vector<Record> records;
     std::string refused;
+    shaders::ShaderCosts shaders = {};
 };
 
 /// Trials on one copy of the tree. Each is kept in a file named by what it hangs on, so a stopped suite goes on where it
@@ -42,6 +44,7 @@ private:
     [[nodiscard]] std::filesystem::path file(const Mutant& mutant) const;
     [[nodiscard]] Trial run(const Mutant& mutant) const;
     [[nodiscard]] Trial runProgram(const Mutant& mutant) const;
+    [[nodiscard]] Trial runShaderCost(const Mutant& mutant) const;
 
     const TreeCopy& tree_;
     std::filesystem::path kept_;

@@ -24,7 +24,7 @@ protected:
         options_.bounds = path("bounds.toml");
         options_.out = path("out");
         options_.cache = path("cache");
-        options_.instructions = options_.time = false;
+        options_.instructions = options_.time = options_.shader = false;
         options_.quiet = true;
         head_.measures({headRecord()});
     }

@@ -1,5 +1,6 @@
 // The whole gate on stand-ins for base and head: what is judged, what is not and why, and what that comes to.
 #include "gate/verdict.h"
+#include "studies/shader_cost/shader_cost.h"
 #include "tests/gate/programs/gate_of_stand_ins.h"
 #include "tests/gate/programs/one_renderer.h"
 
@@ -44,6 +45,85 @@ TEST_F(GateOfStandIns, AgainstRecordsOnlyTheHeadIsDrawnAndNoTimeJudged) {
     EXPECT_FALSE(result.pictures[0].baseRecord);
     EXPECT_TRUE(has(result.notes, "this build's policy alone judges"));
     EXPECT_TRUE(has(result.notes, "time is not compared: the base is a file of records"));
+}
+
+/// What `shader-cost` leaves, with these executed cycles of its one shader.
+std::string tellsOfShader(double executed) {
+    shaders::ShaderCost cost{};
+    cost.technique = "pcf";
+    cost.scene = "simple";
+    cost.pass = "resolve";
+    cost.stage = gpu::Stage::Fragment;
+    cost.source = "filtered/pcf/pcf.frag";
+    cost.architecture = "navi21";
+    cost.executed = gpu::Executed{executed, executed, 0, 0, 0, 0, 0};
+    return "while [ $# -gt 0 ]; do [ \"$1\" = --out ] && out=$2; shift; done\nmkdir -p \"$out\"\n"
+           "cat >\"$out/shader-cost.jsonl\" <<'END'\n" +
+           shaders::toLines({"radv", {cost}}) + "END\n";
+}
+
+TEST_F(GateOfStandIns, ASlowerShaderIsACostRegressionThatIsToldBeforeAnythingIsDrawn) {
+    options_.shader = true;
+    base_.does("shader-cost", tellsOfShader(1000) + "exit 0\n");
+    head_.does("shader-cost", tellsOfShader(1010) + "exit 0\n");
+    head_.does("run", "[ -e '" + path("out/shader-cost/base/shader-cost.jsonl") + "' ] || exit 1\n");
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::CostRegression) << all(result.notCompared);
+    const std::vector<Change> changes = of(result, "resolve fragment filtered/pcf/pcf.frag");
+    ASSERT_EQ(changes.size(), 1U);
+    EXPECT_EQ(changes[0].direction, Direction::Worse);
+    EXPECT_TRUE(result.pictures.empty());
+    EXPECT_TRUE(readFile(folder_.path() / "head/calls").find("--technique pcf") != std::string::npos);
+    options_.techniques.clear();
+    EXPECT_EQ(of(gate(options_), changes[0].metric).size(), 1U);
+    const std::string calls = readFile(folder_.path() / "head/calls");
+    const std::size_t last = calls.rfind("shader-cost ");
+    EXPECT_EQ(calls.substr(last, calls.find('\n', last) - last).find("--technique"), std::string::npos)
+        << "of all that it knows, shown or not";
+}
+
+TEST_F(GateOfStandIns, AWaiverAcceptsASlowerShaderOfItsVariants) {
+    options_.shader = true;
+    base_.does("shader-cost", tellsOfShader(1000) + "exit 0\n");
+    head_.does("shader-cost", tellsOfShader(1010) + "exit 0\n");
+    bounds("[[waiver]]\nscene = \"*\"\ntechniques = [\"pcf\"]\nclass = \"shader\"\nreason = \"test\"\n"
+           "expires = \"9999-12-31\"\n");
+    EXPECT_EQ(gate(options_).code(), ExitCode::Pass);
+}
+
+TEST_F(GateOfStandIns, AMachineWithoutTheDriverAndABaseWithoutTheVerbLeaveShadersOutWithANote) {
+    options_.shader = true;
+    base_.does("shader-cost", "echo 'unknown verb shader-cost' >&2\nexit 2\n");
+    head_.does("shader-cost", tellsOfShader(1000) + "exit 0\n");
+    const GateResult older = gate(options_);
+    EXPECT_EQ(older.code(), ExitCode::Pass) << all(older.notCompared);
+    EXPECT_TRUE(has(older.notes, "shaders are not compared: the base cannot tell their figures: unknown verb"));
+    head_.does("shader-cost", "echo 'shadowbench: install it with apt-get install mesa-vulkan-drivers' >&2\nexit 5\n");
+    const GateResult without = gate(options_);
+    EXPECT_EQ(without.code(), ExitCode::Pass) << all(without.notCompared);
+    EXPECT_TRUE(has(without.notes, "shaders are not compared: install it with apt-get install mesa-vulkan-drivers"))
+        << all(without.notes);
+}
+
+TEST_F(GateOfStandIns, FiguresOfShadersThatAreMissingOtherwiseAreInconclusive) {
+    options_.shader = true;
+    base_.does("shader-cost", tellsOfShader(1000) + "exit 0\n");
+    head_.does("shader-cost", "echo 'shadowbench: lost' >&2\nexit 1\n");
+    EXPECT_TRUE(has(gate(options_).notCompared, "shaders of the head have no figures: lost"));
+    head_.does("shader-cost", tellsOfShader(1000) + "echo 'shadowbench: pcf:map=16: no such function' >&2\nexit 1\n");
+    const GateResult partly = gate(options_);
+    EXPECT_EQ(partly.code(), ExitCode::Inconclusive);
+    EXPECT_TRUE(has(partly.notCompared, "shaders of the head have no figures: pcf:map=16: no such function"));
+    base_.does("shader-cost", "exit 1\n");
+    head_.does("shader-cost", tellsOfShader(1000) + "exit 0\n");
+    EXPECT_TRUE(has(gate(options_).notCompared, "shaders of the base have no figures"));
+}
+
+TEST_F(GateOfStandIns, RecordsHaveNoShaders) {
+    options_.shader = true;
+    compareWith({standInRecord("pcf")});
+    EXPECT_TRUE(has(gate(options_).notes, "shaders are not compared: the base is a file of records, not a program"));
+    EXPECT_EQ(head_.calls("shader-cost"), 0);
 }
 
 TEST_F(GateOfStandIns, RecordsOfOtherCellsAreNotCompared) {

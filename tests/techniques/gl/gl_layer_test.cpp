@@ -1,11 +1,13 @@
 // Programs, textures, the G-buffer and the counters.
 #include "base/error.h"
 #include "techniques/gl/api.h"
+#include "techniques/gl/context.h"
 #include "techniques/gl/counters.h"
 #include "tests/support/message_of.h"
 #include "tests/support/stages.h"
 
 #include <gtest/gtest.h>
+#include <set>
 #include <sstream>
 
 namespace shadowbench {
@@ -85,6 +87,22 @@ TEST(Program, EachIncludeIsTakenOnceAndLinesKeepTheirOrigin) {
     };
     EXPECT_EQ(count("struct LightReceiver {"), 1U);
     EXPECT_EQ(count("#include"), 0U);
+    for (const char* file : {"soft/pcss/pcss.frag", "shared/filters/pcss.glsl", "shared/filters/blocker_search.glsl"})
+        EXPECT_TRUE(source.files.contains(file)) << file;
+    EXPECT_FALSE(source.files.contains("shared/filters/pcf.glsl"));
+}
+
+TEST(Context, KnowsOfWhichFilesTheShadersAreThatWereCompiled) {
+    testContext();
+    std::set<std::string>& files = gl::Context::current().shaderFiles();
+    files.clear();
+    (void)gl::loadShader("soft/pcss/pcss.frag", {});
+    EXPECT_TRUE(files.empty()) << "read, and not compiled";
+    const gl::Program program = gl::Program::screen("shared/maps/single_map.frag");
+    for (const char* file :
+         {"gl/screen.vert", "shared/maps/single_map.frag", "shared/maps/light_space.glsl", "gl/tangents.glsl"})
+        EXPECT_TRUE(files.contains(file)) << file;
+    EXPECT_FALSE(files.contains("soft/pcss/pcss.frag"));
 }
 
 TEST(Memory, BytesAreThoseOfTexturesAndBuffersAlive) {
