@@ -56,13 +56,22 @@ inline constexpr int mostTexelsOfSide = 8192;
 /// What a pass writes that is the technique's answer.
 inline constexpr const char* visibilityTarget = "visibility";
 
+/// Of samplers that have the texels of the frame before.
+inline constexpr std::string_view historyPrefix = "previous_";
+
 /// The rows of folders are `my:ID`.
 inline constexpr std::string_view folderPrefix = "my:";
+
+/// What shaders call a parameter: its name in capitals; a choice is one of `name_word`.
+std::string macroOf(std::string name);
 
 /// Lower-case letters, digits and -, 40 at most.
 bool isFolderId(std::string_view id);
 
 /// Throws BadInput with the file, the line and the key of what is wrong, or the file that is missing.
 TechniqueFolder readTechniqueFolder(const std::filesystem::path& folder);
+
+/// The same of texts: of technique.toml, and of the shaders that lie beside it in `folder`.
+TechniqueFolder parseTechniqueFolder(const std::string& toml, const std::filesystem::path& folder, gl::ShaderFiles shaders);
 
 } // namespace shadowbench::techniques

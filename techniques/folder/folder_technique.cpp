@@ -1,15 +1,14 @@
 #include "techniques/folder/folder_technique.h"
 
 #include "base/error.h"
-#include "base/words.h"
 #include "techniques/folder/inputs.h"
+#include "techniques/folder/pass_program.h"
 #include "techniques/gl/api.h"
 #include "techniques/shared/light_views/focused_view.h"
 #include "techniques/shared/maps/depth_map.h"
 #include "techniques/shared/sampling/sampling.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 #include <functional>
 #include <unordered_map>
@@ -17,48 +16,16 @@
 namespace shadowbench::techniques {
 namespace {
 
-constexpr const char* historyPrefix = "previous_"; // of samplers: the texels of the frame before
-
-std::string macroOf(std::string name) {
-    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return name;
-}
-
-/// A parameter is a macro by its name in capitals; a choice is one of name and word.
-gl::Defines definesOf(const Entry& entry, const Parameters& values) {
-    gl::Defines defines;
-    for (const Parameter& parameter : entry.parameters) {
-        const std::string& value = values.text(parameter.name);
-        if (std::holds_alternative<OneOf>(parameter.domain))
-            defines.emplace_back(macroOf(parameter.name + "_" + value), "1");
-        else if (std::holds_alternative<RealRange>(parameter.domain))
-            defines.emplace_back(macroOf(parameter.name), fmt::format("{:#.9g}", values.real(parameter.name)));
-        else
-            defines.emplace_back(macroOf(parameter.name), value);
-    }
-    return defines;
-}
-
 double valueOf(const Amount& amount, const Parameters& values) {
     if (const double* number = std::get_if<double>(&amount)) return *number;
     return values.real(std::get<std::string>(amount));
-}
-
-/// What the compiler said first, with the file and line of the folder that it is about.
-[[noreturn]] void throwFirstLine(const InternalError& error) {
-    const std::string text = error.what();
-    const std::size_t begin = text.find('\n');
-    throw BadInput(begin == std::string::npos ? text : text.substr(begin + 1, text.find('\n', begin + 1) - begin - 1));
 }
 
 class FolderTechnique final : public Technique {
 public:
     FolderTechnique(std::shared_ptr<const TechniqueFolder> folder, const Parameters& values)
         : folder_(std::move(folder)), values_(values) {
-        for (const FolderPass& pass : folder_->passes) {
-            programs_.push_back(programOf(pass));
-            requireKnownUniforms(programs_.back(), pass);
-        }
+        for (const FolderPass& pass : folder_->passes) programs_.push_back(programOf(*folder_, pass, values_));
     }
 
     void reset() override {
@@ -91,41 +58,6 @@ private:
         gl::Texture now;
         std::optional<gl::Texture> before = {}; // of a target with a history
     };
-
-    [[nodiscard]] gl::Program programOf(const FolderPass& pass) const {
-        const std::string vertex =
-            pass.casters ? (pass.fragment.empty() ? "shared/maps/depth_map.vert" : "folder/casters.vert") : "gl/screen.vert";
-        if (pass.fragment.empty()) return {vertex, "gl/depth_only.frag"};
-        gl::Defines defines = definesOf(folder_->entry, values_);
-        defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
-        try {
-            return gl::Program::ofFolder(vertex, {folder_->path.string(), folder_->shaders}, pass.fragment, defines);
-        } catch (const InternalError& error) {
-            throwFirstLine(error);
-        }
-    }
-
-    /// All but what the program sets by itself for casters.
-    void requireKnownUniforms(const gl::Program& program, const FolderPass& pass) const {
-        static const std::vector<std::string> ofCasters{"clipFromWorld", "lightPlane"};
-        std::vector<std::string> known = pass.casters ? ofCasters : std::vector<std::string>();
-        for (const FolderInput& input : folderInputs()) known.emplace_back(input.name);
-        for (const FolderTarget& target : folder_->targets) {
-            known.push_back(target.name);
-            if (target.history) known.push_back(historyPrefix + target.name);
-        }
-        for (const auto& [name, type] : program.uniformTypes()) {
-            const auto file = [&] { return fmt::format("{}/{}", folder_->path.string(), pass.fragment); };
-            if (std::ranges::find(known, name) == known.end())
-                throw BadInput(fmt::format("{}: nothing sets the uniform \"{}\"{}; parameters are macros in capitals",
-                                           file(), name, didYouMean(name, known)));
-            const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name);
-            if (input != folderInputs().end() && type != input->type)
-                throw BadInput(fmt::format("{}: the uniform \"{}\" is {}, not {}", file(), name, input->type, type));
-            if (std::ranges::find(pass.to, name) != pass.to.end())
-                throw BadInput(fmt::format("{}: the pass \"{}\" reads {}, which it writes", file(), pass.name, name));
-        }
-    }
 
     [[nodiscard]] LightView fit(const Frame& frame) const {
         const bool soft = folder_->entry.answer == Answer::Soft;
@@ -199,8 +131,7 @@ private:
             if (input != folderInputs().end()) input->set(program, name, state);
             if (const auto target = targets_.find(name); target != targets_.end()) program.set(name, target->second.now);
             if (name.starts_with(historyPrefix))
-                if (const auto target = targets_.find(name.substr(std::string_view(historyPrefix).size()));
-                    target != targets_.end())
+                if (const auto target = targets_.find(name.substr(historyPrefix.size())); target != targets_.end())
                     program.set(name, *target->second.before);
         }
     }

@@ -139,13 +139,13 @@ TEST(FolderTechnique, AShaderThatDoesNotCompileIsOneLineWithItsOwnPlace) {
         "/resolve.frag:1: there is no shader \"shared/nothing.glsl\", neither in the folder nor among those that come with "
         "the program");
     EXPECT_EQ(errorOf("uniform float strength;\nout float visibility;\nvoid main() { visibility = strength; }\n"),
-              "/resolve.frag: nothing sets the uniform \"strength\"; parameters are macros in capitals");
+              "/resolve.frag:1: nothing sets the uniform \"strength\"; parameters are macros in capitals");
     EXPECT_EQ(errorOf("uniform float seed;\nout float visibility;\nvoid main() { visibility = seed; }\n"),
-              "/resolve.frag: the uniform \"seed\" is int, not float");
-    EXPECT_EQ(
-        errorOf("uniform sampler2DShadow dephts;\nout float visibility;\nvoid main() { visibility = texture(dephts, "
-                "vec3(0.5)); }\n"),
-        "/resolve.frag: nothing sets the uniform \"dephts\" (did you mean \"depths\"?); parameters are macros in capitals");
+              "/resolve.frag:1: the uniform \"seed\" is int, not float");
+    EXPECT_EQ(errorOf("uniform sampler2DShadow dephts;\nout float visibility;\nvoid main() { visibility = texture(dephts, "
+                      "vec3(0.5)); }\n"),
+              "/resolve.frag:1: nothing sets the uniform \"dephts\" (did you mean \"depths\"?); parameters are macros in "
+              "capitals");
 }
 
 TEST(FolderTechnique, APassThatReadsWhatItWritesIsRefused) {
