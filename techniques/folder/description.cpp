@@ -4,9 +4,9 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/one_line.h"
-#include "base/toml_value.h"
-#include "base/words.h"
 #include "techniques/folder/inputs.h"
+#include "techniques/folder/keys.h"
+#include "techniques/folder/reading.h"
 
 #include <algorithm>
 #include <cctype>
@@ -18,39 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* description = "technique.toml";
-constexpr int mostTargets = 32, mostPasses = 64, mostParameters = 32, mostVariants = 32;
+constexpr int mostTargets = 32, mostParameters = 32, mostVariants = 32;
 constexpr std::size_t mostFiles = 64, mostBytes = 1 << 20; // of a file
-
-constexpr Words<gl::Format, 8> formats{"format",
-                                       {{{gl::Format::R8, "R8"},
-                                         {gl::Format::RGBA8, "RGBA8"},
-                                         {gl::Format::R32F, "R32F"},
-                                         {gl::Format::RG16F, "RG16F"},
-                                         {gl::Format::RG32F, "RG32F"},
-                                         {gl::Format::RGBA16F, "RGBA16F"},
-                                         {gl::Format::RGBA32F, "RGBA32F"},
-                                         {gl::Format::Depth32F, "Depth32F"}}}};
-constexpr Words<Answer, 3> answers{"answer",
-                                   {{{Answer::Hard, "hard"}, {Answer::Filtered, "filtered"}, {Answer::Soft, "soft"}}}};
-constexpr Words<FolderView, 3> views{
-    "view", {{{FolderView::Scene, "scene"}, {FolderView::Focused, "focused"}, {FolderView::Sample, "light-sample"}}}};
-
-/// A name that GLSL takes, too.
-std::string identifier(const TomlValue& value, const std::string& name) {
-    const auto allowed = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-    if (name.empty() || name.size() > 40 || std::isalpha(static_cast<unsigned char>(name.front())) == 0 ||
-        !std::ranges::all_of(name, allowed) || name.starts_with("gl_") || name.find("__") != std::string::npos)
-        value.fail(fmt::format("\"{}\" is no name in GLSL: a letter, then letters, digits and _, 40 at most", name));
-    return name;
-}
-
-/// For people, so there is one.
-std::string words(const TomlValue& value) {
-    std::string text = value.text();
-    if (text.empty()) value.fail("is empty; say it in a few words");
-    if (onOneLine(text) != text) value.fail("has line ends or other control characters; say it in one line");
-    return text;
-}
 
 /// Calls `read`; BadInput of it, which knows no place, is of `value`.
 template <class Read>
@@ -77,19 +46,13 @@ public:
         const TomlSource source{.file = file_.string(), .largest = 1e18}; // GLSL holds its square
         const toml::table table = parseToml(toml_, file_.string());
         const TomlValue root(source, "", table);
-        root.only(
-            {"id", "title", "source", "answer", "history", "view", "variants", "lacks", "parameter", "target", "pass"});
+        root.only(keysOf(KeyTable::Root));
         readFacts(root);
         if (const auto parameters = root.find("parameter"))
             for (const TomlValue& value : members(*parameters, mostParameters)) readParameter(value);
         if (const auto targets = root.find("target"))
             for (const TomlValue& value : members(*targets, mostTargets)) readTarget(value);
-        const std::vector<TomlValue> passes = root.get("pass").list();
-        if (passes.empty() || passes.size() > mostPasses)
-            root.get("pass").fail(fmt::format("expected 1 to {} of them, got {}", mostPasses, passes.size()));
-        for (const TomlValue& value : passes) readPass(value);
-        if (read_.passes.back().to != std::vector<std::string>{visibilityTarget})
-            passes.back().fail(R"(the last pass writes the answer: to = "visibility")");
+        readPasses(root.get("pass"), read_);
         readVariants(root);
         return std::move(read_);
     }
@@ -120,7 +83,7 @@ private:
     }
 
     void readParameter(const TomlValue& value) {
-        value.only({"default", "range", "choices", "meaning", "source"});
+        value.only(keysOf(KeyTable::Parameter));
         Parameter parameter{identifier(value, std::string(value.lastKey())),
                             value.get("default").scalar(),
                             {},
@@ -145,14 +108,6 @@ private:
         read_.entry.parameters.push_back(std::move(parameter));
     }
 
-    static std::vector<std::string> macrosOf(const Parameter& parameter) {
-        const auto* choices = std::get_if<OneOf>(&parameter.domain);
-        if (choices == nullptr) return {macroOf(parameter.name)};
-        std::vector<std::string> macros;
-        for (const std::string& word : choices->values) macros.push_back(macroOf(parameter.name + "_" + word));
-        return macros;
-    }
-
     /// Of whole numbers if none of the three has a decimal point.
     static Domain rangeOf(const TomlValue& value) {
         const std::vector<TomlValue> ends = value.get("range").list();
@@ -166,30 +121,12 @@ private:
         return IntegerRange{ends[0].integer(-most, most), ends[1].integer(-most, most)};
     }
 
-    const Parameter* parameterNamed(const std::string& name) const {
-        const auto found = std::ranges::find(read_.entry.parameters, name, &Parameter::name);
-        return found == read_.entry.parameters.end() ? nullptr : &*found;
-    }
-
-    /// A number, or a parameter that is one.
-    Amount amount(const TomlValue& value) const {
-        if (!value.isText()) return value.number();
-        const Parameter* parameter = parameterNamed(value.text());
-        if (parameter == nullptr || std::holds_alternative<OneOf>(parameter->domain)) {
-            std::vector<std::string> names;
-            for (const Parameter& p : read_.entry.parameters) names.push_back(p.name);
-            value.fail(
-                fmt::format("\"{}\" is no parameter that is a number{}", value.text(), didYouMean(value.text(), names)));
-        }
-        return value.text();
-    }
-
     void readTarget(const TomlValue& value) {
-        value.only({"format", "size", "filter", "compare", "mipmaps", "history"});
+        value.only(keysOf(KeyTable::Target));
         const auto flag = [&](const char* key) { return value.find(key) && value.get(key).boolean(); };
         FolderTarget target{.name = identifier(value, std::string(value.lastKey())),
                             .format = formats.named(value.get("format").oneOf(formats.all())),
-                            .linear = value.find("filter") && value.get("filter").oneOf({"nearest", "linear"}) == "linear",
+                            .linear = value.find("filter") && filters.named(value.get("filter").oneOf(filters.all())),
                             .compare = flag("compare"),
                             .mipmaps = flag("mipmaps"),
                             .history = flag("history")};
@@ -201,7 +138,7 @@ private:
         target.ofImage = size.isText() && size.text() == "image";
         if (!target.ofImage && !size.isText() && !size.isWhole())
             size.fail("expected \"image\", a whole number of texels per side, or the parameter that has it");
-        if (!target.ofImage) target.side = amount(size);
+        if (!target.ofImage) target.side = amountOf(size, read_);
         if (const double* texels = std::get_if<double>(&target.side); !target.ofImage && texels != nullptr)
             target.side = static_cast<double>(size.integer(1, mostTexelsOfSide));
         if (target.compare && target.format != gl::Format::Depth32F)
@@ -210,97 +147,6 @@ private:
         if (target.history && !read_.entry.temporal)
             value.fail("keeps texels of the frame before: say history = true above");
         read_.targets.push_back(std::move(target));
-    }
-
-    [[nodiscard]] const FolderTarget* targetNamed(const std::string& name) const {
-        const auto found = std::ranges::find(read_.targets, name, &FolderTarget::name);
-        return found == read_.targets.end() ? nullptr : &*found;
-    }
-
-    void readPass(const TomlValue& value) {
-        value.only({"name", "draw", "fragment", "to", "define", "offset", "clear"});
-        FolderPass pass;
-        pass.name = words(value.get("name"));
-        pass.casters = value.get("draw").oneOf({"casters", "screen"}) == "casters";
-        const TomlValue to = value.get("to");
-        if (to.isList())
-            for (const TomlValue& name : to.list()) addTarget(pass, name);
-        else
-            addTarget(pass, to);
-        if (pass.to.empty()) to.fail("names no target");
-        if (const auto fragment = value.find("fragment")) {
-            pass.fragment = fragment->text();
-            if (!read_.shaders.contains(pass.fragment)) fragment->fail(noShader(pass.fragment));
-        } else if (!pass.casters) {
-            value.fail("a pass over the screen needs a fragment shader: fragment = \"resolve.frag\"");
-        }
-        if (const auto defines = value.find("define"))
-            for (const TomlValue& define : defines->members()) addDefine(pass, define);
-        readCasters(value, pass);
-        read_.passes.push_back(std::move(pass));
-    }
-
-    void addDefine(FolderPass& pass, const TomlValue& value) const {
-        const std::string name = identifier(value, std::string(value.lastKey())), text = value.scalar();
-        if (onOneLine(text) != text) value.fail("has line ends or other control characters; a macro is one line");
-        for (const Parameter& parameter : read_.entry.parameters)
-            if (std::ranges::count(macrosOf(parameter), name) > 0)
-                value.fail(fmt::format("is the parameter {} already; choose another name", parameter.name));
-        pass.defines.emplace_back(name, text);
-    }
-
-    [[nodiscard]] std::string noShader(const std::string& name) const {
-        std::vector<std::string> names;
-        for (const auto& [file, text] : read_.shaders) names.push_back(file);
-        return fmt::format("{} has no shader \"{}\"{}", folder_.string(), name, didYouMean(name, names));
-    }
-
-    void addTarget(FolderPass& pass, const TomlValue& value) {
-        const std::string name = value.text();
-        const FolderTarget* target = targetNamed(name);
-        if (target == nullptr && name != visibilityTarget) {
-            std::vector<std::string> names{visibilityTarget};
-            for (const FolderTarget& known : read_.targets) names.push_back(known.name);
-            value.fail(fmt::format("there is no target \"{}\"{}", name, didYouMean(name, names)));
-        }
-        if (std::ranges::find(pass.to, name) != pass.to.end()) value.fail("is written twice");
-        if (!pass.to.empty()) {
-            const FolderTarget* first = targetNamed(pass.to.front());
-            if (target == nullptr || first == nullptr) value.fail("visibility is written alone");
-            if (target->ofImage != first->ofImage || target->side != first->side)
-                value.fail(fmt::format("is of another size than {}; what a pass writes is of one size", first->name));
-        }
-        pass.to.push_back(name);
-    }
-
-    void readCasters(const TomlValue& value, FolderPass& pass) {
-        const auto isDepth = [&](const std::string& name) {
-            const FolderTarget* target = targetNamed(name);
-            return target != nullptr && target->format == gl::Format::Depth32F;
-        };
-        const auto depths = std::ranges::count_if(pass.to, isDepth);
-        if (pass.casters) {
-            if (depths > 1) value.fail("one target of depths is all that a pass has");
-            if (pass.to.front() == visibilityTarget || targetNamed(pass.to.front())->ofImage)
-                value.fail("casters are drawn into a map, which has a size of its own");
-            if (pass.fragment.empty() && std::ssize(pass.to) > depths) value.fail("colours need a fragment shader");
-        } else if (depths > 0) {
-            value.fail("a pass over the screen writes no depths");
-        }
-        const auto offset = value.find("offset");
-        const auto clear = value.find("clear");
-        if (!pass.casters && (offset || clear)) value.fail("offset and clear are of casters");
-        if (offset) {
-            const std::vector<TomlValue> both = offset->list();
-            if (both.size() != 2) offset->fail("expected [of the slope, units], numbers or parameters");
-            pass.slopeOffset = amount(both[0]);
-            pass.unitOffset = amount(both[1]);
-        }
-        if (clear) {
-            const std::vector<TomlValue> four = clear->list();
-            if (four.size() != 4) clear->fail("expected four numbers");
-            for (int i = 0; i < 4; ++i) pass.clear[i] = static_cast<float>(four[static_cast<std::size_t>(i)].number());
-        }
     }
 
     void readVariants(const TomlValue& root) {
@@ -347,11 +193,6 @@ gl::ShaderFiles shadersIn(const fs::path& folder) {
 }
 
 } // namespace
-
-std::string macroOf(std::string name) {
-    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return name;
-}
 
 bool isFolderId(std::string_view id) {
     const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };

@@ -21,6 +21,38 @@ double valueOf(const Amount& amount, const Parameters& values) {
     return values.real(std::get<std::string>(amount));
 }
 
+/// As long as it lives; everything else draws without.
+class Blending {
+public:
+    explicit Blending(std::optional<Blend> blend) {
+        if (!blend) return;
+        glEnable(GL_BLEND);
+        glBlendFunc(blend == Blend::Multiply ? GL_DST_COLOR : GL_ONE, blend == Blend::Multiply ? GL_ZERO : GL_ONE);
+        glBlendEquation(blend == Blend::Min ? GL_MIN : blend == Blend::Max ? GL_MAX : GL_FUNC_ADD);
+    }
+    ~Blending() {
+        glBlendEquation(GL_FUNC_ADD);
+        glDisable(GL_BLEND);
+    }
+    Blending(const Blending&) = delete;
+    Blending& operator=(const Blending&) = delete;
+};
+
+class Culling {
+public:
+    explicit Culling(Cull cull) {
+        if (cull == Cull::None) return;
+        glEnable(GL_CULL_FACE);
+        glCullFace(cull == Cull::Front ? GL_FRONT : GL_BACK);
+    }
+    ~Culling() {
+        glCullFace(GL_BACK);
+        glDisable(GL_CULL_FACE);
+    }
+    Culling(const Culling&) = delete;
+    Culling& operator=(const Culling&) = delete;
+};
+
 class FolderTechnique final : public Technique {
 public:
     FolderTechnique(std::shared_ptr<const TechniqueFolder> folder, const Parameters& values)
@@ -38,9 +70,15 @@ public:
         if (imageSize_ != frame.size) reset();
         imageSize_ = frame.size;
         if (targets_.empty()) makeTargets();
-        for (std::size_t i = 0; i < folder_->passes.size(); ++i) {
-            const auto pass = frame.pass(folder_->passes[i].name);
-            draw(folder_->passes[i], programs_[i], frame, visibility);
+        for (std::size_t first = 0; first < folder_->passes.size();) {
+            const std::size_t end = endOfGroup(first);
+            const int repetitions = static_cast<int>(valueOf(folder_->passes[first].repeat, values_));
+            for (repetition_ = 0; repetition_ < repetitions; ++repetition_)
+                for (std::size_t i = first; i < end; ++i) {
+                    const auto pass = frame.pass(folder_->passes[i].name);
+                    draw(folder_->passes[i], programs_[i], frame, visibility);
+                }
+            first = end;
         }
         for (auto& [name, target] : targets_)
             if (target.before) std::swap(target.now, *target.before);
@@ -58,6 +96,13 @@ private:
         gl::Texture now;
         std::optional<gl::Texture> before = {}; // of a target with a history
     };
+
+    [[nodiscard]] std::size_t endOfGroup(std::size_t first) const {
+        const std::string& group = folder_->passes[first].group;
+        std::size_t end = first + 1;
+        while (!group.empty() && end < folder_->passes.size() && folder_->passes[end].group == group) ++end;
+        return end;
+    }
 
     [[nodiscard]] LightView fit(const Frame& frame) const {
         const bool soft = folder_->entry.answer == Answer::Soft;
@@ -115,7 +160,7 @@ private:
         if (pass.casters)
             drawCasters(pass, program, frame, attachments);
         else
-            drawScreen(program, attachments);
+            drawScreen(pass, program, attachments);
         for (const std::string& name : pass.to)
             if (name != visibilityTarget && hasMipmaps(name)) targets_.at(name).now.makeMipmaps();
     }
@@ -125,7 +170,7 @@ private:
     }
 
     void setInputs(gl::Program& program, const Frame& frame) const {
-        const FolderState state{frame, view_, historyFrames_};
+        const FolderState state{frame, view_, historyFrames_, repetition_};
         for (const auto& [name, type] : program.uniformTypes()) {
             const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name);
             if (input != folderInputs().end()) input->set(program, name, state);
@@ -136,9 +181,13 @@ private:
         }
     }
 
-    static void drawScreen(const gl::Program& program, const std::vector<const gl::Texture*>& attachments) {
+    static void drawScreen(const FolderPass& pass, const gl::Program& program,
+                           const std::vector<const gl::Texture*>& attachments) {
         const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
+        if (pass.clear)
+            for (std::size_t i = 0; i < attachments.size(); ++i) target.clearColour(static_cast<int>(i), *pass.clear);
         target.bind();
+        const Blending blending(pass.blend);
         program.drawScreen();
     }
 
@@ -146,19 +195,23 @@ private:
     void drawCasters(const FolderPass& pass, gl::Program& program, const Frame& frame,
                      std::vector<const gl::Texture*> attachments) {
         const auto isDepth = [](const gl::Texture* t) { return t->format() == gl::Format::Depth32F; };
-        if (std::ranges::none_of(attachments, isDepth)) {
+        if (pass.depthTest && std::ranges::none_of(attachments, isDepth)) {
             const glm::ivec2 size = attachments.front()->size();
             if (!ownDepths_ || ownDepths_->size() != size) ownDepths_.emplace(gl::Format::Depth32F, size);
             attachments.push_back(&*ownDepths_);
         }
         std::ranges::stable_partition(attachments, std::not_fn(isDepth));
         const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
-        for (std::size_t i = 0; i + 1 < attachments.size(); ++i) target.clearColour(static_cast<int>(i), pass.clear);
-        target.clearDepth(1);
+        const auto colours = std::ranges::count_if(attachments, std::not_fn(isDepth));
+        for (int i = 0; i < colours; ++i) target.clearColour(i, *pass.clear);
+        if (pass.depthTest) target.clearDepth(1);
         target.bind();
         const CasterPass casters(program, view_,
                                  {.factor = static_cast<float>(valueOf(pass.slopeOffset, values_)),
                                   .units = static_cast<float>(valueOf(pass.unitOffset, values_))});
+        const Blending blending(pass.blend);
+        const Culling culling(pass.cull);
+        if (!pass.depthTest) glDisable(GL_DEPTH_TEST); // until the next pass sets it
         frame.scene.draw();
     }
 
@@ -169,7 +222,7 @@ private:
     std::optional<gl::Texture> ownDepths_;
     LightView view_;
     glm::ivec2 imageSize_{0};
-    int historyFrames_ = 0;
+    int historyFrames_ = 0, repetition_ = 0;
 };
 
 } // namespace

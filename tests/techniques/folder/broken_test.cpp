@@ -51,6 +51,10 @@ size = "map"
 filter = "linear"
 mipmaps = true
 
+[target.layers]
+format = "R32F"
+size = 256
+
 [target.mean]
 format = "RGBA32F"
 size = "image"
@@ -63,6 +67,15 @@ fragment = "moments.frag"
 to = ["moments", "depths"]
 offset = [2, "radius"]
 clear = [1, 1, 0, 0]
+cull = "front"
+
+[[pass]]
+name = "layers"
+draw = "casters"
+fragment = "moments.frag"
+to = "layers"
+blend = "add"
+depth_test = false
 
 [[pass]]
 name = "mean"
@@ -70,6 +83,8 @@ draw = "screen"
 fragment = "mean.frag"
 to = "mean"
 define = { SOURCE = "moments", STEP = "ivec2(1, 0)" }
+repeat = 2
+group = "there and back"
 
 [[pass]]
 name = "resolve"
@@ -128,9 +143,11 @@ const std::vector<std::string> wrongValues{
 /// Keys that may have it: texts for people, and other choices that are as good.
 bool mayBe(const std::string& key, const std::string& value) {
     const auto is = [&](std::initializer_list<const char*> keys) { return std::ranges::count(keys, key) > 0; };
-    if (is({"title", "meaning", "name", "source"})) return value == "\"xyz\"";
+    if (is({"title", "meaning", "name", "source", "group"})) return value == "\"xyz\"";
     if (key == "id") return value == "\"xyz\"";
     if (is({"history", "compare", "mipmaps"})) return value == "true";
+    if (key == "depth_test") return value == "true";
+    if (key == "repeat") return value == "42";
     if (key == "lacks") return value == "[]";
     if (key == "define") return value == "{}" || value == "{ a = 1 }";
     if (is({"default", "size"})) return value == "42" || value == "1.5";
@@ -164,8 +181,9 @@ TEST_F(BrokenFolder, AnyOtherValueOfAKeyIsOneLineAtItsPlace) {
 }
 
 TEST_F(BrokenFolder, AKeyThatIsMissingMisspeltOrThereTwiceIsNamed) {
-    const std::vector<std::string> lines = linesOf(fullToml), mayLack{"source", "view",    "variants", "lacks", "compare",
-                                                                      "filter", "mipmaps", "offset",   "clear", "define"};
+    const std::vector<std::string> lines = linesOf(fullToml), mayLack{"source", "view",    "variants",   "lacks",  "compare",
+                                                                      "filter", "mipmaps", "offset",     "clear",  "define",
+                                                                      "cull",   "blend",   "depth_test", "repeat", "group"};
     std::string table; // the last header
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (lines[i].starts_with("[")) table = lines[i];
@@ -196,6 +214,17 @@ TEST_F(BrokenFolder, TheFileCutAnywhereIsOneLine) {
     EXPECT_GT(broken, 150U);
 }
 
+TEST_F(BrokenFolder, APassWritesNoMoreTargetsThanGlHas) {
+    std::string targets, names;
+    for (int i = 0; i < 8; ++i) {
+        targets += fmt::format("[target.t{}]\nformat = \"R8\"\nsize = \"image\"\n", i);
+        names += fmt::format("\"t{}\", ", i);
+    }
+    const std::string toml =
+        replaced(replaced(fullToml, "[target.mean]", targets + "[target.mean]"), "to = \"mean\"", "to = [" + names + "]");
+    EXPECT_NE(said(toml).find("a pass writes 7 targets at most"), std::string::npos) << said(toml);
+}
+
 TEST_F(BrokenFolder, WhatContradictsItselfIsToldWithTheRemedy) {
     const auto changed = [&](const std::string& from, const std::string& to) { return said(replaced(fullToml, from, to)); };
     const std::vector<std::pair<std::string, std::string>> cases{
@@ -218,8 +247,17 @@ TEST_F(BrokenFolder, WhatContradictsItselfIsToldWithTheRemedy) {
         {changed("to = \"mean\"", "to = \"mea\""), "there is no target \"mea\" (did you mean \"mean\"?)"},
         {changed("to = \"visibility\"", "to = \"mean\""), "the last pass writes the answer: to = \"visibility\""},
         {changed("fragment = \"mean.frag\"", "fragment = \"../mean.frag\""), "has no shader \"../mean.frag\""},
-        {changed("fragment = \"mean.frag\"", "offset = [1, 1]\nfragment = \"mean.frag\""),
-         "offset and clear are of casters"},
+        {changed("fragment = \"mean.frag\"", "offset = [1, 1]\nfragment = \"mean.frag\""), "offset: is of casters"},
+        {changed("repeat = 2", "repeat = \"map\""), "map must be a whole number within 1 and 64"},
+        {changed("repeat = 2", "repeat = 65"), "expected a whole number from 1 to 64, got 65"},
+        {changed("name = \"resolve\"", "group = \"there and back\"\nrepeat = 3\nname = \"resolve\""),
+         "is said by the first pass of the group"},
+        {changed("name = \"moments\"", "group = \"there and back\"\nname = \"moments\""),
+         "has passes above; those of a group come one after the other"},
+        {changed("repeat = 2", "blend = \"min\""), "no pass before has drawn mean: say clear = [0, 0, 0, 0]"},
+        {changed("repeat = 2", "clear = [0, 0, 0, 0]"), "is of casters, or with blend"},
+        {changed("repeat = 2", "cull = \"back\""), "cull: is of casters"},
+        {changed("cull = \"front\"", "depth_test = false"), "a target of depths keeps the nearest"},
         {changed("format = \"Depth32F\"", "format = \"Depth32F\"\nmipmaps = true"), "depths have no mipmaps"},
         {changed("format = \"RG32F\"", "format = \"RG32F\"\ncompare = true"), "only depths compare"},
         {changed("answer = \"soft\"", "answer = \"hard\""), "a light-sample is of a technique whose answer is soft"},
