@@ -62,6 +62,22 @@ TEST_F(TechniqueFolderRun, AWrongShaderIsOneLineThatNamesItsPlace) {
         << outcome.output;
 }
 
+TEST_F(TechniqueFolderRun, ABrokenFolderIsOneLineAndNothingIsWritten) {
+    mine_.write("technique.toml", replaced(mapToml, "title", "titel"));
+    for (const std::string& words :
+         {command(""),
+          "shadowbench sweep --quiet --scene " + out_ / "tiny.toml" + " --technique my:mine --axis map --technique-folder " +
+              mine_.path().string() + " --out " + (out_ / "out"),
+          "shadowbench list techniques --technique-folder " + mine_.path().string(),
+          "shadowbench check " + mine_.path().string()}) {
+        const Outcome outcome = shell(words);
+        EXPECT_EQ(outcome.code, 2) << outcome.output;
+        EXPECT_EQ(outcome.output, "shadowbench: " + (mine_.path() / "technique.toml").string() +
+                                      ":2: titel: unknown key (did you mean \"title\"?)\n");
+        EXPECT_FALSE(std::filesystem::exists(out_ / "out")) << words;
+    }
+}
+
 TEST_F(TechniqueFolderRun, AShaderThatHangsIsOneLineAndTheOtherRowsGoOn) {
     mine_.write("resolve.frag", hangingShader);
     const Outcome outcome =
