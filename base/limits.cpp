@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t mostMib = 1 << 20;
 
-constexpr std::array<LimitEntry, 10> all{{
+constexpr std::array<LimitEntry, 11> all{{
     {Limit::FileMib, "SHADOWBENCH_MAX_FILE_MIB", 1024, mostMib, "MiB of one mesh, buffer or image file"},
     {Limit::TextMib, "SHADOWBENCH_MAX_TEXT_MIB", 1024, mostMib, "MiB of one scene, record or other file of text"},
     {Limit::Triangles, "SHADOWBENCH_MAX_TRIANGLES", 4'000'000, 1'000'000'000, "triangles of one mesh file"},
@@ -27,6 +27,8 @@ constexpr std::array<LimitEntry, 10> all{{
     {Limit::ReaderMib, "SHADOWBENCH_MAX_READER_MIB", 4096, mostMib, "MiB of memory to read one file in"},
     {Limit::ReaderSeconds, "SHADOWBENCH_MAX_READER_SECONDS", 4, 86'400,
      "seconds of processor time to read one file in, and one more for each of its MiB"},
+    {Limit::CellSeconds, "SHADOWBENCH_MAX_CELL_SECONDS", 120, 86'400,
+     "seconds to draw and score a technique folder's row on a scene of 256², larger ones in proportion"},
 }};
 
 const LimitEntry& entryOf(Limit limit) { return all.at(static_cast<std::size_t>(limit)); }

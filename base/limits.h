@@ -20,6 +20,7 @@ enum class Limit {
     MemoryMib,     // that a scene may need; the machine's own memory where that is less
     ReaderMib,     // memory of the child that reads a file
     ReaderSeconds, // processor time of that child, and one second more for each MiB that it reads
+    CellSeconds,   // in which a technique folder's cell is drawn and scored
 };
 
 struct LimitEntry {

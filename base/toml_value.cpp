@@ -1,6 +1,7 @@
 #include "base/toml_value.h"
 
 #include "base/error.h"
+#include "base/one_line.h"
 #include "base/words.h"
 
 #include <algorithm>
@@ -35,8 +36,8 @@ std::string TomlValue::where() const {
 
 void TomlValue::fail(const std::string& sentence) const {
     // The file itself has no key to name.
-    throw BadInput(key_.empty() ? fmt::format("{}:1: {}", source_->file, sentence)
-                                : fmt::format("{}: {}", where(), sentence));
+    const std::string place = key_.empty() ? source_->file + ":1" : where();
+    throw BadInput(onOneLine(fmt::format("{}: {}", place, sentence))); // words of the file may hold a byte 0, too
 }
 
 std::string TomlValue::got() const {
@@ -157,7 +158,8 @@ toml::table parseToml(std::string_view text, const std::string& file) {
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
-        throw BadInput(fmt::format("{}:{}: not valid TOML: {}", file, error.source().begin.line, error.description()));
+        throw BadInput(fmt::format("{}:{}: not valid TOML: {}", file, error.source().begin.line,
+                                   onOneLine(std::string(error.description()))));
     }
 }
 

@@ -30,6 +30,7 @@ namespace {
 
 constexpr std::size_t noMore = std::numeric_limits<std::size_t>::max(); // sent instead of an item
 constexpr std::chrono::milliseconds pause{200};                         // between two reports of progress
+using Clock = std::chrono::steady_clock;
 
 /// What a worker sends: this, and as many bytes of text.
 struct Message {
@@ -70,7 +71,6 @@ bool sendMessage(int socket, Message message, std::string_view text) {
 
 /// Progress that is sent now and then.
 Progress progressThrough(int socket) {
-    using Clock = std::chrono::steady_clock;
     return [socket, last = Clock::time_point()](double done, std::string_view what) mutable {
         if (Clock::now() - last < pause) return;
         last = Clock::now();
@@ -111,9 +111,23 @@ public:
     [[nodiscard]] int socket() const { return socket_.get(); }
     [[nodiscard]] std::size_t item() const { return item_; } // that it was given last
 
-    void give(std::size_t item) {
+    void give(std::size_t item, std::chrono::seconds limit) {
         item_ = item;
+        limit_ = limit;
+        given_ = Clock::now();
         sendAll(socket(), &item, sizeof item); // that it has ended is noticed when its answer is received
+    }
+
+    /// Until its limit; nothing where it has none.
+    [[nodiscard]] std::optional<Clock::duration> left() const {
+        if (limit_.count() == 0) return std::nullopt;
+        return std::max(Clock::duration(0), given_ + limit_ - Clock::now());
+    }
+
+    /// Ends it, and says why.
+    std::string stop() {
+        end(SIGTERM);
+        return fmt::format("took longer than {} s and was ended", limit_.count());
     }
 
     /// Waits for what it says next; nothing when it has ended.
@@ -157,6 +171,8 @@ private:
     Descriptor socket_;
     pid_t process_ = -1;
     std::size_t item_ = noMore;
+    std::chrono::seconds limit_{0};
+    Clock::time_point given_;
 };
 
 class Sharing {
@@ -169,13 +185,24 @@ public:
         while (!workers_.empty()) {
             std::vector<pollfd> watched;
             for (const auto& worker : workers_) watched.push_back({worker->socket(), POLLIN, 0});
-            if (poll(watched.data(), watched.size(), -1) < 0) continue; // a signal that something else handles
+            if (poll(watched.data(), watched.size(), untilNextLimit()) < 0) continue; // a signal that something else handles
             for (std::size_t i = watched.size(); i-- > 0;)
-                if (watched[i].revents != 0) listenTo(i);
+                if (watched[i].revents != 0)
+                    listenTo(i);
+                else if (workers_[i]->left() == Clock::duration(0))
+                    stop(i);
         }
     }
 
 private:
+    /// Milliseconds, as poll takes them.
+    [[nodiscard]] int untilNextLimit() const {
+        std::optional<Clock::duration> least;
+        for (const auto& worker : workers_)
+            if (const auto left = worker->left(); left && (!least || *left < *least)) least = left;
+        return least ? static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(*least).count()) : -1;
+    }
+
     void startWorker() {
         workers_.push_back(std::make_unique<Worker>(work_, count_));
         giveNext(*workers_.back());
@@ -183,7 +210,8 @@ private:
 
     void giveNext(Worker& worker) {
         if (work_.progress) work_.progress(next_, 0, "");
-        worker.give(next_++);
+        worker.give(next_, work_.limit ? work_.limit(next_) : std::chrono::seconds(0));
+        ++next_;
     }
 
     void listenTo(std::size_t i) {
@@ -200,9 +228,21 @@ private:
             return work_.finished(item, std::move(said->second));
         }
         std::string how = worker.finish();
-        workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
-        if (is(Message::Kind::Answer)) return work_.finished(item, std::move(said->second));
         if (is(Message::Kind::Failure)) how = "failed: " + said->second;
+        if (!is(Message::Kind::Answer)) return lose(i, how);
+        workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
+        work_.finished(item, std::move(said->second));
+    }
+
+    void stop(std::size_t i) {
+        const std::string how = workers_[i]->stop();
+        lose(i, how);
+    }
+
+    /// The worker has ended.
+    void lose(std::size_t i, const std::string& how) {
+        const std::size_t item = workers_[i]->item();
+        workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
         if (next_ < work_.items) startWorker();
         work_.lost(item, how);
     }
@@ -217,7 +257,7 @@ private:
 
 void shareAmongProcesses(int workers, const SharedWork& work) { Sharing(work, workers).all(); }
 
-void checkInOwnProcess(const std::function<void()>& check) {
+void checkInOwnProcess(const std::function<void()>& check, std::chrono::seconds limit) {
     std::optional<Error> failure;
     SharedWork work;
     work.items = 1;
@@ -236,6 +276,7 @@ void checkInOwnProcess(const std::function<void()>& check) {
         if (!answer.empty()) failure.emplace(static_cast<ExitCode>(answer.front()), answer.substr(1));
     };
     work.lost = [](std::size_t, const std::string& how) { throw InternalError("the process of a check " + how); };
+    work.limit = [limit](std::size_t) { return limit; };
     shareAmongProcesses(1, work);
     if (failure) throw Error(*failure);
 }

@@ -4,6 +4,7 @@
 
 #include "base/progress.h"
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -24,7 +25,10 @@ struct SharedWork {
     // In this process, one call at a time:
     std::function<void(std::size_t item, double done, std::string_view what)> progress = {}; // of `work`; may be empty
     std::function<void(std::size_t item, std::string answer)> finished;
-    std::function<void(std::size_t item, const std::string& how)> lost; // its worker "was killed by signal 9", "failed: …"
+    /// Its worker "was killed by signal 9", "failed: …", "took longer than 120 s and was ended".
+    std::function<void(std::size_t item, const std::string& how)> lost;
+    /// After which the worker of an item is ended; 0: never. May be empty.
+    std::function<std::chrono::seconds(std::size_t item)> limit = {};
 };
 
 /// Does every item once, in rising order as workers become free, and returns when all are finished or lost. The workers are
@@ -34,7 +38,8 @@ struct SharedWork {
 void shareAmongProcesses(int workers, const SharedWork& work);
 
 /// Calls `check` in such a process and throws here what it throws, as an Error of the same code and sentence: for questions
-/// that take what this process must not have made before it forks. Throws InternalError when the process is lost.
-void checkInOwnProcess(const std::function<void()>& check);
+/// that take what this process must not have made before it forks. Throws InternalError when the process is lost, as it is
+/// after `limit`; 0: never.
+void checkInOwnProcess(const std::function<void()>& check, std::chrono::seconds limit = std::chrono::seconds(0));
 
 } // namespace shadowbench

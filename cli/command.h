@@ -24,6 +24,7 @@ void addReference(CLI::App& app, Action& action);
 void addSweep(CLI::App& app, Action& action);
 void addCauses(CLI::App& app, Action& action);
 void addDevelop(CLI::App& app, Action& action);
+void addCheck(CLI::App& app, Action& action);
 void addNewTechnique(CLI::App& app, Action& action);
 void addRecommend(CLI::App& app, Action& action);
 void addClaims(CLI::App& app, Action& action);

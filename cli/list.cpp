@@ -8,6 +8,7 @@
 
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
+#include "techniques/folder/keys.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -75,6 +76,7 @@ std::string listing(const ListOptions& options) {
         throw BadInput("--format latex belongs to list techniques --table, --records to that or to --pages");
     if (options.standard && (options.what != "scenes" || options.format != "ids"))
         throw BadInput("--standard chooses among scenes: list scenes --standard --format ids");
+    if (options.what == "technique-schema") return techniques::folderSchema();
     return options.format == "ids" ? idsOf(options.what, options.standard) : catalogue(options.what, options.format);
 }
 
@@ -91,13 +93,14 @@ void addList(CLI::App& app, Action& action) {
         "  shadowbench list techniques --table --format latex --records results/published/results.jsonl\n"
         "  shadowbench list techniques --pages docs/techniques    a page of each, from the published records\n"
         "  shadowbench list limits                                how much files may ask for, and what protects from them");
-    verb->add_option("what", options->what, "techniques, scenes, metrics, limits or schema")
-        ->check(CLI::IsMember({"techniques", "scenes", "metrics", "limits", "schema"}));
+    verb->add_option("what", options->what,
+                     "techniques, scenes, metrics, limits, schema (of records) or technique-schema (of technique.toml)")
+        ->check(CLI::IsMember({"techniques", "scenes", "metrics", "limits", "schema", "technique-schema"}));
     verb->add_option("--format", options->format, "text, md or json; ids: one a line; latex: of --table")
         ->check(CLI::IsMember({"text", "md", "json", "ids", "latex"}))
         ->capture_default_str();
     verb->add_flag("--standard", options->standard, "With `scenes --format ids`: only those that a run takes by default");
-    addTechniqueFolderOption(*verb, options->folderRows);
+    addTechniqueFolderOption(*verb);
     CLI::Option* table = verb->add_flag(
         "--table", options->table,
         "Of techniques: source, strength and failure, each with the test that asserts it and a figure, as md or latex");

@@ -80,9 +80,9 @@ ExitCode dispatch(int argc, char** argv) {
 
     Action action;
     for (const auto& add :
-         {addList,    addInspect,      addRun,       addMerge,   addScore,  addReference,  addSweep,       addCauses,
-          addDevelop, addNewTechnique, addRecommend, addClaims,  addPapers, addShaderCost, addGpuCost,     addExport,
-          addCompare, addGate,         addCi,        addHistory, addCache,  addReport,     addCountFrames, addTimeFrames})
+         {addList,  addInspect,      addRun,       addMerge,  addScore,  addReference,   addSweep,     addCauses, addDevelop,
+          addCheck, addNewTechnique, addRecommend, addClaims, addPapers, addShaderCost,  addGpuCost,   addExport, addCompare,
+          addGate,  addCi,           addHistory,   addCache,  addReport, addCountFrames, addTimeFrames})
         add(app, action);
     addDocuments(app, action);
 

@@ -34,6 +34,15 @@ void addTechniqueFolderOption(CLI::App& verb, std::vector<std::string>& techniqu
         "rows run");
 }
 
+void addTechniqueFolderOption(CLI::App& verb) {
+    verb.add_option_function<std::vector<std::filesystem::path>>(
+        "--technique-folder",
+        [](const std::vector<std::filesystem::path>& folders) {
+            for (const std::filesystem::path& folder : folders) techniques::addTechniqueFolder(folder);
+        },
+        "Folder that is a technique of your own, my:ID (docs/technique-folders.md); repeatable");
+}
+
 void addStaticOption(CLI::App& verb, bool& standing) {
     verb.add_flag("--static", standing,
                   "Costs are of scenes where light and casters stand still: with what techniques keep from frame to frame "

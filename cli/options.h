@@ -24,6 +24,9 @@ void addGlOption(CLI::App& verb);
 /// `techniques`.
 void addTechniqueFolderOption(CLI::App& verb, std::vector<std::string>& techniques);
 
+/// The same of a verb that names them all.
+void addTechniqueFolderOption(CLI::App& verb);
+
 /// `standing` is set where light and casters stand still.
 void addStaticOption(CLI::App& verb, bool& standing);
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/limits.h"
 #include "harness/cells/environment.h"
 #include "harness/cells/image_scores.h"
 #include "harness/measure/changed_cost.h"
@@ -11,6 +12,7 @@
 #include "techniques/gl/context.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace shadowbench {
@@ -103,6 +105,13 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
     if (auto reason = techniques::lightWithoutAnswer(scene, *variant.entry)) return reason;
     if (variant.entry->notApplicable) return variant.entry->notApplicable(scene);
     return std::nullopt;
+}
+
+std::chrono::seconds longestFor(const Scene& scene, const techniques::Variant& variant) {
+    if (variant.entry->digest.empty()) return std::chrono::seconds(0);
+    const double size = std::max(1.0, scene.size.x * scene.size.y / (256.0 * 256.0));
+    return std::chrono::seconds(
+        static_cast<std::int64_t>(std::ceil(static_cast<double>(limitOf(Limit::CellSeconds)) * size)));
 }
 
 void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record,

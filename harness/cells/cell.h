@@ -7,6 +7,7 @@
 #include "harness/records/record.h"
 #include "techniques/contract/entry.h"
 
+#include <chrono>
 #include <map>
 #include <optional>
 #include <vector>
@@ -46,6 +47,10 @@ std::string cellId(const Truths& truths, const Scene& scene, const techniques::V
 
 /// Why the variant does not apply to the scene; nothing if it does.
 std::optional<std::string> notApplicable(const Scene& scene, const techniques::Variant& variant);
+
+/// How long a cell may take to be drawn and scored, its truths being there: of a technique folder, whose shaders may hang.
+/// 0: as long as it does.
+std::chrono::seconds longestFor(const Scene& scene, const techniques::Variant& variant);
 
 /// Fills in status, references, accuracy, stability and work of a blank record. Throws what rendering or the truth throws,
 /// and InternalError when more than 0.1 % of the primary hits disagree with the truth's: that is an error of the set-up, not

@@ -1,6 +1,7 @@
 #include "harness/runs/run.h"
 
 #include "base/files.h"
+#include "base/limits.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress_line.h"
@@ -226,9 +227,15 @@ private:
             ++done;
             lostCells.emplace(cells_[i], how);
         };
+        work.limit = [this](std::size_t i) { return longestFor(sceneOf(cells_[i]), variantOf(cells_[i])) * drawings(); };
         shareAmongProcesses(workers(), work);
         line.show(done, 0, "");
         for (const auto& [cell, how] : lostCells) keep(cell, lost(cell, how));
+    }
+
+    /// How often a cell is drawn, at most.
+    [[nodiscard]] int drawings() const {
+        return options_.measure.seeds + options_.measure.views - 1 + (options_.measure.neighbours ? 2 : 0);
     }
 
     /// In a worker.
@@ -250,7 +257,10 @@ private:
     MeasuredCell lost(std::size_t cell, const std::string& how) {
         makeContext();
         const bool isKilled = how.ends_with(fmt::format("signal {}", SIGKILL)); // as by a system without memory
-        const InternalError error(fmt::format("the process that rendered it {}", how),
+        const bool isLate = how.ends_with("was ended");
+        const std::string remedy =
+            isLate ? fmt::format(": shorten its shaders' loops, or raise {}", variableOf(Limit::CellSeconds)) : "";
+        const InternalError error(fmt::format("the process that rendered it {}{}", how, remedy),
                                   isKilled ? Failure::Transient : Failure::Lasting);
         return {"", cellsOf(sceneOf(cell)).failed(variantOf(cell), "", error), error.code(), error.isTransient()};
     }

@@ -1,7 +1,11 @@
 // What a scene file demands of scores: a viewer's tolerances, and what is expected of techniques.
+#include "base/words.h"
+#include "scene/load/expectations.h"
+#include "scene/load/load.h"
 #include "scene/load/scene_file.h"
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace shadowbench {
@@ -49,6 +53,16 @@ void readBreaks(const TomlValue& list, bool ranged, Scene& scene) {
     }
 }
 
+/// A built-in one by its id, another by its file beside `folder`'s own.
+std::string readSceneName(const TomlValue& value, const std::filesystem::path& folder) {
+    const std::string name = readSentence(value);
+    if (std::ranges::count(builtinScenes(), name) > 0) return name;
+    if (std::filesystem::path(name).filename() != name || !std::filesystem::is_regular_file(folder / name))
+        value.fail(fmt::format("\"{}\" is neither a scene that is built in nor a file beside this one{}", name,
+                               didYouMean(name, builtinScenes())));
+    return (folder / name).string();
+}
+
 } // namespace
 
 std::map<std::string, double> readTolerances(const TomlValue& value, const std::vector<std::string>& metrics) {
@@ -64,6 +78,27 @@ void readExpectations(const TomlValue& value, const std::vector<std::string>& me
     if (const auto holds = value.find("holds")) scene.holds = readExpectationList(*holds, "below", metrics);
     if (const auto breaks = value.find("breaks")) readBreaks(*breaks, true, scene);
     if (const auto never = value.find("never_breaks")) readBreaks(*never, false, scene);
+}
+
+std::vector<SceneExpectations> parseExpectations(std::string_view toml, const std::filesystem::path& file,
+                                                 const std::vector<std::string>& metrics) {
+    const toml::table table = parseToml(toml, file.string());
+    const TomlSource source{file.string(), profileNames(), std::string(name(Profile::Gate)), kLargestNumber};
+    const TomlValue root(source, "", table);
+    root.only({"expect"});
+    std::vector<SceneExpectations> all;
+    for (const TomlValue& entry : root.get("expect").list()) {
+        entry.only({"scene", "fails", "holds"});
+        SceneExpectations read{readSceneName(entry.get("scene"), file.parent_path()), {}, {}};
+        if (const auto fails = entry.find("fails")) read.fails = readExpectationList(*fails, "above", metrics);
+        if (const auto holds = entry.find("holds")) read.holds = readExpectationList(*holds, "below", metrics);
+        if (read.fails.empty() && read.holds.empty()) entry.fail("says neither what fails nor what holds");
+        if (std::ranges::count(all, read.scene, &SceneExpectations::scene) > 0)
+            entry.get("scene").fail("has an entry above; put both together");
+        all.push_back(std::move(read));
+    }
+    if (all.empty()) root.get("expect").fail("expects nothing; leave the file out");
+    return all;
 }
 
 } // namespace shadowbench

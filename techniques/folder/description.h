@@ -5,6 +5,8 @@
 #include "techniques/gl/program.h"
 
 #include <filesystem>
+#include <glm/vec4.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -31,6 +33,12 @@ struct FolderTarget {
     bool history = false; // its texels of the frame before can be read
 };
 
+/// What is drawn with what is there already.
+enum class Blend { Add, Min, Max, Multiply };
+
+/// Which triangles of casters are left out.
+enum class Cull { None, Front, Back };
+
 struct FolderPass {
     std::string name;
     bool casters = false;        // draws them into the map; else one triangle over the screen
@@ -38,7 +46,12 @@ struct FolderPass {
     std::vector<std::string> to; // targets, one of depth at most, or `visibility` alone
     gl::Defines defines;
     Amount slopeOffset = 0.0, unitOffset = 0.0; // of casters (shared/maps/depth_map.h, Bias)
-    glm::vec4 clear{0};                         // of colours, before casters are drawn
+    std::optional<glm::vec4> clear;             // of colours, before anything is drawn; of casters always
+    std::optional<Blend> blend;
+    Cull cull = Cull::None;
+    bool depthTest = true;
+    Amount repeat = 1.0; // how often; said by the first pass of a group
+    std::string group;   // passes in a row with this name are repeated in turns; "": alone
 };
 
 struct TechniqueFolder {
@@ -56,13 +69,22 @@ inline constexpr int mostTexelsOfSide = 8192;
 /// What a pass writes that is the technique's answer.
 inline constexpr const char* visibilityTarget = "visibility";
 
+/// Of samplers that have the texels of the frame before.
+inline constexpr std::string_view historyPrefix = "previous_";
+
 /// The rows of folders are `my:ID`.
 inline constexpr std::string_view folderPrefix = "my:";
+
+/// What shaders call a parameter: its name in capitals; a choice is one of `name_word`.
+std::string macroOf(std::string name);
 
 /// Lower-case letters, digits and -, 40 at most.
 bool isFolderId(std::string_view id);
 
 /// Throws BadInput with the file, the line and the key of what is wrong, or the file that is missing.
 TechniqueFolder readTechniqueFolder(const std::filesystem::path& folder);
+
+/// The same of texts: of technique.toml, and of the shaders that lie beside it in `folder`.
+TechniqueFolder parseTechniqueFolder(const std::string& toml, const std::filesystem::path& folder, gl::ShaderFiles shaders);
 
 } // namespace shadowbench::techniques

@@ -1,15 +1,14 @@
 #include "techniques/folder/folder_technique.h"
 
 #include "base/error.h"
-#include "base/words.h"
 #include "techniques/folder/inputs.h"
+#include "techniques/folder/pass_program.h"
 #include "techniques/gl/api.h"
 #include "techniques/shared/light_views/focused_view.h"
 #include "techniques/shared/maps/depth_map.h"
 #include "techniques/shared/sampling/sampling.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 #include <functional>
 #include <unordered_map>
@@ -17,48 +16,48 @@
 namespace shadowbench::techniques {
 namespace {
 
-constexpr const char* historyPrefix = "previous_"; // of samplers: the texels of the frame before
-
-std::string macroOf(std::string name) {
-    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return name;
-}
-
-/// A parameter is a macro by its name in capitals; a choice is one of name and word.
-gl::Defines definesOf(const Entry& entry, const Parameters& values) {
-    gl::Defines defines;
-    for (const Parameter& parameter : entry.parameters) {
-        const std::string& value = values.text(parameter.name);
-        if (std::holds_alternative<OneOf>(parameter.domain))
-            defines.emplace_back(macroOf(parameter.name + "_" + value), "1");
-        else if (std::holds_alternative<RealRange>(parameter.domain))
-            defines.emplace_back(macroOf(parameter.name), fmt::format("{:#.9g}", values.real(parameter.name)));
-        else
-            defines.emplace_back(macroOf(parameter.name), value);
-    }
-    return defines;
-}
-
 double valueOf(const Amount& amount, const Parameters& values) {
     if (const double* number = std::get_if<double>(&amount)) return *number;
     return values.real(std::get<std::string>(amount));
 }
 
-/// What the compiler said first, with the file and line of the folder that it is about.
-[[noreturn]] void throwFirstLine(const InternalError& error) {
-    const std::string text = error.what();
-    const std::size_t begin = text.find('\n');
-    throw BadInput(begin == std::string::npos ? text : text.substr(begin + 1, text.find('\n', begin + 1) - begin - 1));
-}
+/// As long as it lives; everything else draws without.
+class Blending {
+public:
+    explicit Blending(std::optional<Blend> blend) {
+        if (!blend) return;
+        glEnable(GL_BLEND);
+        glBlendFunc(blend == Blend::Multiply ? GL_DST_COLOR : GL_ONE, blend == Blend::Multiply ? GL_ZERO : GL_ONE);
+        glBlendEquation(blend == Blend::Min ? GL_MIN : blend == Blend::Max ? GL_MAX : GL_FUNC_ADD);
+    }
+    ~Blending() {
+        glBlendEquation(GL_FUNC_ADD);
+        glDisable(GL_BLEND);
+    }
+    Blending(const Blending&) = delete;
+    Blending& operator=(const Blending&) = delete;
+};
+
+class Culling {
+public:
+    explicit Culling(Cull cull) {
+        if (cull == Cull::None) return;
+        glEnable(GL_CULL_FACE);
+        glCullFace(cull == Cull::Front ? GL_FRONT : GL_BACK);
+    }
+    ~Culling() {
+        glCullFace(GL_BACK);
+        glDisable(GL_CULL_FACE);
+    }
+    Culling(const Culling&) = delete;
+    Culling& operator=(const Culling&) = delete;
+};
 
 class FolderTechnique final : public Technique {
 public:
     FolderTechnique(std::shared_ptr<const TechniqueFolder> folder, const Parameters& values)
         : folder_(std::move(folder)), values_(values) {
-        for (const FolderPass& pass : folder_->passes) {
-            programs_.push_back(programOf(pass));
-            requireKnownUniforms(programs_.back(), pass);
-        }
+        for (const FolderPass& pass : folder_->passes) programs_.push_back(programOf(*folder_, pass, values_));
     }
 
     void reset() override {
@@ -71,9 +70,15 @@ public:
         if (imageSize_ != frame.size) reset();
         imageSize_ = frame.size;
         if (targets_.empty()) makeTargets();
-        for (std::size_t i = 0; i < folder_->passes.size(); ++i) {
-            const auto pass = frame.pass(folder_->passes[i].name);
-            draw(folder_->passes[i], programs_[i], frame, visibility);
+        for (std::size_t first = 0; first < folder_->passes.size();) {
+            const std::size_t end = endOfGroup(first);
+            const int repetitions = static_cast<int>(valueOf(folder_->passes[first].repeat, values_));
+            for (repetition_ = 0; repetition_ < repetitions; ++repetition_)
+                for (std::size_t i = first; i < end; ++i) {
+                    const auto pass = frame.pass(folder_->passes[i].name);
+                    draw(folder_->passes[i], programs_[i], frame, visibility);
+                }
+            first = end;
         }
         for (auto& [name, target] : targets_)
             if (target.before) std::swap(target.now, *target.before);
@@ -92,39 +97,11 @@ private:
         std::optional<gl::Texture> before = {}; // of a target with a history
     };
 
-    [[nodiscard]] gl::Program programOf(const FolderPass& pass) const {
-        const std::string vertex =
-            pass.casters ? (pass.fragment.empty() ? "shared/maps/depth_map.vert" : "folder/casters.vert") : "gl/screen.vert";
-        if (pass.fragment.empty()) return {vertex, "gl/depth_only.frag"};
-        gl::Defines defines = definesOf(folder_->entry, values_);
-        defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
-        try {
-            return gl::Program::ofFolder(vertex, {folder_->path.string(), folder_->shaders}, pass.fragment, defines);
-        } catch (const InternalError& error) {
-            throwFirstLine(error);
-        }
-    }
-
-    /// All but what the program sets by itself for casters.
-    void requireKnownUniforms(const gl::Program& program, const FolderPass& pass) const {
-        static const std::vector<std::string> ofCasters{"clipFromWorld", "lightPlane"};
-        std::vector<std::string> known = pass.casters ? ofCasters : std::vector<std::string>();
-        for (const FolderInput& input : folderInputs()) known.emplace_back(input.name);
-        for (const FolderTarget& target : folder_->targets) {
-            known.push_back(target.name);
-            if (target.history) known.push_back(historyPrefix + target.name);
-        }
-        for (const auto& [name, type] : program.uniformTypes()) {
-            const auto file = [&] { return fmt::format("{}/{}", folder_->path.string(), pass.fragment); };
-            if (std::ranges::find(known, name) == known.end())
-                throw BadInput(fmt::format("{}: nothing sets the uniform \"{}\"{}; parameters are macros in capitals",
-                                           file(), name, didYouMean(name, known)));
-            const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name);
-            if (input != folderInputs().end() && type != input->type)
-                throw BadInput(fmt::format("{}: the uniform \"{}\" is {}, not {}", file(), name, input->type, type));
-            if (std::ranges::find(pass.to, name) != pass.to.end())
-                throw BadInput(fmt::format("{}: the pass \"{}\" reads {}, which it writes", file(), pass.name, name));
-        }
+    [[nodiscard]] std::size_t endOfGroup(std::size_t first) const {
+        const std::string& group = folder_->passes[first].group;
+        std::size_t end = first + 1;
+        while (!group.empty() && end < folder_->passes.size() && folder_->passes[end].group == group) ++end;
+        return end;
     }
 
     [[nodiscard]] LightView fit(const Frame& frame) const {
@@ -183,7 +160,7 @@ private:
         if (pass.casters)
             drawCasters(pass, program, frame, attachments);
         else
-            drawScreen(program, attachments);
+            drawScreen(pass, program, attachments);
         for (const std::string& name : pass.to)
             if (name != visibilityTarget && hasMipmaps(name)) targets_.at(name).now.makeMipmaps();
     }
@@ -193,21 +170,24 @@ private:
     }
 
     void setInputs(gl::Program& program, const Frame& frame) const {
-        const FolderState state{frame, view_, historyFrames_};
+        const FolderState state{frame, view_, historyFrames_, repetition_};
         for (const auto& [name, type] : program.uniformTypes()) {
             const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name);
             if (input != folderInputs().end()) input->set(program, name, state);
             if (const auto target = targets_.find(name); target != targets_.end()) program.set(name, target->second.now);
             if (name.starts_with(historyPrefix))
-                if (const auto target = targets_.find(name.substr(std::string_view(historyPrefix).size()));
-                    target != targets_.end())
+                if (const auto target = targets_.find(name.substr(historyPrefix.size())); target != targets_.end())
                     program.set(name, *target->second.before);
         }
     }
 
-    static void drawScreen(const gl::Program& program, const std::vector<const gl::Texture*>& attachments) {
+    static void drawScreen(const FolderPass& pass, const gl::Program& program,
+                           const std::vector<const gl::Texture*>& attachments) {
         const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
+        if (pass.clear)
+            for (std::size_t i = 0; i < attachments.size(); ++i) target.clearColour(static_cast<int>(i), *pass.clear);
         target.bind();
+        const Blending blending(pass.blend);
         program.drawScreen();
     }
 
@@ -215,19 +195,23 @@ private:
     void drawCasters(const FolderPass& pass, gl::Program& program, const Frame& frame,
                      std::vector<const gl::Texture*> attachments) {
         const auto isDepth = [](const gl::Texture* t) { return t->format() == gl::Format::Depth32F; };
-        if (std::ranges::none_of(attachments, isDepth)) {
+        if (pass.depthTest && std::ranges::none_of(attachments, isDepth)) {
             const glm::ivec2 size = attachments.front()->size();
             if (!ownDepths_ || ownDepths_->size() != size) ownDepths_.emplace(gl::Format::Depth32F, size);
             attachments.push_back(&*ownDepths_);
         }
         std::ranges::stable_partition(attachments, std::not_fn(isDepth));
         const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
-        for (std::size_t i = 0; i + 1 < attachments.size(); ++i) target.clearColour(static_cast<int>(i), pass.clear);
-        target.clearDepth(1);
+        const auto colours = std::ranges::count_if(attachments, std::not_fn(isDepth));
+        for (int i = 0; i < colours; ++i) target.clearColour(i, *pass.clear);
+        if (pass.depthTest) target.clearDepth(1);
         target.bind();
         const CasterPass casters(program, view_,
                                  {.factor = static_cast<float>(valueOf(pass.slopeOffset, values_)),
                                   .units = static_cast<float>(valueOf(pass.unitOffset, values_))});
+        const Blending blending(pass.blend);
+        const Culling culling(pass.cull);
+        if (!pass.depthTest) glDisable(GL_DEPTH_TEST); // until the next pass sets it
         frame.scene.draw();
     }
 
@@ -238,7 +222,7 @@ private:
     std::optional<gl::Texture> ownDepths_;
     LightView view_;
     glm::ivec2 imageSize_{0};
-    int historyFrames_ = 0;
+    int historyFrames_ = 0, repetition_ = 0;
 };
 
 } // namespace

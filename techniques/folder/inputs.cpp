@@ -63,6 +63,8 @@ constexpr std::array inputs{
                 [](gl::Program& p, Name n, State s) { p.set(n, s.frame.index); }},
     FolderInput{"historyFrames", "int", "frames since the history was forgotten: 0 in the first",
                 [](gl::Program& p, Name n, State s) { p.set(n, s.historyFrames); }},
+    FolderInput{"repetition", "int", "how often the pass or its group was drawn in this frame before",
+                [](gl::Program& p, Name n, State s) { p.set(n, s.repetition); }},
     FolderInput{"seed", "int", "of pseudo-random choices",
                 [](gl::Program& p, Name n, State s) { p.set(n, static_cast<int>(s.frame.seed)); }},
 };

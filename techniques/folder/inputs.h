@@ -16,6 +16,7 @@ struct FolderState {
     const Frame& frame;
     const LightView& view;
     int historyFrames; // drawn since the history was forgotten
+    int repetition;    // of the pass or its group, from 0
 };
 
 struct FolderInput {

@@ -8,17 +8,21 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace shadowbench::techniques {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// Its id in technique.toml, and its rows in expect.toml.
 std::string withId(std::string text, const std::string& like, const std::string& id) {
-    const std::string line = fmt::format("id = \"{}\"", like);
-    const std::size_t at = text.find(line);
-    if (at == std::string::npos) throw InternalError(fmt::format("the template {} does not say its id", like));
-    return text.replace(at, line.size(), fmt::format("id = \"{}\"", id));
+    for (const auto& [quoted, other] : {std::pair(fmt::format("id = \"{}\"", like), fmt::format("id = \"{}\"", id)),
+                                        std::pair(fmt::format("\"my:{}\"", like), fmt::format("\"my:{}\"", id)),
+                                        std::pair(fmt::format("\"my:{}:", like), fmt::format("\"my:{}:", id))})
+        for (std::size_t at = text.find(quoted); at != std::string::npos; at = text.find(quoted, at + other.size()))
+            text.replace(at, quoted.size(), other);
+    return text;
 }
 
 } // namespace
@@ -49,7 +53,7 @@ std::vector<fs::path> writeFromTemplate(const std::string& like, const std::stri
         if (!file.path.starts_with(like + "/")) continue;
         const fs::path name = file.path.substr(like.size() + 1);
         const std::string text(file.text);
-        writeFile(folder / name, name == "technique.toml" ? withId(text, like, id) : text);
+        writeFile(folder / name, name.extension() == ".toml" ? withId(text, like, id) : text);
         written.push_back(folder / name);
     }
     return written;

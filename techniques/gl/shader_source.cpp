@@ -1,8 +1,10 @@
 #include "base/error.h"
+#include "base/words.h"
 #include "embedded_shaders.h"
 #include "techniques/gl/program.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -22,6 +24,18 @@ std::string_view embeddedText(const std::string& file, const std::string& includ
     return found->text;
 }
 
+/// The file of a line `#include "file"`, with blanks wherever GLSL's own directives may have them.
+std::optional<std::string> includedBy(std::string_view line) {
+    const auto skip = [&](std::string_view word) {
+        const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+        if (!line.substr(begin).starts_with(word)) return false;
+        line.remove_prefix(begin + word.size());
+        return true;
+    };
+    if (!skip("#") || !skip("include") || !skip("\"")) return std::nullopt;
+    return std::string(line.substr(0, line.find('"')));
+}
+
 /// Collects the lines of a source and of what it includes, each included file once.
 class Assembly {
 public:
@@ -36,8 +50,8 @@ public:
         if (own_ != nullptr && own_->files.contains(file))
             appendText(own_->path + "/" + file, own_->files.at(file));
         else if (own_ != nullptr && !isEmbedded(file))
-            throw InternalError(includedFrom + ": there is no shader \"" + file +
-                                "\", neither in the folder nor among those that come with the program");
+            throw InternalError(includedFrom + ": there is no shader \"" + file + "\"" + didYouMean(file, includable()) +
+                                ", neither in the folder nor among those that come with the program");
         else
             appendText(file, std::string(embeddedText(file, includedFrom)));
     }
@@ -47,8 +61,8 @@ public:
         std::string line;
         for (int number = 1; std::getline(lines, line); ++number) {
             const std::string origin = name + ":" + std::to_string(number);
-            if (line.starts_with("#include \""))
-                appendFile(line.substr(10, line.find('"', 10) - 10), origin);
+            if (const auto file = includedBy(line))
+                appendFile(*file, origin);
             else
                 add(line, origin);
         }
@@ -63,6 +77,13 @@ private:
     void add(const std::string& line, const std::string& origin) {
         source_.text += line + "\n";
         source_.origin.push_back(origin);
+    }
+
+    [[nodiscard]] std::vector<std::string> includable() const {
+        std::vector<std::string> names;
+        for (const auto& [name, text] : own_->files) names.push_back(name);
+        for (const embedded::File& file : embedded::shaders()) names.emplace_back(file.path);
+        return names;
     }
 
     const ShaderFolder* own_;

@@ -57,6 +57,18 @@ TEST(WorkerProcesses, ShareTheThreadsOfTheProcessThatStartsThem) {
     EXPECT_EQ(availableThreads(), here);
 }
 
+TEST(WorkerProcesses, AreEndedAfterTheLimitOfTheirItemAndReplaced) {
+    Outcome outcome;
+    SharedWork work = outcome.work(4, [](std::size_t item, const Progress&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(item == 1 ? 60'000 : item == 2 ? 1500 : 0));
+        return std::string("done");
+    });
+    work.limit = [](std::size_t item) { return std::chrono::seconds(item == 1 ? 1 : 0); }; // 2 has none
+    shareAmongProcesses(1, work);
+    EXPECT_EQ(outcome.lost, (std::map<std::size_t, std::string>{{1, "took longer than 1 s and was ended"}}));
+    EXPECT_EQ(outcome.answers.size(), 3U);
+}
+
 TEST(WorkerProcesses, HaveNothingToDoWithoutItems) {
     Outcome outcome;
     shareAmongProcesses(2, outcome.work(0, [](std::size_t, const Progress&) { return std::string(); }));

@@ -18,11 +18,6 @@ double figure(const Json& state, const std::string& name, const std::string& whi
 }
 
 const std::string allLit = replaced(mapShader, "shadowTest(depths, testedPoint(receiver))", "1.0");
-/// Some minutes of each pixel.
-const std::string hanging =
-    replaced(mapShader, "    visibility =",
-             "    float sum = 0.0;\n    for (int i = 0; i < 60000; ++i) for (int k = 0; k < 60000; ++k) "
-             "sum += sin(float(i * k) + gl_FragCoord.x);\n    visibility = sum > 1e9 ? 0.0 :");
 
 class Develop : public testing::Test {
 protected:
@@ -102,7 +97,7 @@ TEST_F(Develop, AnErrorStandsWithItsPlaceUntilItIsSetRight) {
 TEST_F(Develop, ANewerSaveStopsADrawingThatHangs) {
     const LivePage page = this->page();
     const int number = page.drawnAfter(0)["rows"][0]["last"];
-    mine_.write("resolve.frag", hanging);
+    mine_.write("resolve.frag", hangingShader);
     EXPECT_TRUE(page.stateWhere([](const Json& state) { return state["drawing"].get<bool>(); })["drawing"]);
     mine_.write("resolve.frag", allLit);
     EXPECT_EQ(figure(page.drawnAfter(number), "false shadow"), 0);
@@ -131,7 +126,7 @@ TEST_F(Develop, StrangersAreRefused) {
 
 TEST_F(Develop, AnInterruptLeavesNoFolderAndNoProgram) {
     for (const int signal : {SIGINT, SIGTERM}) {
-        mine_.write("resolve.frag", hanging);
+        mine_.write("resolve.frag", hangingShader);
         LivePage page = this->page();
         EXPECT_TRUE(page.stateWhere([](const Json& state) { return state["drawing"].get<bool>(); })["drawing"]);
         while (programs() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -13,10 +13,11 @@ class TechniqueFolderRun : public testing::Test {
 protected:
     TechniqueFolderRun() { out_.write("tiny.toml", tinyScene()); }
 
-    Outcome run(const std::string& more = "") const {
-        return shell("shadowbench run --scene " + out_ / "tiny.toml" + " --technique-folder " + mine_.path().string() +
-                     " --cache " + out_ / "cache" + " --out " + out_ / "out" + " --quiet " + more);
+    [[nodiscard]] std::string command(const std::string& more) const {
+        return "shadowbench run --scene " + out_ / "tiny.toml" + " --technique-folder " + mine_.path().string() +
+               " --cache " + out_ / "cache" + " --out " + out_ / "out" + " --quiet " + more;
     }
+    Outcome run(const std::string& more = "") const { return shell(command(more)); }
     [[nodiscard]] std::vector<Record> records() const { return readRecords(out_ / "out/results.jsonl"); }
 
     WrittenTechnique mine_;
@@ -59,6 +60,36 @@ TEST_F(TechniqueFolderRun, AWrongShaderIsOneLineThatNamesItsPlace) {
     EXPECT_NE(outcome.output.find("error: my:mine on tiny: " + (mine_.path() / "resolve.frag").string() + ":8: "),
               std::string::npos)
         << outcome.output;
+}
+
+TEST_F(TechniqueFolderRun, ABrokenFolderIsOneLineAndNothingIsWritten) {
+    mine_.write("technique.toml", replaced(mapToml, "title", "titel"));
+    for (const std::string& words :
+         {command(""),
+          "shadowbench sweep --quiet --scene " + out_ / "tiny.toml" + " --technique my:mine --axis map --technique-folder " +
+              mine_.path().string() + " --out " + (out_ / "out"),
+          "shadowbench list techniques --technique-folder " + mine_.path().string(),
+          "shadowbench check " + mine_.path().string()}) {
+        const Outcome outcome = shell(words);
+        EXPECT_EQ(outcome.code, 2) << outcome.output;
+        EXPECT_EQ(outcome.output, "shadowbench: " + (mine_.path() / "technique.toml").string() +
+                                      ":2: titel: unknown key (did you mean \"title\"?)\n");
+        EXPECT_FALSE(std::filesystem::exists(out_ / "out")) << words;
+    }
+}
+
+TEST_F(TechniqueFolderRun, AShaderThatHangsIsOneLineAndTheOtherRowsGoOn) {
+    mine_.write("resolve.frag", hangingShader);
+    const Outcome outcome =
+        shell("SHADOWBENCH_MAX_CELL_SECONDS=2 " + command("--technique my:mine --technique none --cost none"));
+    EXPECT_EQ(outcome.code, 1) << outcome.output;
+    EXPECT_NE(outcome.output.find("error: my:mine on tiny: the process that rendered it took longer than 2 s and was ended: "
+                                  "shorten its shaders' loops, or raise SHADOWBENCH_MAX_CELL_SECONDS"),
+              std::string::npos)
+        << outcome.output;
+    ASSERT_EQ(records().size(), 2U);
+    EXPECT_EQ(records()[0].status, Status::Error);
+    EXPECT_EQ(records()[1].status, Status::Scored);
 }
 
 } // namespace

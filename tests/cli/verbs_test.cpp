@@ -48,10 +48,10 @@ std::vector<std::string> verbsWithHelp(const std::string& verb = "") {
 TEST(CommandLine, HelpOfTheProgramNamesEveryVerbAndEachHasAnExample) {
     const std::vector<std::string> verbs = verbsWithHelp();
     for (const char* verb :
-         {"list",         "inspect",      "run",         "merge",         "score",   "reference", "sweep",
-          "causes",       "recommend",    "claims",      "export",        "compare", "gate",      "history",
-          "history add",  "history show", "develop",     "new-technique", "report",  "cache",     "cache list",
-          "cache verify", "cache prune",  "shader-cost", "gpu-cost",      "ci"})
+         {"list",        "inspect",      "run",         "merge",       "score",         "reference", "sweep",
+          "causes",      "recommend",    "claims",      "export",      "compare",       "gate",      "history",
+          "history add", "history show", "develop",     "check",       "new-technique", "report",    "cache",
+          "cache list",  "cache verify", "cache prune", "shader-cost", "gpu-cost",      "ci"})
         EXPECT_EQ(std::ranges::count(verbs, verb), 1) << verb;
     EXPECT_EQ(std::ranges::count(verbs, "count-frames"), 0) << "for the program's own use";
 }

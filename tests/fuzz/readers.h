@@ -44,6 +44,11 @@ void readClaimList(std::string_view input);
 void readBehaviourList(std::string_view input);
 void readPaperPages(std::string_view input);
 
+// read_techniques.cpp
+void readTechniqueDescription(std::string_view input);
+void readTechniqueShader(std::string_view input); // with what it includes, before it is compiled
+void readExpectationList(std::string_view input);
+
 // read_words.cpp
 void readWords(std::string_view input); // of the command line
 

@@ -47,6 +47,9 @@ constexpr auto all = std::to_array<Target>({
     {"claims", Kind::Text, 8192, "json", "", readClaimList},
     {"behaviours", Kind::Text, 4096, "json", "", readBehaviourList},
     {"papers", Kind::Text, 8192, "json", "", readPaperPages},
+    {"technique", Kind::Text, 4096, "toml", "", readTechniqueDescription},
+    {"technique_shader", Kind::Text, 2048, "words", "", readTechniqueShader},
+    {"expectations", Kind::Text, 4096, "toml", "", readExpectationList},
     {"words", Kind::Text, 256, "words", "", readWords},
 });
 

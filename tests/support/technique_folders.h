@@ -48,6 +48,19 @@ void main() {
 }
 )";
 
+/// `text` with the first `from` in it replaced.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
+/// Minutes for an image of any size, in as many rounds as llvmpipe runs of a shader's loops together.
+inline const std::string hangingShader =
+    "#define SIN sum += sin(sum + float(k));\n#define SIN8 SIN SIN SIN SIN SIN SIN SIN SIN\n" +
+    replaced(
+        mapShader, "    visibility =",
+        "    float sum = gl_FragCoord.x;\n    for (int k = 0; k < 60000; ++k) { SIN8 SIN8 SIN8 SIN8 SIN8 SIN8 SIN8 SIN8 }\n"
+        "    visibility = sum > 1e9 ? 0.0 :");
+
 class WrittenTechnique {
 public:
     explicit WrittenTechnique(const std::string& toml = mapToml, const std::string& shader = mapShader) {
@@ -66,10 +79,5 @@ public:
 private:
     TemporaryFolder folder_;
 };
-
-/// `text` with the first `from` in it replaced.
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    return text.replace(text.find(from), from.size(), to);
-}
 
 } // namespace shadowbench

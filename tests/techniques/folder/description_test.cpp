@@ -1,5 +1,6 @@
 // What technique.toml says, and the one line that a wrong one gets.
 #include "techniques/folder/inputs.h"
+#include "techniques/folder/keys.h"
 #include "tests/support/message_of.h"
 #include "tests/support/technique_folders.h"
 
@@ -106,6 +107,20 @@ TEST(TechniqueFolder, TheDocumentNamesEveryInputOfShaders) {
     for (const techniques::FolderInput& input : techniques::folderInputs())
         EXPECT_NE(page.find(fmt::format("| `{}` | {} | {} |", input.name, input.type, input.meaning)), std::string::npos)
             << input.name;
+}
+
+TEST(TechniqueFolder, TheDocumentNamesEveryKey) {
+    const std::string page = readFile(std::filesystem::path(SOURCE_FOLDER) / "docs/technique-folders.md");
+    for (const techniques::FolderKey& key : techniques::folderKeys()) {
+        const std::string row = fmt::format("| `{}` | {} | {} |", key.name, key.meaning, key.standard);
+        EXPECT_NE(page.find(row), std::string::npos) << row;
+    }
+}
+
+TEST(TechniqueFolder, TheSchemaForEditorsIsThatOfTheKeys) {
+    const std::string file = readFile(std::filesystem::path(SOURCE_FOLDER) / "docs/technique.schema.json");
+    EXPECT_EQ(file, techniques::folderSchema())
+        << "write it anew: shadowbench list technique-schema > docs/technique.schema.json";
 }
 
 TEST(TechniqueFolder, TheFirstOneOfTheDocumentIsOne) {

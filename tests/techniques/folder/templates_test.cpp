@@ -24,10 +24,13 @@ TEST(FolderTemplates, AreWrittenAsTheyStandInTheTreeUnderTheNewId) {
         const std::vector<fs::path> files = techniques::writeFromTemplate(name, "mine", folder);
         EXPECT_EQ(std::ssize(files), std::distance(fs::directory_iterator(source), fs::directory_iterator()));
         for (const fs::path& file : files)
-            if (file.filename() != "technique.toml") {
+            if (file.extension() != ".toml") {
                 EXPECT_EQ(readFile(file), readFile(source / file.filename()));
             }
         EXPECT_EQ(techniques::readTechniqueFolder(folder).entry.id, "my:mine");
+        const std::string expected = readFile(folder / "expect.toml");
+        EXPECT_NE(expected.find("\"my:mine\""), std::string::npos);
+        EXPECT_EQ(expected.find("my:" + name), std::string::npos);
     }
 }
 

@@ -125,6 +125,78 @@ TEST(FolderTechnique, CastersWriteTheirDepthAndTheMapIsAveragedIntoItsMipmaps) {
     EXPECT_LE(mean, 1.0F);
 }
 
+/// Of a box over a slab, both closed, seen from above: how many faces lie one over the other.
+float layersAt(const std::string& more, const char* value) {
+    const std::string layers = "[target.layers]\nformat = \"R32F\"\nsize = 64\n\n[[pass]]\nname = \"layers\"\ndraw = "
+                               "\"casters\"\nfragment = \"layers.frag\"\nto = \"layers\"\n" +
+                               more + "\n";
+    std::string toml = replaced(mapToml, "[[pass]]\nname = \"resolve\"", layers + "[[pass]]\nname = \"resolve\"");
+    toml = "id = \"mine\"\n" + replaced(toml, "id = \"mine\"\n", "");
+    const WrittenTechnique folder(toml, "uniform sampler2D layers;\nout float visibility;\nvoid main() { visibility = "
+                                        "texelFetch(layers, ivec2(31, 31), 0).r / 16.0; }\n");
+    folder.write("layers.frag",
+                 fmt::format("in float casterDepth;\nout float layer;\nvoid main() {{ layer = {}; }}\n", value));
+    Scene scene = boxScene(32);
+    scene.light = {LightKind::Directional, {}, {0, -1, 0}, {}, {}};
+    Stage stage(scene);
+    stage.show(0);
+    const auto technique = folder.made();
+    return 16 * drawn(stage, *technique)(5, 5);
+}
+
+TEST(FolderTechnique, CastersAreBlendedWithoutADepthTestAndCulled) {
+    const std::string all = "depth_test = false\nblend = \"add\"";
+    EXPECT_EQ(layersAt("", "1.0"), 1);
+    EXPECT_GT(layersAt("blend = \"add\"\nclear = [5, 0, 0, 0]", "1.0"), 5);
+    const float both = layersAt(all, "1.0"), front = layersAt(all + "\ncull = \"back\"", "1.0"),
+                back = layersAt(all + "\ncull = \"front\"", "1.0");
+    EXPECT_EQ(both, front + back);
+    EXPECT_EQ(front, back); // closed
+    EXPECT_GE(front, 1);
+    EXPECT_EQ(layersAt("depth_test = false\nblend = \"multiply\"\nclear = [3, 0, 0, 0]", "2.0"), 3 * std::exp2(both));
+    // The nearest of all and the farthest: what the depth test keeps, and the floor's lower face.
+    const float nearest = layersAt("depth_test = false\nblend = \"min\"\nclear = [9, 0, 0, 0]", "casterDepth");
+    const float farthest = layersAt("depth_test = false\nblend = \"max\"", "casterDepth");
+    EXPECT_EQ(nearest, layersAt("", "casterDepth"));
+    EXPECT_GT(farthest, nearest);
+    EXPECT_EQ(farthest, layersAt("depth_test = false\nblend = \"max\"\ncull = \"front\"", "casterDepth"));
+}
+
+std::string roundsToml(const std::string& there, const std::string& back) {
+    return "id = \"rounds\"\ntitle = \"t\"\nanswer = \"hard\"\n[parameter.rounds]\ndefault = 3\nrange = [1, 8]\nmeaning = "
+           "\"m\"\n[target.a]\nformat = \"R32F\"\nsize = \"image\"\n[target.b]\nformat = \"R32F\"\nsize = \"image\"\n"
+           "[[pass]]\nname = \"begin\"\ndraw = \"screen\"\nfragment = \"one.frag\"\nto = \"a\"\n"
+           "[[pass]]\nname = \"there\"\ndraw = \"screen\"\nfragment = \"there.frag\"\nto = \"b\"\n" +
+           there + "[[pass]]\nname = \"back\"\ndraw = \"screen\"\nfragment = \"back.frag\"\nto = \"a\"\n" + back +
+           "[[pass]]\nname = \"resolve\"\ndraw = \"screen\"\nfragment = \"resolve.frag\"\nto = \"visibility\"\n";
+}
+
+/// `a` begins as 1; `there` doubles it and adds the repetition, `back` adds 0.25.
+float valueAfter(const std::string& there, const std::string& back, const std::string& parameters = "") {
+    const WrittenTechnique folder(roundsToml(there, back), "uniform sampler2D a;\nout float visibility;\nvoid main() { "
+                                                           "visibility = texelFetch(a, ivec2(0), 0).r / 256.0; }\n");
+    folder.write("one.frag", "out float v;\nvoid main() { v = 1.0; }\n");
+    folder.write("there.frag", "uniform sampler2D a;\nuniform int repetition;\nout float v;\nvoid main() { v = 2.0 * "
+                               "texelFetch(a, ivec2(0), 0).r + float(repetition); }\n");
+    folder.write("back.frag",
+                 "uniform sampler2D b;\nout float v;\nvoid main() { v = texelFetch(b, ivec2(0), 0).r + 0.25; }\n");
+    const Scene scene = boxScene(32);
+    Stage stage(scene);
+    stage.show(0);
+    const auto technique = folder.made(parameters);
+    return 256 * drawn(stage, *technique)(5, 5);
+}
+
+TEST(FolderTechnique, PassesAreRepeatedAloneOrInTurns) {
+    EXPECT_EQ(valueAfter("", ""), 2.25F);
+    EXPECT_EQ(valueAfter("repeat = 2\n", ""), 3.25F); // of the same a, the second time with 1 more
+    EXPECT_EQ(valueAfter("group = \"g\"\nrepeat = 2\n", "group = \"g\"\n"), 5.75F); // 2.25, then 4.5 + 1 + 0.25
+    EXPECT_EQ(valueAfter("group = \"g\"\nrepeat = \"rounds\"\n", "group = \"g\"\n", "rounds=1"), 2.25F);
+    EXPECT_EQ(valueAfter("group = \"g\"\nrepeat = \"rounds\"\n", "group = \"g\"\n"), 13.75F); // 3: 11.5 + 2 + 0.25
+    EXPECT_EQ(valueAfter("", "blend = \"add\"\nrepeat = 4\n"), 10.0F);                        // 1 and four times 2.25
+    EXPECT_EQ(valueAfter("", "blend = \"add\"\nclear = [0, 0, 0, 0]\nrepeat = 4\n"), 2.25F);  // cleared each time
+}
+
 TEST(FolderTechnique, AShaderThatDoesNotCompileIsOneLineWithItsOwnPlace) {
     const auto errorOf = [](const std::string& shader) {
         const WrittenTechnique folder(mapToml, shader);
@@ -139,13 +211,13 @@ TEST(FolderTechnique, AShaderThatDoesNotCompileIsOneLineWithItsOwnPlace) {
         "/resolve.frag:1: there is no shader \"shared/nothing.glsl\", neither in the folder nor among those that come with "
         "the program");
     EXPECT_EQ(errorOf("uniform float strength;\nout float visibility;\nvoid main() { visibility = strength; }\n"),
-              "/resolve.frag: nothing sets the uniform \"strength\"; parameters are macros in capitals");
+              "/resolve.frag:1: nothing sets the uniform \"strength\"; parameters are macros in capitals");
     EXPECT_EQ(errorOf("uniform float seed;\nout float visibility;\nvoid main() { visibility = seed; }\n"),
-              "/resolve.frag: the uniform \"seed\" is int, not float");
-    EXPECT_EQ(
-        errorOf("uniform sampler2DShadow dephts;\nout float visibility;\nvoid main() { visibility = texture(dephts, "
-                "vec3(0.5)); }\n"),
-        "/resolve.frag: nothing sets the uniform \"dephts\" (did you mean \"depths\"?); parameters are macros in capitals");
+              "/resolve.frag:1: the uniform \"seed\" is int, not float");
+    EXPECT_EQ(errorOf("uniform sampler2DShadow dephts;\nout float visibility;\nvoid main() { visibility = texture(dephts, "
+                      "vec3(0.5)); }\n"),
+              "/resolve.frag:1: nothing sets the uniform \"dephts\" (did you mean \"depths\"?); parameters are macros in "
+              "capitals");
 }
 
 TEST(FolderTechnique, APassThatReadsWhatItWritesIsRefused) {

@@ -1,0 +1,48 @@
+#include "gate/check/check.h"
+
+#include "base/one_line.h"
+#include "cli/command.h"
+#include "cli/options.h"
+#include "groundtruth/store/cache.h"
+#include "techniques/catalog.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+
+namespace shadowbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+void print(const gate::CheckResult& result) {
+    if (result.wrong.empty())
+        fmt::print("holds  {}\n", result.what);
+    else
+        fmt::print("FAILS  {}: {}\n", result.what, onOneLine(result.wrong));
+    std::fflush(stdout); // some take a while
+}
+
+} // namespace
+
+void addCheck(CLI::App& app, Action& action) {
+    const auto folder = std::make_shared<fs::path>(), cache = std::make_shared<fs::path>();
+    CLI::App* verb = app.add_subcommand("check", "Checks what must hold of a technique folder, and what it expects itself");
+    verb->footer(
+        "Example: shadowbench check evsm\n"
+        "Draws each row on small scenes at the end of what there is, and its parameters at the ends of their ranges;\n"
+        "then judges its expect.toml. A line each; the exit code is 4 where one does not hold.\n"
+        "More: docs/technique-folders.md");
+    verb->add_option("folder", *folder, "Folder with a technique.toml and its shaders")->required();
+    verb->add_option("--cache", *cache, "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
+    addGlOption(*verb);
+    verb->callback([&action, folder, cache] {
+        techniques::addTechniqueFolder(*folder);
+        action = [folder, cache] {
+            return gate::checkFolder(*folder, cache->empty() ? groundtruth::defaultCacheFolder() : *cache, print);
+        };
+    });
+}
+
+} // namespace shadowbench

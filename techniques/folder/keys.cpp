@@ -1,0 +1,150 @@
+#include "techniques/folder/keys.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace shadowbench::techniques {
+namespace {
+
+using enum KeyTable;
+
+template <const auto& words>
+std::string oneOf() {
+    return fmt::format(R"("enum": ["{}"])", fmt::join(words.all(), R"(", ")"));
+}
+std::string text() { return R"("type": "string", "minLength": 1)"; }
+std::string flag() { return R"("type": "boolean")"; }
+std::string texts() { return R"("type": "array", "items": {"type": "string"})"; }
+std::string tables() { return R"("type": "object")"; } // of further names
+std::string scalar() { return R"("type": ["string", "number"])"; }
+std::string numbers(int count) {
+    return fmt::format(R"("type": "array", "minItems": {0}, "maxItems": {0}, "items": {{"type": "number"}})", count);
+}
+
+constexpr std::array keys{
+    FolderKey{Root, "id", "lower-case letters, digits and `-`; the rows are `my:ID`", "needed",
+              [] { return std::string(R"("type": "string", "pattern": "^[a-z0-9-]{1,40}$")"); }},
+    FolderKey{Root, "title", "for people", "needed", text},
+    FolderKey{Root, "source", "the paper, for people", "none", text},
+    FolderKey{Root, "answer",
+              "`hard` (lit or not, from the light's centre), `filtered` (a hard shadow with smoothed edges), or `soft` (the "
+              "visible fraction of an area light): it decides which truth the row is scored against",
+              "needed", oneOf<answers>},
+    FolderKey{Root, "history",
+              "`true`: keeps texels from frame to frame, so frames are drawn in order and ghosts are looked for", "`false`",
+              flag},
+    FolderKey{Root, "view",
+              "what the light's view holds: `scene`; `focused`, what the camera sees; or `light-sample`, the scene from "
+              "another point of an area light each frame",
+              "`scene`", oneOf<views>},
+    FolderKey{Root, "variants", "the rows of a run: texts as `\"map=512,kernel=3\"`; `\"\"` has all defaults", "`[\"\"]`",
+              texts},
+    FolderKey{Root, "lacks",
+              "what it has no right answer for, as `list techniques` names it: `recommend` leaves such rows out", "none",
+              texts},
+    FolderKey{Root, "parameter", "`[parameter.NAME]`, below", "none", tables},
+    FolderKey{Root, "target", "`[target.NAME]`, a texture, below", "none", tables},
+    FolderKey{Root, "pass", "`[[pass]]`, below: what is drawn, in order; the last one writes `visibility`", "needed",
+              [] { return std::string(R"("type": "array", "minItems": 1)"); }},
+
+    FolderKey{Parameter, "default", "the value without another", "needed", scalar},
+    FolderKey{Parameter, "meaning", "one line for people, with the unit", "needed", text},
+    FolderKey{Parameter, "range",
+              "of a number: `[least, most]`; whole numbers where neither they nor the default have a decimal point",
+              "this or `choices`", [] { return numbers(2); }},
+    FolderKey{Parameter, "choices", "of a word: all that there are", "this or `range`", texts},
+    FolderKey{Parameter, "source", "where the paper has it", "none", text},
+
+    FolderKey{Target, "format", "`R8`, `RGBA8`, `R32F`, `RG16F`, `RG32F`, `RGBA16F`, `RGBA32F` or `Depth32F`", "needed",
+              oneOf<formats>},
+    FolderKey{Target, "size", "`\"image\"`, texels per side, or the parameter that has them", "needed",
+              [] { return std::string(R"("type": ["string", "integer"])"); }},
+    FolderKey{Target, "filter", "`nearest` or `linear`", "`nearest`", oneOf<filters>},
+    FolderKey{Target, "compare", "depths are read through `sampler2DShadow`", "`false`", flag},
+    FolderKey{Target, "mipmaps", "made after each pass that writes the target", "`false`", flag},
+    FolderKey{Target, "history", "its texels of the frame before can be read", "`false`", flag},
+
+    FolderKey{Pass, "name", "for costs and profilers; the field's word, such as \"depth map\", \"blur\", \"resolve\"",
+              "needed", text},
+    FolderKey{Pass, "draw", "`casters`: the scene, as the light's view sees it; `screen`: each texel of the target once",
+              "needed", oneOf<draws>},
+    FolderKey{Pass, "to", "the target that is written, or a list of them in the order of the shader's outputs", "needed",
+              [] { return std::string(R"("type": ["string", "array"], "items": {"type": "string"}, "maxItems": 7)"); }},
+    FolderKey{Pass, "fragment", "a file of the folder; casters without one write depth alone", "of casters none", text},
+    FolderKey{Pass, "define", "macros of this pass, as `{ DIRECTION = \"ivec2(1, 0)\" }`: one file may serve several passes",
+              "none", tables},
+    FolderKey{Pass, "repeat", "how often it is drawn, 1 to 64, or the parameter that says it; `repetition` counts", "1",
+              [] { return std::string(R"("type": ["string", "integer"])"); }},
+    FolderKey{Pass, "group",
+              "passes one after the other that share this word are repeated in turns, as often as the first of them says",
+              "none", text},
+    FolderKey{Pass, "blend", "`add`, `min`, `max` or `multiply`: what is drawn with what is there already, in place of it",
+              "none", oneOf<blends>},
+    FolderKey{Pass, "clear", "of casters or with `blend`: what colours are before anything is drawn", "of casters zeros",
+              [] { return numbers(4); }},
+    FolderKey{
+        Pass, "offset",
+        "of casters, away from the light: `[of the slope, units]`, numbers or parameters, as glPolygonOffset has them; "
+        "units are 2⁻²⁴ of the depth range",
+        "`[0, 0]`",
+        [] {
+            return std::string(R"("type": "array", "minItems": 2, "maxItems": 2, "items": {"type": ["string", "number"]})");
+        }},
+    FolderKey{Pass, "cull", "of casters: triangles that are left out, `none`, `front` or `back`", "`none`", oneOf<culls>},
+    FolderKey{Pass, "depth_test", "of casters without a target of depths: `false` draws all of them, not the nearest alone",
+              "`true`", flag},
+};
+
+std::string quoted(std::string_view words) {
+    std::string escaped;
+    for (const char c : words) {
+        if (c == '"' || c == '\\') escaped += '\\';
+        escaped += c;
+    }
+    return fmt::format("\"{}\"", escaped);
+}
+
+/// Members of the schema of a table: its keys, of those that hold tables of further names what these are.
+std::string tableSchema(KeyTable table, const std::string& indent);
+
+std::string keySchema(const FolderKey& key, const std::string& indent) {
+    const auto inner = [&](KeyTable of) { return fmt::format("{{{}\n{}}}", tableSchema(of, indent + "  "), indent); };
+    std::string schema = fmt::format("{{\"description\": {}, {}", quoted(key.meaning), key.schema());
+    if (key.table == Root && key.name == "parameter") schema += ", \"additionalProperties\": " + inner(Parameter);
+    if (key.table == Root && key.name == "target") schema += ", \"additionalProperties\": " + inner(Target);
+    if (key.table == Root && key.name == "pass") schema += ", \"items\": " + inner(Pass);
+    return schema + "}";
+}
+
+std::string tableSchema(KeyTable table, const std::string& indent) {
+    std::vector<std::string> properties, needed;
+    for (const FolderKey& key : keys) {
+        if (key.table != table) continue;
+        properties.push_back(fmt::format("\n{}    \"{}\": {}", indent, key.name, keySchema(key, indent + "    ")));
+        if (key.standard == "needed") needed.push_back(quoted(key.name));
+    }
+    return fmt::format(
+        "\n{0}  \"type\": \"object\",\n{0}  \"additionalProperties\": false,\n{0}  \"required\": [{1}],\n{0}  "
+        "\"properties\": {{{2}\n{0}  }}",
+        indent, fmt::join(needed, ", "), fmt::join(properties, ","));
+}
+
+} // namespace
+
+std::span<const FolderKey> folderKeys() { return keys; }
+
+std::vector<std::string> keysOf(KeyTable table) {
+    std::vector<std::string> names;
+    for (const FolderKey& key : keys)
+        if (key.table == table) names.emplace_back(key.name);
+    return names;
+}
+
+std::string folderSchema() {
+    return fmt::format("{{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n  \"title\": \"technique.toml of "
+                       "shadowbench\",{}\n}}\n",
+                       tableSchema(Root, ""));
+}
+
+} // namespace shadowbench::techniques

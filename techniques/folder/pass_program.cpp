@@ -1,0 +1,134 @@
+#include "techniques/folder/pass_program.h"
+
+#include "base/error.h"
+#include "base/words.h"
+#include "techniques/folder/inputs.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <regex>
+#include <sstream>
+
+namespace shadowbench::techniques {
+namespace {
+
+/// A parameter is a macro by its name in capitals; a choice is one of name and word.
+gl::Defines definesOf(const Entry& entry, const Parameters& values) {
+    gl::Defines defines;
+    for (const Parameter& parameter : entry.parameters) {
+        const std::string& value = values.text(parameter.name);
+        if (std::holds_alternative<OneOf>(parameter.domain))
+            defines.emplace_back(macroOf(parameter.name + "_" + value), "1");
+        else if (std::holds_alternative<RealRange>(parameter.domain))
+            defines.emplace_back(macroOf(parameter.name), fmt::format("{:#.9g}", values.real(parameter.name)));
+        else
+            defines.emplace_back(macroOf(parameter.name), value);
+    }
+    return defines;
+}
+
+class PassProgram {
+public:
+    PassProgram(const TechniqueFolder& folder, const FolderPass& pass) : folder_(folder), pass_(pass) {}
+
+    [[nodiscard]] gl::Program made(const gl::Defines& defines) const {
+        const std::string vertex = pass_.casters ? "folder/casters.vert" : "gl/screen.vert";
+        try {
+            gl::Program program =
+                gl::Program::ofFolder(vertex, {folder_.path.string(), folder_.shaders}, pass_.fragment, defines);
+            for (const auto& [name, type] : program.uniformTypes()) requireKnown(name, type);
+            return program;
+        } catch (const InternalError& error) {
+            throw BadInput(firstErrorIn(error.what()));
+        }
+    }
+
+private:
+    [[nodiscard]] std::string file() const { return fmt::format("{}/{}", folder_.path.string(), pass_.fragment); }
+
+    /// The line of the compiler's log that is the first error, where warnings may come before; of the linker's, after the
+    /// file.
+    [[nodiscard]] std::string firstErrorIn(const std::string& text) const {
+        std::istringstream lines(text);
+        std::string first;
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with("0:0(0)")) line = file() + line.substr(6); // of the file as a whole
+            const std::size_t link = line.starts_with("linking ") ? line.find(" failed: ") : std::string::npos;
+            if (link != std::string::npos) line = fmt::format("{}: {}", file(), line.substr(link + 9));
+            if (line.find(": error: ") != std::string::npos || line.find("preprocessor error: ") != std::string::npos)
+                return line;
+            if (first.empty() && !line.starts_with("compiling ")) first = line;
+        }
+        return first;
+    }
+
+    /// Where a file of the folder declares a uniform: the pass's own first.
+    [[nodiscard]] std::string placeOf(const std::string& uniform) const {
+        const std::regex declaration("\\buniform\\b.*\\b" + uniform + "\\b");
+        std::vector<std::string> names{pass_.fragment};
+        for (const auto& [name, text] : folder_.shaders) names.push_back(name);
+        for (const std::string& name : names) {
+            std::istringstream lines(folder_.shaders.at(name));
+            std::string line;
+            for (int number = 1; std::getline(lines, line); ++number)
+                if (line.size() < 1000 && std::regex_search(line, declaration)) // regex recurses by the character
+                    return fmt::format("{}/{}:{}", folder_.path.string(), name, number);
+        }
+        return file();
+    }
+
+    [[noreturn]] void fail(const std::string& uniform, const std::string& sentence) const {
+        throw BadInput(fmt::format("{}: {}", placeOf(uniform), sentence));
+    }
+
+    /// All but what the program sets by itself for casters.
+    void requireKnown(const std::string& name, const std::string& type) const {
+        if (pass_.casters && (name == "clipFromWorld" || name == "lightPlane")) return;
+        if (const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name); input != folderInputs().end())
+            return requireType(name, type, input->type);
+        const FolderTarget* target = targetOf(name);
+        if (target == nullptr)
+            fail(name, fmt::format("nothing sets the uniform \"{}\"{}; parameters are macros in capitals", name,
+                                   didYouMean(name, knownNames())));
+        requireType(name, type, target->compare ? "sampler2DShadow" : "sampler2D");
+        if (std::ranges::find(pass_.to, name) != pass_.to.end())
+            fail(name, fmt::format("the pass \"{}\" reads {}, which it writes; write another target", pass_.name, name));
+    }
+
+    void requireType(const std::string& name, const std::string& type, std::string_view right) const {
+        if (type != right)
+            fail(name, fmt::format("the uniform \"{}\" is {}{}", name, right, type.empty() ? "" : ", not " + type));
+    }
+
+    /// Whose texels the sampler has, of this frame or the one before.
+    [[nodiscard]] const FolderTarget* targetOf(const std::string& sampler) const {
+        for (const FolderTarget& target : folder_.targets)
+            if (sampler == target.name || (target.history && sampler == std::string(historyPrefix) + target.name))
+                return &target;
+        return nullptr;
+    }
+
+    [[nodiscard]] std::vector<std::string> knownNames() const {
+        std::vector<std::string> known;
+        for (const FolderInput& input : folderInputs()) known.emplace_back(input.name);
+        for (const FolderTarget& target : folder_.targets) {
+            known.push_back(target.name);
+            if (target.history) known.push_back(std::string(historyPrefix) + target.name);
+        }
+        return known;
+    }
+
+    const TechniqueFolder& folder_;
+    const FolderPass& pass_;
+};
+
+} // namespace
+
+gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values) {
+    if (pass.fragment.empty()) return {"shared/maps/depth_map.vert", "gl/depth_only.frag"};
+    gl::Defines defines = definesOf(folder.entry, values);
+    defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
+    return PassProgram(folder, pass).made(defines);
+}
+
+} // namespace shadowbench::techniques

@@ -1,0 +1,183 @@
+#include "base/one_line.h"
+#include "base/words.h"
+#include "techniques/folder/keys.h"
+#include "techniques/folder/reading.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace shadowbench::techniques {
+namespace {
+
+constexpr int mostPasses = 64, mostRepetitions = 64;
+constexpr std::ptrdiff_t mostWritten = 7; // GL promises 8 of colour; casters may need depths beside them
+
+class PassReader {
+public:
+    PassReader(const TomlValue& value, TechniqueFolder& read) : value_(value), read_(read) {}
+
+    void add() {
+        value_.only(keysOf(KeyTable::Pass));
+        pass_.name = words(value_.get("name"));
+        pass_.casters = draws.named(value_.get("draw").oneOf(draws.all()));
+        readTargets(value_.get("to"));
+        readShader();
+        if (const auto blend = value_.find("blend")) pass_.blend = blends.named(blend->oneOf(blends.all()));
+        if (const auto clear = value_.find("clear")) readClear(*clear);
+        requireSomethingBelow();
+        if (pass_.casters)
+            readCasters();
+        else
+            requireScreen();
+        readRepetition();
+        read_.passes.push_back(std::move(pass_));
+    }
+
+private:
+    [[nodiscard]] const FolderTarget* targetNamed(const std::string& name) const {
+        const auto found = std::ranges::find(read_.targets, name, &FolderTarget::name);
+        return found == read_.targets.end() ? nullptr : &*found;
+    }
+
+    void readTargets(const TomlValue& to) {
+        if (to.isList())
+            for (const TomlValue& name : to.list()) addTarget(name);
+        else
+            addTarget(to);
+        if (pass_.to.empty()) to.fail("names no target");
+        if (std::ssize(pass_.to) > mostWritten) to.fail(fmt::format("a pass writes {} targets at most", mostWritten));
+    }
+
+    void addTarget(const TomlValue& value) {
+        const std::string name = value.text();
+        const FolderTarget* target = targetNamed(name);
+        if (target == nullptr && name != visibilityTarget) {
+            std::vector<std::string> names{visibilityTarget};
+            for (const FolderTarget& known : read_.targets) names.push_back(known.name);
+            value.fail(fmt::format("there is no target \"{}\"{}", name, didYouMean(name, names)));
+        }
+        if (std::ranges::find(pass_.to, name) != pass_.to.end()) value.fail("is written twice");
+        if (!pass_.to.empty()) {
+            const FolderTarget* first = targetNamed(pass_.to.front());
+            if (target == nullptr || first == nullptr) value.fail("visibility is written alone");
+            if (target->ofImage != first->ofImage || target->side != first->side)
+                value.fail(fmt::format("is of another size than {}; what a pass writes is of one size", first->name));
+        }
+        pass_.to.push_back(name);
+    }
+
+    void readShader() {
+        if (const auto fragment = value_.find("fragment")) {
+            pass_.fragment = fragment->text();
+            if (!read_.shaders.contains(pass_.fragment)) fragment->fail(noShader());
+        } else if (!pass_.casters) {
+            value_.fail("a pass over the screen needs a fragment shader: fragment = \"resolve.frag\"");
+        }
+        if (const auto defines = value_.find("define"))
+            for (const TomlValue& define : defines->members()) addDefine(define);
+    }
+
+    [[nodiscard]] std::string noShader() const {
+        std::vector<std::string> names;
+        for (const auto& [file, text] : read_.shaders) names.push_back(file);
+        return fmt::format("{} has no shader \"{}\"{}", read_.path.string(), pass_.fragment,
+                           didYouMean(pass_.fragment, names));
+    }
+
+    void addDefine(const TomlValue& value) {
+        const std::string name = identifier(value, std::string(value.lastKey())), text = value.scalar();
+        if (onOneLine(text) != text) value.fail("has line ends or other control characters; a macro is one line");
+        for (const Parameter& parameter : read_.entry.parameters)
+            if (std::ranges::count(macrosOf(parameter), name) > 0)
+                value.fail(fmt::format("is the parameter {} already; choose another name", parameter.name));
+        pass_.defines.emplace_back(name, text);
+    }
+
+    void readClear(const TomlValue& clear) {
+        if (!pass_.casters && !pass_.blend) clear.fail("is of casters, or with blend: all else is drawn over");
+        const std::vector<TomlValue> four = clear.list();
+        if (four.size() != 4) clear.fail("expected four numbers");
+        pass_.clear.emplace();
+        for (int i = 0; i < 4; ++i) (*pass_.clear)[i] = static_cast<float>(four[static_cast<std::size_t>(i)].number());
+    }
+
+    /// Casters are drawn over cleared colours; over the screen blending takes what an earlier pass has drawn.
+    void requireSomethingBelow() const {
+        if (!pass_.blend || pass_.casters || pass_.clear) return;
+        for (const std::string& name : pass_.to)
+            if (std::ranges::none_of(read_.passes, [&](const FolderPass& p) { return std::ranges::count(p.to, name) > 0; }))
+                value_.get("blend").fail(fmt::format("no pass before has drawn {}: say clear = [0, 0, 0, 0]", name));
+    }
+
+    [[nodiscard]] std::ptrdiff_t depths() const {
+        return std::ranges::count_if(pass_.to, [&](const std::string& name) {
+            const FolderTarget* target = targetNamed(name);
+            return target != nullptr && target->format == gl::Format::Depth32F;
+        });
+    }
+
+    void readCasters() {
+        if (depths() > 1) value_.fail("one target of depths is all that a pass has");
+        if (pass_.to.front() == visibilityTarget || targetNamed(pass_.to.front())->ofImage)
+            value_.fail("casters are drawn into a map, which has a size of its own");
+        if (pass_.fragment.empty() && std::ssize(pass_.to) > depths()) value_.fail("colours need a fragment shader");
+        if (!pass_.clear) pass_.clear = glm::vec4(0);
+        if (const auto cull = value_.find("cull")) pass_.cull = culls.named(cull->oneOf(culls.all()));
+        if (const auto test = value_.find("depth_test")) {
+            pass_.depthTest = test->boolean();
+            if (!pass_.depthTest && depths() > 0)
+                test->fail("a target of depths keeps the nearest: leave one of the two out");
+        }
+        if (const auto offset = value_.find("offset")) {
+            const std::vector<TomlValue> both = offset->list();
+            if (both.size() != 2) offset->fail("expected [of the slope, units], numbers or parameters");
+            pass_.slopeOffset = amountOf(both[0], read_);
+            pass_.unitOffset = amountOf(both[1], read_);
+        }
+    }
+
+    void requireScreen() const {
+        if (depths() > 0) value_.fail("a pass over the screen writes no depths");
+        for (const char* key : {"offset", "cull", "depth_test"})
+            if (const auto said = value_.find(key)) said->fail("is of casters");
+    }
+
+    void readRepetition() {
+        const FolderPass* before = read_.passes.empty() ? nullptr : &read_.passes.back();
+        if (const auto group = value_.find("group")) {
+            pass_.group = words(*group);
+            const bool follows = before != nullptr && before->group == pass_.group;
+            if (!follows && std::ranges::count(read_.passes, pass_.group, &FolderPass::group) > 0)
+                group->fail("has passes above; those of a group come one after the other");
+            if (follows && value_.find("repeat")) value_.get("repeat").fail("is said by the first pass of the group");
+        }
+        if (const auto repeat = value_.find("repeat")) pass_.repeat = repetitions(*repeat);
+    }
+
+    [[nodiscard]] Amount repetitions(const TomlValue& repeat) const {
+        if (!repeat.isText()) return static_cast<double>(repeat.integer(1, mostRepetitions));
+        const Amount named = amountOf(repeat, read_);
+        const auto parameter = std::ranges::find(read_.entry.parameters, repeat.text(), &Parameter::name);
+        const auto* range = std::get_if<IntegerRange>(&parameter->domain);
+        if (range == nullptr || range->low < 1 || range->high > mostRepetitions)
+            repeat.fail(fmt::format("{} must be a whole number within 1 and {}", parameter->name, mostRepetitions));
+        return named;
+    }
+
+    const TomlValue& value_;
+    TechniqueFolder& read_;
+    FolderPass pass_;
+};
+
+} // namespace
+
+void readPasses(const TomlValue& list, TechniqueFolder& read) {
+    const std::vector<TomlValue> passes = list.list();
+    if (passes.empty() || passes.size() > mostPasses)
+        list.fail(fmt::format("expected 1 to {} of them, got {}", mostPasses, passes.size()));
+    for (const TomlValue& value : passes) PassReader(value, read).add();
+    if (read.passes.back().to != std::vector<std::string>{visibilityTarget})
+        passes.back().fail(R"(the last pass writes the answer: to = "visibility")");
+}
+
+} // namespace shadowbench::techniques
