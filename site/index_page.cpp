@@ -125,7 +125,12 @@ public:
                 variants.push_back(record.variant);
         for (const std::string& variant : variants)
             if (Row row = rowOf(variant); !row.cells.empty()) table.rows.push_back(std::move(row));
-        table.note = "Blue: within the scene's tolerance; the further beyond it, the darker the orange. – does not apply.";
+        table.scale = {{"h0", "within the scene's tolerance"},
+                       {"h1", "up to 2 times it"},
+                       {"h2", "up to 5"},
+                       {"h3", "up to 20"},
+                       {"h4", "beyond"}};
+        table.note = "– does not apply.";
         return table;
     }
 

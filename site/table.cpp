@@ -1,8 +1,10 @@
 #include "site/table.h"
 
 #include "report/csv_text.h"
+#include "report/families.h"
 #include "site/names.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -117,6 +119,32 @@ std::optional<double> leadingNumber(const std::string& text) {
     return end == text.c_str() || !std::isfinite(value) ? std::nullopt : std::optional(value);
 }
 
+/// The families of the rows, in the order in which all pages list them.
+Data familiesOf(const Table& table) {
+    Data list{Data::type::list};
+    for (const report::Family& family : report::families()) {
+        const std::pair<std::string, std::string> mark{"family", family.id};
+        const auto isOfIt = [&](const Row& row) { return std::ranges::find(row.marks, mark) != row.marks.end(); };
+        if (std::ranges::none_of(table.rows, isOfIt)) continue;
+        Data entry;
+        entry.set("family", family.id);
+        entry.set("title", family.title);
+        list << entry;
+    }
+    return list;
+}
+
+Data scaleOf(const Table& table) {
+    Data list{Data::type::list};
+    for (const auto& [kind, words] : table.scale) {
+        Data entry;
+        entry.set("kind", kind);
+        entry.set("words", words);
+        list << entry;
+    }
+    return list;
+}
+
 } // namespace
 
 Table tableOf(const report::TextTable& text, const std::string& id, const std::string& caption) {
@@ -142,6 +170,10 @@ Data tableData(const Table& table, const std::string& root, const std::string& f
     for (const Row& row : table.rows) rows << rowData(row, table, root);
     data.set("columns", columns);
     data.set("rows", rows);
+    const Data families = familiesOf(table), scale = scaleOf(table);
+    data.set("keyed", families.is_non_empty_list() || scale.is_non_empty_list());
+    data.set("families", families);
+    data.set("scale", scale);
     return data;
 }
 

@@ -20,27 +20,15 @@
   const written = (value, unit) => (unit === "share" ? d3.format(".3~g")(100 * value) + " %" : d3.format(".4~g")(value));
   const shownRows = (entry) => entry.rows.filter((row) => !row.hidden);
   const nameOf = (row) => row.cells[0].textContent;
-  const familyColour = (entry) => {
-    const families = [...new Set(entry.rows.map((row) => row.dataset.family || ""))].sort();
-    return (row) => palette[families.indexOf(row.dataset.family || "") % palette.length];
-  };
-  // Swatches by SVG, since a policy of the host may forbid style attributes.
+  // The families of the table's rows, as the table itself names them.
   function familyKey(entry) {
-    const key = make("span");
-    const seen = new Set();
-    const colour = familyColour(entry);
-    for (const row of entry.rows) {
-      const family = row.dataset.family;
-      if (!family || seen.has(family)) continue;
-      seen.add(family);
-      const label = make("span", { class: "family" });
-      const swatch = d3.create("svg").attr("class", "swatch").attr("viewBox", "0 0 10 10").attr("aria-hidden", "true");
-      swatch.append("circle").attr("cx", 5).attr("cy", 5).attr("r", 5).attr("fill", colour(row));
-      label.append(swatch.node(), family);
-      key.append(label);
-    }
-    return key;
+    const key = entry.table.closest("section").querySelector(".key");
+    const families = key ? [...key.querySelectorAll(".family")] : [];
+    const copy = make("span", { class: "key" });
+    copy.append(...families.map((family) => family.cloneNode(true)));
+    return copy;
   }
+  const familyOf = (row) => row.dataset.family || "";
   const go = (row) => {
     const link = row.querySelector("a[href]");
     if (link) location.href = link.href;
@@ -176,7 +164,6 @@
     bar.append(make("span", {}, "● within tolerance, ○ not, □ draws no shadow; line: nothing errs less for less"));
     bar.append(familyKey(entry));
     figure.prepend(bar);
-    const colour = familyColour(entry);
     // As the program judges it (`dominates`): times count with the interval of their rounds.
     const beats = (a, b) => (a.y <= b.y && a.x * (1 + a.spread) < b.x * (1 - b.spread)) ||
       (a.y < b.y && !(a.x * (1 - a.spread) > b.x * (1 + b.spread)));
@@ -213,8 +200,8 @@
       const symbol = (p) => d3.symbol().size(75).type(p.row.dataset.baseline === "yes" ? d3.symbolSquare : d3.symbolCircle)();
       const described = (p) => `${nameOf(p.row)}\n${p.row.cells[0].title}\n${x.title} ${Number.isNaN(p.x) ? "not measured here" : written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`;
       const dots = area.svg.append("g").selectAll("a").data(points.concat(beside)).join("path").attr("class", "dot").attr("d", symbol)
-        .attr("transform", (p, i) => `translate(${places[i]},${sy.at(p.y)})`).attr("stroke", (p) => colour(p.row))
-        .attr("fill", (p) => (p.row.dataset.within === "yes" && p.row.dataset.baseline !== "yes" ? colour(p.row) : "transparent"))
+        .attr("transform", (p, i) => `translate(${places[i]},${sy.at(p.y)})`).attr("data-family", (p) => familyOf(p.row))
+        .classed("full", (p) => p.row.dataset.within === "yes" && p.row.dataset.baseline !== "yes")
         .on("click", (p) => go(p.row)).on("mousemove", (p) => say(described(p), d3.event)).on("mouseout", hush);
       reachable(dots.data().map((p, i) => ({ node: dots.nodes()[i], at: places[i], text: described(p), act: () => go(p.row) }))
         .sort((a, b) => a.at - b.at));
@@ -230,7 +217,6 @@
       .filter(({ x }) => !Number.isNaN(x));
     if (columns.length < 2) return;
     const breakColumn = entry.heads.findIndex((head) => head.textContent === "breaks at");
-    const colour = familyColour(entry);
     const limit = figure.dataset.tolerance ? Number(figure.dataset.tolerance) : NaN;
     const key = make("div", { class: "axes" });
     key.append(familyKey(entry));
@@ -251,14 +237,14 @@
       if (!Number.isNaN(limit)) area.svg.append("line").attr("class", "limit").attr("x1", area.left).attr("x2", area.width - area.right).attr("y1", sy.at(limit)).attr("y2", sy.at(limit));
       const line = d3.line().x((p) => sx.at(p.x)).y((p) => sy.at(p.y));
       const groups = area.svg.append("g").selectAll("g").data(curves).join("g");
-      const drawn = groups.append("path").attr("class", "curve").attr("stroke", (c) => colour(c.row)).attr("d", (c) => line(c.points));
+      const drawn = groups.append("path").attr("class", "curve").attr("data-family", (c) => familyOf(c.row)).attr("d", (c) => line(c.points));
       const described = (c) => nameOf(c.row) + "\n" + [c.points[0], c.points[c.points.length - 1]].map((p) => `${p.title}: ${written(p.y, unit)}`).join(" … ") +
         (Number.isNaN(c.breaks) ? "" : `\nbreaks at ${c.breaks}`);
       reachable(drawn.nodes().map((node, i) => ({ node, text: described(curves[i]), act: () => go(curves[i].row),
         light: (on) => heat(on ? curves[i] : null) })));
       groups.filter((c) => !Number.isNaN(c.breaks)).append("path").attr("d", d3.symbol().type(d3.symbolCross).size(70))
         .attr("transform", (c) => { const p = c.points.find((q) => q.x === c.breaks) || c.points[0]; return `translate(${sx.at(p.x)},${sy.at(p.y)}) rotate(45)`; })
-        .attr("fill", (c) => colour(c.row));
+        .attr("class", "break").attr("data-family", (c) => familyOf(c.row));
       let low = Infinity; // names of curves at their ends, where there is room
       const ends = curves.map((c) => ({ c, y: sy.at(c.points[c.points.length - 1].y) })).sort((a, b) => b.y - a.y);
       if (area.width > 600) for (const { c, y } of ends) {

@@ -77,10 +77,11 @@ var shadowbenchTables = (function () {
   function addFilters(form, entry) {
     const values = (key) => [...new Set(entry.rows.map((row) => row.dataset[key]).filter(Boolean))].sort();
     const text = make("input", { type: "search", placeholder: "part of a name", "aria-label": "Technique" });
+    const titles = new Map([...form.parentElement.querySelectorAll(".key .family")].map((e) => [e.dataset.family, e.textContent]));
     const choose = (label, options) => {
       const select = make("select");
       select.append(make("option", { value: "" }, "all"));
-      for (const option of options) select.append(make("option", { value: option }, option));
+      for (const option of options) select.append(make("option", { value: option }, titles.get(option) || option));
       const around = make("label", {}, label);
       around.append(select);
       return [around, select];
