@@ -89,7 +89,7 @@ std::filesystem::path writeSite(const Sources& sources, const std::filesystem::p
 
     const Comparison compared = comparisonOf(sources);
     writeCells(measured, sources.images, site, sources.sequences, compared.before()); // whose pictures other pages show, too
-    const report::Written report = report::writeReport(measured, folder);
+    const report::Written report = report::writeReport(measured, folder, sources.named);
     writeFile(folder / "results.csv", report::csv(sources.records));
     addIndexPage(measured, command, sources.images, site);
     for (const std::string& scene : report::scenes(measured))

@@ -89,6 +89,39 @@
     area.svg.append("text").attr("transform", "rotate(-90)").attr("x", -(area.top + area.height - area.bottom) / 2).attr("y", 15).attr("text-anchor", "middle").text(y);
   }
 
+  // Names beside points, as the program places them: off every mark, off each other and inside the frame, with a line to one
+  // that lies further off. One without a free place is left out; the table has it.
+  function writeNames(area, named, marks) {
+    const taken = marks.map(({ x, y }) => ({ left: x - 7, right: x + 7, top: y - 7, bottom: y + 7 })), texts = [];
+    const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+    const inside = (box) => box.left >= area.left + 3 && box.right <= area.width - area.right && box.top >= area.top && box.bottom <= area.height - area.bottom - 2;
+    const along = (from, to) => d3.range(0.1, 1, 0.05).map((t) => ({ x: from.x + t * (to.x - from.x), y: from.y + t * (to.y - from.y) }))
+      .map(({ x, y }) => ({ left: x - 1, right: x + 1, top: y - 1, bottom: y + 1 }));
+    const turns = [0, 180, 270, 90, 315, 45, 225, 135, 337.5, 22.5, 202.5, 157.5].map((angle) => (angle * Math.PI) / 180);
+    const side = (share) => (share > 0.3 ? 0 : share < -0.3 ? 1 : 0.5);
+    for (const point of named) {
+      const text = area.svg.append("text").attr("class", "name").text(point.text.slice(0, 48));
+      const width = text.node().getComputedTextLength() + 2, height = 14;
+      let best = null;
+      for (const distance of [10, 18, 28, 40, 55, 75, 100, 130]) for (const turn of turns) {
+        const left = point.x + distance * Math.cos(turn) - side(Math.cos(turn)) * width, top = point.y + distance * Math.sin(turn) - side(Math.sin(turn)) * height;
+        const box = { left, top, right: left + width, bottom: top + height };
+        const to = { x: Math.max(box.left, Math.min(box.right, point.x)), y: Math.max(box.top, Math.min(box.bottom, point.y)) };
+        const leader = distance > 10 ? along(point, to) : [];
+        if (best || !inside(box) || taken.some((other) => meet(box, other)) || leader.some((part) => texts.some((other) => meet(part, other)))) continue;
+        best = { box, to, leader };
+      }
+      if (!best) {
+        text.remove();
+        continue;
+      }
+      taken.push(best.box, ...best.leader);
+      texts.push(best.box);
+      text.attr("x", best.box.left + 1).attr("y", best.box.bottom - 3);
+      if (best.leader.length > 0) area.svg.append("line").attr("class", "leader").attr("x1", point.x).attr("y1", point.y).attr("x2", best.to.x).attr("y2", best.to.y);
+    }
+  }
+
   // Calls `draw` once the figure comes near the window, and says how to have it drawn anew: a page of many charts opens at
   // once, and one that was hidden is drawn as wide as it has become.
   function whenSeen(figure, entry, draw) {
@@ -186,17 +219,11 @@
       const front = points.filter((p) => !points.some((q) => beats(q, p))).sort((a, b) => a.x - b.x || b.y - a.y);
       if (!Number.isNaN(limit)) area.svg.append("line").attr("class", "limit").attr("x1", area.left).attr("x2", area.width - area.right).attr("y1", sy.at(limit)).attr("y2", sy.at(limit));
       area.svg.append("path").attr("class", "front").attr("d", d3.line().x((p) => sx.at(p.x)).y((p) => sy.at(p.y)).curve(d3.curveStepAfter)(front));
-      const placed = [];
-      for (const p of front.filter((q) => q.row.dataset.baseline !== "yes")) {
-        const left = sx.at(p.x) > area.width * 0.62, width = nameOf(p.row).length * 5.8;
-        const at = { x: sx.at(p.x) + (left ? -10 - width : 10), y: sy.at(p.y) - 8, width };
-        if (placed.some((q) => Math.abs(q.y - at.y) < 12 && at.x < q.x + q.width && q.x < at.x + at.width)) continue;
-        placed.push(at);
-        area.svg.append("text").attr("class", "name").attr("x", at.x).attr("y", at.y).text(nameOf(p.row).slice(0, 48));
-      }
       if (beside.length > 0) area.svg.append("text").attr("x", area.width - 50).attr("y", area.height - area.bottom + 17)
         .attr("text-anchor", "middle").text("not measured");
       const places = points.map((p) => sx.at(p.x)).concat(beside.map((p, i) => area.width - 66 + 16 * (i % 3)));
+      writeNames(area, front.filter((p) => p.row.dataset.baseline !== "yes").map((p) => ({ x: sx.at(p.x), y: sy.at(p.y), text: nameOf(p.row) })),
+        points.concat(beside).map((p, i) => ({ x: places[i], y: sy.at(p.y) })));
       const symbol = (p) => d3.symbol().size(75).type(p.row.dataset.baseline === "yes" ? d3.symbolSquare : d3.symbolCircle)();
       const described = (p) => `${nameOf(p.row)}\n${p.row.cells[0].title}\n${x.title} ${Number.isNaN(p.x) ? "not measured here" : written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`;
       const dots = area.svg.append("g").selectAll("a").data(points.concat(beside)).join("path").attr("class", "dot").attr("d", symbol)

@@ -73,7 +73,7 @@ double contrast(const glm::dvec3& a, const glm::dvec3& b) {
     const auto light = [](const glm::dvec3& c) {
         return 0.2126 * linear(c.x) + 0.7152 * linear(c.y) + 0.0722 * linear(c.z);
     };
-    const auto [low, high] = std::minmax(light(a), light(b));
+    const auto [low, high] = std::minmax({light(a), light(b)});
     return (high + 0.05) / (low + 0.05);
 }
 

@@ -150,6 +150,34 @@ TEST(SceneChart, HasOtherRenderersBesideWhatItsCostIsKnownOf) {
     EXPECT_EQ(overlaps(*tab, 400, 800), Sentences());
 }
 
+/// Names that lie on another one, on a mark or beyond the frame.
+constexpr const char* crossedNames = R"js((() => {
+    const boxOf = (e) => e.getBoundingClientRect();
+    const meet = (a, b) => a.left + 1 < b.right && b.left + 1 < a.right && a.top + 1 < b.bottom && b.top + 1 < a.bottom;
+    const names = [...document.querySelectorAll("svg.plot .name")], others = [...document.querySelectorAll("svg.plot .dot, svg.plot .tick text")];
+    const frame = boxOf(document.querySelector("svg.plot"));
+    const crossed = names.filter((name, i) => names.slice(0, i).concat(others).some((other) => meet(boxOf(name), boxOf(other))) ||
+      boxOf(name).right > frame.right || boxOf(name).left < frame.left);
+    return crossed.map((name) => name.textContent);
+})())js";
+
+TEST(SceneChart, HasNoNameOnAnotherOrOnAMark) {
+    const TemporaryFolder folder;
+    std::vector<Record> records = largeRun(90, 1);
+    for (std::size_t i = 0; i < 12; ++i) { // a front of close points between the others
+        records[i].values["accuracy.mismatch"] = 0.0002 / (1 + static_cast<double>(i));
+        records[i].values["cost.time.ratio"] = 1 + 0.2 * static_cast<double>(i);
+    }
+    writeSite(folder.path(), records);
+    const auto tab = chromium().tab();
+    tab->open(folder.path() / "scenes/scene-01.html");
+    for (const int width : {390, 768, 1280}) {
+        tab->resize(width, 800);
+        tab->waitFor("document.querySelectorAll('svg.plot .name').length > 3");
+        EXPECT_EQ(tab->value(crossedNames), nlohmann::json::array()) << width;
+    }
+}
+
 TEST(LargeSite, FitsItsWindow) {
     const auto tab = chromium().tab();
     for (const char* page : {"index.html", "scenes/scene-01.html"}) {
