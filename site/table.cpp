@@ -25,6 +25,7 @@ Data columnData(const Column& column) {
 Data cellData(const Cell& cell, const Column& column, const std::string& root) {
     Data data;
     data.set("text", truncate(cell.text, column.prose ? sentenceRoom : nameRoom));
+    data.set("under", column.title);
     data.set("value", cell.value && std::isfinite(*cell.value) ? fmt::format("{}", *cell.value) : std::string());
     data.set("valued", cell.value.has_value());
     data.set("linked", !cell.address.empty());
@@ -33,6 +34,16 @@ Data cellData(const Cell& cell, const Column& column, const std::string& root) {
     data.set("noted", !cell.note.empty());
     data.set("note", truncate(cell.note, sentenceRoom));
     return data;
+}
+
+/// A name as HTML that a narrow column breaks between a variant's parameters and not within a word.
+std::string breakable(const std::string& text) {
+    std::string html;
+    for (const char letter : kainjow::mustache::html_escape(text)) {
+        html += letter;
+        if (letter == ':' || letter == ',' || letter == '=' || letter == '_' || letter == '.') html += "<wbr>";
+    }
+    return html;
 }
 
 Data rowData(const Row& row, const Table& table, const std::string& root) {
@@ -45,6 +56,7 @@ Data rowData(const Row& row, const Table& table, const std::string& root) {
     }
     data.set("marks", marks);
     data.set("head", cellData(row.cells.front(), Column{.title = {}, .number = false}, root));
+    data.set("name", breakable(truncate(row.cells.front().text)));
     for (std::size_t i = 1; i < row.cells.size(); ++i) cells << cellData(row.cells[i], table.columns[i], root);
     data.set("cells", cells);
     return data;
@@ -166,6 +178,7 @@ Data tableData(const Table& table, const std::string& root, const std::string& f
     data.set("filtered", table.filtered);
     data.set("tablenote", table.note);
     data.set("files", root + files);
+    data.set("stacked", table.stacked || std::ranges::any_of(table.columns, &Column::prose));
     for (const Column& column : table.columns) columns << columnData(column);
     for (const Row& row : table.rows) rows << rowData(row, table, root);
     data.set("columns", columns);

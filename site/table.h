@@ -39,9 +39,10 @@ struct Table {
     std::string caption;
     std::vector<Column> columns = {};
     std::vector<Row> rows = {};
-    std::string note = {};                                       // below it
-    bool filtered = false;                                       // with fields for family, answer and tolerance above it
-    bool headed = true;                                          // its caption is seen; else only heard
+    std::string note = {}; // below it
+    bool filtered = false; // with fields for family, answer and tolerance above it
+    bool headed = true;    // its caption is seen; else only heard
+    bool stacked = false;  // in a narrow window each row is a list, which nobody scrolls sideways; those with prose are so
     std::vector<std::pair<std::string, std::string>> scale = {}; // kinds of cells that a colour stands for, with their words
 };
 

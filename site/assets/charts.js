@@ -90,8 +90,8 @@
   }
 
   // Names beside points, as the program places them: off every mark, off each other and inside the frame, with a line to one
-  // that lies further off. One without a free place is left out; the table has it.
-  function writeNames(area, named, marks) {
+  // that lies further off; off the boxes of the chart's lines, too, if it can be had. One without a free place is left out.
+  function writeNames(area, named, marks, lines) {
     const taken = marks.map(({ x, y }) => ({ left: x - 7, right: x + 7, top: y - 7, bottom: y + 7 })), texts = [];
     const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
     const inside = (box) => box.left >= area.left + 3 && box.right <= area.width - area.right && box.top >= area.top && box.bottom <= area.height - area.bottom - 2;
@@ -103,12 +103,12 @@
       const text = area.svg.append("text").attr("class", "name").text(point.text.slice(0, 48));
       const width = text.node().getComputedTextLength() + 2, height = 14;
       let best = null;
-      for (const distance of [10, 18, 28, 40, 55, 75, 100, 130]) for (const turn of turns) {
+      for (const off of [lines, []]) for (const distance of [10, 18, 28, 40, 55, 75, 100, 130]) for (const turn of turns) {
         const left = point.x + distance * Math.cos(turn) - side(Math.cos(turn)) * width, top = point.y + distance * Math.sin(turn) - side(Math.sin(turn)) * height;
         const box = { left, top, right: left + width, bottom: top + height };
         const to = { x: Math.max(box.left, Math.min(box.right, point.x)), y: Math.max(box.top, Math.min(box.bottom, point.y)) };
         const leader = distance > 10 ? along(point, to) : [];
-        if (best || !inside(box) || taken.some((other) => meet(box, other)) || leader.some((part) => texts.some((other) => meet(part, other)))) continue;
+        if (best || !inside(box) || taken.concat(off).some((other) => meet(box, other)) || leader.some((part) => texts.some((other) => meet(part, other)))) continue;
         best = { box, to, leader };
       }
       if (!best) {
@@ -121,6 +121,11 @@
       if (best.leader.length > 0) area.svg.append("line").attr("class", "leader").attr("x1", point.x).attr("y1", point.y).attr("x2", best.to.x).attr("y2", best.to.y);
     }
   }
+
+  // The parts of a line that goes in steps, each right to the next point and then down to it, as boxes.
+  const stepsOf = (points) => [].concat(...points.slice(1).map((to, i) => [
+    { left: points[i].x, right: to.x, top: points[i].y - 1, bottom: points[i].y + 1 },
+    { left: to.x - 1, right: to.x + 1, top: Math.min(points[i].y, to.y), bottom: Math.max(points[i].y, to.y) }]));
 
   // Calls `draw` once the figure comes near the window, and says how to have it drawn anew: a page of many charts opens at
   // once, and one that was hidden is drawn as wide as it has become.
@@ -223,7 +228,7 @@
         .attr("text-anchor", "middle").text("not measured");
       const places = points.map((p) => sx.at(p.x)).concat(beside.map((p, i) => area.width - 66 + 16 * (i % 3)));
       writeNames(area, front.filter((p) => p.row.dataset.baseline !== "yes").map((p) => ({ x: sx.at(p.x), y: sy.at(p.y), text: nameOf(p.row) })),
-        points.concat(beside).map((p, i) => ({ x: places[i], y: sy.at(p.y) })));
+        points.concat(beside).map((p, i) => ({ x: places[i], y: sy.at(p.y) })), stepsOf(front.map((p) => ({ x: sx.at(p.x), y: sy.at(p.y) }))));
       const symbol = (p) => d3.symbol().size(75).type(p.row.dataset.baseline === "yes" ? d3.symbolSquare : d3.symbolCircle)();
       const described = (p) => `${nameOf(p.row)}\n${p.row.cells[0].title}\n${x.title} ${Number.isNaN(p.x) ? "not measured here" : written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`;
       const dots = area.svg.append("g").selectAll("a").data(points.concat(beside)).join("path").attr("class", "dot").attr("d", symbol)

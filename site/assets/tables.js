@@ -99,7 +99,8 @@ var shadowbenchTables = (function () {
       return label;
     });
     const said = make("output", { "aria-live": "polite" });
-    form.append(text, familyLabel, answerLabel, withinLabel, ...needLabels, said);
+    const several = [[familyLabel, "family"], [answerLabel, "answer"]].filter(([, key]) => values(key).length > 1).map(([label]) => label);
+    form.append(text, ...several, withinLabel, ...needLabels, said);
     const apply = () => {
       const count = filter(entry, { text: text.value, family: family.value, answer: answer.value, within: within.checked,
         needs: [...needs.keys()].filter((need) => needs.get(need).checked) });
@@ -124,6 +125,12 @@ var shadowbenchTables = (function () {
   }
   for (const form of document.querySelectorAll("form[data-filters]")) {
     if (tables.has(form.dataset.filters)) addFilters(form, tables.get(form.dataset.filters));
+  }
+
+  // The menu closes when one goes elsewhere.
+  for (const menu of document.querySelectorAll("details.menu")) {
+    addEventListener("click", (event) => { if (!menu.contains(event.target) || event.target.closest("a")) menu.open = false; });
+    addEventListener("keydown", (event) => { if (event.key === "Escape") menu.open = false; });
   }
 
   return { tables, valueOf, make };

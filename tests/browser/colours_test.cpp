@@ -52,11 +52,11 @@ constexpr double seenApart = 5;
 TEST(Colours, OfTheHeatMapAreToldApartAndItsBestHasAMarkToo) {
     const TemporaryFolder folder;
     site::SiteWriter site(folder.path(), {});
-    site::addIndexPage(largeRun(20, 5), "", {}, site);
+    site::addChoosePage(largeRun(20, 5), {}, site);
     site.writeAssets();
     for (const bool dark : {false, true}) {
         const auto tab = chromium().tab({.dark = dark});
-        tab->open(folder.path() / "index.html");
+        tab->open(folder.path() / "choose.html");
         const auto steps = tab->value(R"js(['h0', 'h1', 'h2', 'h3', 'h4'].map((kind) => {
             const cell = document.querySelector('td.' + kind);
             return getComputedStyle(cell).backgroundColor.match(/\d+/g).map(Number);
