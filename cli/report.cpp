@@ -1,4 +1,6 @@
+#include "base/error.h"
 #include "base/temporary_folder.h"
+#include "base/words.h"
 #include "cli/command.h"
 #include "cli/options.h"
 #include "harness/records/comparability.h"
@@ -8,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace shadowbench {
@@ -19,6 +22,7 @@ struct ReportOptions {
     std::filesystem::path images; // empty: images/ beside the first records
     std::filesystem::path base, history, singleFile;
     std::string sequences = "fronts";
+    std::vector<std::string> named;
     bool standing = false;
 };
 
@@ -29,6 +33,17 @@ std::vector<Record> recordsOf(std::vector<std::filesystem::path> files) {
     return gate::readOfOneDevice(files);
 }
 
+/// Each name is that of a variant or a technique of the records.
+void requireNamed(const std::vector<std::string>& named, const std::vector<Record>& records) {
+    std::set<std::string> known;
+    for (const Record& record : records) known.insert({record.variant, record.technique});
+    for (const std::string& name : named)
+        if (!known.contains(name))
+            throw BadInput(
+                fmt::format("--label: no record is of a variant or technique \"{}\"{}; name one that the table has", name,
+                            didYouMean(name, {known.begin(), known.end()})));
+}
+
 std::filesystem::path folderOf(const std::filesystem::path& records) {
     return std::filesystem::is_directory(records) ? records : records.parent_path();
 }
@@ -37,7 +52,9 @@ site::Sources sourcesOf(const ReportOptions& options, const std::filesystem::pat
     site::Sources sources{.records = recordsOf(options.records),
                           .images = options.images.empty() ? folder / "images" : options.images,
                           .sequences = options.sequences == "all" ? site::Sequences::All : site::Sequences::Fronts,
+                          .named = options.named,
                           .standing = options.standing};
+    requireNamed(options.named, sources.records);
     if (!options.base.empty()) {
         sources.base = recordsOf({options.base});
         sources.baseName = options.base.string();
@@ -89,6 +106,8 @@ void addReport(CLI::App& app, Action& action) {
                      "Whose moving frames are shown: fronts (the rows of each scene's Pareto front) or all")
         ->check(CLI::IsMember({"fronts", "all"}))
         ->capture_default_str();
+    verb->add_option("--label", options->named,
+                     "Variant or technique that charts of error against cost label beside the Pareto front; repeatable");
     addStaticOption(*verb, options->standing);
     verb->add_option("--single-file", options->singleFile, "Write everything into this one file instead")->excludes(out);
     verb->callback([&action, options] { action = [options] { return makeReport(*options); }; });

@@ -10,7 +10,9 @@
 namespace shadowbench::report {
 
 /// Headline error against cost, both logarithmic, with the Pareto front and the tolerance; nothing if no record was timed.
-std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene);
+/// The front is labelled, and the variants and techniques that are `named`; the others are dots in their family's colour.
+std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene,
+                                       const std::vector<std::string>& named = {});
 
 /// Error over the still frames from an empty history: against the truth, and against the technique's own last image; nothing
 /// without curves.

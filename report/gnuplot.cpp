@@ -145,7 +145,8 @@ std::string LogAxis::script(const std::string& axis, double factor, const std::s
     std::string labels;
     if (hasZero_) labels += fmt::format("'0{}' {}, ", unit, floor_);
     for (const Tick& tick : ticks((hasZero_ ? floor_ * 1.3 : low_) * factor, high_ * factor)) {
-        if (tick.labelled)
+        const bool nearZero = hasZero_ && position(tick.value / factor) - position(0) < 0.05; // its label would lie on "0"
+        if (tick.labelled && !nearZero)
             labels += fmt::format("'{:g}{}' {}, ", tick.value, unit, tick.value / factor);
         else
             labels += fmt::format("'' {} 1, ", tick.value / factor); // a minor tick

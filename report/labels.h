@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,14 +14,21 @@ struct Box {
     glm::dvec2 low, high;
     [[nodiscard]] bool overlaps(const Box& other) const;
     [[nodiscard]] bool contains(const Box& other) const;
-    [[nodiscard]] bool meets(glm::dvec2 a, glm::dvec2 b) const; // the segment's bounding box
     [[nodiscard]] glm::dvec2 closest(glm::dvec2 point) const;
 };
+
+inline constexpr double labelSize = 12, lineHeight = 14; // of a label's letters, pixels
+
+/// Pixels that a text of letters of `size` takes in Liberation Sans, which charts ask for first; letters beyond ASCII count
+/// as square.
+double textWidth(const std::string& text, double size);
 
 struct LabelledPoint {
     glm::dvec2 at;
     std::string text;
+    glm::dvec2 size; // of the text
 };
+LabelledPoint labelled(glm::dvec2 at, const std::string& text);
 
 /// Where a label lies, on which side of its point (−1, 0 or 1 right and down), and whether it is so far from it that a line
 /// must lead there. The text belongs at the side of the box that is nearer to the point.
@@ -30,14 +38,21 @@ struct PlacedLabel {
     bool leader;
 };
 
-/// Puts every label on the free place nearest to its point: inside `area`, off the points and the labels placed before, and,
-/// if it can be had, off the `lines` of the chart too. `letter` is the size of a character.
-std::vector<PlacedLabel> placeLabels(const std::vector<LabelledPoint>& points, const Box& area,
-                                     const std::vector<std::pair<glm::dvec2, glm::dvec2>>& lines, glm::dvec2 letter);
+/// What is there already: labels lie inside `area`, off the marks and what is taken, and, if it can be had, off the lines.
+struct Surroundings {
+    Box area;
+    std::vector<glm::dvec2> marks; // of all points, labelled or not
+    std::vector<Box> taken = {};
+    std::vector<std::pair<glm::dvec2, glm::dvec2>> lines = {};
+};
+
+/// Puts every label on the best free place near its point, one after another; no label lies on another or on the line that
+/// leads to it. Nothing for a point that has no free place.
+std::vector<std::optional<PlacedLabel>> placeLabels(const std::vector<LabelledPoint>& points, const Surroundings& around);
 
 /// Puts the labels of points that share a column one below another at the left side of `area`, in the order of the points'
-/// heights and each as near to its own as the others allow (least squares of the distances). They are `letter.y` apart, or
+/// heights and each as near to its own as the others allow (least squares of the distances). They are a line apart, or
 /// nearer where `area` has less room.
-std::vector<PlacedLabel> placeInColumn(const std::vector<LabelledPoint>& points, const Box& area, glm::dvec2 letter);
+std::vector<PlacedLabel> placeInColumn(const std::vector<LabelledPoint>& points, const Box& area);
 
 } // namespace shadowbench::report

@@ -125,7 +125,8 @@ std::string head(const std::vector<Record>& records) {
 
 } // namespace
 
-Written writeReport(const std::vector<Record>& records, const std::filesystem::path& folder) {
+Written writeReport(const std::vector<Record>& records, const std::filesystem::path& folder,
+                    const std::vector<std::string>& named) {
     Written written{folder / "report.md", {}};
     std::string page = head(records);
     for (const std::string& scene : scenes(records)) {
@@ -136,7 +137,7 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
             writeFile(folder / charts.back(), *svg);
             written.charts.push_back(folder / charts.back());
         };
-        keep("pareto", paretoChart(records, scene));
+        keep("pareto", paretoChart(records, scene, named));
         keep("convergence", convergenceChart(records, scene));
         keep("passes", passChart(records, scene));
         page += sceneSection(records, scene, charts);

@@ -1,4 +1,5 @@
 #include "report/charts.h"
+#include "report/families.h"
 #include "report/gnuplot.h"
 #include "report/labels.h"
 #include "report/run_report.h"
@@ -7,17 +8,19 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <string_view>
 
 namespace shadowbench::report {
 namespace {
 
-constexpr int width = 960, height = 620;
-constexpr double left = 96, top = 84, bottom = 540; // of the plot, pixels, y down
-constexpr double widest = 936, besideStrip = 700;   // its right side; beside a strip of rows without a place
-constexpr std::size_t longestLabel = 100;           // letters: as wide as two thirds of the plot
-constexpr glm::dvec2 letter(6.4, 16);               // of a label at 12 points, pixels
-constexpr std::size_t longestName = 30;             // letters: what fits into the strip
-constexpr std::size_t mostNames = 35;               // rows of letters in the strip, nearly without room between them
+constexpr int width = 960, height = 632;
+constexpr double left = 96, top = 100, bottom = 552; // of the plot, pixels, y down
+constexpr double widest = 936, besideStrip = 700;    // its right side; beside a strip of rows without a place
+constexpr std::size_t longestLabel = 60;             // letters
+constexpr double widestName = 190;                   // pixels: what fits into the strip
+constexpr std::size_t mostNames = 32;                // lines of the strip
+constexpr double keyRow = 52, familyRow = 74;        // heights of what explains marks and colours
+const char* const ink = "#222222";
 
 /// A row of a renderer whose cost is not measured here, so that it has an error and no place.
 struct External {
@@ -29,12 +32,23 @@ struct External {
 struct Point {
     std::string name; // the variant, and those that it cannot be told from
     Place place;
+    const Family* family;
     bool onFront;
     bool adequate;
+    bool named; // has a label
 };
 
+/// Text of a label: its beginning and "…" where it is a long one.
+std::string labelText(const std::string& text) {
+    if (text.size() <= longestLabel) return text;
+    std::size_t end = longestLabel;
+    while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end; // a character stays whole
+    return text.substr(0, end) + "…";
+}
+
 /// Points on the front first, by cost, so that they get the best places for their labels.
-std::vector<Point> points(const std::vector<Record>& records, const std::string& scene) {
+std::vector<Point> points(const std::vector<Record>& records, const std::string& scene,
+                          const std::vector<std::string>& named) {
     const std::vector<std::size_t> front = paretoFront(records, scene);
     const std::vector<Tolerance> limits = tolerances(records, scene);
     std::vector<std::size_t> order = front;
@@ -43,11 +57,16 @@ std::vector<Point> points(const std::vector<Record>& records, const std::string&
 
     const auto equals = inseparable(records, scene);
     std::vector<Point> result;
-    for (const std::size_t i : order)
-        result.push_back({records[i].variant.substr(0, longestLabel) +
-                              (equals.contains(i) ? " ≈ " + variantsOf(records, equals.at(i)) : ""),
-                          *place(records[i]), result.size() < front.size(),
-                          isWithin(records[i], limits) && !isBaseline(records[i])});
+    for (const std::size_t i : order) {
+        const Record& record = records[i];
+        const std::string name =
+            equals.contains(i) ? fmt::format("{} ≈ {}", record.variant, variantsOf(records, equals.at(i))) : record.variant;
+        const bool onFront = result.size() < front.size();
+        result.push_back({labelText(name), *place(record), &familyOf(record.technique), onFront,
+                          isWithin(record, limits) && !isBaseline(record),
+                          onFront || std::ranges::find(named, record.variant) != named.end() ||
+                              std::ranges::find(named, record.technique) != named.end()});
+    }
     return result;
 }
 
@@ -92,7 +111,7 @@ private:
 };
 
 Canvas canvas(const std::vector<Point>& all, const std::vector<Place>& standing, const std::vector<External>& beside,
-              const std::optional<double>& toleranceLine) {
+              const std::optional<Tolerance>& limit) {
     std::vector<double> costs, errors;
     for (const Place& place : standing) costs.push_back(place.cost);
     for (const External& row : beside) errors.push_back(row.error);
@@ -100,7 +119,7 @@ Canvas canvas(const std::vector<Point>& all, const std::vector<Place>& standing,
         costs.push_back(point.place.cost);
         errors.push_back(point.place.error);
     }
-    if (toleranceLine) errors.push_back(*toleranceLine);
+    if (limit) errors.push_back(limit->value);
     return {LogAxis(costs), LogAxis(errors), beside.empty() ? widest : besideStrip};
 }
 
@@ -143,24 +162,44 @@ std::string labelScript(const LabelledPoint& point, const PlacedLabel& placed, c
                                 Canvas::screen(box.closest(point.at)));
 }
 
-std::string labels(const std::vector<Point>& all, const std::vector<Place>& standing, const Canvas& canvas,
-                   const std::optional<double>& toleranceLine) {
-    std::vector<LabelledPoint> named;
-    named.reserve(all.size());
-    for (const Point& point : all) named.push_back({canvas.at(point.place), point.name});
-    std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;
-    for (const std::vector<Place>& front : {corners(frontOf(all), canvas), corners(standing, canvas)})
-        for (std::size_t i = 1; i < front.size(); ++i) lines.emplace_back(canvas.at(front[i - 1]), canvas.at(front[i]));
-    if (toleranceLine) {
-        const double y = canvas.at({*toleranceLine, 1}).y;
-        lines.emplace_back(glm::dvec2(left, y), glm::dvec2(canvas.right(), y));
-    }
+/// Where the name of the tolerance's line stands: at its right end, or as near to it as the marks allow.
+std::optional<Box> toleranceBox(const std::string& text, double y, double right, const std::vector<glm::dvec2>& marks) {
+    const glm::dvec2 size = labelled({}, text).size;
+    for (double x = right - 4; x - size.x > left + 4; x -= 12)
+        for (const double middle : {y - 9, y + 9}) {
+            const Box box{{x - size.x, middle - 0.5 * size.y}, {x, middle + 0.5 * size.y}};
+            const auto isNear = [&](glm::dvec2 mark) { return box.overlaps({mark - 7.0, mark + 7.0}); };
+            if (std::ranges::none_of(marks, isNear)) return box;
+        }
+    return {};
+}
 
-    const std::vector<PlacedLabel> placed =
-        placeLabels(named, {{left + 4, top}, {canvas.right(), bottom - 2}}, lines, letter);
+/// The names of the front and of what the user names, and of the tolerance; the others are dots, which the table below the
+/// chart lists.
+std::string labels(const std::vector<Point>& all, const std::vector<Place>& standing, const Canvas& canvas,
+                   const std::optional<Tolerance>& limit) {
+    Surroundings around{.area = {{left + 4, top}, {canvas.right(), bottom - 2}}, .marks = {}};
+    std::vector<LabelledPoint> named;
+    for (const Point& point : all) {
+        around.marks.push_back(canvas.at(point.place));
+        if (point.named) named.push_back(labelled(around.marks.back(), point.name));
+    }
+    for (const std::vector<Place>& front : {corners(frontOf(all), canvas), corners(standing, canvas)})
+        for (std::size_t i = 1; i < front.size(); ++i)
+            around.lines.emplace_back(canvas.at(front[i - 1]), canvas.at(front[i]));
     std::string script;
+    if (limit) {
+        const double y = canvas.rowOf(limit->value);
+        const std::string text = "tolerance " + formatBound(*limit);
+        around.lines.emplace_back(glm::dvec2(left, y), glm::dvec2(canvas.right(), y));
+        if (const std::optional<Box> box = toleranceBox(text, y, canvas.right(), around.marks)) {
+            around.taken.push_back(*box);
+            script += labelScript({{}, text, {}}, {*box, {-1, 0}, false}, vermilion);
+        }
+    }
+    const std::vector<std::optional<PlacedLabel>> placed = placeLabels(named, around);
     for (std::size_t i = 0; i < placed.size(); ++i)
-        script += labelScript(named[i], placed[i], all[i].onFront ? blue : "#444444");
+        if (placed[i]) script += labelScript(named[i], *placed[i], ink);
     return script;
 }
 
@@ -176,59 +215,82 @@ std::string strip(std::vector<External> rows, const Canvas& canvas) {
     std::ranges::stable_sort(rows, {}, &External::error);
     std::vector<LabelledPoint> named;
     for (const External& row : rows) {
-        named.push_back({{x, canvas.rowOf(row.error)}, row.variant.substr(externalPrefix.size(), longestName)});
+        std::string name = row.variant.substr(externalPrefix.size());
+        while (textWidth(name, labelSize) > widestName) name.pop_back();
+        named.push_back(labelled({x, canvas.rowOf(row.error)}, name));
         script += fmt::format("set label '' at {} point pt {} ps 1.2 lw 2 lc rgb '{}'\n", Canvas::screen(named.back().at),
-                              row.adequate ? 13 : 12, vermilion);
+                              row.adequate ? 13 : 12, familyOf(row.variant).colour);
     }
     named.resize(std::min(named.size(), mostNames));
     const std::size_t unnamed = rows.size() - named.size();
     script += text(unnamed == 0 ? "other renderers" : fmt::format("other renderers ({} not named)", unnamed), top - 8);
-    const std::vector<PlacedLabel> placed = placeInColumn(named, {{x + 36, top}, {width - 4, bottom}}, letter);
-    for (std::size_t i = 0; i < placed.size(); ++i) script += labelScript(named[i], placed[i], "#444444");
+    const std::vector<PlacedLabel> placed = placeInColumn(named, {{x + 36, top}, {width - 4, bottom}});
+    for (std::size_t i = 0; i < placed.size(); ++i) script += labelScript(named[i], placed[i], ink);
     return script;
 }
 
-std::vector<Place> chosen(const std::vector<Point>& all, bool onFront, bool adequate) {
+std::vector<Place> chosen(const std::vector<Point>& all, const Family& family, bool onFront, bool adequate) {
     std::vector<Place> result;
     for (const Point& point : all)
-        if (point.onFront == onFront && point.adequate == adequate) result.push_back(point.place);
+        if (point.family == &family && point.onFront == onFront && point.adequate == adequate) result.push_back(point.place);
     return result;
 }
 
+/// Points in their family's colour, those of the front larger and over the others.
 std::string plotCommand(const std::vector<Point>& all, const std::vector<Place>& standing, const Canvas& canvas,
-                        const std::optional<double>& toleranceLine) {
+                        const std::optional<Tolerance>& limit) {
     std::string data = block("front", corners(frontOf(all), canvas), canvas);
-    std::string plots = fmt::format("plot $front with lines lw 2 lc rgb '{}'", blue);
+    std::string plots = fmt::format("plot $front with lines lw 2 lc rgb '{}'", ink);
     if (!standing.empty()) {
         data += block("standing", corners(standing, canvas), canvas);
-        plots += fmt::format(", $standing with lines lw 1.5 dt 3 lc rgb '{}'", blue);
+        plots += fmt::format(", $standing with lines lw 1.5 dt 3 lc rgb '{}'", ink);
     }
-    if (toleranceLine) plots += fmt::format(", {} with lines lw 2 dt 2 lc rgb '{}'", *toleranceLine, vermilion);
-    for (const bool onFront : {true, false}) {
-        for (const bool adequate : {true, false}) {
-            const std::vector<Place> places = chosen(all, onFront, adequate);
-            if (places.empty()) continue;
-            const std::string name = fmt::format("points{}{}", onFront ? 1 : 0, adequate ? 1 : 0);
-            data += block(name, places, canvas);
-            plots += fmt::format(", ${} with points pt {} ps 1.1 lw 2 lc rgb '{}'", name, adequate ? 7 : 6,
-                                 onFront ? blue : grey);
-        }
-    }
+    if (limit) plots += fmt::format(", {} with lines lw 2 dt 2 lc rgb '{}'", limit->value, vermilion);
+    for (const bool onFront : {false, true})
+        for (const Family& family : families())
+            for (const bool adequate : {true, false}) {
+                const std::vector<Place> places = chosen(all, family, onFront, adequate);
+                if (places.empty()) continue;
+                const std::string name = fmt::format("{}{}{}", family.id, onFront ? 1 : 0, adequate ? 1 : 0);
+                data += block(name, places, canvas);
+                plots += fmt::format(", ${} with points pt {} ps {} lw 2 lc rgb '{}'", name, adequate ? 7 : 6,
+                                     onFront ? 1.3 : 0.9, family.colour);
+            }
     return data + plots + "\n";
+}
+
+/// A dot and a name for each family of the chart.
+std::string familyKey(const std::vector<Point>& all, bool external) {
+    std::string script;
+    double x = left, y = familyRow;
+    for (const Family& family : families()) {
+        const bool isThere = std::ranges::find(all, &family, &Point::family) != all.end();
+        if (!isThere && !(external && family.id == std::string_view("external"))) continue;
+        const double wide = 12 + textWidth(family.title, labelSize) + 16;
+        if (x + wide > width) {
+            x = left;
+            y += 16;
+        }
+        script +=
+            fmt::format("set label '' at {} point pt 7 ps 0.9 lc rgb '{}'\n", Canvas::screen({x + 5, y}), family.colour);
+        script += fmt::format("set label {} at {} left font ',12'\n", literal(family.title), Canvas::screen({x + 14, y}));
+        x += wide;
+    }
+    return script;
 }
 
 /// What the dotted line means, right of the title.
 std::string standingKey() {
     const double y = 26;
     return fmt::format("set arrow from {} to {} nohead lw 1.5 dt 3 lc rgb '{}'\n", Canvas::screen({widest - 300, y}),
-                       Canvas::screen({widest - 272, y}), blue) +
+                       Canvas::screen({widest - 272, y}), ink) +
            fmt::format("set label {} at {} left font ',12'\n", literal("front if light and casters stand still"),
                        Canvas::screen({widest - 264, y}));
 }
 
 /// What line and points mean, in one row under the title.
 std::string key(const std::vector<Tolerance>& limits) {
-    const double y = 56;
+    const double y = keyRow;
     const auto text = [y](const std::string& words, double x) {
         return fmt::format("set label {} at {} left font ',12'\n", literal(words), Canvas::screen({x, y}));
     };
@@ -236,46 +298,43 @@ std::string key(const std::vector<Tolerance>& limits) {
         return fmt::format("set label '' at {} point pt {} ps 1.1 lw 2 lc rgb '{}'\n", Canvas::screen({x, y}), kind, grey);
     };
     std::string script = fmt::format("set arrow from {} to {} nohead lw 2 lc rgb '{}'\n", Canvas::screen({left, y}),
-                                     Canvas::screen({left + 28, y}), blue);
+                                     Canvas::screen({left + 28, y}), ink);
     script += text("Pareto front", left + 36);
     if (limits.empty()) return script;
     std::vector<std::string> bounds;
     for (const Tolerance& limit : limits) bounds.push_back(fmt::format("{} ≤ {}", limit.metric, formatBound(limit)));
     const std::string within = fmt::format("within tolerance ({})", fmt::join(bounds, ", "));
-    const double end = std::max(440.0, 180 + letter.x * static_cast<double>(within.size()));
+    const double end = 160 + textWidth(within, labelSize) + 24;
     script += point(7, left + 146) + text(within, left + 160);
     return script + point(6, left + end) + text("outside", left + end + 14);
 }
 
 } // namespace
 
-std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene) {
-    const std::vector<Point> all = points(records, scene);
+std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene,
+                                       const std::vector<std::string>& named) {
+    const std::vector<Point> all = points(records, scene, named);
     if (all.empty()) return {};
     const std::string metric = headlineMetric(records, scene);
     const std::vector<Tolerance> limits = tolerances(records, scene);
-    const auto limit = std::ranges::find(limits, metric, &Tolerance::metric);
-    const std::optional<double> toleranceLine = limit == limits.end() ? std::nullopt : std::optional(limit->value);
+    const auto found = std::ranges::find(limits, metric, &Tolerance::metric);
+    const std::optional<Tolerance> limit = found == limits.end() ? std::nullopt : std::optional(*found);
     const std::vector<External> beside = externals(records, scene);
     const std::vector<Place> standing = standingFront(records, scene);
-    const Canvas area = canvas(all, standing, beside, toleranceLine);
+    const Canvas area = canvas(all, standing, beside, limit);
     const bool share = isShare(metric);
 
     std::string script = plotArea(left / width, area.right() / width, top, bottom, height);
     script += fmt::format("set label {} at {} left font ',18'\n", literal(scene), Canvas::screen({left, 26}));
-    script += "unset key\n" + key(limits);
-    if (toleranceLine)
-        script += fmt::format("set label {} at {} right font ',12' textcolor rgb '{}'\n",
-                              literal("tolerance " + formatBound(*limit)),
-                              Canvas::screen(area.at({*toleranceLine, area.cost().high()}) - glm::dvec2(4, 9)), vermilion);
+    script += "unset key\n" + key(limits) + familyKey(all, !beside.empty());
     if (!standing.empty()) script += standingKey();
     script += fmt::format("set xlabel {}\n", literal("cost: " + costMeaning(records, scene)));
     script += fmt::format("set ylabel {}\n", literal("error: " + meaning(metric)));
     script += area.cost().script("x", 1, "×");
     script += area.error().script("y", share ? 100 : 1, share ? " %%" : "");
-    script += labels(all, standing, area, toleranceLine);
+    script += labels(all, standing, area, limit);
     script += strip(beside, area);
-    script += plotCommand(all, standing, area, toleranceLine);
+    script += plotCommand(all, standing, area, limit);
     return svgOf(script, width, height);
 }
 

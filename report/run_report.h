@@ -38,6 +38,8 @@ struct Written {
     std::filesystem::path page;
     std::vector<std::filesystem::path> charts;
 };
-Written writeReport(const std::vector<Record>& records, const std::filesystem::path& folder);
+/// `named`: variants and techniques that charts label beside the Pareto front.
+Written writeReport(const std::vector<Record>& records, const std::filesystem::path& folder,
+                    const std::vector<std::string>& named = {});
 
 } // namespace shadowbench::report

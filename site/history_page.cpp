@@ -19,7 +19,7 @@ constexpr const char* historyAddress = "history.html";
 std::string commitAt(const Findings& f, std::size_t commit) { return history::shortHash(f.history.commits[commit].hash); }
 
 Table changeTable(const Findings& f) {
-    Table table{.id = "changes", .caption = "What changed, the largest first", .rows = {}, .headed = false};
+    Table table{.id = "changes", .caption = "What changed, the largest first", .rows = {}, .headed = false, .stacked = true};
     table.columns = {{.title = "technique", .number = false},
                      {.title = "is", .number = false},
                      {.title = "scene", .number = false},

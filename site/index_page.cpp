@@ -1,6 +1,8 @@
-// The first page: which technique to take on which scene.
+// The first page: what this is, what it looks like, and the ways in.
+#include "report/families.h"
 #include "report/run_report.h"
 #include "report/run_text.h"
+#include "report/slug.h"
 #include "report/summary.h"
 #include "site/choice.h"
 #include "site/names.h"
@@ -8,209 +10,230 @@
 #include "site/scene_tables.h"
 #include "site/technique_facts.h"
 #include "site/viewer/cells.h"
+#include "site/viewer/thumbnail.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
+#include <map>
+#include <set>
 
 namespace shadowbench::site {
 namespace {
 
 constexpr const char* indexAddress = "index.html";
 
-Cell costCell(const Record& record) {
-    const std::optional<report::FrameCost> cost = report::frameCost(record);
-    return cost ? Cell{fmt::format("{:.2f}", cost->ratio), cost->ratio} : Cell{"–"};
+std::string counted(std::size_t count, const std::string& what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-std::string shortList(const std::vector<Record>& records, const std::vector<std::size_t>& indices) {
-    constexpr std::size_t most = 2;
-    std::string text;
-    for (std::size_t i = 0; i < std::min(indices.size(), most); ++i)
-        text += (i == 0 ? "" : ", ") + records[indices[i]].variant;
-    return indices.size() > most ? fmt::format("{} and {} more", text, indices.size() - most) : text.empty() ? "–" : text;
-}
-
-/// "cheapest of 10 within tolerance; then volume-zpass, volume-zfail and 7 more".
-std::string reason(const std::vector<Record>& records, const Choice& choice) {
-    return choice.others.empty() ? choice.why : fmt::format("{}; then {}", choice.why, shortList(records, choice.others));
-}
-
-/// "Projected shadow on a plane; its weakness: shades nothing but its plane": what does here may not do elsewhere.
-std::string portrait(const std::string& technique) {
-    const std::string weakness = report::admittedFailure(technique), title = factsOf(technique).title;
-    return weakness.empty() ? title : fmt::format("{}. Its weakness: {}", title, weakness);
-}
-
-Row answerRow(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images) {
-    const Choice choice = choiceFor(records, scene);
-    Row row{{{.text = scene, .address = sceneAddress(scene)}}};
-    if (!choice.take) {
-        row.cells.resize(6, Cell{"–"});
-        row.cells.push_back({choice.why});
-        return row;
+/// "57 techniques in 134 variants on 37 scenes": of techniques alone; other renderers are settings of engines.
+std::string countsOf(const Contents& contents) {
+    std::set<std::string> techniques, variants, engines;
+    for (const Record& record : contents.records) {
+        if (isExternal(record)) {
+            engines.insert(record.variant);
+            continue;
+        }
+        techniques.insert(record.technique);
+        variants.insert(record.variant);
     }
-    const Record& taken = records[*choice.take];
-    Cell take = techniqueCell(taken, images);
-    if (take.address.empty()) take.address = sceneAddress(scene);
-    take.kind = choice.adequate ? "take" : "nearest";
-    const std::optional<double> share = report::shareOfTolerance(taken, report::tolerances(records, scene));
-    row.cells.push_back(take);
-    row.cells.push_back({errorText(taken), headline(taken)->value});
-    row.cells.push_back(share ? Cell{fmt::format("{:.2f}", *share), *share, {}, *share <= 1 ? "within" : ""} : Cell{"–"});
-    row.cells.push_back(costCell(taken));
-    row.cells.push_back({.text = portrait(taken.technique), .kind = "small"});
-    row.cells.push_back({.text = reason(records, choice), .kind = "small"});
-    return row;
+    std::string text = fmt::format("{} in {} on {}", counted(techniques.size(), "technique"),
+                                   counted(variants.size(), "variant"), counted(contents.scenes, "scene"));
+    if (!engines.empty()) text += fmt::format("; beside them {} of other renderers", counted(engines.size(), "setting"));
+    return text + ".";
 }
 
-Table answers(const std::vector<Record>& records, const std::filesystem::path& images) {
-    Table table{.id = "answers", .caption = "The technique to take on each scene", .headed = false};
-    table.columns = {
-        {.title = "scene", .number = false},
-        {.title = "take", .number = false},
-        {.title = "error",
-         .hint = "Share of receiver pixels with the wrong label (per cent), or rms error of visibility under an area light"},
-        {.title = "× tolerance", .hint = "Its error nearest to a tolerance of the scene, as a multiple of it"},
-        {.title = "cost", .hint = "Frame time as a multiple of sm-uniform's: the dearer of standing and in motion"},
-        {.title = "what it is", .number = false, .brief = false, .prose = true},
-        {.title = "why", .number = false, .brief = false, .prose = true}};
-    for (const std::string& scene : report::scenes(records)) table.rows.push_back(answerRow(records, scene, images));
+/// The scene on which most was timed; "" where nothing was.
+std::string chartedScene(const std::vector<Record>& records) {
+    std::map<std::string, int> timed;
+    for (const Record& record : records)
+        if (report::place(record)) ++timed[record.scene];
+    std::string best;
+    for (const std::string& scene : report::scenes(records))
+        if (timed.contains(scene) && (best.empty() || timed[scene] > timed[best])) best = scene;
+    return best;
+}
+
+/// Error and cost of every technique on the scene, which its chart is drawn from.
+Table exampleTable(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images) {
+    const std::string metric = report::headlineMetric(records, scene);
+    Table table{.id = "example",
+                .caption = "Error and cost on " + scene,
+                .columns = {{.title = "technique", .number = false},
+                            {.title = "error",
+                             .hint = report::meaning(metric),
+                             .key = "error",
+                             .unit = report::isShare(metric) ? "share" : "1"},
+                            {.title = "cost", .hint = report::costMeaning(records, scene), .key = "cost"}},
+                .rows = {}};
+    for (const std::size_t i : report::scoredOf(records, scene)) {
+        const std::optional<report::Place> place = report::place(records[i]);
+        if (!place) continue;
+        table.rows.push_back({{techniqueCell(records[i], images), Cell{errorText(records[i]), place->error},
+                               Cell{fmt::format("{:.2f}", place->cost), place->cost}},
+                              marksOf(records, i)});
+    }
     return table;
 }
 
-/// How far beyond the tolerance, in steps that the style has colours for.
-std::string heat(const std::optional<double>& share) {
-    if (!share) return "";
-    return *share <= 1 ? "h0" : *share <= 2 ? "h1" : *share <= 5 ? "h2" : *share <= 20 ? "h3" : "h4";
+/// The chart of one scene, and its figures.
+void setChart(Data& data, const Contents& contents, SiteWriter& site) {
+    const std::string scene = chartedScene(contents.records);
+    const std::string name = "pareto-" + slug(scene);
+    const bool drawn = !scene.empty() && std::filesystem::exists(site.folder() / (name + ".svg"));
+    data.set("charted", drawn);
+    if (!drawn) return;
+    Chart chart{.name = name,
+                .title = "Error against cost on " + truncate(scene) + ".",
+                .text =
+                    "Error against cost of every technique on " + truncate(scene) + "; the figures are in the table below.",
+                .kind = "scatter",
+                .table = "example",
+                .options = {{"x", "cost"}, {"y", "error"}}};
+    for (const report::Tolerance& limit : report::tolerances(contents.records, scene))
+        if (limit.metric == report::headlineMetric(contents.records, scene))
+            chart.options.emplace_back("tolerance", fmt::format("{}", limit.value));
+    data.set("chart", site.chart(indexAddress, chart));
+    data.set("example", site.table(indexAddress, exampleTable(contents.records, scene, contents.images)));
+    data.set("chartscene", truncate(scene));
+    data.set("chartpage", sceneAddress(scene));
 }
 
-Cell matrixCell(const std::vector<Record>& records, std::size_t index, const std::filesystem::path& images) {
-    const Record& record = records[index];
-    if (!headline(record)) return {.text = record.status == Status::Error ? "error" : "–", .note = record.reason};
-    const std::optional<double> share = report::shareOfTolerance(record, report::tolerances(records, record.scene));
-    Cell cell{.text = errorText(record), .value = share ? *share : headline(record)->value, .kind = heat(share)};
-    if (share) cell.note = fmt::format("{:.2f} × the tolerance", *share);
-    if (hasCell(record, images)) cell.address = cellAddress(record);
-    return cell;
+/// Indices of the records of which there are pictures, those of the scene with most techniques first.
+std::vector<std::size_t> pictured(const Contents& contents) {
+    std::map<std::string, std::set<std::string>> techniques;
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < contents.records.size(); ++i) {
+        const Record& record = contents.records[i];
+        if (isExternal(record) || !(hasCell(record, contents.images) || isLevelOfDetail(record))) continue;
+        found.push_back(i);
+        techniques[record.scene].insert(record.technique);
+    }
+    std::ranges::stable_sort(found, std::greater(),
+                             [&](std::size_t i) { return techniques[contents.records[i].scene].size(); });
+    return found;
 }
 
-/// Rows of the table of all techniques on all scenes.
-class Matrix {
-public:
-    Matrix(const std::vector<Record>& records, const std::filesystem::path& images)
-        : records_(records), images_(images), scenes_(report::scenes(records)) {}
-
-    [[nodiscard]] Table table() const {
-        Table table{.id = "all",
-                    .caption = "Every technique on every scene",
-                    .columns = {},
-                    .rows = {},
-                    .filtered = true,
-                    .headed = false};
-        table.columns = {
-            {.title = "technique", .number = false},
-            {.title = "within", .hint = "Number of scenes on which it is within tolerance", .key = "within"},
-            {.title = "cost",
-             .hint = "Frame time as a multiple of sm-uniform's, the dearer of standing and in motion: geometric mean over "
-                     "the scenes",
-             .key = "cost"}};
-        for (const std::string& scene : scenes_)
-            table.columns.push_back({.title = truncate(scene),
-                                     .hint = "Error; sorted by its multiple of the tolerance",
-                                     .key = truncate(scene)});
-        std::vector<std::string> variants;
-        for (const Record& record : records_)
-            if (!isLevelOfDetail(record) && std::ranges::find(variants, record.variant) == variants.end())
-                variants.push_back(record.variant);
-        for (const std::string& variant : variants)
-            if (Row row = rowOf(variant); !row.cells.empty()) table.rows.push_back(std::move(row));
-        table.note = "Blue: within the scene's tolerance; the further beyond it, the darker the orange. – does not apply.";
-        return table;
-    }
-
-private:
-    /// The record of a variant on each scene; the first of several.
-    [[nodiscard]] std::vector<std::optional<std::size_t>> cellsOf(const std::string& variant) const {
-        std::vector<std::optional<std::size_t>> cells(scenes_.size());
-        for (std::size_t i = 0; i < records_.size(); ++i) {
-            if (records_[i].variant != variant) continue;
-            auto& cell = cells[static_cast<std::size_t>(std::ranges::find(scenes_, records_[i].scene) - scenes_.begin())];
-            if (!cell) cell = i;
-        }
-        return cells;
-    }
-
-    [[nodiscard]] Row rowOf(const std::string& variant) const {
-        Row row;
-        int within = 0, timed = 0;
-        double logCost = 0;
-        bool scored = false;
-        std::vector<Cell> cells;
-        const Record* first = nullptr;
-        for (const std::optional<std::size_t>& index : cellsOf(variant)) {
-            cells.push_back(index ? matrixCell(records_, *index, images_) : Cell{"–"});
-            if (!index) continue;
-            const Record& record = records_[*index];
-            if (first == nullptr) first = &record;
-            scored = scored || headline(record);
-            within += report::isWithin(record, report::tolerances(records_, record.scene)) ? 1 : 0;
-            if (const std::optional<report::FrameCost> cost = report::frameCost(record); cost && cost->ratio > 0) {
-                logCost += std::log(cost->ratio);
-                ++timed;
+/// Truth, technique and error of the plainest technique there.
+void setPictures(Data& data, const Contents& contents, SiteWriter& site) {
+    Data list{Data::type::list};
+    std::vector<std::size_t> cells = pictured(contents);
+    std::erase_if(cells, [&](std::size_t i) {
+        return !hasCell(contents.records[i], contents.images) || report::isBaseline(contents.records[i]);
+    });
+    const auto plainest = std::ranges::find_if(cells, [&](std::size_t i) {
+        return contents.records[i].variant == "sm-uniform" &&
+               contents.records[i].scene == contents.records[cells.front()].scene;
+    });
+    if (!cells.empty()) {
+        const Record& record = contents.records[plainest == cells.end() ? cells.front() : *plainest];
+        const std::string title = factsOf(record.technique).title;
+        if (const auto pictures = cellPictures({record.variant, record, contents.images}, contents.images, site)) {
+            for (const auto& [source, caption] :
+                 {std::pair(pictures->truth,
+                            fmt::format("The truth: how much of the light each pixel of {} sees", record.scene)),
+                  std::pair(pictures->technique, fmt::format("What it gets: {} ({})", title, record.variant)),
+                  std::pair(pictures->difference,
+                            fmt::format("The error, {}: orange too dark, blue too bright", errorText(record)))}) {
+                Data entry;
+                entry.set("source", source);
+                entry.set("caption", truncate(caption));
+                entry.set("to", cellAddress(record));
+                list << entry;
             }
+            writeCard(record, contents.images, site);
         }
-        if (!scored) return row;
-        const TechniqueFacts facts = factsOf(first->technique);
-        const double cost = timed > 0 ? std::exp(logCost / timed) : 0;
-        row.cells = {Cell{.text = variant, .note = techniqueCell(*first, {}).note},
-                     Cell{std::to_string(within), static_cast<double>(within)},
-                     timed > 0 ? Cell{fmt::format("{:.2f}", cost), cost} : Cell{"–"}};
-        row.cells.insert(row.cells.end(), cells.begin(), cells.end());
-        row.marks = {{"family", facts.family},
-                     {"answer", facts.answer},
-                     {"within", within > 0 ? "yes" : "no"},
-                     {"baseline", report::isBaseline(*first) ? "yes" : "no"}};
-        return row;
     }
-
-    const std::vector<Record>& records_;
-    const std::filesystem::path& images_;
-    std::vector<std::string> scenes_;
-};
-
-std::size_t countVariants(const std::vector<Record>& records) {
-    std::vector<std::string> variants;
-    for (const Record& record : records)
-        if (std::ranges::find(variants, record.variant) == variants.end()) variants.push_back(record.variant);
-    return variants.size();
+    data.set("pictured", list.is_non_empty_list());
+    data.set("pictures", list);
 }
 
-std::string lead(const std::vector<Record>& records) {
-    if (records.empty()) return "There are no records.";
-    const std::size_t scenes = report::scenes(records).size(), variants = countVariants(records);
-    return fmt::format("{} technique{} on {} scene{}, scored against exact truth. Take the cheapest that stays within what "
-                       "a viewer of the scene accepts.",
-                       variants, variants == 1 ? "" : "s", scenes, scenes == 1 ? "" : "s");
+/// Where a technique's card leads: to its pixels, else to its scene.
+Data techniqueCard(const Record& record, const std::string& picture, const std::filesystem::path& images) {
+    Data data;
+    data.set("title", truncate(factsOf(record.technique).title));
+    data.set("id", truncate(record.technique));
+    data.set("to", hasCell(record, images) ? cellAddress(record) : sceneAddress(record.scene));
+    data.set("pictured", !picture.empty());
+    data.set("picture", picture);
+    data.set("scene", truncate(record.scene));
+    return data;
+}
+
+/// Every technique once, by family; `pictures`: the record of each that there is a picture of.
+Data familyCards(const Contents& contents, const SiteWriter& site) {
+    std::map<std::string, std::size_t> shown; // by technique
+    for (const std::size_t i : pictured(contents)) shown.try_emplace(contents.records[i].technique, i);
+    std::vector<std::size_t> firsts;
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < contents.records.size(); ++i)
+        if (const Record& record = contents.records[i]; !isExternal(record) && seen.insert(record.technique).second)
+            firsts.push_back(i);
+    Data list{Data::type::list};
+    for (const report::Family& family : report::families()) {
+        Data entry, cards{Data::type::list};
+        std::size_t count = 0;
+        for (const std::size_t first : firsts) {
+            const std::string& technique = contents.records[first].technique;
+            if (report::familyOf(technique).id != std::string_view(family.id)) continue;
+            const Record& record = contents.records[shown.contains(technique) ? shown.at(technique) : first];
+            cards << techniqueCard(record, thumbnail(record, contents.images, site), contents.images);
+            ++count;
+        }
+        if (count == 0) continue;
+        entry.set("family", family.id);
+        entry.set("title", family.title);
+        entry.set("count", std::to_string(count));
+        entry.set("cards", cards);
+        list << entry;
+    }
+    return list;
+}
+
+Data wayIn(const std::string& title, const std::string& says, const std::string& to) {
+    Data data;
+    data.set("title", title);
+    data.set("says", says);
+    data.set("address", to);
+    return data;
+}
+
+Data waysIn(const Contents& contents) {
+    Data list{Data::type::list};
+    list << wayIn("Choose a technique", "The cheapest for each scene whose errors a viewer accepts, and all the others.",
+                  chooseAddress);
+    if (contents.engines)
+        list << wayIn("Look at engines", "Engines and path tracers on the same scenes, by the same truth.", enginesAddress);
+    if (contents.claims > 0)
+        list << wayIn("Read the claims",
+                      fmt::format("{} of the papers, and what the records say of each.", counted(contents.claims, "claim")),
+                      "claims.html");
+    return list;
 }
 
 } // namespace
 
-void addIndexPage(const std::vector<Record>& records, const std::string& command, const std::filesystem::path& images,
-                  SiteWriter& site) {
+void addIndexPage(const Contents& contents, SiteWriter& site) {
+    const std::vector<Record>& records = contents.records;
     Data data;
-    data.set("lead", lead(records));
-    data.set("answers", site.table(indexAddress, answers(records, images)));
-    data.set("all", site.table(indexAddress, Matrix(records, images).table()));
+    data.set("empty", records.empty());
+    data.set("counts", countsOf(contents));
+    setChart(data, contents, site);
+    setPictures(data, contents, site);
+    data.set("ways", waysIn(contents));
+    data.set("families", familyCards(contents, site));
     data.set("measured", !records.empty());
     data.set("commit", truncate(report::commitsOf(records)));
     data.set("environment", truncate(report::environmentsOf(records)));
     constexpr std::size_t longestCommand = 8000; // bytes; one that is longer is no use to a reader
-    data.set("command", command.size() > longestCommand ? truncate(command) : command);
+    data.set("command", contents.command.size() > longestCommand ? truncate(contents.command) : contents.command);
     data.set("data", std::filesystem::exists(site.folder() / "results.jsonl"));
     data.set("time", records.empty() ? "" : truncate(records.front().time));
     data.set("profile", records.empty() ? "" : truncate(records.front().profile));
-    site.add({indexAddress, "Which shadow technique?", render("index.html", data)});
+    site.add({.address = indexAddress,
+              .title = "How correct are real-time shadows?",
+              .main = render("index.html", data),
+              .description = "Real-time shadow techniques against exact truth: " + countsOf(contents)});
 }
 
 } // namespace shadowbench::site

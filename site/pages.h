@@ -12,9 +12,26 @@
 
 namespace shadowbench::site {
 
-/// index.html; `command` made the records.
-void addIndexPage(const std::vector<Record>& records, const std::string& command, const std::filesystem::path& images,
-                  SiteWriter& site);
+inline constexpr const char *chooseAddress = "choose.html", *enginesAddress = "engines.html";
+
+/// What a site shows, for its first page.
+struct Contents {
+    const std::vector<Record>& records;
+    std::filesystem::path images = {};
+    std::string command = {}; // that made the records
+    std::size_t scenes = 0;   // at whatever size
+    bool engines = false;     // has a page of them
+    std::size_t claims = 0;   // that have pages
+};
+
+/// index.html, after the pages of cells and the charts, which it shows.
+void addIndexPage(const Contents& contents, SiteWriter& site);
+
+/// choose.html: which technique to take on each scene; every technique on every scene. Of techniques alone.
+void addChoosePage(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site);
+
+/// engines.html: other renderers' records.
+void addEnginesPage(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site);
 
 /// scenes/<scene>.html; `drawn`: the charts that the report has written into the site's folder.
 void addScenePage(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images,

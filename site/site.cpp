@@ -1,9 +1,12 @@
 #include "site/site.h"
 
 #include "base/files.h"
+#include "embedded_method.h"
 #include "report/run_report.h"
 #include "report/run_text.h"
 #include "report/summary.h"
+#include "site/made_file.h"
+#include "site/menu.h"
 #include "site/names.h"
 #include "site/pages.h"
 #include "site/viewer/cells.h"
@@ -18,13 +21,13 @@ namespace {
 
 std::vector<Link> navigationOf(const Sources& sources, const std::vector<Record>& measured, const std::vector<Sweep>& sweeps,
                                bool claims) {
-    std::vector<Link> links{{"Choose", "index.html"}};
+    std::vector<Link> links{{"Choose", chooseAddress}};
+    if (std::ranges::any_of(measured, isExternal)) links.push_back({"Engines", enginesAddress});
     if (!sweeps.empty()) links.push_back({"Sweeps", "sweeps.html"});
     if (claims) links.push_back({"Claims", "claims.html"});
     if (!measured.empty()) links.push_back({"Truth", "truth.html"});
     if (sources.base) links.push_back({"Gate", "gate.html"});
     if (sources.findings) links.push_back({"History", "history.html"});
-    for (const std::string& scene : report::scenes(measured)) links.push_back({scene, sceneAddress(scene)}); // may be many
     return links;
 }
 
@@ -46,10 +49,15 @@ std::vector<Record> splitMixedRuns(std::vector<Record> records) {
         const Record& first = *firsts.try_emplace(record.scene, &record).first->second;
         const bool same =
             std::tie(first.profile, first.width, first.height) == std::tie(record.profile, record.width, record.height);
-        names.push_back(same ? record.scene
-                             : fmt::format("{}, {}, {}", record.scene, record.profile, report::imageSize(record)));
+        names.push_back(same ? record.scene : record.scene + sizeSuffix(record));
     }
     for (std::size_t i = 0; i < records.size(); ++i) records[i].scene = names[i];
+    return records;
+}
+
+/// The records of techniques, or those of other renderers.
+std::vector<Record> only(std::vector<Record> records, bool external) {
+    std::erase_if(records, [&](const Record& record) { return isExternal(record) != external; });
     return records;
 }
 
@@ -81,17 +89,21 @@ std::filesystem::path writeSite(const Sources& sources, const std::filesystem::p
     std::vector<Record> measured = shown;
     std::erase_if(measured, [](const Record& record) { return record.sweep.has_value(); });
     const std::string command = measured.empty() ? "" : report::runCommand(measured);
+    const std::size_t scenes = report::scenes(measured).size();
     measured = splitMixedRuns(std::move(measured));
     if (sources.standing) measured = report::standing(std::move(measured));
     const std::vector<Sweep> sweeps = sweepsOf(shown);
     const std::vector<Judgement> claims = decidedClaims(sources.records);
-    SiteWriter site(folder, navigationOf(sources, measured, sweeps, !claims.empty()));
+    SiteWriter site(folder, navigationOf(sources, measured, sweeps, !claims.empty()), sceneGroups(measured));
 
     const Comparison compared = comparisonOf(sources);
     writeCells(measured, sources.images, site, sources.sequences, compared.before()); // whose pictures other pages show, too
-    const report::Written report = report::writeReport(measured, folder);
+    const report::Written report = report::writeReport(measured, folder, sources.named);
     writeFile(folder / "results.csv", report::csv(sources.records));
-    addIndexPage(measured, command, sources.images, site);
+    const bool engines = std::ranges::any_of(measured, isExternal);
+    addIndexPage({measured, sources.images, command, scenes, engines, claims.size()}, site);
+    addChoosePage(only(measured, false), sources.images, site);
+    if (engines) addEnginesPage(only(measured, true), sources.images, site);
     for (const std::string& scene : report::scenes(measured))
         addScenePage(measured, scene, sources.images, report.charts, site);
     for (const Sweep& sweep : sweeps) addSweepPage(sweep, site);
@@ -105,6 +117,7 @@ std::filesystem::path writeSite(const Sources& sources, const std::filesystem::p
     }
     if (sources.findings) addHistoryPage(*sources.findings, site);
     site.writeAssets();
+    writeMade(folder / "docs/metrics.md", embedded::method().front().text);
     return folder / "index.html";
 }
 

@@ -21,6 +21,7 @@ struct Sources {
     std::filesystem::path baseImages = {};          // as `images`
     std::optional<history::Findings> findings = {}; // for history.html
     Sequences sequences = Sequences::Fronts;        // whose moving frames the pages of cells hold
+    std::vector<std::string> named = {};            // variants and techniques that charts label beside the front
     bool standing = false;                          // costs are of scenes where light and casters stand still
 };
 

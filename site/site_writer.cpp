@@ -18,12 +18,41 @@ std::string stemOf(const std::string& address) {
     return stem;
 }
 
+Data linkData(const Link& link, const std::string& page) {
+    Data entry;
+    entry.set("name", truncate(link.title));
+    entry.set("address", rootFrom(page) + link.address);
+    entry.set("here", link.address == page);
+    return entry;
+}
+
+void setMenu(Data& data, const std::vector<LinkGroup>& groups, const std::string& page) {
+    Data list{Data::type::list};
+    std::string current;
+    for (const LinkGroup& group : groups) {
+        Data entry, scenes{Data::type::list};
+        for (const Link& link : group.links) {
+            scenes << linkData(link, page);
+            if (link.address == page) current = truncate(link.title);
+        }
+        entry.set("group", group.title);
+        entry.set("scenes", scenes);
+        list << entry;
+    }
+    data.set("grouped", !groups.empty());
+    data.set("groups", list);
+    if (current.empty())
+        data.set("current", false);
+    else
+        data.set("current", current);
+}
+
 } // namespace
 
 std::string rootFrom(const std::string& address) { return address.find('/') == std::string::npos ? "" : "../"; }
 
-SiteWriter::SiteWriter(std::filesystem::path folder, std::vector<Link> navigation)
-    : folder_(std::move(folder)), navigation_(std::move(navigation)) {}
+SiteWriter::SiteWriter(std::filesystem::path folder, std::vector<Link> navigation, std::vector<LinkGroup> scenes)
+    : folder_(std::move(folder)), navigation_(std::move(navigation)), scenes_(std::move(scenes)) {}
 
 void SiteWriter::add(const Page& page) {
     const std::string root = rootFrom(page.address);
@@ -31,13 +60,10 @@ void SiteWriter::add(const Page& page) {
     data.set("title", truncate(page.title));
     data.set("root", root);
     data.set("main", page.main);
-    for (const Link& link : navigation_) {
-        Data entry;
-        entry.set("name", truncate(link.title));
-        entry.set("address", root + link.address);
-        entry.set("here", link.address == page.address);
-        links << entry;
-    }
+    for (const Link& link : navigation_) links << linkData(link, page.address);
+    setMenu(data, scenes_, page.address);
+    data.set("description", truncate(page.description.empty() ? page.title + ", by shadowbench." : page.description));
+    data.set("carded", std::filesystem::exists(folder_ / "assets/card.png"));
     for (const std::string& script : page.scripts) {
         Data entry;
         entry.set("script", root + script);

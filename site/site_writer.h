@@ -1,6 +1,7 @@
 // The files of a site: pages with their frame, tables, charts, and what they share.
 #pragma once
 
+#include "site/menu.h"
 #include "site/table.h"
 
 #include <filesystem>
@@ -9,16 +10,13 @@
 
 namespace shadowbench::site {
 
-struct Link {
-    std::string title, address; // from the site's folder
-};
-
 struct Page {
     std::string address;                                                   // from the site's folder: "scenes/simple.html"
     std::string title;                                                     // text
     std::string main;                                                      // HTML
     std::vector<std::string> scripts = {"assets/d3.js", "assets/site.js"}; // from the site's folder; classic ones
     std::vector<std::string> styles = {"assets/style.css"};
+    std::string description = {}; // in a sentence, for search engines and cards of links; "": its title
 };
 
 /// A chart by gnuplot, which is seen without JavaScript, and what a script draws in its place.
@@ -36,8 +34,8 @@ std::string rootFrom(const std::string& address);
 
 class SiteWriter {
 public:
-    /// `navigation`: the pages that every page leads to.
-    SiteWriter(std::filesystem::path folder, std::vector<Link> navigation);
+    /// `navigation` and `scenes`: the pages that every page leads to.
+    SiteWriter(std::filesystem::path folder, std::vector<Link> navigation, std::vector<LinkGroup> scenes = {});
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
@@ -58,6 +56,7 @@ public:
 private:
     std::filesystem::path folder_;
     std::vector<Link> navigation_;
+    std::vector<LinkGroup> scenes_;
     std::size_t pages_ = 0;
 };
 

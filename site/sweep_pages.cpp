@@ -144,7 +144,7 @@ void addSweepPage(const Sweep& sweep, SiteWriter& site) {
 }
 
 void addSweepList(const std::vector<Sweep>& sweeps, SiteWriter& site) {
-    Table table{.id = "sweeps", .caption = "Quantities that were moved", .rows = {}, .headed = false};
+    Table table{.id = "sweeps", .caption = "Quantities that were moved", .rows = {}, .headed = false, .stacked = true};
     table.columns = {{.title = "sweep", .number = false},
                      {.title = "techniques"},
                      {.title = "break"},

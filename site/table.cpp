@@ -1,8 +1,10 @@
 #include "site/table.h"
 
 #include "report/csv_text.h"
+#include "report/families.h"
 #include "site/names.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -23,6 +25,7 @@ Data columnData(const Column& column) {
 Data cellData(const Cell& cell, const Column& column, const std::string& root) {
     Data data;
     data.set("text", truncate(cell.text, column.prose ? sentenceRoom : nameRoom));
+    data.set("under", column.title);
     data.set("value", cell.value && std::isfinite(*cell.value) ? fmt::format("{}", *cell.value) : std::string());
     data.set("valued", cell.value.has_value());
     data.set("linked", !cell.address.empty());
@@ -31,6 +34,16 @@ Data cellData(const Cell& cell, const Column& column, const std::string& root) {
     data.set("noted", !cell.note.empty());
     data.set("note", truncate(cell.note, sentenceRoom));
     return data;
+}
+
+/// A name as HTML that a narrow column breaks between a variant's parameters and not within a word.
+std::string breakable(const std::string& text) {
+    std::string html;
+    for (const char letter : kainjow::mustache::html_escape(text)) {
+        html += letter;
+        if (letter == ':' || letter == ',' || letter == '=' || letter == '_' || letter == '.') html += "<wbr>";
+    }
+    return html;
 }
 
 Data rowData(const Row& row, const Table& table, const std::string& root) {
@@ -43,6 +56,7 @@ Data rowData(const Row& row, const Table& table, const std::string& root) {
     }
     data.set("marks", marks);
     data.set("head", cellData(row.cells.front(), Column{.title = {}, .number = false}, root));
+    data.set("name", breakable(truncate(row.cells.front().text)));
     for (std::size_t i = 1; i < row.cells.size(); ++i) cells << cellData(row.cells[i], table.columns[i], root);
     data.set("cells", cells);
     return data;
@@ -117,6 +131,32 @@ std::optional<double> leadingNumber(const std::string& text) {
     return end == text.c_str() || !std::isfinite(value) ? std::nullopt : std::optional(value);
 }
 
+/// The families of the rows, in the order in which all pages list them.
+Data familiesOf(const Table& table) {
+    Data list{Data::type::list};
+    for (const report::Family& family : report::families()) {
+        const std::pair<std::string, std::string> mark{"family", family.id};
+        const auto isOfIt = [&](const Row& row) { return std::ranges::find(row.marks, mark) != row.marks.end(); };
+        if (std::ranges::none_of(table.rows, isOfIt)) continue;
+        Data entry;
+        entry.set("family", family.id);
+        entry.set("title", family.title);
+        list << entry;
+    }
+    return list;
+}
+
+Data scaleOf(const Table& table) {
+    Data list{Data::type::list};
+    for (const auto& [kind, words] : table.scale) {
+        Data entry;
+        entry.set("kind", kind);
+        entry.set("words", words);
+        list << entry;
+    }
+    return list;
+}
+
 } // namespace
 
 Table tableOf(const report::TextTable& text, const std::string& id, const std::string& caption) {
@@ -138,10 +178,15 @@ Data tableData(const Table& table, const std::string& root, const std::string& f
     data.set("filtered", table.filtered);
     data.set("tablenote", table.note);
     data.set("files", root + files);
+    data.set("stacked", table.stacked || std::ranges::any_of(table.columns, &Column::prose));
     for (const Column& column : table.columns) columns << columnData(column);
     for (const Row& row : table.rows) rows << rowData(row, table, root);
     data.set("columns", columns);
     data.set("rows", rows);
+    const Data families = familiesOf(table), scale = scaleOf(table);
+    data.set("keyed", families.is_non_empty_list() || scale.is_non_empty_list());
+    data.set("families", families);
+    data.set("scale", scale);
     return data;
 }
 

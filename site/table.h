@@ -42,6 +42,8 @@ struct Table {
     std::string note = {}; // below it
     bool filtered = false; // with fields for family, answer and tolerance above it
     bool headed = true;    // its caption is seen; else only heard
+    bool stacked = false;  // in a narrow window each row is a list, which nobody scrolls sideways; those with prose are so
+    std::vector<std::pair<std::string, std::string>> scale = {}; // kinds of cells that a colour stands for, with their words
 };
 
 /// A table of text: numbers are read off their text, the first column names the rows.

@@ -7,7 +7,7 @@ namespace shadowbench::site {
 
 struct TechniqueFacts {
     std::string title;  // "Percentage-closer soft shadows"; the id of one that the catalogue lacks
-    std::string family; // its folder: "soft"; "other" of one that the catalogue lacks, "external" of another renderer
+    std::string family; // by its id (report/families.h): "soft"
     std::string answer; // "hard", "filtered", "soft", "colour", "other"
     std::string lacks;  // needs (techniques/contract/need.h): "any-eye, open-meshes"
 };

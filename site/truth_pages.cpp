@@ -73,7 +73,8 @@ Table overview(const std::vector<Record>& records) {
                 .caption = "What every scene was scored against",
                 .columns = infoColumns(),
                 .rows = {},
-                .headed = false};
+                .headed = false,
+                .stacked = true};
     table.columns.insert(table.columns.begin(), {.title = "scene", .number = false});
     for (const std::string& scene : report::scenes(records))
         for (const SceneTruth& truth : truthsOf(records, scene)) {
@@ -87,7 +88,7 @@ Table overview(const std::vector<Record>& records) {
 void addTruthPage(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images,
                   SiteWriter& site) {
     const std::string address = truthAddress(scene);
-    Table table{.id = "truths", .caption = "The truths of " + scene, .columns = infoColumns(), .rows = {}};
+    Table table{.id = "truths", .caption = "The truths of " + scene, .columns = infoColumns(), .rows = {}, .stacked = true};
     table.columns.push_back({.title = "key", .number = false, .brief = false});
     table.columns.push_back({.title = "hash of the pixels", .number = false, .brief = false});
     for (const SceneTruth& truth : truthsOf(records, scene)) {

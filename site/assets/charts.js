@@ -20,27 +20,15 @@
   const written = (value, unit) => (unit === "share" ? d3.format(".3~g")(100 * value) + " %" : d3.format(".4~g")(value));
   const shownRows = (entry) => entry.rows.filter((row) => !row.hidden);
   const nameOf = (row) => row.cells[0].textContent;
-  const familyColour = (entry) => {
-    const families = [...new Set(entry.rows.map((row) => row.dataset.family || ""))].sort();
-    return (row) => palette[families.indexOf(row.dataset.family || "") % palette.length];
-  };
-  // Swatches by SVG, since a policy of the host may forbid style attributes.
+  // The families of the table's rows, as the table itself names them.
   function familyKey(entry) {
-    const key = make("span");
-    const seen = new Set();
-    const colour = familyColour(entry);
-    for (const row of entry.rows) {
-      const family = row.dataset.family;
-      if (!family || seen.has(family)) continue;
-      seen.add(family);
-      const label = make("span", { class: "family" });
-      const swatch = d3.create("svg").attr("class", "swatch").attr("viewBox", "0 0 10 10").attr("aria-hidden", "true");
-      swatch.append("circle").attr("cx", 5).attr("cy", 5).attr("r", 5).attr("fill", colour(row));
-      label.append(swatch.node(), family);
-      key.append(label);
-    }
-    return key;
+    const key = entry.table.closest("section").querySelector(".key");
+    const families = key ? [...key.querySelectorAll(".family")] : [];
+    const copy = make("span", { class: "key" });
+    copy.append(...families.map((family) => family.cloneNode(true)));
+    return copy;
   }
+  const familyOf = (row) => row.dataset.family || "";
   const go = (row) => {
     const link = row.querySelector("a[href]");
     if (link) location.href = link.href;
@@ -100,6 +88,44 @@
     area.svg.append("text").attr("x", (area.left + area.width - area.right) / 2).attr("y", area.height - 8).attr("text-anchor", "middle").text(x);
     area.svg.append("text").attr("transform", "rotate(-90)").attr("x", -(area.top + area.height - area.bottom) / 2).attr("y", 15).attr("text-anchor", "middle").text(y);
   }
+
+  // Names beside points, as the program places them: off every mark, off each other and inside the frame, with a line to one
+  // that lies further off; off the boxes of the chart's lines, too, if it can be had. One without a free place is left out.
+  function writeNames(area, named, marks, lines) {
+    const taken = marks.map(({ x, y }) => ({ left: x - 7, right: x + 7, top: y - 7, bottom: y + 7 })), texts = [];
+    const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+    const inside = (box) => box.left >= area.left + 3 && box.right <= area.width - area.right && box.top >= area.top && box.bottom <= area.height - area.bottom - 2;
+    const along = (from, to) => d3.range(0.1, 1, 0.05).map((t) => ({ x: from.x + t * (to.x - from.x), y: from.y + t * (to.y - from.y) }))
+      .map(({ x, y }) => ({ left: x - 1, right: x + 1, top: y - 1, bottom: y + 1 }));
+    const turns = [0, 180, 270, 90, 315, 45, 225, 135, 337.5, 22.5, 202.5, 157.5].map((angle) => (angle * Math.PI) / 180);
+    const side = (share) => (share > 0.3 ? 0 : share < -0.3 ? 1 : 0.5);
+    for (const point of named) {
+      const text = area.svg.append("text").attr("class", "name").text(point.text.slice(0, 48));
+      const width = text.node().getComputedTextLength() + 2, height = 14;
+      let best = null;
+      for (const off of [lines, []]) for (const distance of [10, 18, 28, 40, 55, 75, 100, 130]) for (const turn of turns) {
+        const left = point.x + distance * Math.cos(turn) - side(Math.cos(turn)) * width, top = point.y + distance * Math.sin(turn) - side(Math.sin(turn)) * height;
+        const box = { left, top, right: left + width, bottom: top + height };
+        const to = { x: Math.max(box.left, Math.min(box.right, point.x)), y: Math.max(box.top, Math.min(box.bottom, point.y)) };
+        const leader = distance > 10 ? along(point, to) : [];
+        if (best || !inside(box) || taken.concat(off).some((other) => meet(box, other)) || leader.some((part) => texts.some((other) => meet(part, other)))) continue;
+        best = { box, to, leader };
+      }
+      if (!best) {
+        text.remove();
+        continue;
+      }
+      taken.push(best.box, ...best.leader);
+      texts.push(best.box);
+      text.attr("x", best.box.left + 1).attr("y", best.box.bottom - 3);
+      if (best.leader.length > 0) area.svg.append("line").attr("class", "leader").attr("x1", point.x).attr("y1", point.y).attr("x2", best.to.x).attr("y2", best.to.y);
+    }
+  }
+
+  // The parts of a line that goes in steps, each right to the next point and then down to it, as boxes.
+  const stepsOf = (points) => [].concat(...points.slice(1).map((to, i) => [
+    { left: points[i].x, right: to.x, top: points[i].y - 1, bottom: points[i].y + 1 },
+    { left: to.x - 1, right: to.x + 1, top: Math.min(points[i].y, to.y), bottom: Math.max(points[i].y, to.y) }]));
 
   // Calls `draw` once the figure comes near the window, and says how to have it drawn anew: a page of many charts opens at
   // once, and one that was hidden is drawn as wide as it has become.
@@ -176,7 +202,6 @@
     bar.append(make("span", {}, "● within tolerance, ○ not, □ draws no shadow; line: nothing errs less for less"));
     bar.append(familyKey(entry));
     figure.prepend(bar);
-    const colour = familyColour(entry);
     // As the program judges it (`dominates`): times count with the interval of their rounds.
     const beats = (a, b) => (a.y <= b.y && a.x * (1 + a.spread) < b.x * (1 - b.spread)) ||
       (a.y < b.y && !(a.x * (1 - a.spread) > b.x * (1 + b.spread)));
@@ -199,22 +224,16 @@
       const front = points.filter((p) => !points.some((q) => beats(q, p))).sort((a, b) => a.x - b.x || b.y - a.y);
       if (!Number.isNaN(limit)) area.svg.append("line").attr("class", "limit").attr("x1", area.left).attr("x2", area.width - area.right).attr("y1", sy.at(limit)).attr("y2", sy.at(limit));
       area.svg.append("path").attr("class", "front").attr("d", d3.line().x((p) => sx.at(p.x)).y((p) => sy.at(p.y)).curve(d3.curveStepAfter)(front));
-      const placed = [];
-      for (const p of front.filter((q) => q.row.dataset.baseline !== "yes")) {
-        const left = sx.at(p.x) > area.width * 0.62, width = nameOf(p.row).length * 5.8;
-        const at = { x: sx.at(p.x) + (left ? -10 - width : 10), y: sy.at(p.y) - 8, width };
-        if (placed.some((q) => Math.abs(q.y - at.y) < 12 && at.x < q.x + q.width && q.x < at.x + at.width)) continue;
-        placed.push(at);
-        area.svg.append("text").attr("class", "name").attr("x", at.x).attr("y", at.y).text(nameOf(p.row).slice(0, 48));
-      }
       if (beside.length > 0) area.svg.append("text").attr("x", area.width - 50).attr("y", area.height - area.bottom + 17)
         .attr("text-anchor", "middle").text("not measured");
       const places = points.map((p) => sx.at(p.x)).concat(beside.map((p, i) => area.width - 66 + 16 * (i % 3)));
+      writeNames(area, front.filter((p) => p.row.dataset.baseline !== "yes").map((p) => ({ x: sx.at(p.x), y: sy.at(p.y), text: nameOf(p.row) })),
+        points.concat(beside).map((p, i) => ({ x: places[i], y: sy.at(p.y) })), stepsOf(front.map((p) => ({ x: sx.at(p.x), y: sy.at(p.y) }))));
       const symbol = (p) => d3.symbol().size(75).type(p.row.dataset.baseline === "yes" ? d3.symbolSquare : d3.symbolCircle)();
       const described = (p) => `${nameOf(p.row)}\n${p.row.cells[0].title}\n${x.title} ${Number.isNaN(p.x) ? "not measured here" : written(p.x, x.unit)}, ${y.title} ${written(p.y, y.unit)}`;
       const dots = area.svg.append("g").selectAll("a").data(points.concat(beside)).join("path").attr("class", "dot").attr("d", symbol)
-        .attr("transform", (p, i) => `translate(${places[i]},${sy.at(p.y)})`).attr("stroke", (p) => colour(p.row))
-        .attr("fill", (p) => (p.row.dataset.within === "yes" && p.row.dataset.baseline !== "yes" ? colour(p.row) : "transparent"))
+        .attr("transform", (p, i) => `translate(${places[i]},${sy.at(p.y)})`).attr("data-family", (p) => familyOf(p.row))
+        .classed("full", (p) => p.row.dataset.within === "yes" && p.row.dataset.baseline !== "yes")
         .on("click", (p) => go(p.row)).on("mousemove", (p) => say(described(p), d3.event)).on("mouseout", hush);
       reachable(dots.data().map((p, i) => ({ node: dots.nodes()[i], at: places[i], text: described(p), act: () => go(p.row) }))
         .sort((a, b) => a.at - b.at));
@@ -230,7 +249,6 @@
       .filter(({ x }) => !Number.isNaN(x));
     if (columns.length < 2) return;
     const breakColumn = entry.heads.findIndex((head) => head.textContent === "breaks at");
-    const colour = familyColour(entry);
     const limit = figure.dataset.tolerance ? Number(figure.dataset.tolerance) : NaN;
     const key = make("div", { class: "axes" });
     key.append(familyKey(entry));
@@ -251,14 +269,14 @@
       if (!Number.isNaN(limit)) area.svg.append("line").attr("class", "limit").attr("x1", area.left).attr("x2", area.width - area.right).attr("y1", sy.at(limit)).attr("y2", sy.at(limit));
       const line = d3.line().x((p) => sx.at(p.x)).y((p) => sy.at(p.y));
       const groups = area.svg.append("g").selectAll("g").data(curves).join("g");
-      const drawn = groups.append("path").attr("class", "curve").attr("stroke", (c) => colour(c.row)).attr("d", (c) => line(c.points));
+      const drawn = groups.append("path").attr("class", "curve").attr("data-family", (c) => familyOf(c.row)).attr("d", (c) => line(c.points));
       const described = (c) => nameOf(c.row) + "\n" + [c.points[0], c.points[c.points.length - 1]].map((p) => `${p.title}: ${written(p.y, unit)}`).join(" … ") +
         (Number.isNaN(c.breaks) ? "" : `\nbreaks at ${c.breaks}`);
       reachable(drawn.nodes().map((node, i) => ({ node, text: described(curves[i]), act: () => go(curves[i].row),
         light: (on) => heat(on ? curves[i] : null) })));
       groups.filter((c) => !Number.isNaN(c.breaks)).append("path").attr("d", d3.symbol().type(d3.symbolCross).size(70))
         .attr("transform", (c) => { const p = c.points.find((q) => q.x === c.breaks) || c.points[0]; return `translate(${sx.at(p.x)},${sy.at(p.y)}) rotate(45)`; })
-        .attr("fill", (c) => colour(c.row));
+        .attr("class", "break").attr("data-family", (c) => familyOf(c.row));
       let low = Infinity; // names of curves at their ends, where there is room
       const ends = curves.map((c) => ({ c, y: sy.at(c.points[c.points.length - 1].y) })).sort((a, b) => b.y - a.y);
       if (area.width > 600) for (const { c, y } of ends) {

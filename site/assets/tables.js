@@ -77,10 +77,11 @@ var shadowbenchTables = (function () {
   function addFilters(form, entry) {
     const values = (key) => [...new Set(entry.rows.map((row) => row.dataset[key]).filter(Boolean))].sort();
     const text = make("input", { type: "search", placeholder: "part of a name", "aria-label": "Technique" });
+    const titles = new Map([...form.parentElement.querySelectorAll(".key .family")].map((e) => [e.dataset.family, e.textContent]));
     const choose = (label, options) => {
       const select = make("select");
       select.append(make("option", { value: "" }, "all"));
-      for (const option of options) select.append(make("option", { value: option }, option));
+      for (const option of options) select.append(make("option", { value: option }, titles.get(option) || option));
       const around = make("label", {}, label);
       around.append(select);
       return [around, select];
@@ -98,7 +99,8 @@ var shadowbenchTables = (function () {
       return label;
     });
     const said = make("output", { "aria-live": "polite" });
-    form.append(text, familyLabel, answerLabel, withinLabel, ...needLabels, said);
+    const several = [[familyLabel, "family"], [answerLabel, "answer"]].filter(([, key]) => values(key).length > 1).map(([label]) => label);
+    form.append(text, ...several, withinLabel, ...needLabels, said);
     const apply = () => {
       const count = filter(entry, { text: text.value, family: family.value, answer: answer.value, within: within.checked,
         needs: [...needs.keys()].filter((need) => needs.get(need).checked) });
@@ -123,6 +125,12 @@ var shadowbenchTables = (function () {
   }
   for (const form of document.querySelectorAll("form[data-filters]")) {
     if (tables.has(form.dataset.filters)) addFilters(form, tables.get(form.dataset.filters));
+  }
+
+  // The menu closes when one goes elsewhere.
+  for (const menu of document.querySelectorAll("details.menu")) {
+    addEventListener("click", (event) => { if (!menu.contains(event.target) || event.target.closest("a")) menu.open = false; });
+    addEventListener("keydown", (event) => { if (event.key === "Escape") menu.open = false; });
   }
 
   return { tables, valueOf, make };

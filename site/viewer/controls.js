@@ -60,7 +60,7 @@
 
   function zoomButtons(act) {
     return element("span", { class: "group" }, button("−", "Zoom out", () => act.zoom(0.5)),
-      button("+", "Zoom in", () => act.zoom(2)), button("Fit", "Whole image", () => act.zoom(0)));
+      button("+", "Zoom in", () => act.zoom(2)), button("Fit", "Fit: whole image", () => act.zoom(0)));
   }
 
   function worstButtons(act) {

@@ -18,6 +18,9 @@ constexpr const char* unnamed = R"js(
   [...document.querySelectorAll("button, select, input, a[href]")].filter((e) => !e.closest("[hidden]")).filter((e) =>
     !(e.textContent.trim() || e.querySelector("img[alt]") || e.getAttribute("aria-label") || e.title || (e.labels && e.labels.length)))
     .map((e) => "no name for " + e.outerHTML.slice(0, 120)),
+  ((places) => places.filter((name, i) => places.indexOf(name) !== i).map((name) => "two landmarks of one name: " + name))(
+    [...document.querySelectorAll("section[aria-label], nav, header, main, [role=region]")].filter((e) => e.checkVisibility())
+      .map((e) => (e.getAttribute("role") || e.localName).replace("section", "region") + " " + (e.getAttribute("aria-label") || ""))),
   document.querySelectorAll("h1").length === 1 ? [] : ["not one heading h1"],
   document.title ? [] : ["no title"],
   [...document.querySelectorAll("script")].filter((e) => !e.src).map(() => "a script in the page itself"),
@@ -60,6 +63,33 @@ constexpr const char* overlapping = R"js(
     }
   });
   return [...found].slice(0, 10);)js";
+
+// What is cut at its side by a box that nobody can scroll, or that nobody should have to; words that a line's end cuts.
+// Letters and hyphens alone are words; names of variants and hashes may be broken anywhere.
+constexpr const char* cutTexts = R"js((() => {
+  const found = new Set();
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  const scrolls = (e) => e.matches("pre, .scroll:not(:has(.stacked))");
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const parent = node.parentElement;
+    if (!node.data.trim() || !parent.checkVisibility() || parent.closest(".heard, .skip, .hint, option, legend, script, noscript, svg")) continue;
+    const range = document.createRange();
+    range.selectNodeContents(node);
+    const boxes = [...range.getClientRects()];
+    for (let e = parent; e && !scrolls(e); e = e.parentElement) {
+      const by = e.getBoundingClientRect();
+      if (getComputedStyle(e).overflowX !== "visible" && boxes.some((box) => box.right > by.right + 1 || box.left < by.left - 1))
+        found.add(`"${node.data.trim().slice(0, 40)}" is cut`);
+    }
+    for (const word of node.data.matchAll(/(?<![^\s(])[A-Za-z]{2,14}(?=[\s.,;:)-]|$)/g)) {
+      range.setStart(node, word.index);
+      range.setEnd(node, word.index + word[0].length);
+      const tops = [...range.getClientRects()].filter((box) => box.width > 0).map((box) => box.top);
+      if (tops.some((top) => top > tops[0] + 3)) found.add(`"${word[0]}" is broken`);
+    }
+  }
+  return [...found].slice(0, 10);
+})())js";
 
 // Colours as numbers, one over the other; what is drawn with an opacity of its own lets through what is behind it.
 constexpr const char* faint = R"js(
@@ -162,6 +192,22 @@ Sentences overlaps(Tab& tab, int width, int height) {
     settle(tab);
     Sentences found;
     append(found, tab.value(ofTexts(overlapping)));
+    return found;
+}
+
+Sentences cut(Tab& tab, int width, int height) {
+    tab.resize(width, height);
+    settle(tab);
+    Sentences found;
+    append(found, tab.value(cutTexts));
+    return found;
+}
+
+Sentences violations(Tab& tab, const std::string& axe) {
+    tab.value(axe + "; 0");
+    Sentences found;
+    append(found, tab.value(R"js(axe.run().then((result) => [].concat(...result.violations.map((rule) =>
+        rule.nodes.slice(0, 3).map((node) => rule.id + ": " + node.html.slice(0, 160))))))js"));
     return found;
 }
 

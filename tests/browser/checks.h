@@ -27,6 +27,12 @@ Sentences missingContent(Tab& tab);
 /// Texts of the page that is open, in a window of that size, that lie over each other.
 Sentences overlaps(Tab& tab, int width, int height);
 
+/// Texts, in a window of that size, that end at the side of a box, and words that are broken within.
+Sentences cut(Tab& tab, int width, int height);
+
+/// What axe-core, whose text is `axe`, finds on the page that is open.
+Sentences violations(Tab& tab, const std::string& axe);
+
 /// Texts whose contrast with what is behind them is below 4.5 : 1, or 3 : 1 where letters are large (WCAG 2.1, 1.4.3).
 Sentences lowContrast(Tab& tab);
 

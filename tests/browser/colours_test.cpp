@@ -1,5 +1,7 @@
 // The pages' scales of colours are told apart with every kind of colour vision, and do not go by colour alone.
+#include "base/files.h"
 #include "base/temporary_folder.h"
+#include "report/families.h"
 #include "site/pages.h"
 #include "tests/browser/checks.h"
 #include "tests/browser/large_run.h"
@@ -7,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -49,11 +52,11 @@ constexpr double seenApart = 5;
 TEST(Colours, OfTheHeatMapAreToldApartAndItsBestHasAMarkToo) {
     const TemporaryFolder folder;
     site::SiteWriter site(folder.path(), {});
-    site::addIndexPage(largeRun(20, 5), "", {}, site);
+    site::addChoosePage(largeRun(20, 5), {}, site);
     site.writeAssets();
     for (const bool dark : {false, true}) {
         const auto tab = chromium().tab({.dark = dark});
-        tab->open(folder.path() / "index.html");
+        tab->open(folder.path() / "choose.html");
         const auto steps = tab->value(R"js(['h0', 'h1', 'h2', 'h3', 'h4'].map((kind) => {
             const cell = document.querySelector('td.' + kind);
             return getComputedStyle(cell).backgroundColor.match(/\d+/g).map(Number);
@@ -63,6 +66,81 @@ TEST(Colours, OfTheHeatMapAreToldApartAndItsBestHasAMarkToo) {
                 EXPECT_GT(glm::distance(labOf(vectorOf(steps[i]), vision), labOf(vectorOf(steps[i + 1]), vision)), seenApart)
                     << vision.name << ", step " << i << (dark ? ", dark" : ", light");
         EXPECT_NE(tab->value("getComputedStyle(document.querySelector('td.h0'), '::before').content"), "none");
+    }
+}
+
+double contrast(const glm::dvec3& a, const glm::dvec3& b) {
+    const auto light = [](const glm::dvec3& c) {
+        return 0.2126 * linear(c.x) + 0.7152 * linear(c.y) + 0.0722 * linear(c.z);
+    };
+    const auto [low, high] = std::minmax({light(a), light(b)});
+    return (high + 0.05) / (low + 0.05);
+}
+
+std::vector<Record> ofManyFamilies() {
+    std::vector<Record> records;
+    for (const char* technique : {"pcss", "volume-zfail", "temporal-sampling", "prt-sh", "external:engine", "mine"})
+        records.push_back(test::hardCell(technique, 0.01 + 0.01 * static_cast<double>(records.size()),
+                                         1 + static_cast<double>(records.size())));
+    return records;
+}
+
+constexpr const char* familyColours = R"js([...document.querySelectorAll('#all .key .family')].map((family) => {
+    const numbers = (colour) => colour.match(/\d+/g).map(Number);
+    return { id: family.dataset.family, colour: numbers(getComputedStyle(family, '::before').backgroundColor),
+      paper: numbers(getComputedStyle(document.body).backgroundColor) };
+}))js";
+
+TEST(Colours, OfFamiliesAreOneEachToldApartAndTheSameAsInCharts) {
+    const TemporaryFolder folder;
+    site::SiteWriter site(folder.path(), {});
+    site::Table table{.id = "all", .caption = "families", .columns = {{.title = "technique"}}};
+    for (const report::Family& family : report::families())
+        table.rows.push_back({{{family.title}}, {{"family", family.id}}});
+    site.add({"index.html", "Families", site.table("index.html", table)});
+    site.writeAssets();
+    for (const bool dark : {false, true}) {
+        const auto tab = chromium().tab({.dark = dark});
+        tab->open(folder.path() / "index.html");
+        const nlohmann::json shown = tab->value(familyColours);
+        ASSERT_EQ(shown.size(), report::families().size());
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            const report::Family& family = report::families()[i];
+            const glm::dvec3 colour = vectorOf(shown[i]["colour"]);
+            EXPECT_EQ(shown[i]["id"], family.id);
+            EXPECT_GE(contrast(colour, vectorOf(shown[i]["paper"])), 3) << family.id << (dark ? ", dark" : ", light");
+            if (!dark) {
+                EXPECT_EQ(fmt::format("#{:02X}{:02X}{:02X}", int(colour.x), int(colour.y), int(colour.z)), family.colour);
+            }
+            for (std::size_t k = 0; k < i; ++k)
+                for (const Vision& vision : visions)
+                    EXPECT_GT(glm::distance(labOf(colour, vision), labOf(vectorOf(shown[k]["colour"]), vision)),
+                              4 * seenApart)
+                        << vision.name << ", " << family.id << " and " << shown[k]["id"] << (dark ? ", dark" : ", light");
+        }
+    }
+}
+
+TEST(Colours, OfFamiliesDoNotChangeFromTableToChartOrPageToPage) {
+    const TemporaryFolder folder;
+    site::SiteWriter site(folder.path(), {});
+    const std::vector<Record> few = ofManyFamilies();
+    const std::filesystem::path chart = folder.path() / ("pareto-" + few.front().scene + ".svg");
+    writeFile(chart, R"(<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>)");
+    site::addScenePage(few, few.front().scene, {}, {chart}, site);
+    site.writeAssets();
+    const auto tab = chromium().tab();
+    tab->open(folder.path() / "scenes" / (few.front().scene + ".html"));
+    tab->waitFor("document.querySelector('svg.plot')");
+    const auto dots = tab->value(R"js([...document.querySelectorAll('svg.plot .dot')].map((dot) => {
+        const row = document.querySelector(`#errors tr[data-family="${dot.dataset.family}"] th`);
+        return [getComputedStyle(dot).stroke, getComputedStyle(row, '::before').backgroundColor,
+          getComputedStyle(document.querySelector(`.chart .family[data-family="${dot.dataset.family}"]`), '::before').backgroundColor];
+    }))js");
+    EXPECT_GE(dots.size(), 6U);
+    for (const auto& dot : dots) {
+        EXPECT_EQ(dot[0], dot[1]);
+        EXPECT_EQ(dot[0], dot[2]);
     }
 }
 

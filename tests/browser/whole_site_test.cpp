@@ -59,7 +59,7 @@ TEST(SingleFile, ShowsPixelsAndIsShownByAnAddressAsItWasSeen) {
     const Image<float> v = readChannel(tinyRun().images() / "tiny" / pcf / "visibility.exr", "V");
     const auto tab = chromium().tab();
     tab->open(singleFile());
-    tab->value("document.querySelector('[data-table=\"page-index.html-all\"] a[href*=\"pcf\"]').click()");
+    tab->value("document.querySelector('[data-table=\"page-choose.html-all\"] a[href*=\"pcf\"]').click()");
     waitForViewer(*tab);
     tab->press("n");
     const std::vector<int> pixel = tab->value("document.querySelector('.viewer').viewer.view.pixel");

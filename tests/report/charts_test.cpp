@@ -2,6 +2,7 @@
 #include "base/files.h"
 #include "base/temporary_folder.h"
 #include "report/charts.h"
+#include "report/families.h"
 #include "report/gnuplot.h"
 #include "report/labels.h"
 #include "report/run_report.h"
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace shadowbench {
@@ -28,6 +30,12 @@ private:
     std::filesystem::path folder_ = owner_.path();
 };
 
+/// "#7F00FF" as gnuplot writes it: "127,   0, 255".
+std::string rgbOf(const std::string& colour) {
+    const auto part = [&](std::size_t at) { return std::stoi(colour.substr(at, 2), nullptr, 16); };
+    return fmt::format("{:3}, {:3}, {:3}", part(1), part(3), part(5));
+}
+
 /// An environment variable for the length of a scope.
 class ScopedVariable {
 public:
@@ -41,25 +49,45 @@ private:
     std::string before_;
 };
 
-TEST(Labels, NeverOverlapInACrowd) {
-    std::vector<report::LabelledPoint> points(14);
+report::Box markAt(glm::dvec2 mark) { return {mark - 6.0, mark + 6.0}; }
+
+TEST(Labels, CrossNoLabelNoMarkAndNoFrameInACrowd) {
+    std::vector<report::LabelledPoint> points;
+    report::Surroundings around{.area = {{100, 80}, {900, 540}}, .marks = {}, .taken = {{{800, 90}, {900, 104}}}};
     for (int i = 0; i < 14; ++i) // a cluster as of variants of one technique: some at the very same place
-        points[i] = {{300 + 13 * (i % 5), 200 + 9 * (i % 3)}, "technique:option=" + std::to_string(i)};
-    const report::Box area{{100, 80}, {900, 540}};
-    const std::vector<report::PlacedLabel> placed = report::placeLabels(points, area, {}, {6.4, 16});
+        points.push_back(report::labelled({300 + 13 * (i % 5), 200 + 9 * (i % 3)}, "technique:option=" + std::to_string(i)));
+    for (const report::LabelledPoint& point : points) around.marks.push_back(point.at);
+    for (int i = 0; i < 60; ++i) around.marks.emplace_back(200 + 11 * i, 150 + (53 * i) % 300); // that have no label
+    const std::vector<std::optional<report::PlacedLabel>> placed = report::placeLabels(points, around);
     ASSERT_EQ(placed.size(), points.size());
     for (std::size_t i = 0; i < placed.size(); ++i) {
-        EXPECT_TRUE(area.contains(placed[i].box)) << i;
-        for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(placed[i].box.overlaps(placed[j].box)) << i << " and " << j;
+        ASSERT_TRUE(placed[i]) << i;
+        const report::Box& box = placed[i]->box;
+        EXPECT_TRUE(around.area.contains(box)) << i;
+        EXPECT_FALSE(box.overlaps(around.taken.front())) << i;
+        for (const glm::dvec2 mark : around.marks) EXPECT_FALSE(box.overlaps(markAt(mark))) << i;
+        for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(box.overlaps(placed[j]->box)) << i << " and " << j;
     }
 }
 
+TEST(Labels, AreLeftOutWhereThereIsNoFreePlace) {
+    const report::Surroundings around{.area = {{0, 0}, {60, 40}}, .marks = {{30, 20}}};
+    EXPECT_FALSE(report::placeLabels({report::labelled({30, 20}, "a-name-that-is-wider")}, around)[0]);
+}
+
 TEST(Labels, LieRightOfALonelyPointUnlessALineRunsThere) {
-    const report::Box area{{0, 0}, {400, 400}};
-    const std::vector<report::LabelledPoint> point{{{200, 200}, "pcf"}};
-    EXPECT_EQ(report::placeLabels(point, area, {}, {6, 16})[0].side, glm::ivec2(1, 0));
-    EXPECT_EQ(report::placeLabels(point, area, {{{200, 200}, {400, 200}}}, {6, 16})[0].side, glm::ivec2(-1, 0));
-    EXPECT_FALSE(report::placeLabels(point, area, {}, {6, 16})[0].leader);
+    report::Surroundings around{.area = {{0, 0}, {400, 400}}, .marks = {{200, 200}}};
+    const std::vector<report::LabelledPoint> point{report::labelled({200, 200}, "pcf")};
+    EXPECT_EQ(report::placeLabels(point, around)[0]->side, glm::ivec2(1, 0));
+    EXPECT_FALSE(report::placeLabels(point, around)[0]->leader);
+    around.lines = {{{200, 200}, {400, 200}}};
+    EXPECT_EQ(report::placeLabels(point, around)[0]->side, glm::ivec2(-1, 0));
+}
+
+TEST(Labels, AreAsWideAsTheirLetters) {
+    EXPECT_DOUBLE_EQ(report::textWidth("iii", 12), 12 * 3 * 0.222);
+    EXPECT_DOUBLE_EQ(report::textWidth("mm", 12), 12 * 2 * 0.833);
+    EXPECT_DOUBLE_EQ(report::textWidth("≈", 10), 10);
 }
 
 TEST(LogAxis, DrawsZeroOnALabelledFloorBelowEveryOtherValue) {
@@ -71,6 +99,12 @@ TEST(LogAxis, DrawsZeroOnALabelledFloorBelowEveryOtherValue) {
     EXPECT_TRUE(contains(axis.script("y", 100, " %%"), "'0 %%' "));
     EXPECT_TRUE(contains(axis.script("y", 100, " %%"), "'100 %%' 1)")) << axis.script("y", 100, " %%");
     EXPECT_FALSE(contains(report::LogAxis({0.01, 1.0}).script("y", 1, ""), "'0' "));
+}
+
+TEST(LogAxis, LeavesOutLabelsThatWouldLieOnThatOfZero) {
+    const report::LogAxis axis({0.0, 1.6e-6, 1.0}); // the floor is at 6.5e-8
+    EXPECT_FALSE(contains(axis.script("y", 1, ""), "'1e-07' ")) << axis.script("y", 1, "");
+    EXPECT_TRUE(contains(axis.script("y", 1, ""), "'1e-06' ")) << axis.script("y", 1, "");
 }
 
 TEST(LogAxis, HasARangeForOneValueForZerosAndForNone) {
@@ -101,9 +135,28 @@ TEST(Charts, OfTheSameRecordsAreTheSameBytes) {
 TEST(Charts, NameBesideARowThoseThatItCannotBeToldFrom) {
     std::vector<Record> records = softScene();
     records[1].reference->area = AreaInfo{"a", "b", 0.004, 0.0206};
-    EXPECT_FALSE(contains(*report::paretoChart(records, "overlapping-occluders"), "≈"));
+    EXPECT_FALSE(contains(*report::paretoChart(records, "overlapping-occluders", {"pcss"}), "≈"));
     records[2].reference->area = AreaInfo{"a", "b", 0.004, 0.0209};
-    EXPECT_TRUE(contains(*report::paretoChart(records, "overlapping-occluders"), "pcss ≈ temporal-soft"));
+    EXPECT_TRUE(contains(*report::paretoChart(records, "overlapping-occluders", {"pcss"}), "pcss ≈ temporal-soft"));
+}
+
+TEST(Charts, LabelTheFrontAndWhatTheUserNames) {
+    std::vector<Record> records = hardScene();
+    records.push_back(hardCell("pcf:kernel=7", 0.2, 3));
+    const auto labelled = [](const std::optional<std::string>& svg) { return contains(svg.value(), ">pcf:kernel=7<"); };
+    EXPECT_TRUE(contains(*report::paretoChart(records, "dueling-frusta"), ">volume-zfail<"));
+    EXPECT_FALSE(labelled(report::paretoChart(records, "dueling-frusta")));
+    EXPECT_TRUE(labelled(report::paretoChart(records, "dueling-frusta", {"pcf:kernel=7"})));
+    EXPECT_TRUE(labelled(report::paretoChart(records, "dueling-frusta", {"pcf"})));
+    EXPECT_FALSE(labelled(report::paretoChart(records, "dueling-frusta", {"esm"})));
+}
+
+TEST(Charts, ShowEachPointInItsFamilysColourAndNameTheFamilies) {
+    const std::string svg = *report::paretoChart(hardScene(), "dueling-frusta");
+    for (const char* technique : {"sm-uniform", "volume-zfail", "none"})
+        EXPECT_TRUE(contains(svg, fmt::format("rgb({}", rgbOf(report::familyOf(technique).colour)))) << technique;
+    EXPECT_TRUE(contains(svg, ">shadow volumes<"));
+    EXPECT_FALSE(contains(svg, ">levels of detail<"));
 }
 
 TEST(Charts, AreAbsentWithoutCostsOrCurves) {

@@ -1,0 +1,90 @@
+// Which technique to take on which scene, and every technique on every scene.
+#include "report/summary.h"
+#include "site/choice.h"
+#include "site/matrix.h"
+#include "site/names.h"
+#include "site/pages.h"
+#include "site/scene_tables.h"
+#include "site/technique_facts.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace shadowbench::site {
+namespace {
+
+Cell costCell(const Record& record) {
+    const std::optional<report::FrameCost> cost = report::frameCost(record);
+    return cost ? Cell{fmt::format("{:.2f}", cost->ratio), cost->ratio} : Cell{"–"};
+}
+
+std::string shortList(const std::vector<Record>& records, const std::vector<std::size_t>& indices) {
+    constexpr std::size_t most = 2;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(indices.size(), most); ++i)
+        text += (i == 0 ? "" : ", ") + records[indices[i]].variant;
+    return indices.size() > most ? fmt::format("{} and {} more", text, indices.size() - most) : text.empty() ? "–" : text;
+}
+
+/// "cheapest of 10 within tolerance; then volume-zpass, volume-zfail and 7 more".
+std::string reason(const std::vector<Record>& records, const Choice& choice) {
+    return choice.others.empty() ? choice.why : fmt::format("{}; then {}", choice.why, shortList(records, choice.others));
+}
+
+/// "Projected shadow on a plane; its weakness: shades nothing but its plane": what does here may not do elsewhere.
+std::string portrait(const std::string& technique) {
+    const std::string weakness = report::admittedFailure(technique), title = factsOf(technique).title;
+    return weakness.empty() ? title : fmt::format("{}. Its weakness: {}", title, weakness);
+}
+
+Row answerRow(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images) {
+    const Choice choice = choiceFor(records, scene);
+    Row row{{{.text = scene, .address = sceneAddress(scene)}}};
+    if (!choice.take) {
+        row.cells.resize(6, Cell{"–"});
+        row.cells.push_back({choice.why});
+        return row;
+    }
+    const Record& taken = records[*choice.take];
+    Cell take = techniqueCell(taken, images);
+    if (take.address.empty()) take.address = sceneAddress(scene);
+    take.kind = choice.adequate ? "take" : "nearest";
+    const std::optional<double> share = report::shareOfTolerance(taken, report::tolerances(records, scene));
+    row.cells.push_back(take);
+    row.cells.push_back({errorText(taken), headline(taken)->value});
+    row.cells.push_back(share ? Cell{fmt::format("{:.2f}", *share), *share, {}, *share <= 1 ? "within" : ""} : Cell{"–"});
+    row.cells.push_back(costCell(taken));
+    row.cells.push_back({.text = portrait(taken.technique), .kind = "small"});
+    row.cells.push_back({.text = reason(records, choice), .kind = "small"});
+    return row;
+}
+
+Table answers(const std::vector<Record>& records, const std::filesystem::path& images) {
+    Table table{.id = "answers", .caption = "The technique to take on each scene", .headed = false};
+    table.columns = {
+        {.title = "scene", .number = false},
+        {.title = "take", .number = false},
+        {.title = "error",
+         .hint = "Share of receiver pixels with the wrong label (per cent), or rms error of visibility under an area light"},
+        {.title = "× tolerance", .hint = "Its error nearest to a tolerance of the scene, as a multiple of it"},
+        {.title = "cost", .hint = "Frame time as a multiple of sm-uniform's: the dearer of standing and in motion"},
+        {.title = "what it is", .number = false, .brief = false, .prose = true},
+        {.title = "why", .number = false, .brief = false, .prose = true}};
+    for (const std::string& scene : report::scenes(records)) table.rows.push_back(answerRow(records, scene, images));
+    return table;
+}
+
+} // namespace
+
+void addChoosePage(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site) {
+    Data data;
+    data.set("empty", records.empty());
+    data.set("answers", site.table(chooseAddress, answers(records, images)));
+    data.set("all", site.table(chooseAddress, matrixTable(records, images, "Every technique on every scene")));
+    site.add({.address = chooseAddress,
+              .title = "Choose a technique",
+              .main = render("choose.html", data),
+              .description = "Which shadow technique to take on which scene: the cheapest whose errors a viewer accepts."});
+}
+
+} // namespace shadowbench::site
