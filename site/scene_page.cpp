@@ -55,6 +55,8 @@ Data pictures(const Record& record, const std::filesystem::path& images, const S
     Data list{Data::type::list};
     const std::optional<CellPictures> cell = cellPictures({record.variant, record, images}, images, site);
     if (!cell) return list;
+    if (const std::string shaded = shadedCell({record.variant, record, images}, site); !shaded.empty())
+        list << pictureData(shaded, "the scene with its shadows", cellAddress(record));
     list << pictureData(cell->truth, "truth", cellAddress(record));
     list << pictureData(cell->technique, "what it shows", cellAddress(record));
     list << pictureData(cell->difference, "error: orange too dark, blue too bright", cellAddress(record));

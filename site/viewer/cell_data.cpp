@@ -92,6 +92,7 @@ std::string truthLabel(const std::string& name) {
 
 std::string catalogueScript(const ShownScene& scene) {
     Json json{{"scene", scene.slug}, {"title", scene.title}, {"width", scene.width}, {"height", scene.height}};
+    if (!scene.shading.empty()) json["shading"] = scene.shading;
     json["truths"] = Json::array();
     for (const ShownTruth& truth : scene.truths)
         json["truths"].push_back(

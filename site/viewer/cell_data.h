@@ -35,6 +35,7 @@ struct ShownScene {
     int width = 0, height = 0;
     std::vector<ShownTruth> truths;
     std::vector<ShownCell> cells;
+    std::string shading = {}; // address of what makes shaded pictures; "": the run has kept none
 };
 
 /// The truth that a record's headline error is about, of those that there are.

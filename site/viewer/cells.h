@@ -46,6 +46,10 @@ struct CellPictures {
 };
 std::optional<CellPictures> cellPictures(const RunCell& cell, const std::filesystem::path& truths, const SiteWriter& site);
 
+/// The scene with a cell's shadows (harness/cells/shading.h), written when first asked for; its address from the site's
+/// folder, "" where the run has kept none.
+std::string shadedCell(const RunCell& cell, const SiteWriter& site);
+
 /// The same of a scene's truths, each with what it is the truth of.
 std::vector<Link> truthPictures(const std::string& scene, const std::filesystem::path& images, const SiteWriter& site);
 
