@@ -238,15 +238,22 @@ std::optional<CellPictures> cellPictures(const RunCell& cell, const fs::path& tr
     return written ? std::optional(pictures) : std::nullopt;
 }
 
-std::string shadedCell(const RunCell& cell, const SiteWriter& site) {
-    if (!hasImage(cell.record, cell.images)) return "";
-    const auto shading = readShading(shadingFile(cell.images, cell.record.scene));
-    const Image<float> v =
-        readChannel(cellFolder(cell.images, cell.record.scene, cell.record.variant) / "visibility.exr", "V");
-    if (!shading || !v.sameSize(shading->direct)) return "";
-    std::string address = fmt::format("cells/{}/{}-shaded.png", slug(cell.record.scene), slug(cell.name));
-    writePng(site.folder() / address, shadedPicture(*shading, v));
-    return address;
+std::optional<CellPictures> shadedPictures(const RunCell& cell, const SiteWriter& site) {
+    std::optional<CellPictures> pictures = cellPictures(cell, cell.images, site);
+    if (!pictures) return std::nullopt;
+    const std::string& scene = cell.record.scene;
+    const auto shading = readShading(shadingFile(cell.images, scene));
+    const std::string truth = truthOf(cell.record, keptTruths(cell.images, scene));
+    const std::pair<std::string&, fs::path> shaded[] = {
+        {pictures->technique, cellFolder(cell.images, scene, cell.record.variant) / "visibility.exr"},
+        {pictures->truth, truthFile(cell.images, scene, truth)}};
+    for (const auto& [address, file] : shaded) {
+        const Image<float> v = readChannel(file, "V");
+        if (!shading || !v.sameSize(shading->direct)) return std::nullopt;
+        address.insert(address.size() - std::string_view(".png").size(), "-shaded");
+        writePng(site.folder() / address, shadedPicture(*shading, v));
+    }
+    return pictures;
 }
 
 std::vector<Link> truthPictures(const std::string& scene, const fs::path& images, const SiteWriter& site) {

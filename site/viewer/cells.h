@@ -46,9 +46,9 @@ struct CellPictures {
 };
 std::optional<CellPictures> cellPictures(const RunCell& cell, const std::filesystem::path& truths, const SiteWriter& site);
 
-/// The scene with a cell's shadows (harness/cells/shading.h), written when first asked for; its address from the site's
-/// folder, "" where the run has kept none.
-std::string shadedCell(const RunCell& cell, const SiteWriter& site);
+/// The same with the scene's shaded pictures (harness/cells/shading.h) in place of visibility, written when first asked for.
+/// Nothing where the run has kept no shading.
+std::optional<CellPictures> shadedPictures(const RunCell& cell, const SiteWriter& site);
 
 /// The same of a scene's truths, each with what it is the truth of.
 std::vector<Link> truthPictures(const std::string& scene, const std::filesystem::path& images, const SiteWriter& site);
