@@ -53,8 +53,8 @@ std::string catalogueScript(const ShownScene& scene);
 /// HTML of the page's main part; `back`: the page that it belongs to.
 std::string cellsPage(const ShownScene& scene, const Link& back);
 
-/// Technique less truth, in the colours of the viewer: orange false shadow, blue leak, full colour at ±1.
-Image<glm::vec3> differencePicture(const Image<float>& v, const KeptTruth& truth);
+/// Technique less truth, in the colours of the viewer: orange false shadow, blue leak, full colour at ±1/gain.
+Image<glm::vec3> differencePicture(const Image<float>& v, const KeptTruth& truth, int gain = 1);
 
 /// V in grey, with colours where nothing is scored.
 Image<glm::vec3> visibilityPicture(const Image<float>& v, const KeptTruth& truth);
