@@ -24,9 +24,13 @@ const Record& rowOf(const std::vector<Record>& records, const std::string& scene
         if (record.variant == variant) return record;
         others.push_back(record.variant);
     }
-    if (others.empty()) throw BadInput(fmt::format("the records hold no row of scene {}", scene));
-    throw BadInput(fmt::format("the records hold no row {} of scene {}{}; theirs are: {}", variant, scene,
-                               didYouMean(variant, others), fmt::join(others, ", ")));
+    const std::vector<std::string> scenes = report::scenes(records);
+    if (others.empty())
+        throw BadInput(fmt::format("the records hold no row of scene {}{}; theirs are: {}", scene, didYouMean(scene, scenes),
+                                   fmt::join(scenes, ", ")));
+    throw BadInput(
+        fmt::format("the records hold no row {} of scene {}{}; theirs are: {}; leave --records out, and it is drawn",
+                    variant, scene, didYouMean(variant, others), fmt::join(others, ", ")));
 }
 
 void requireShadow(const Record& record) {

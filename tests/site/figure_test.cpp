@@ -227,8 +227,9 @@ TEST_F(Figures, AreRefusedWithTheThingAndTheRemedy) {
     const auto expectIn = [&](const std::string& message, const std::string& part) {
         EXPECT_NE(message.find(part), std::string::npos) << message;
     };
-    expectIn(refusal({"scene", {"pfc"}}), "no row pfc of scene scene (did you mean \"pcf\"?)");
-    expectIn(refusal({"other", {"pcf"}}), "no row of scene other");
+    expectIn(refusal({"scene", {"pfc"}}),
+             "no row pfc of scene scene (did you mean \"pcf\"?); theirs are: pcf, sm-uniform, vsm; leave --records out");
+    expectIn(refusal({"scenes", {"pcf"}}), "no row of scene scenes (did you mean \"scene\"?)");
     expectIn(refusal({"scene", {"pcf"}, {{60, 0, 8, 8}}}), "60,0,8,8 does not lie within the image of 64 × 32");
     expectIn(refusal({"scene", {"pcf"}, std::vector<Inset>(4, {0, 0, 8, 8})}), "room for 3 insets, not for 4");
     expectIn(test::messageOf([&] { writeFigure(figure(), "figure.jpeg"); }), "end with .pdf, .png or .svg");
