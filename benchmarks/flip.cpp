@@ -7,7 +7,7 @@
 #include "harness/metrics/flip.h"
 #include "base/confined/image_reader.h"
 #include "base/error.h"
-#include "harness/foreign/foreign_image.h"
+#include "base/srgb.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ Image<glm::vec3> readLinear(const std::filesystem::path& file) {
         const Image<float> channel =
             header.floats && !grey ? reader.channel(std::string(1, "RGB"[colour])) : reader.channel(grey ? 0 : colour);
         for (std::size_t i = 0; i < picture.size(); ++i)
-            picture[i][colour] = header.floats ? channel[i] : foreign::linearFromSrgb(channel[i]);
+            picture[i][colour] = header.floats ? channel[i] : linearFromSrgb(channel[i]);
     }
     return picture;
 }

@@ -5,6 +5,7 @@
 //   build/release/benchmarks/whole_image_faults RUN [--technique pcf] [--scene simple] [--fault as-drawn] [--evidence]
 #include "base/error.h"
 #include "base/image_io.h"
+#include "base/srgb.h"
 #include "base/temporary_folder.h"
 #include "harness/cells/kept_images.h"
 #include "harness/foreign/encodings.h"

@@ -38,6 +38,7 @@ void addHistory(CLI::App& app, Action& action);
 void addGate(CLI::App& app, Action& action);
 void addCi(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
+void addFigure(CLI::App& app, Action& action);
 void addCountFrames(CLI::App& app, Action& action);
 void addTimeFrames(CLI::App& app, Action& action);
 

@@ -79,10 +79,10 @@ ExitCode dispatch(int argc, char** argv) {
         "5 inconclusive.\nEvery verb has --help with an example.");
 
     Action action;
-    for (const auto& add :
-         {addList,  addInspect,      addRun,       addMerge,  addScore,  addReference,   addSweep,     addCauses, addDevelop,
-          addCheck, addNewTechnique, addRecommend, addClaims, addPapers, addShaderCost,  addGpuCost,   addExport, addCompare,
-          addGate,  addCi,           addHistory,   addCache,  addReport, addCountFrames, addTimeFrames})
+    for (const auto& add : {addList,       addInspect, addRun,    addMerge,        addScore,     addReference, addSweep,
+                            addCauses,     addDevelop, addCheck,  addNewTechnique, addRecommend, addClaims,    addPapers,
+                            addShaderCost, addGpuCost, addExport, addCompare,      addGate,      addCi,        addHistory,
+                            addCache,      addReport,  addFigure, addCountFrames,  addTimeFrames})
         add(app, action);
     addDocuments(app, action);
 

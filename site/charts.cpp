@@ -6,7 +6,10 @@
 #include "base/process.h"
 #include "base/temporary_folder.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
+#include <vector>
 
 namespace shadowbench::site {
 namespace {
@@ -18,24 +21,30 @@ std::string programOf(const char* name, const char* package) {
     return program->string();
 }
 
-/// A page without a date, so that the same chart is the same file.
-std::string pdfOf(const std::string& svg) {
+std::string converted(const std::string& svg, std::vector<std::string> how) {
     const TemporaryFolder folder;
     writeFile(folder.path() / "chart.svg", svg);
-    const Command command{programOf("env", "coreutils"),
-                          {"SOURCE_DATE_EPOCH=0", programOf("rsvg-convert", "librsvg2-bin"), "--format=pdf",
-                           "--output=chart.pdf", "chart.svg"},
-                          folder.path()};
+    Command command{
+        programOf("env", "coreutils"),
+        {"SOURCE_DATE_EPOCH=0", programOf("rsvg-convert", "librsvg2-bin"), "--unlimited", "--output=chart", "chart.svg"},
+        folder.path()};
+    std::ranges::move(how, std::back_inserter(command.arguments));
     std::string messages;
     const Finished end = runProcess(command, [&](std::string_view line) { messages.append(line).append(" "); });
     if (end.timedOut || end.signal != 0 || end.exitCode != 0)
         throw Inconclusive(
             fmt::format("drawing charts: rsvg-convert ended with status {}, signal {} ({}); reinstall librsvg2-bin",
                         end.exitCode, end.signal, messages));
-    return readFile(folder.path() / "chart.pdf");
+    return readFile(folder.path() / "chart");
 }
 
 } // namespace
+
+std::string pdfOf(const std::string& svg) { return converted(svg, {"--format=pdf"}); }
+
+std::string pngOf(const std::string& svg, double pixelsPerUnit) {
+    return converted(svg, {"--format=png", fmt::format("--zoom={}", pixelsPerUnit)});
+}
 
 void writePdf(const SiteWriter& site, const std::string& name) {
     const std::filesystem::path& folder = site.folder();

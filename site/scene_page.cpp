@@ -50,14 +50,18 @@ Data pictureData(const std::string& address, const std::string& caption, const s
     return data;
 }
 
-/// Truth, what the chosen technique shows, and where that is wrong.
+/// Truth, what the chosen technique shows, and where that is wrong: of the scene where it is known how it is lit, else of
+/// visibility alone.
 Data pictures(const Record& record, const std::filesystem::path& images, const SiteWriter& site) {
     Data list{Data::type::list};
-    const std::optional<CellPictures> cell = cellPictures({record.variant, record, images}, images, site);
+    const RunCell shown{record.variant, record, images};
+    const std::optional<CellPictures> shaded = shadedPictures(shown, site);
+    const std::optional<CellPictures> cell = shaded ? shaded : cellPictures(shown, images, site);
     if (!cell) return list;
-    list << pictureData(cell->truth, "truth", cellAddress(record));
-    list << pictureData(cell->technique, "what it shows", cellAddress(record));
-    list << pictureData(cell->difference, "error: orange too dark, blue too bright", cellAddress(record));
+    const std::string to = cellAddress(record) + (shaded ? "&shaded=1" : "");
+    list << pictureData(cell->truth, "truth", to);
+    list << pictureData(cell->technique, "what it shows", to);
+    list << pictureData(cell->difference, "error: orange too dark, blue too bright", to);
     return list;
 }
 

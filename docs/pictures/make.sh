@@ -1,6 +1,7 @@
 #!/bin/sh
-# Makes the pictures beside this file, in the gate profile: PCSS on overlapping-occluders, which the front page shows, and what
-# filters do where they are worse than the map alone (docs/findings.md). Those of engines need clients/*/setup.
+# Makes the pictures beside this file, in the gate profile: PCSS on overlapping-occluders, which the front page shows, a figure
+# of the same (docs/figures.md), and what filters do where they are worse than the map alone (docs/findings.md). Those of
+# engines need clients/*/setup.
 set -eu
 cd "$(dirname "$0")/../.."
 out=$(mktemp -d)
@@ -9,6 +10,7 @@ trap 'rm -rf "$out"' EXIT
 for picture in visibility reference error; do
     cp "$out/images/overlapping-occluders/pcss/$picture.png" "docs/pictures/pcss-$picture.png"
 done
+./bench figure --scene overlapping-occluders --technique pcf --technique pcss --shaded --quiet --out docs/pictures/figure.svg
 ./bench run --scene light-behind-camera --scene tessellation --technique sm-uniform --technique pcf \
     --technique sm-history:filter=pcf --cost none --images --quiet --out "$out"
 cp "$out/images/light-behind-camera/sm-uniform/error.png" docs/pictures/behind-uniform.png

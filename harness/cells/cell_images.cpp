@@ -20,7 +20,7 @@ Image<glm::vec3> errorPicture(const Image<float>& v, const groundtruth::Referenc
     return picture;
 }
 
-void writeCellImages(const std::filesystem::path& folder, const CellImages& images) {
+void writeCellImages(const std::filesystem::path& folder, const CellImages& images, const PictureShading& shading) {
     const Image<float>& v = images.visibility();
     const groundtruth::Reference& truth = *images.reference;
     Image<float> error(v.width(), v.height());
@@ -34,6 +34,8 @@ void writeCellImages(const std::filesystem::path& folder, const CellImages& imag
     writePng(folder / "visibility.png", v);
     writePng(folder / "reference.png", truth.visibility);
     writePng(folder / "error.png", errorPicture(v, truth));
+    writePng(folder / "visibility-shaded.png", shadedPicture(shading, v));
+    writePng(folder / "reference-shaded.png", shadedPicture(shading, truth.visibility));
 }
 
 std::string fileName(const std::string& variant) {

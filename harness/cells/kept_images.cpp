@@ -5,6 +5,7 @@
 #include "harness/cells/cell_images.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace shadowbench {
@@ -38,6 +39,8 @@ fs::path truthFile(const fs::path& images, const std::string& scene, std::string
 fs::path truthSequenceFile(const fs::path& images, const std::string& scene, std::string_view truth) {
     return images / scene / fmt::format("truth-{}-sequence.png", truth);
 }
+
+fs::path shadingFile(const fs::path& images, const std::string& scene) { return images / scene / "shading.exr"; }
 
 std::vector<std::string> keptTruths(const fs::path& images, const std::string& scene) {
     std::vector<std::string> names;
@@ -80,6 +83,29 @@ void keepSequence(const fs::path& file, const std::vector<Image<float>>& frames)
 KeptTruth readTruth(const fs::path& file) {
     return {readChannel(file, "V"), readChannel(file, "sigma"), readChannel(file, "surface"), readChannel(file, "edge"),
             readChannel(file, "id")};
+}
+
+void keepShading(const fs::path& file, const PictureShading& shading) {
+    std::array<Image<float>, 3> colours;
+    for (int i = 0; i < 3; ++i) {
+        colours[i] = shading.direct; // of its size
+        std::ranges::transform(shading.ambient, colours[i].begin(), [i](const glm::vec3& light) { return light[i]; });
+    }
+    writeExr(file, {{"R", &colours[0]}, {"G", &colours[1]}, {"B", &colours[2]}, {"direct", &shading.direct}});
+}
+
+std::optional<PictureShading> readShading(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return {};
+    PictureShading shading{{}, readChannel(file, "direct")};
+    shading.ambient = Image<glm::vec3>(shading.direct.width(), shading.direct.height());
+    int colour = 0;
+    for (const char* name : {"R", "G", "B"}) {
+        const Image<float> light = readChannel(file, name);
+        for (std::size_t i = 0; i < light.size(); ++i) shading.ambient[i][colour] = light[i];
+        ++colour;
+    }
+    return shading;
 }
 
 } // namespace shadowbench

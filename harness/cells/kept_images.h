@@ -5,10 +5,12 @@
 //   <images>/<scene>/<variant>/flicker.png         what each of them changes beyond the truth
 //   <images>/<scene>/truth-<name>.exr              channels V, sigma, surface, edge, id
 //   <images>/<scene>/truth-<name>-sequence.png
+//   <images>/<scene>/shading.exr                   what makes shaded pictures of visibility: channels R, G, B, direct
 #pragma once
 
 #include "base/image.h"
 #include "groundtruth/contract/reference.h"
+#include "harness/cells/shading.h"
 
 #include <filesystem>
 #include <optional>
@@ -30,6 +32,7 @@ std::filesystem::path cellFolder(const std::filesystem::path& images, const std:
 std::filesystem::path truthFile(const std::filesystem::path& images, const std::string& scene, std::string_view truth);
 std::filesystem::path truthSequenceFile(const std::filesystem::path& images, const std::string& scene,
                                         std::string_view truth);
+std::filesystem::path shadingFile(const std::filesystem::path& images, const std::string& scene);
 
 /// Whether a scene's or variant's name is one that lies in a folder of its own: records of strangers may hold any text.
 bool isFolderName(const std::string& name);
@@ -40,8 +43,12 @@ std::vector<std::string> keptTruths(const std::filesystem::path& images, const s
 void keepCell(const std::filesystem::path& folder, const CellImages& images);
 void keepTruth(const std::filesystem::path& file, const groundtruth::Reference& truth);
 void keepSequence(const std::filesystem::path& file, const std::vector<Image<float>>& frames);
+void keepShading(const std::filesystem::path& file, const PictureShading& shading);
 
 /// Throws BadInput for a file that cannot be read or lacks a channel.
 KeptTruth readTruth(const std::filesystem::path& file);
+
+/// Nothing where there is none: a run of an older program has kept none. Throws BadInput as above.
+std::optional<PictureShading> readShading(const std::filesystem::path& file);
 
 } // namespace shadowbench

@@ -117,7 +117,11 @@ void SceneCells::score(const techniques::Variant& variant, Record& record, const
 
 void SceneCells::keepImages(const techniques::Variant& variant, const CellImages& images) {
     keepCell(imageFolder(variant), images);
-    if (options_.pictures) writeCellImages(imageFolder(variant), images);
+    if (!shading_) {
+        shading_ = pictureShading(frames());
+        keepShading(shadingFile(options_.images, scene_.id), *shading_);
+    }
+    if (options_.pictures) writeCellImages(imageFolder(variant), images, *shading_);
     for (const auto& [truth, frame] : truthsOf(variant))
         if (frame == scene_.timeline.still - 1 && keptTruths_.insert(truth).second)
             keepTruth(truthFile(options_.images, scene_.id, name(truth)), truths_.at(truth, frame));

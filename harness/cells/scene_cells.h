@@ -7,6 +7,7 @@
 #include "harness/cells/measure_options.h"
 #include "harness/cells/neighbours.h"
 #include "harness/cells/scene_frames.h"
+#include "harness/cells/shading.h"
 #include "harness/cells/truths.h"
 #include "harness/measure/device_cost.h"
 #include "harness/records/record.h"
@@ -87,6 +88,7 @@ private:
     std::unique_ptr<ChangedScene> neighbour_;
     std::vector<std::unique_ptr<ChangedScene>> otherViews_;
     std::set<Truth> keptTruths_, keptSequences_; // whose files this object has written
+    std::optional<PictureShading> shading_;      // the same: once it is made, it is written
 };
 
 } // namespace shadowbench

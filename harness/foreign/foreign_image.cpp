@@ -2,6 +2,7 @@
 
 #include "base/confined/image_reader.h"
 #include "base/error.h"
+#include "base/srgb.h"
 
 #include <algorithm>
 #include <array>
@@ -94,16 +95,6 @@ void requireFinite(const Image<float>& channel, const fs::path& file) {
 }
 
 } // namespace
-
-float linearFromSrgb(float e) {
-    if (e < 0 || e > 1) return e;
-    return e <= 0.04045F ? e / 12.92F : std::pow((e + 0.055F) / 1.055F, 2.4F);
-}
-
-float srgbFromLinear(float v) {
-    if (v < 0 || v > 1) return v;
-    return v <= 0.0031308F ? v * 12.92F : 1.055F * std::pow(v, 1 / 2.4F) - 0.055F;
-}
 
 std::string sizeInWords(glm::ivec2 given, glm::ivec2 wanted) {
     if (given.x == wanted.y && given.y == wanted.x && given.x != given.y) return "width and height swapped";

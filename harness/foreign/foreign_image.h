@@ -34,10 +34,6 @@ ForeignImage readForeign(const std::filesystem::path& file, const Reading& readi
 /// As numbers without any encoding, finite or not: depths and hit masks. Of several channels the one that is called Z.
 Image<float> readNumbers(const std::filesystem::path& file, glm::ivec2 size);
 
-/// IEC 61966-2-1, either way; values outside [0, 1] stay.
-float linearFromSrgb(float encoded);
-float srgbFromLinear(float linear);
-
 /// What an image of the size `given` is to one of the size `wanted`, such as "half the size", or "".
 std::string sizeInWords(glm::ivec2 given, glm::ivec2 wanted);
 

@@ -1,5 +1,6 @@
 #include "harness/foreign/recognition.h"
 
+#include "base/srgb.h"
 #include "harness/foreign/encodings.h"
 #include "harness/foreign/foreign_image.h"
 #include "harness/foreign/shadow_edges.h"

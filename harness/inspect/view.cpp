@@ -1,5 +1,6 @@
 #include "harness/inspect/view.h"
 
+#include "base/srgb.h"
 #include "groundtruth/cgal/geometry/triangles.h"
 #include "groundtruth/cgal/hard/exact.h"
 #include "harness/metrics/frames.h"
@@ -27,13 +28,6 @@ std::vector<Light> pointsOf(const Light& light, bool all) {
             points.back().centre += side * axis;
         }
     return points;
-}
-
-/// What a screen shows of linear light.
-glm::vec3 forScreen(const glm::vec3& linear) {
-    glm::vec3 shown;
-    for (int i = 0; i < 3; ++i) shown[i] = std::pow(linear[i], 1 / 2.2F);
-    return shown;
 }
 
 } // namespace
@@ -102,8 +96,8 @@ Image<glm::vec3> View::normals(const groundtruth::PrimaryHits& hits) const {
 Image<glm::vec3> View::picture(const Seen& seen) const {
     const metrics::Drawn drawn{seen.hits.id, seen.hits.position};
     Image<glm::vec3> picture = metrics::shaded(metrics::shading(snapshot_, drawn, normals(seen.hits)), seen.visibility);
-    const glm::vec3 sky(0.02F, 0.03F, 0.06F); // bluish, so that it is not taken for a shadow
-    for (std::size_t i = 0; i < picture.size(); ++i) picture[i] = forScreen(seen.hits.id[i] == 0 ? sky : picture[i]);
+    for (std::size_t i = 0; i < picture.size(); ++i)
+        picture[i] = forScreen(seen.hits.id[i] == 0 ? metrics::shownBackground : picture[i]);
     return picture;
 }
 

@@ -50,6 +50,8 @@ struct ScoredFrame {
 struct Shading {
     Image<glm::vec3> ambient, direct;
 };
+inline constexpr float ambientShare = 0.2F;
+inline constexpr glm::vec3 shownBackground{0.02F, 0.03F, 0.06F}; // to people: bluish, so that it is not taken for a shadow
 Shading shading(const Snapshot& snapshot, const Drawn& drawn, const Image<glm::vec3>& normals);
 
 /// The picture with visibility `v`.

@@ -8,11 +8,6 @@
 #include <unordered_map>
 
 namespace shadowbench::metrics {
-namespace {
-
-constexpr float ambientShare = 0.2F; // of the light of sun and clear sky
-
-} // namespace
 
 Shading shading(const Snapshot& snapshot, const Drawn& drawn, const Image<glm::vec3>& normals) {
     std::unordered_map<std::uint32_t, glm::vec3> colours;

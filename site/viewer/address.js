@@ -24,6 +24,7 @@
     zoom: { first: 0, write: round, read: (text) => number(text, 0, 96) },
     split: { first: 0.5, write: round, read: (text) => number(text, 0, 1) },
     gain: { first: 1, write: String, read: (text) => ([1, 4, 16].includes(Number(text)) ? Number(text) : null) },
+    shaded: { first: false, write: (on) => (on ? "1" : "0"), read: (text) => text === "1" },
     edges: { first: true, write: (on) => (on ? "1" : "0"), read: (text) => text !== "0" },
     frame: { first: 0, write: String, read: (text) => number(text, 0, 1e6) },
   };

@@ -92,6 +92,7 @@ std::string truthLabel(const std::string& name) {
 
 std::string catalogueScript(const ShownScene& scene) {
     Json json{{"scene", scene.slug}, {"title", scene.title}, {"width", scene.width}, {"height", scene.height}};
+    if (!scene.shading.empty()) json["shading"] = scene.shading;
     json["truths"] = Json::array();
     for (const ShownTruth& truth : scene.truths)
         json["truths"].push_back(
@@ -112,11 +113,11 @@ std::string cellsPage(const ShownScene& scene, const Link& back) {
     return render("cells.html", data);
 }
 
-Image<glm::vec3> differencePicture(const Image<float>& v, const KeptTruth& truth) {
+Image<glm::vec3> differencePicture(const Image<float>& v, const KeptTruth& truth, int gain) {
     const glm::vec3 none(24.0F / 255), falseShadow = glm::vec3(255, 150, 40) / 255.0F,
                                        leak = glm::vec3(80, 170, 255) / 255.0F;
     return picture(truth, [&](std::size_t i) {
-        const float error = std::clamp(v[i] - truth.visibility[i], -1.0F, 1.0F);
+        const float error = std::clamp(static_cast<float>(gain) * (v[i] - truth.visibility[i]), -1.0F, 1.0F);
         return none + std::abs(error) * ((error < 0 ? falseShadow : leak) - none);
     });
 }

@@ -35,6 +35,7 @@ struct ShownScene {
     int width = 0, height = 0;
     std::vector<ShownTruth> truths;
     std::vector<ShownCell> cells;
+    std::string shading = {}; // address of what makes shaded pictures; "": the run has kept none
 };
 
 /// The truth that a record's headline error is about, of those that there are.
@@ -52,8 +53,8 @@ std::string catalogueScript(const ShownScene& scene);
 /// HTML of the page's main part; `back`: the page that it belongs to.
 std::string cellsPage(const ShownScene& scene, const Link& back);
 
-/// Technique less truth, in the colours of the viewer: orange false shadow, blue leak, full colour at ±1.
-Image<glm::vec3> differencePicture(const Image<float>& v, const KeptTruth& truth);
+/// Technique less truth, in the colours of the viewer: orange false shadow, blue leak, full colour at ±1/gain.
+Image<glm::vec3> differencePicture(const Image<float>& v, const KeptTruth& truth, int gain = 1);
 
 /// V in grey, with colours where nothing is scored.
 Image<glm::vec3> visibilityPicture(const Image<float>& v, const KeptTruth& truth);

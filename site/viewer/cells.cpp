@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -35,6 +36,14 @@ constexpr std::array<std::string_view, 11> scripts{"pixels.js", "colours.js",  "
                                                    "pane.js",   "controls.js", "readout.js", "pointer.js",
                                                    "keys.js",   "layers.js",   "viewer.js"};
 
+/// To what a screen tells apart, so that it packs well.
+std::vector<float> rounded(const Image<float>& direct) {
+    constexpr float steps = 256;
+    std::vector<float> values = valuesOf(direct);
+    for (float& value : values) value = std::round(value * steps) / steps;
+    return values;
+}
+
 bool hasImage(const Record& record, const fs::path& images) {
     if (images.empty() || !wasScored(record.status) || isLevelOfDetail(record)) return false;
     if (!isFolderName(record.scene) || !isFolderName(fileName(record.variant))) return false;
@@ -50,6 +59,7 @@ public:
         shown_.slug = slug(scene);
         shown_.title = truncate(scene);
         for (const std::string& name : names_) addTruth(name, truthFile(images, scene, name));
+        if (const auto shading = readShading(shadingFile(images, scene))) addShading(*shading);
     }
 
     /// Writes the files of those that have an image, each once.
@@ -117,6 +127,17 @@ private:
         shown_.width = truth.visibility.width();
         shown_.height = truth.visibility.height();
         shown_.truths.push_back(std::move(shown));
+    }
+
+    void addShading(const PictureShading& shading) {
+        if (shading.direct.width() != shown_.width || shading.direct.height() != shown_.height) return;
+        std::vector<std::pair<std::string, std::vector<float>>> channels;
+        for (int i = 0; i < 3; ++i) {
+            auto& [name, light] = channels.emplace_back(std::array{"red", "green", "blue"}[i], std::vector<float>());
+            for (const glm::vec3& ambient : shading.ambient) light.push_back(ambient[i]);
+        }
+        channels.emplace_back("direct", rounded(shading.direct));
+        shown_.shading = writeScript("frame/shading", channels);
     }
 
     [[nodiscard]] std::optional<ShownSequence> sequenceOf(const RunCell& cell, const fs::path& folder,
@@ -215,6 +236,24 @@ std::optional<CellPictures> cellPictures(const RunCell& cell, const fs::path& tr
                                 folder + differenceOf(own) + ".png"};
     const bool written = fs::exists(site.folder() / pictures.technique) && fs::exists(site.folder() / pictures.truth);
     return written ? std::optional(pictures) : std::nullopt;
+}
+
+std::optional<CellPictures> shadedPictures(const RunCell& cell, const SiteWriter& site) {
+    std::optional<CellPictures> pictures = cellPictures(cell, cell.images, site);
+    if (!pictures) return std::nullopt;
+    const std::string& scene = cell.record.scene;
+    const auto shading = readShading(shadingFile(cell.images, scene));
+    const std::string truth = truthOf(cell.record, keptTruths(cell.images, scene));
+    const std::pair<std::string&, fs::path> shaded[] = {
+        {pictures->technique, cellFolder(cell.images, scene, cell.record.variant) / "visibility.exr"},
+        {pictures->truth, truthFile(cell.images, scene, truth)}};
+    for (const auto& [address, file] : shaded) {
+        const Image<float> v = readChannel(file, "V");
+        if (!shading || !v.sameSize(shading->direct)) return std::nullopt;
+        address.insert(address.size() - std::string_view(".png").size(), "-shaded");
+        writePng(site.folder() / address, shadedPicture(*shading, v));
+    }
+    return pictures;
 }
 
 std::vector<Link> truthPictures(const std::string& scene, const fs::path& images, const SiteWriter& site) {

@@ -46,6 +46,10 @@ struct CellPictures {
 };
 std::optional<CellPictures> cellPictures(const RunCell& cell, const std::filesystem::path& truths, const SiteWriter& site);
 
+/// The same with the scene's shaded pictures (harness/cells/shading.h) in place of visibility, written when first asked for.
+/// Nothing where the run has kept no shading.
+std::optional<CellPictures> shadedPictures(const RunCell& cell, const SiteWriter& site);
+
 /// The same of a scene's truths, each with what it is the truth of.
 std::vector<Link> truthPictures(const std::string& scene, const std::filesystem::path& images, const SiteWriter& site);
 

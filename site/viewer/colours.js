@@ -17,6 +17,12 @@
     return from.map((c, i) => c + (to[i] - c) * share);
   }
 
+  // sRGB of linear light.
+  function encoded(linear) {
+    const light = Math.min(1, linear);
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * light ** (1 / 2.4) - 0.055;
+  }
+
   function grey(value) {
     const level = 255 * Math.min(1, Math.max(0, value));
     return [level, level, level];
@@ -43,6 +49,14 @@
 
   shadowbench.visibilityPicture = (size, surface, values) =>
     painted(size.width, size.height, surface, (i) => grey(values[i]));
+
+  // The scene with these shadows: at each pixel red, green and blue of the light that is there without its own, which adds
+  // `direct` times as much where visibility is 1 (harness/cells/shading.h has the same).
+  shadowbench.shadedPicture = (size, shading, values) =>
+    painted(size.width, size.height, [], (i) => {
+      const light = 1 + Math.min(1, Math.max(0, values[i])) * shading.direct[i];
+      return [shading.red, shading.green, shading.blue].map((ambient) => 255 * encoded(light * ambient[i]));
+    });
 
   // technique − truth on a scale from −1/gain to 1/gain.
   shadowbench.differencePicture = (size, surface, values, truth, gain) =>

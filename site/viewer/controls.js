@@ -75,6 +75,7 @@
       cell: onInput(techniques(catalogue), (f) => act.change({ cell: f.value })),
       against: onInput(others(catalogue), (f) => act.change({ against: f.value })),
       gain: onInput(scales(), (f) => act.change({ gain: Number(f.value) })),
+      shaded: onInput(element("input", { type: "checkbox", name: "shaded" }), (f) => act.change({ shaded: f.checked })),
       edges: onInput(element("input", { type: "checkbox", name: "edges" }), (f) => act.change({ edges: f.checked })),
       split: onInput(range("split", 0.005), (f) => act.change({ split: Number(f.value) })),
       frame: onInput(range("frame", 1), (f) => act.change({ frame: Number(f.value) })),
@@ -82,7 +83,8 @@
     const play = button("Play", "Play the frames", () => act.flip());
     const bar = element("div", { class: "controls" },
       labelled("Technique", fields.cell), labelled("against", fields.against), modes(act), zoomButtons(act),
-      worstButtons(act), labelled("Scale", fields.gain), labelled("Shadow edges", fields.edges, "edges"),
+      worstButtons(act), labelled("Scale", fields.gain), labelled("Shaded", fields.shaded, "shaded"),
+      labelled("Shadow edges", fields.edges, "edges"),
       labelled("Slider", fields.split, "split"), labelled("Frame", fields.frame, "frame"), play,
       button("?", "Keys", () => act.help()));
     const update = (view, cell) => {
@@ -91,6 +93,8 @@
         fields[name].value = view[name];
       }
       fields.edges.checked = view.edges;
+      fields.shaded.checked = view.shaded;
+      bar.querySelector("[data-for=shaded]").hidden = !catalogue.shading || view.mode === "frames";
       for (const radio of bar.querySelectorAll("input[type=radio]")) {
         radio.checked = radio.value === view.mode;
         radio.disabled = radio.value === "frames" && !cell.frames;

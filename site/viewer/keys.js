@@ -23,6 +23,7 @@
     [",", "Previous frame of the sequence", (act) => act.frame(-1)],
     [".", "Next frame of the sequence", (act) => act.frame(1)],
     ["g", "Scale of the difference: ±1, ±1/4, ±1/16", (act) => act.gain()],
+    ["s", "Shaded pictures of the scene, or visibility", (act) => act.shaded()],
     ["e", "Shadow edges on or off", (act) => act.edges()],
     ["?", "This list", (act) => act.help()],
   ];

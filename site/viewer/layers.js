@@ -9,8 +9,10 @@
     const { shown, view, catalogue } = viewer;
     const { truth, values, other } = shown;
     const second = other || truth.V;
-    shown.technique = shown.technique || shadowbench.visibilityPicture(catalogue, truth.surface, values);
-    shown.second = shown.second || shadowbench.visibilityPicture(catalogue, truth.surface, second);
+    const picture = (v) => (shown.shading ? shadowbench.shadedPicture(catalogue, shown.shading, v)
+      : shadowbench.visibilityPicture(catalogue, truth.surface, v));
+    shown.technique = shown.technique || picture(values);
+    shown.second = shown.second || picture(second);
     shown.difference =
       shown.difference || shadowbench.differencePicture(catalogue, truth.surface, values, second, view.gain);
     const names = [viewer.cell(view.cell).variant, other ? viewer.other().variant : "Truth: " + viewer.truth().label];

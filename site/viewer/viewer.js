@@ -6,8 +6,9 @@
   const flickerPause = 600; // ms; at most three changes a second are safe to look at (WCAG 2.3.1)
   const framePause = 350;
 
-  // A scene's cells: {scene, title, width, height, truths: [{name, label, data}], cells: [{slug, variant, truth, error, data,
-  // frames}]}; `data` names pixel files, `frames` holds {count, picture, truth, flicker}, pictures of frames one below the other.
+  // A scene's cells: {scene, title, width, height, shading, truths: [{name, label, data}], cells: [{slug, variant, truth, error,
+  // data, frames}]}; `shading`, where there is one, and `data` name pixel files, `frames` holds {count, picture, truth, flicker},
+  // pictures of frames one below the other.
   shadowbench.cells = (catalogue) => catalogues.set(catalogue.scene, catalogue);
 
   const isStill = () => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -55,6 +56,7 @@
       const others = truths.map((t) => t.name).concat(cells.map((c) => "cell:" + c.slug));
       if (!others.includes(view.against)) view.against = this.cell(view.cell).truth;
       if (view.mode === "frames" && !this.cell(view.cell).frames) view.mode = "side";
+      if (!this.catalogue.shading) view.shaded = false;
       if (view.pixel && !this.contains(view.pixel)) view.pixel = null;
       return view;
     }
@@ -120,7 +122,8 @@
       if (part.cell && !part.against && before.against === this.cell(before.cell).truth)
         this.view.against = this.cell(this.view.cell).truth; // unless another one was chosen, a technique's own truth
       if (before.mode !== this.view.mode) this.restart();
-      if (before.cell !== this.view.cell || before.against !== this.view.against || !this.shown) return this.load();
+      const loaded = ["cell", "against", "shaded"];
+      if (loaded.some((name) => before[name] !== this.view[name]) || !this.shown) return this.load();
       if (before.gain !== this.view.gain) this.shown.difference = null;
       this.draw();
     }
@@ -133,9 +136,10 @@
       try {
         const [own, truth, second] = await Promise.all([cell.data, this.truth().data, (other || cell).data]
           .map((name) => shadowbench.channels(name)));
+        const shading = this.view.shaded ? await shadowbench.channels(this.catalogue.shading) : null;
         const frames = cell.frames ? await this.loadFrames(cell.frames) : null;
         if (token !== this.loading) return; // another was chosen meanwhile
-        this.shown = { size: this.catalogue, values: own.V, truth, other: other ? second.V : null, frames };
+        this.shown = { size: this.catalogue, values: own.V, truth, other: other ? second.V : null, frames, shading };
         this.shown.edges = await this.edges();
         this.status.textContent = "";
       } catch (error) {
@@ -251,6 +255,7 @@
         split: (by) => this.change({ split: Math.min(1, Math.max(0, this.view.split + by)) }),
         frame: (by) => this.step(by),
         gain: () => this.change({ gain: this.next([1, 4, 16], this.view.gain, 1) }),
+        shaded: () => this.change({ shaded: !this.view.shaded }),
         edges: () => this.change({ edges: !this.view.edges }),
         help: () => this.help.showModal(),
         hasFocus: () => this.panes.some((pane) => pane.canvas === document.activeElement),

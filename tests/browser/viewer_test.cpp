@@ -1,6 +1,7 @@
 // The viewer of cells in a real browser, from a file.
 #include "base/files.h"
 #include "base/image_io.h"
+#include "harness/cells/kept_images.h"
 #include "site/names.h"
 #include "site/viewer/cells.h"
 #include "tests/browser/browser.h"
@@ -214,6 +215,43 @@ TEST_F(Cells, HoldTheFramesOfTheFrontOrOfAll) {
             if (entry.path().stem().string().ends_with("-sequence")) ++found;
         EXPECT_EQ(found, count);
     }
+}
+
+TEST_F(Cells, ShowTheSceneWithItsShadowsByKeyAndBySwitch) {
+    const auto shading = readShading(shadingFile(tinyRun().images(), "tiny"));
+    ASSERT_TRUE(shading);
+    const Image<glm::vec3> expected = shadedPicture(*shading, exr(pcf)), exact = shadedPicture(*shading, truth("V"));
+    const auto tab = open("#" + pcf);
+    const auto before = tab->value(picture);
+    tab->press("s");
+    tab->waitFor("document.querySelector('.viewer').viewer.shown?.shading");
+    EXPECT_NE(address(*tab).find("shaded=1"), std::string::npos);
+    EXPECT_TRUE(tab->value("document.querySelector('[name=shaded]').checked").get<bool>());
+    for (const auto& [pane, wanted] : {std::pair("technique", &expected), std::pair("second", &exact)}) {
+        const auto shownPixels = tab->value(std::string("[...document.querySelector('.viewer').viewer.shown.") + pane +
+                                            ".getContext('2d').getImageData(0, 0, 48, 48).data]");
+        for (std::size_t i = 0; i < wanted->size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(shownPixels[4 * i + static_cast<std::size_t>(c)].get<double>(), 255 * (*wanted)[i][c], 1.5)
+                    << pane << " " << i;
+    }
+    tab->value("document.querySelector('[name=shaded]').click()");
+    tab->waitFor(
+        "document.querySelector('.viewer').viewer.shown && !document.querySelector('.viewer').viewer.shown.shading");
+    EXPECT_EQ(tab->value(picture), before);
+    EXPECT_EQ(tab->complaints(), Sentences());
+}
+
+TEST_F(Cells, HaveNoSwitchToShadedPicturesOfARunThatHasKeptNone) {
+    const TemporaryFolder folder;
+    fs::copy(tinyRun().images(), folder.path() / "images", fs::copy_options::recursive);
+    fs::remove(folder.path() / "images/tiny/shading.exr");
+    writeSite(tinyRun().records(), folder.path() / "images", folder.path() / "site");
+    const auto tab = chromium().tab();
+    tab->open(folder.path() / "site/cells/tiny.html", "#" + pcf + "&shaded=1");
+    tab->waitFor(shown);
+    EXPECT_TRUE(tab->value("document.querySelector('[data-for=shaded]').hidden").get<bool>());
+    EXPECT_EQ(address(*tab).find("shaded"), std::string::npos);
 }
 
 TEST_F(Cells, FitPhonesAndWideScreensLightAndDark) {

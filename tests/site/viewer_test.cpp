@@ -1,6 +1,7 @@
 // What the viewer is given: shadow edges, packed values, pictures.
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/srgb.h"
 #include "base/temporary_folder.h"
 #include "site/viewer/cell_data.h"
 #include "site/viewer/cells.h"
@@ -124,6 +125,34 @@ TEST(HasCell, IsFalseForNamesThatLeadElsewhere) {
     record.scene = "scene";
     record.variant = "../../../scene/pcf";
     EXPECT_FALSE(hasCell(record, images));
+}
+
+TEST(ShadedPictures, AreWrittenForACellWhoseRunHasKeptTheLight) {
+    const TemporaryFolder folder;
+    const fs::path images = folder.path() / "images";
+    const KeptTruth truth = halfPlane();
+    writeExr(truthFile(images, "scene", "hard"), {{"V", &truth.visibility},
+                                                  {"sigma", &truth.sigma},
+                                                  {"surface", &truth.surface},
+                                                  {"edge", &truth.edgeDistance},
+                                                  {"id", &truth.id}});
+    const Image<float> quarter(side, side, 0.25F);
+    writeExr(cellFolder(images, "scene", "pcf") / "visibility.exr", {{"V", &quarter}});
+    Record record = test::hardCell("pcf", 0.1, 1);
+    record.scene = "scene";
+    const RunCell cell{"pcf", record, images};
+    SiteWriter site(folder.path() / "site", {});
+    writeCells({record}, images, site);
+    EXPECT_FALSE(shadedPictures(cell, site)) << "a run of an older program";
+
+    keepShading(shadingFile(images, "scene"), {Image<glm::vec3>(side, side, glm::vec3(0.1F)), Image<float>(side, side, 4)});
+    const auto pictures = shadedPictures(cell, site);
+    ASSERT_TRUE(pictures);
+    const auto shown = [&](const std::string& address, int x) { return readChannel(site.folder() / address, 0)(x, 0); };
+    EXPECT_NEAR(shown(pictures->technique, 0), srgbFromLinear(0.1F * (1 + 0.25F * 4)), 0.5 / 255);
+    EXPECT_NEAR(shown(pictures->truth, 0), srgbFromLinear(0.1F), 0.5 / 255);
+    EXPECT_NEAR(shown(pictures->truth, side - 1), srgbFromLinear(0.5F), 0.5 / 255);
+    EXPECT_EQ(pictures->difference, cellPictures(cell, images, site)->difference);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // Encodings show in the values of grey pixels; errors of techniques do not.
+#include "base/srgb.h"
 #include "harness/foreign/encodings.h"
-#include "harness/foreign/foreign_image.h"
 #include "tests/harness/foreign/exact_edges.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // What is wrong with a whole image is named, and what is right or merely bad is not.
+#include "base/srgb.h"
 #include "harness/foreign/foreign_image.h"
 #include "harness/foreign/recognition.h"
 #include "tests/harness/foreign/exact_edges.h"
@@ -201,16 +202,6 @@ TEST(SizeInWords, SaysWhatAWrongSizeIsToTheRightOne) {
     EXPECT_EQ(sizeInWords({100, 90}, {256, 256}), "");
     EXPECT_EQ(sizeInWords({64, 48}, {50, 64}), "") << "one side alone is the other's";
     EXPECT_EQ(sizeInWords({64, 64}, {64, 64}), "");
-}
-
-TEST(Srgb, IsUndoneByItself) {
-    for (const float v : {0.0F, 0.001F, 0.0031308F, 0.2F, 0.5F, 1.0F})
-        EXPECT_NEAR(linearFromSrgb(srgbFromLinear(v)), v, 1e-6);
-    EXPECT_NEAR(srgbFromLinear(0.5F), 0.7354F, 1e-4);
-    for (const float v : {-0.25F, 1.5F}) { // a shadow has no such value; it is refused where it matters
-        EXPECT_EQ(srgbFromLinear(v), v);
-        EXPECT_EQ(linearFromSrgb(v), v);
-    }
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/srgb.h"
 #include "base/temporary_folder.h"
 #include "harness/foreign/foreign_image.h"
 #include "harness/foreign/visibility.h"
