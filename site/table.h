@@ -26,10 +26,10 @@ struct Cell {
     std::string text = {};            // "" is shown as it is; "–" does not apply
     std::optional<double> value = {}; // what it is sorted by and drawn at; unrounded
     std::string address = {};         // what it leads to, from the site's folder
-    std::string small = {};           // below it, in small print
     std::string kind = {};            // of style.css: "take", "within", "h3" …
     std::string name = {};            // of a technique: what papers' tables call it; "": its text
     std::string note = {};            // what is said when one points at it
+    std::string small = {};           // below its text, in small print
 };
 
 struct Row {
