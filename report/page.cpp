@@ -22,31 +22,14 @@ constexpr const char* columnLegend = R"(## The columns
 | error | share of receiver pixels with the wrong label (per cent), or, on scenes lit by an area light, root mean square error of visibility |
 | exact | on scenes lit by an area light: the error against the exact visible share of the light, which the error samples. Two rows that the two put in another order cannot be told apart |
 | false shadow, leak | share of lit pixels called shadowed, share of shadowed pixels called lit |
-| edge error px, median | mean and median displacement in pixels of the technique's shadow edge from the exact one, both ways |
-| missing edges, islands | share of the exact edge that the technique has nothing near; regions of wrong labels away from it (acne, holes), which the displacement leaves out |
-| off-edge error | mismatching pixels more than half a pixel from the exact edge |
-| bad30 | share of pixels off by more than 30/255 |
-| SSIM | structural similarity with the truth |
-| area rmse, bad30, SSIM | against the mean of exact visibility over each pixel's square: how well an image is antialiased |
-| penumbra rmse, dilated, penumbra width | error within the penumbra; the same with 2 pixels around it; relative error of its width |
-| umbra leak | mean visibility where the light is fully hidden |
-| FLIP | difference that an eye sees between the shaded picture and the one with the true shadows (Andersson et al. 2020), mean |
-| flicker, floor, flicker/°, flips | mean change between moving frames beyond that of the true pixel areas; the same for an image without shadows; the first for each degree that view, light and casters turn in a frame; share of pixels whose label changes while the truth's does not |
-| moving rmse | error over the moving frames: a steady trail does not flicker |
-| ghost half-life | frames after which what a history still shows of shadows that came or went has halved |
-| seeds: bias, systematic, noise | of what depends on the seed, over several of them: mean error; rms of the error that all have in common; standard deviation of a pixel |
-| converged at | still frame, counted from 1, from which the error stays within 5 % of its final value |
-| MiB, peak MiB | textures and buffers; the most of them at once |
-| ms, processor | frame time, G-buffer included; of it, the share of passes that ask nothing of the GPU, such as finding edges |
-| × bare | frame time without the processor's share as a multiple of the least that the technique needs: its source's vertices, fragments and texture reads, drawn as passes that do nothing else, beside the same G-buffer |
-| first frame ms, compiling ms | time of the first frame, with precomputation and everything that later frames keep; what a new technique's first frame takes beyond that: compiling shaders, allocating |
-| standing, in motion | frame time, G-buffer included, as a multiple of `sm-uniform` in the same rounds: where nothing has moved since the frame before, and of the same frame after one in which light and casters were elsewhere |
-| moving / standing | the frame in motion as a multiple of the standing one, of techniques that draw less while nothing moves: what a cache saves |
-| cost | the dearer of standing and in motion; where motion was not measured, or is told not to be there (`--static`), standing |
+| edge error px | mean displacement in pixels of the technique's shadow edge from the exact one, both ways |
+| penumbra rmse, umbra leak | under an area light: error within the penumbra; mean visibility where the light is fully hidden |
+| flicker | mean change between moving frames beyond that of the true pixel areas |
+| cost | time of a frame as a multiple of `sm-uniform`'s: the dearer of standing and in motion; where motion was not measured, or is told not to be there (`--static`), standing |
 | front | ● no other technique has both less error and less cost, beyond the intervals of the times; ○ the same for a baseline or an error of more than 10 times the tolerance |
-| front, standing | the same for scenes where light and casters stand still |
 
-– does not apply. Pixels count where the rasteriser and the truth see the same receiver.
+– does not apply. Pixels count where the rasteriser and the truth see the same receiver. Every other figure of a row is in
+results.csv and on the scene's page (index.html); docs/metrics.md says what each means.
 )";
 
 const std::string costPageHead = R"(# Costs, pass by pass

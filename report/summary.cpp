@@ -1,5 +1,7 @@
 #include "report/summary.h"
 
+#include "techniques/catalog.h"
+
 #include "report/cost_report.h"
 #include "report/run_report.h"
 
@@ -241,6 +243,16 @@ std::string reportedCosts(const std::vector<Record>& records, const std::string&
         parts.push_back(fmt::format("{} {:.3g} ms{}", records[i].variant, cost.milliseconds, device));
     }
     return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string nameForPeople(const Record& record) {
+    if (record.external && !record.external->title.empty()) return record.external->title;
+    const auto all = techniques::catalog();
+    const auto entry = std::ranges::find(all, record.technique, &techniques::Entry::id);
+    if (entry == all.end()) return record.variant;
+    const std::size_t colon = record.variant.find(':');
+    return colon == std::string::npos ? entry->title
+                                      : fmt::format("{} ({})", entry->title, record.variant.substr(colon + 1));
 }
 
 std::string imageSize(const Record& record) {

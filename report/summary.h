@@ -137,6 +137,10 @@ std::string admittedFailure(const std::string& technique);
 /// What other renderers of `scene` say of their own costs: "external:three-pcf 1.25 ms (NVIDIA H100), …"; "" if none does.
 std::string reportedCosts(const std::vector<Record>& records, const std::string& scene);
 
+/// What people call a row: "Percentage-closer filtering (kernel=7)", another renderer's own title; the variant where nobody
+/// says.
+std::string nameForPeople(const Record& record);
+
 /// "256²", "800 × 600".
 std::string imageSize(const Record& record);
 

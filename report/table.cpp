@@ -12,21 +12,40 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <span>
+#include <string_view>
 
 namespace shadowbench::report {
 namespace {
 
-std::string rowName(const Record& record) {
-    if (!unexplainedDoubts(record).empty()) return record.variant + " (doubtful)";
-    return record.status == Status::ExpectedFailure ? record.variant + " (fails as expected)" : record.variant;
+std::string rowName(const Record& record, const std::string& name) {
+    if (!unexplainedDoubts(record).empty()) return name + " (doubtful)";
+    return record.status == Status::ExpectedFailure ? name + " (fails as expected)" : name;
 }
 
-/// Scored records of `scene`, with the columns that apply to at least one of them.
+/// The columns that decide beside name, error and front: what is wrong, whether it flickers, what a frame costs.
+std::vector<Column> decidingColumns(bool soft) {
+    static constexpr std::string_view ofLabels[] = {"false shadow", "leak", "edge error px", "flicker", "cost"};
+    static constexpr std::string_view ofShares[] = {"penumbra rmse", "umbra leak", "flicker", "cost"};
+    std::vector<Column> chosen;
+    for (const Column& column : columns())
+        if (const std::span<const std::string_view> wanted = soft ? std::span<const std::string_view>(ofShares) : ofLabels;
+            std::ranges::find(wanted, column.title) != wanted.end())
+            chosen.push_back(column);
+    return chosen;
+}
+
+/// Scored records of `scene`, with the columns that apply to at least one of them: of a terminal's table by their variants,
+/// of a page's by names, variants in small print.
 TextTable table(const std::vector<Record>& records, const std::string& scene, bool page) {
     const std::vector<std::size_t> scored = scoredOf(records, scene);
     TextTable result{{"technique"}, {}};
     if (!scored.empty()) result.titles.emplace_back("error");
-    for (const std::size_t i : scored) result.rows.push_back({rowName(records[i]), errorText(records[i])});
+    for (const std::size_t i : scored) {
+        const Record& record = records[i];
+        const std::string name = page ? nameForPeople(record) : record.variant;
+        result.rows.push_back({rowName(record, name), errorText(record)});
+        if (page) result.small.push_back(name == record.variant ? "" : record.variant);
+    }
     if (std::ranges::any_of(scored, [&](std::size_t i) { return exactError(records[i]).has_value(); })) {
         result.titles.emplace_back("exact");
         for (std::size_t row = 0; row < scored.size(); ++row) {
@@ -37,15 +56,14 @@ TextTable table(const std::vector<Record>& records, const std::string& scene, bo
     }
     std::vector<const Record*> rows;
     for (const std::size_t i : scored) rows.push_back(&records[i]);
-    addColumns(result, columns(), rows, page);
+    addColumns(result,
+               page ? decidingColumns(headlineMetric(records, scene) == "rmse")
+                    : std::vector<Column>(columns().begin(), columns().end()),
+               rows, page);
     if (paretoFront(records, scene).empty()) return result;
     result.titles.emplace_back("front");
     for (std::size_t row = 0; row < scored.size(); ++row)
         result.rows[row].emplace_back(frontMark(records, scene, scored[row]));
-    if (!page || std::ranges::none_of(scored, [&](std::size_t i) { return knowsMotion(records[i]); })) return result;
-    result.titles.emplace_back("front, standing");
-    for (std::size_t row = 0; row < scored.size(); ++row)
-        result.rows[row].emplace_back(frontMark(records, scene, scored[row], standingCost));
     return result;
 }
 

@@ -32,9 +32,11 @@ std::string line(const std::vector<std::string>& cells, const std::vector<std::s
     return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
 }
 
-std::string markdownRow(const std::vector<std::string>& cells) {
+std::string markdownRow(const std::vector<std::string>& cells, const std::string& small = "") {
     std::string text = "|";
-    for (const std::string& cell : cells) text += fmt::format(" {} |", markdownText(cell));
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        text += i == 0 && !small.empty() ? fmt::format(" {}<br><sub>{}</sub> |", markdownText(cells[i]), markdownText(small))
+                                         : fmt::format(" {} |", markdownText(cells[i]));
     return text + "\n";
 }
 
@@ -52,7 +54,8 @@ std::string markdown(const TextTable& table) {
     std::string text = markdownRow(table.titles) + "|:---|";
     for (std::size_t i = 1; i < table.titles.size(); ++i) text += "---:|";
     text += "\n";
-    for (const std::vector<std::string>& row : table.rows) text += markdownRow(row);
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+        text += markdownRow(table.rows[i], table.small.empty() ? "" : table.small[i]);
     return text;
 }
 

@@ -10,6 +10,7 @@ namespace shadowbench::report {
 struct TextTable {
     std::vector<std::string> titles;
     std::vector<std::vector<std::string>> rows;
+    std::vector<std::string> small = {}; // of each row, what Markdown has in small print below its name; or none at all
 };
 
 /// Names to the left, figures to the right; UTF-8 whose characters are one column wide.

@@ -31,12 +31,6 @@ std::string reason(const std::vector<Record>& records, const Choice& choice) {
     return choice.others.empty() ? choice.why : fmt::format("{}; then {}", choice.why, shortList(records, choice.others));
 }
 
-/// "Projected shadow on a plane; its weakness: shades nothing but its plane": what does here may not do elsewhere.
-std::string portrait(const std::string& technique) {
-    const std::string weakness = report::admittedFailure(technique), title = factsOf(technique).title;
-    return weakness.empty() ? title : fmt::format("{}. Its weakness: {}", title, weakness);
-}
-
 Row answerRow(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images) {
     const Choice choice = choiceFor(records, scene);
     Row row{{{.text = scene, .address = sceneAddress(scene)}}};
@@ -48,13 +42,15 @@ Row answerRow(const std::vector<Record>& records, const std::string& scene, cons
     const Record& taken = records[*choice.take];
     Cell take = techniqueCell(taken, images);
     if (take.address.empty()) take.address = sceneAddress(scene);
+    take.small = take.name == take.text ? "" : take.text;
+    take.text = take.name;
     take.kind = choice.adequate ? "take" : "nearest";
     const std::optional<double> share = report::shareOfTolerance(taken, report::tolerances(records, scene));
     row.cells.push_back(take);
     row.cells.push_back({errorText(taken), headline(taken)->value});
     row.cells.push_back(share ? Cell{fmt::format("{:.2f}", *share), *share, {}, *share <= 1 ? "within" : ""} : Cell{"–"});
     row.cells.push_back(costCell(taken));
-    row.cells.push_back({.text = portrait(taken.technique), .kind = "small"});
+    row.cells.push_back({.text = report::admittedFailure(taken.technique), .kind = "small"});
     row.cells.push_back({.text = reason(records, choice), .kind = "small"});
     return row;
 }
@@ -68,7 +64,7 @@ Table answers(const std::vector<Record>& records, const std::filesystem::path& i
          .hint = "Share of receiver pixels with the wrong label (per cent), or rms error of visibility under an area light"},
         {.title = "× tolerance", .hint = "Its error nearest to a tolerance of the scene, as a multiple of it"},
         {.title = "cost", .hint = "Frame time as a multiple of sm-uniform's: the dearer of standing and in motion"},
-        {.title = "what it is", .number = false, .brief = false, .prose = true},
+        {.title = "its weakness", .number = false, .brief = false, .prose = true},
         {.title = "why", .number = false, .brief = false, .prose = true}};
     for (const std::string& scene : report::scenes(records)) table.rows.push_back(answerRow(records, scene, images));
     return table;

@@ -50,7 +50,8 @@ public:
         for (const std::string& scene : scenes_)
             table.columns.push_back({.title = truncate(scene),
                                      .hint = "Error; sorted by its multiple of the tolerance",
-                                     .key = truncate(scene)});
+                                     .key = truncate(scene),
+                                     .least = true});
         std::vector<std::string> variants;
         for (const Record& record : records_)
             if (!isLevelOfDetail(record) && std::ranges::find(variants, record.variant) == variants.end())
@@ -100,7 +101,7 @@ private:
         if (!scored) return row;
         const TechniqueFacts facts = factsOf(first->technique);
         const double cost = timed > 0 ? std::exp(logCost / timed) : 0;
-        row.cells = {Cell{.text = variant, .note = techniqueCell(*first, {}).note},
+        row.cells = {Cell{.text = variant, .name = report::nameForPeople(*first), .note = techniqueCell(*first, {}).note},
                      Cell{std::to_string(within), static_cast<double>(within)},
                      timed > 0 ? Cell{fmt::format("{:.2f}", cost), cost} : Cell{"–"}};
         row.cells.insert(row.cells.end(), cells.begin(), cells.end());

@@ -26,7 +26,8 @@ Column columnOf(const report::Column& column) {
             .hint = own ? column.hint : std::string(line.meaning),
             .key = own ? column.key : std::string(line.path),
             .unit = std::string(line.unit),
-            .brief = !column.pageOnly};
+            .brief = !column.pageOnly,
+            .least = own || line.allowance.has_value()};
 }
 
 Cell shareCell(const Record& record, const std::vector<Tolerance>& limits) {
@@ -69,6 +70,7 @@ Cell techniqueCell(const Record& record, const std::filesystem::path& images) {
     const std::string weakness = report::admittedFailure(record.technique);
     return {.text = record.variant,
             .address = hasCell(record, images) ? cellAddress(record) : "",
+            .name = report::nameForPeople(record),
             .note = weakness.empty() ? title : title + "; its weakness: " + weakness};
 }
 
@@ -100,17 +102,21 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
                      {.title = "error",
                       .hint = report::meaning(metric),
                       .key = "error",
-                      .unit = report::isShare(metric) ? "share" : "1"}};
+                      .unit = report::isShare(metric) ? "share" : "1",
+                      .least = true}};
     const bool sampled =
         std::ranges::any_of(scored, [&](std::size_t i) { return report::exactError(records[i]).has_value(); });
     if (sampled)
-        table.columns.push_back(
-            {.title = "exact", .hint = "The same against the exact visible share of the light", .key = "exact"});
+        table.columns.push_back({.title = "exact",
+                                 .hint = "The same against the exact visible share of the light",
+                                 .key = "exact",
+                                 .least = true});
     if (!limits.empty())
         table.columns.push_back(
             {.title = "× tolerance",
              .hint = "The error that comes nearest to its tolerance, or exceeds it most, as a multiple of it",
-             .key = "tolerance"});
+             .key = "tolerance",
+             .least = true});
     std::vector<const Record*> rows;
     for (const std::size_t i : scored) rows.push_back(&records[i]);
     const std::vector<const report::Column*> chosen = report::applying(report::columns(), rows);

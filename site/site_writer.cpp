@@ -85,8 +85,8 @@ std::string SiteWriter::table(const std::string& address, const Table& table) {
     if (table.rows.empty()) return "";
     const std::string files = fmt::format("tables/{}-{}", stemOf(address), table.id);
     writeMade(folder_ / (files + ".csv"), csvOf(table));
-    writeMade(folder_ / (files + ".tex"), latexOf(table, true));
-    writeMade(folder_ / (files + "-full.tex"), latexOf(table, false));
+    writeMade(folder_ / (files + ".tex"), latexOf(table, true, stemOf(address) + "-" + table.id));
+    writeMade(folder_ / (files + "-full.tex"), latexOf(table, false, stemOf(address) + "-" + table.id + "-full"));
     writeMade(folder_ / (files + ".md"), markdownOf(table));
     return render("table.html", tableData(table, rootFrom(address), files));
 }

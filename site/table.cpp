@@ -30,6 +30,8 @@ Data cellData(const Cell& cell, const Column& column, const std::string& root) {
     data.set("valued", cell.value.has_value());
     data.set("linked", !cell.address.empty());
     data.set("address", root + cell.address);
+    data.set("small", truncate(cell.small));
+    data.set("printed", !cell.small.empty());
     data.set("kind", cell.kind + (column.number ? " number" : ""));
     data.set("noted", !cell.note.empty());
     data.set("note", truncate(cell.note, sentenceRoom));
@@ -213,7 +215,31 @@ std::string latexText(const std::string& text) {
     return result;
 }
 
-std::string latexOf(const Table& table, bool brief) {
+namespace {
+
+bool isBaselineRow(const Row& row) {
+    return std::ranges::find(row.marks, std::pair<std::string, std::string>("baseline", "yes")) != row.marks.end();
+}
+
+/// The best value of each column that has one.
+std::vector<std::optional<double>> bestOf(const Table& table) {
+    std::vector<std::optional<double>> best(table.columns.size());
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+        for (const Row& row : table.rows) {
+            const std::optional<double>& value = row.cells[i].value;
+            if (table.columns[i].least && value && !isBaselineRow(row) && (!best[i] || *value < *best[i])) best[i] = value;
+        }
+    return best;
+}
+
+std::string latexCell(const Cell& cell, const Column& column) {
+    const std::string& text = cell.name.empty() ? cell.text : cell.name;
+    return text.empty() ? "{}" : latexText(truncate(text, column.prose ? sentenceRoom : nameRoom));
+}
+
+} // namespace
+
+std::string latexOf(const Table& table, bool brief, const std::string& label) {
     const std::vector<std::size_t> chosen = columnsOf(table, brief);
     std::string kinds, titles;
     for (const std::size_t i : chosen) {
@@ -222,17 +248,18 @@ std::string latexOf(const Table& table, bool brief) {
     }
     std::string text = "% needs: \\usepackage[utf8]{inputenc} \\usepackage{textcomp,booktabs,graphicx}\n"
                        "\\begin{table}\n  \\centering\n";
-    text += fmt::format("  \\caption{{{}}}\n", latexText(truncate(table.caption)));
+    text += fmt::format("  \\caption{{{}}}\n  \\label{{tab:{}}}\n", latexText(truncate(table.caption)), label);
     text += fmt::format("  \\resizebox{{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}}{{!}}{{%\n"
                         "  \\begin{{tabular}}{{{}}}\n    \\toprule\n    {} \\\\\n    \\midrule\n",
                         kinds, titles);
+    const std::vector<std::optional<double>> best = bestOf(table);
     for (const Row& row : table.rows) {
         std::string line;
-        for (const std::size_t i : chosen)
-            line += (line.empty() ? "" : " & ") +
-                    (row.cells[i].text.empty()
-                         ? "{}"
-                         : latexText(truncate(row.cells[i].text, table.columns[i].prose ? sentenceRoom : nameRoom)));
+        for (const std::size_t i : chosen) {
+            const std::string cell = latexCell(row.cells[i], table.columns[i]);
+            const bool isBest = best[i] && row.cells[i].value == best[i] && !isBaselineRow(row);
+            line += (line.empty() ? "" : " & ") + (isBest ? fmt::format("\\textbf{{{}}}", cell) : cell);
+        }
         text += fmt::format("    {} \\\\\n", line);
     }
     return text + "    \\bottomrule\n  \\end{tabular}}\n\\end{table}\n";

@@ -18,6 +18,7 @@ struct Column {
     std::string unit = {}; // of the values: "share" is shown in per cent
     bool number = true;
     bool brief = true;  // has its place in a paper's table, too
+    bool least = false; // the least of its values is the best
     bool prose = false; // of sentences: has room for more than a name
 };
 
@@ -26,7 +27,9 @@ struct Cell {
     std::optional<double> value = {}; // what it is sorted by and drawn at; unrounded
     std::string address = {};         // what it leads to, from the site's folder
     std::string kind = {};            // of style.css: "take", "within", "h3" …
+    std::string name = {};            // of a technique: what papers' tables call it; "": its text
     std::string note = {};            // what is said when one points at it
+    std::string small = {};           // below its text, in small print
 };
 
 struct Row {
@@ -56,8 +59,9 @@ Data tableData(const Table& table, const std::string& root, const std::string& f
 /// RFC 4180; values unrounded where a cell has one.
 std::string csvOf(const Table& table);
 
-/// A float with booktabs and, unless `brief`, all columns, made as wide as the line (package graphicx).
-std::string latexOf(const Table& table, bool brief);
+/// A float with booktabs and, unless `brief`, all columns, made as wide as the line (package graphicx); \label{tab:<label>},
+/// and the best of each column bold: of all rows but the baselines (mark "baseline").
+std::string latexOf(const Table& table, bool brief, const std::string& label);
 
 std::string markdownOf(const Table& table);
 

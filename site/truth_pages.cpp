@@ -93,8 +93,8 @@ void addTruthPage(const std::vector<Record>& records, const std::string& scene, 
     table.columns.push_back({.title = "hash of the pixels", .number = false, .brief = false});
     for (const SceneTruth& truth : truthsOf(records, scene)) {
         Row row{infoCells(truth), {}};
-        row.cells.push_back({truth.info.key});
-        row.cells.push_back({truth.info.content.empty() ? "–" : truth.info.content});
+        row.cells.push_back({.text = truth.info.key, .kind = "hash"});
+        row.cells.push_back({.text = truth.info.content.empty() ? "–" : truth.info.content, .kind = "hash"});
         table.rows.push_back(std::move(row));
     }
     Data data, list{Data::type::list};

@@ -236,6 +236,11 @@ TEST_F(Run, ReportIsMadeAgainFromRecordsAlone) {
     const Outcome report = shell("shadowbench report " + folder_ / "out/results.jsonl" + " --out " + folder_ / "again");
     ASSERT_EQ(report.code, 0) << report.output;
     const auto text = [](const std::string& file) { return (std::ostringstream() << std::ifstream(file).rdbuf()).str(); };
+    const Outcome label =
+        shell("shadowbench report " + folder_ / "out/results.jsonl" + " --label nosuch --out " + folder_ / "no");
+    EXPECT_EQ(label.code, 2) << label.output;
+    EXPECT_NE(label.output.find("--label: no record is of a variant or technique \"nosuch\""), std::string::npos)
+        << label.output;
     EXPECT_EQ(text(folder_ / "again/report.md"), text(folder_ / "out/report.md"));
     EXPECT_EQ(text(folder_ / "again/pareto-tiny.svg"), text(folder_ / "out/pareto-tiny.svg"));
 }

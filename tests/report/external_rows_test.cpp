@@ -46,7 +46,7 @@ TEST(ExternalRows, HaveAnErrorAndNoPlaceAmongCosts) {
 
 TEST(ExternalRows, StandInTheTableWithWhatTheyReportSaidToBeReported) {
     const std::string page = report::markdownTable(withExternal(), scene);
-    EXPECT_TRUE(contains(page, "| external:my-engine | 0.05 % |")) << page;
+    EXPECT_TRUE(contains(page, "| My engine<br><sub>external:my-engine</sub> | 0.05 % |")) << page;
     EXPECT_TRUE(contains(page,
                          "time of a frame as the renderers themselves report it, not measured here: external:my-engine "
                          "0.25 ms (a GPU)"))

@@ -2,6 +2,7 @@
 #include "base/files.h"
 #include "base/temporary_folder.h"
 #include "site/gate_page.h"
+#include "site/menu.h"
 #include "site/names.h"
 #include "site/site.h"
 #include "tests/support/report_examples.h"
@@ -99,6 +100,50 @@ TEST(BothSite, ShowsEveryFigureUnroundedWithoutAScript) {
     EXPECT_FALSE(has(page, "<style"));
     EXPECT_EQ(attributes(page, "style"), std::vector<std::string>());
     EXPECT_EQ(attributes(page, "onclick"), std::vector<std::string>());
+}
+
+TEST_F(Site, CountsTechniquesAndHasOtherRenderersOnAPageOfTheirOwn) {
+    std::vector<Record> records = hardScene();
+    records.push_back(hardCell("sm-uniform:map=64", 0.1, 1));
+    records.push_back(hardCell("external:engine", 0, 0.1)); // the best and the cheapest of all
+    records.back().technique = records.back().variant;
+    records.back().values["cost.time.ratio"].reset();
+    records.back().external = ExternalInfo{.title = "An engine", .source = "version 4"};
+    writeSite({.records = records}, folder());
+    const std::string index = readFile(folder() / "index.html"), choose = readFile(folder() / "choose.html");
+    EXPECT_TRUE(has(index, "4 techniques in 6 variants on 1 scene; beside them 1 setting of other renderers.")) << index;
+    for (const char* part : {"href=\"choose.html\"", "href=\"engines.html\"", "<meta name=\"description\"", "og:title",
+                             "<small>volume-zfail</small>", "docs/metrics.md"})
+        EXPECT_TRUE(has(index, part)) << part;
+    EXPECT_FALSE(has(index, "<img src=\"\"")) << "no place for pictures that are not there";
+    const std::string answers = choose.substr(choose.find("<tbody>"), choose.find("</tbody>") - choose.find("<tbody>"));
+    EXPECT_FALSE(has(answers, "external:engine")) << answers;
+    EXPECT_TRUE(has(answers, "class=\"within number\"") || has(answers, ">nearest") || has(answers, "class=\"nearest\""))
+        << answers;
+    EXPECT_FALSE(has(choose.substr(choose.find("data-table=\"all\"")), "external:engine"));
+    EXPECT_TRUE(has(readFile(folder() / "engines.html"), "An engine"));
+    EXPECT_EQ(deadLinks(folder()), std::set<std::string>());
+}
+
+TEST(SceneGroups, SortScenesByWhatTheyAreFor) {
+    std::vector<Record> records(4, hardCell("pcf", 0.1, 1));
+    records[0].scene = "simple";
+    records[1].scene = "contact";
+    records[2].scene = "mine";
+    records[3].profile = "standard";
+    records[3].width = records[3].height = 512;
+    records[3].scene = "simple" + sizeSuffix(records[3]);
+    const std::vector<LinkGroup> groups = sceneGroups(records);
+    ASSERT_EQ(groups.size(), 4U);
+    const std::vector<std::pair<std::string, std::string>> expected{{"Standard scenes", "simple"},
+                                                                    {"Where techniques fail", "contact"},
+                                                                    {"Own scenes", "mine"},
+                                                                    {"At 512²", "simple, standard, 512²"}};
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        EXPECT_EQ(groups[i].title, expected[i].first);
+        ASSERT_EQ(groups[i].links.size(), 1U);
+        EXPECT_EQ(groups[i].links.front().title, expected[i].second);
+    }
 }
 
 TEST_F(Site, OfTheSameRecordsIsTheSameBytes) {

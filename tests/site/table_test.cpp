@@ -45,13 +45,25 @@ TEST(Table, IsCsvWithUnroundedValues) {
 }
 
 TEST(Table, IsLatexWithBooktabsBriefOrWhole) {
-    const std::string brief = latexOf(example(), true), whole = latexOf(example(), false);
+    const std::string brief = latexOf(example(), true, "scene-errors"), whole = latexOf(example(), false, "x");
     for (const char* part : {"\\toprule", "\\midrule", "\\bottomrule", "technique & error \\%", "a\\_b:x=1 & 0.33 \\% \\\\",
-                             "\\caption{A \\& B}", "{lr}"})
+                             "\\caption{A \\& B}", "\\label{tab:scene-errors}", "{lr}"})
         EXPECT_TRUE(has(brief, part)) << part << "\n" << brief;
     EXPECT_FALSE(has(brief, "wide"));
     EXPECT_TRUE(has(whole, "technique & error \\% & wide")) << whole;
     EXPECT_TRUE(has(whole, "& -- \\\\")) << whole;
+}
+
+TEST(Table, HasTheBestOfEachColumnBoldInLatexAndNamesForPeople) {
+    Table table{.id = "errors",
+                .caption = "Errors",
+                .columns = {{.title = "technique"}, {.title = "error", .least = true}, {.title = "SSIM"}}};
+    table.rows = {{{Cell{"none"}, Cell{"0.0", 0.0}, Cell{"1", 1.0}}, {{"baseline", "yes"}}},
+                  {{Cell{.text = "pcss", .name = "Percentage-closer soft shadows"}, Cell{"0.1", 0.1}, Cell{"2", 2.0}}},
+                  {{Cell{"pcf"}, Cell{"0.2", 0.2}, Cell{"3", 3.0}}}};
+    const std::string text = latexOf(table, false, "x");
+    EXPECT_TRUE(has(text, "Percentage-closer soft shadows & \\textbf{0.1} & 2 \\\\")) << text;
+    EXPECT_TRUE(has(text, "none & 0.0 & 1 \\\\") && has(text, "pcf & 0.2 & 3 \\\\")) << text;
 }
 
 TEST(Latex, HasAWordForWhatItWouldRead) {
