@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
-#include <optional>
 
 namespace shadowbench {
 namespace {
@@ -43,7 +42,7 @@ std::string sceneFromAnywhere(const std::string& scene) {
     return std::ranges::find(known, scene) != known.end() || !fs::exists(scene) ? scene : fs::absolute(scene).string();
 }
 
-ExitCode developAndPrint(develop::Request request, const std::string& profile, std::optional<int> port) {
+ExitCode developAndPrint(develop::Request request, const std::string& profile) {
     if (!fs::is_directory(request.folder))
         throw BadInput(
             fmt::format("there is no technique folder {}; shadowbench new-technique makes one", request.folder.string()));
@@ -52,7 +51,7 @@ ExitCode developAndPrint(develop::Request request, const std::string& profile, s
     if (request.cache.empty()) request.cache = groundtruth::defaultCacheFolder();
     request.cache = fs::absolute(request.cache);
     for (std::string& scene : request.scenes) scene = sceneFromAnywhere(scene);
-    develop::develop(request, commandFor(request), port, [](int chosen) {
+    develop::develop(request, commandFor(request), [](int chosen) {
         fmt::print("page: http://127.0.0.1:{}/\nEach save of the folder is drawn; Ctrl-C ends.\n", chosen);
         std::fflush(stdout);
     });
@@ -64,26 +63,23 @@ ExitCode developAndPrint(develop::Request request, const std::string& profile, s
 void addDevelop(CLI::App& app, Action& action) {
     const auto request = std::make_shared<develop::Request>();
     const auto profile = std::make_shared<std::string>("gate");
-    const auto port = std::make_shared<std::optional<int>>();
     request->scenes = {"simple"};
     CLI::App* verb = app.add_subcommand("develop", "Shows a technique folder on a page, anew at each save of its files");
     verb->footer(
         "Examples:\n  shadowbench develop evsm\n  shadowbench develop evsm --scene windmills --scene my.toml\n"
-        "  shadowbench develop evsm --technique my:evsm:map=512 --technique my:evsm:map=2048 --port 8080\n"
+        "  shadowbench develop evsm --technique my:evsm:map=512 --technique my:evsm:map=2048\n"
         "Open the page that it names in a browser of this machine. k keeps a state, c shows the kept one in turn with\n"
         "the current one, y copies the command that runs it again. More: docs/technique-folders.md");
     verb->add_option("folder", request->folder, "Folder with a technique.toml and its shaders")->required();
     verb->add_option("--scene", request->scenes, "Scene id or file; repeatable")->capture_default_str();
     verb->add_option("--technique", request->techniques,
                      "Variant such as my:evsm:map=512; repeatable (default: all rows of the folder)");
-    verb->add_option("--port", *port, "Port of the page (default: a free one)")->check(CLI::Range(1, 65535));
     addProfileOption(*verb, *profile);
     verb->add_option("--cache", request->cache,
                      "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     addGlOption(*verb);
-    verb->callback([&action, request, profile, port] {
-        action = [request, profile, port] { return developAndPrint(*request, *profile, *port); };
-    });
+    verb->callback(
+        [&action, request, profile] { action = [request, profile] { return developAndPrint(*request, *profile); }; });
 }
 
 } // namespace shadowbench

@@ -8,6 +8,7 @@
 #include "scene/load/load.h"
 #include "studies/sweep/axis.h"
 #include "techniques/catalog.h"
+#include "techniques/variant_name.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -104,7 +105,7 @@ bool isGlob(const std::string& pattern) { return pattern.find_first_of("*?[") !=
 bool matches(const std::string& pattern, const std::string& variant) {
     if (variant.starts_with(externalPrefix)) return fnmatch(pattern.c_str(), variant.c_str(), 0) == 0;
     if (!isGlob(pattern)) return canonical(pattern) == variant;
-    return fnmatch(pattern.c_str(), variant.substr(0, variant.find(':')).c_str(), 0) == 0;
+    return fnmatch(pattern.c_str(), techniques::idOfVariant(variant).c_str(), 0) == 0;
 }
 
 bool anyMatches(const std::vector<std::string>& patterns, const std::string& variant) {

@@ -9,6 +9,7 @@
 #include "harness/metrics/table.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
+#include "techniques/variant_name.h"
 
 #include <algorithm>
 #include <array>
@@ -92,8 +93,6 @@ std::vector<std::string> select(const std::vector<std::string>& all, const Predi
     return some;
 }
 
-std::string techniqueOf(const std::string& variant) { return variant.substr(0, variant.find(':')); }
-
 /// A run or sweep of one scene, without its techniques.
 std::vector<std::string> arguments(const char* verb, const JudgedScene& scene, Profile profile, std::uint32_t seed,
                                    const std::vector<std::string>& more) {
@@ -158,8 +157,9 @@ void JudgedCells::addNamed(const GateRule& rule, const std::vector<std::string>&
     const auto scene = std::ranges::find(scenes, rule.scene, &JudgedScene::id);
     if (scene == scenes.end()) return;
     for (const std::string& variant : rule.named()) {
-        const bool isOfChosen = std::ranges::any_of(
-            chosen, [&](const std::string& other) { return techniqueOf(other) == techniqueOf(variant); });
+        const bool isOfChosen = std::ranges::any_of(chosen, [&](const std::string& other) {
+            return techniques::idOfVariant(other) == techniques::idOfVariant(variant);
+        });
         if (isOfChosen && std::ranges::find(scene->variants, variant) == scene->variants.end())
             scene->variants.push_back(variant);
     }
@@ -185,7 +185,7 @@ void JudgedCells::addChoices(const GateOptions& options, const std::vector<std::
     for (const GateRule& rule : policy.config.choices) {
         const auto isChosen = [&](const std::string& id) {
             return rule.covers(id) &&
-                   std::ranges::any_of(chosen, [&](const std::string& v) { return techniqueOf(v) == id; });
+                   std::ranges::any_of(chosen, [&](const std::string& v) { return techniques::idOfVariant(v) == id; });
         };
         if (std::ranges::none_of(techniques::catalog(), isChosen, &techniques::Entry::id)) continue;
         const std::string file = (options.bounds.parent_path() / rule.scene).string();

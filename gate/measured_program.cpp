@@ -11,6 +11,7 @@
 #include "harness/measure/callgrind.h"
 #include "harness/records/comparability.h"
 #include "techniques/catalog.h"
+#include "techniques/variant_name.h"
 
 #include <algorithm>
 #include <cctype>
@@ -101,7 +102,8 @@ std::optional<BuildInfo> buildOf(const fs::path& program) {
 /// "pcss:taps=32+32,map=2048" → ("taps", "32+32"), ("map", "2048").
 std::vector<std::pair<std::string, std::string>> assignmentsOf(const std::string& variant) {
     std::vector<std::pair<std::string, std::string>> assignments;
-    for (std::size_t at = variant.find(':'); at != std::string::npos; at = variant.find(',', at + 1)) {
+    const std::size_t id = techniques::idOfVariant(variant).size();
+    for (std::size_t at = variant.find(':', id); at != std::string::npos; at = variant.find(',', at + 1)) {
         const std::size_t equals = variant.find('=', at);
         assignments.emplace_back(variant.substr(at + 1, equals - at - 1),
                                  variant.substr(equals + 1, variant.find(',', equals) - equals - 1));
@@ -120,8 +122,14 @@ bool allows(const std::string& domain, const std::string& value) {
     return ("|" + domain + "|").find("|" + value + "|") != std::string::npos;
 }
 
+/// With the files of technique folders: what was measured of others is no answer.
 std::string text(const Step& step) {
-    return fmt::format("{}\n{}\n{}", fmt::join(step.arguments, "\n"), fmt::join(step.techniques, "\n"), step.inputs);
+    std::string folders;
+    for (const std::string& name : step.techniques)
+        for (const techniques::Entry& entry : techniques::catalog())
+            if (entry.id == techniques::idOfVariant(name) && !entry.digest.empty()) folders += "\n" + entry.digest;
+    return fmt::format("{}\n{}\n{}{}", fmt::join(step.arguments, "\n"), fmt::join(step.techniques, "\n"), step.inputs,
+                       folders);
 }
 
 /// Whether kept records are still those whose hash was written beside them.
@@ -150,7 +158,7 @@ MeasuredProgram::MeasuredProgram(const fs::path& file, const fs::path& cache)
 }
 
 bool MeasuredProgram::knowsVariant(const std::string& variant) const {
-    const auto technique = std::ranges::find(techniques_, variant.substr(0, variant.find(':')), &Technique::id);
+    const auto technique = std::ranges::find(techniques_, techniques::idOfVariant(variant), &Technique::id);
     if (technique == techniques_.end()) return false;
     return std::ranges::all_of(assignmentsOf(variant), [&](const auto& assignment) {
         const auto parameter = technique->parameters.find(assignment.first);

@@ -5,6 +5,7 @@
 #include "site/gate_site.h"
 #include "site/names.h"
 #include "site/technique_facts.h"
+#include "techniques/variant_name.h"
 
 #include <algorithm>
 #include <array>
@@ -54,7 +55,7 @@ Table changeTable(const std::vector<Change>& changes, const gate::GateOptions& o
         {.title = "× allowed", .hint = "The change as a multiple of what is allowed"},
         {.title = "to see it again", .number = false, .brief = false, .prose = true}};
     for (const Change& change : gate::worstFirst(changes)) {
-        const TechniqueFacts facts = factsOf(change.variant.substr(0, change.variant.find(':')));
+        const TechniqueFacts facts = factsOf(techniques::idOfVariant(change.variant));
         const double times = gate::excess(change);
         Row row{{Cell{.text = change.variant, .note = change.sentence},
                  Cell{.text = std::string(gate::name(change.direction)),

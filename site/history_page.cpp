@@ -4,6 +4,7 @@
 #include "site/names.h"
 #include "site/pages.h"
 #include "site/technique_facts.h"
+#include "techniques/variant_name.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ Table changeTable(const Findings& f) {
         const std::string subject = f.subjects[change.after.first];
         const bool worse = change.direction == gate::Direction::Worse;
         table.rows.push_back(
-            {{Cell{.text = series.variant, .note = factsOf(series.variant.substr(0, series.variant.find(':'))).title},
+            {{Cell{.text = series.variant, .note = factsOf(techniques::idOfVariant(series.variant)).title},
               Cell{.text = worse ? "worse" : "better", .kind = worse ? "refuted" : "reproduced"}, Cell{series.scene},
               Cell{series.metric}, Cell{history::formatFigure(series.metric, change.before.value), change.before.value},
               Cell{history::formatFigure(series.metric, change.after.value), change.after.value},
@@ -66,7 +67,7 @@ Table seriesTable(const Findings& f, const std::string& scene, const std::string
         const Series& series = f.history.series[i];
         if (series.scene != scene || series.metric != metric) continue;
         Row row{{Cell{.text = series.variant, .note = series.cell}},
-                {{"family", factsOf(series.variant.substr(0, series.variant.find(':'))).family},
+                {{"family", factsOf(techniques::idOfVariant(series.variant)).family},
                  {"changed", f.levels[i].size() > 1 ? "yes" : "no"}}};
         row.cells.resize(f.history.commits.size() + 1, Cell{"–"});
         for (const history::Point& point : series.points)

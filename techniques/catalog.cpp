@@ -2,11 +2,15 @@
 
 #include "base/error.h"
 #include "techniques/folder/folder_technique.h"
+#include "techniques/folder/pass_program.h"
+#include "techniques/folder_passes.h"
 #include "techniques/gl/platform.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <functional>
+#include <map>
 #include <sstream>
 
 namespace shadowbench::techniques {
@@ -28,26 +32,39 @@ std::vector<std::string> chosenFolders() {
     return folders;
 }
 
-std::vector<Entry> allEntries() {
+struct Catalogue {
     std::vector<Entry> entries{
 #define TECHNIQUE(name) name(),
 #include "techniques/catalog.inc"
 #undef TECHNIQUE
     };
-    for (const std::string& folder : chosenFolders()) {
-        Entry entry = folderEntry(readTechniqueFolder(folder));
-        if (std::ranges::find(entries, entry.id, &Entry::id) != entries.end())
-            throw BadInput(fmt::format("two technique folders have the id \"{}\"", entry.id.substr(folderPrefix.size())));
-        entries.push_back(std::move(entry));
+    std::map<std::string, std::map<std::string, std::string>, std::less<>> passes; // of folders, by their rows
+
+    Catalogue() {
+        for (const std::string& place : chosenFolders()) {
+            TechniqueFolder folder = readTechniqueFolder(place);
+            const std::string id = folder.entry.id;
+            if (std::ranges::find(entries, id, &Entry::id) != entries.end())
+                throw BadInput(fmt::format("two technique folders have the id \"{}\"", id.substr(folderPrefix.size())));
+            passes.emplace(id, passHashes(folder));
+            entries.push_back(folderEntry(std::move(folder)));
+        }
     }
-    return entries;
+};
+
+const Catalogue& catalogue() {
+    static const Catalogue all;
+    return all;
 }
 
 } // namespace
 
-std::span<const Entry> catalog() {
-    static const std::vector<Entry> entries = allEntries();
-    return entries;
+std::span<const Entry> catalog() { return catalogue().entries; }
+
+const std::map<std::string, std::string>& drawnWith(std::string_view id) {
+    static const std::map<std::string, std::string> none;
+    const auto found = catalogue().passes.find(id);
+    return found == catalogue().passes.end() ? none : found->second;
 }
 
 void addTechniqueFolder(const std::filesystem::path& folder) {

@@ -9,6 +9,7 @@
 #include "harness/measure/frame_cost.h"
 #include "harness/metrics/frames.h"
 #include "techniques/contract/applicability.h"
+#include "techniques/folder_passes.h"
 #include "techniques/gl/context.h"
 
 #include <algorithm>
@@ -163,6 +164,9 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     timing::measureWork(stage, sequence, record);
     if (variant.entry->temporal) timing::measureMotionWork(stage, casters, sequence, record);
     timing::keepChangedPasses(record);
+    const auto& hashes = techniques::drawnWith(variant.entry->id);
+    for (PassRecord& pass : record.passes)
+        if (const auto found = hashes.find(pass.name); found != hashes.end()) pass.drawnWith = found->second;
     setMemory(record, memory);
     record.status = Status::Scored;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <numeric>
 #include <set>
@@ -89,6 +90,17 @@ bool turned(const metrics::Metric& metric, const MatchedCell& cell, const Change
     return before * now < 0 && std::abs(now) > change.allowance && std::abs(now) > std::abs(before) - change.allowance;
 }
 
+/// Which passes of a technique folder draw with something else than before, to follow what is another score.
+std::string changedPasses(const Record& base, const Record& head) {
+    std::vector<std::string> names;
+    for (const PassRecord& pass : head.passes) {
+        if (pass.drawnWith.empty()) continue;
+        const auto before = std::ranges::find(base.passes, pass.name, &PassRecord::name);
+        if (before == base.passes.end() || before->drawnWith != pass.drawnWith) names.push_back(pass.name);
+    }
+    return names.empty() ? "" : fmt::format("; the pass {} was changed", fmt::join(names, ", "));
+}
+
 class CellComparison {
 public:
     CellComparison(const std::vector<MatchedCell>& cells, const Rules& rules, std::vector<Change>& changes)
@@ -134,6 +146,7 @@ private:
         } else {
             judge(cell, metric, values, change);
         }
+        if (change.direction != Direction::Same) change.sentence += changedPasses(*cell.base.front(), head);
         changes_.push_back(std::move(change));
     }
 

@@ -107,6 +107,7 @@ void fields(auto& visit, Is<PassRecord> auto& p) {
     visit("vertices", p.vertices);
     visit("draws", p.draws);
     visit("bare", p.bare);
+    visit.text("drawn_with", p.drawnWith);
 }
 
 void fields(auto& visit, Is<OtherScreen> auto& o) {

@@ -71,6 +71,7 @@ struct PassRecord {
     std::optional<double> share = {};        // of the frame's time that the pass takes
     std::uint64_t fragments = 0, vertices = 0, draws = 0;
     std::optional<BareCost> bare = {};
+    std::string drawnWith = {}; // hash of shaders and state, of a technique folder's own passes
 };
 inline constexpr std::string_view betweenPasses = "between passes";
 

@@ -141,6 +141,7 @@ constexpr const char* withoutMetrics = R"({
           "fragments": {"$ref": "#/definitions/count"},
           "vertices": {"$ref": "#/definitions/count"},
           "draws": {"$ref": "#/definitions/count"},
+          "drawn_with": {"type": "string", "minLength": 1, "description": "hash of shaders and state, of a technique folder's own passes"},
           "bare": {
             "type": "object",
             "description": "the least that the pass needs, as passes that do nothing else",

@@ -27,7 +27,7 @@ void drawInto(LiveState& state, FolderWatch& watch, const Request& request, cons
 
 } // namespace
 
-void develop(Request request, const std::string& command, std::optional<int> port, const std::function<void(int)>& ready) {
+void develop(Request request, const std::string& command, const std::function<void(int)>& ready) {
     {
         const std::vector<Scene> scenes = chosenScenes(request.scenes, request.profile);
         computeTruths(scenes, request.cache);
@@ -35,7 +35,7 @@ void develop(Request request, const std::string& command, std::optional<int> por
     }
     const TemporaryFolder room; // an interrupt waits until it is gone
     LiveState state(request.folder.filename().string(), command);
-    const PageServer server(state, port);
+    const PageServer server(state);
     ready(server.port());
     FolderWatch watch(request.folder);
     while (!DeferredInterrupts::pending()) {

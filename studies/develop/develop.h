@@ -4,13 +4,12 @@
 #include "studies/develop/drawing.h"
 
 #include <functional>
-#include <optional>
 #include <string>
 
 namespace shadowbench::develop {
 
 /// Draws the folder now and after each change of it, until the user interrupts. `ready` is called with the page's port once
-/// it can be opened; `command` is what shows a state again. Throws BadInput for a scene or a port that cannot be had.
-void develop(Request request, const std::string& command, std::optional<int> port, const std::function<void(int)>& ready);
+/// it can be opened; `command` is what shows a state again. Throws BadInput for a scene that cannot be had.
+void develop(Request request, const std::string& command, const std::function<void(int)>& ready);
 
 } // namespace shadowbench::develop

@@ -76,7 +76,7 @@ struct PageServer::Running {
     std::atomic<bool> ended = false;
     std::thread thread;
 
-    Running(LiveState& shown, std::optional<int> wanted) : state(shown) {
+    explicit Running(LiveState& shown) : state(shown) {
         server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
         server.set_keep_alive_max_count(1); // an idle connection would keep a thread
         server.set_payload_max_length(1024);
@@ -86,9 +86,7 @@ struct PageServer::Running {
             ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
         });
         route();
-        port = wanted && server.bind_to_port(loopback, *wanted) ? *wanted : wanted ? -1 : server.bind_to_any_port(loopback);
-        if (port < 0 && wanted)
-            throw BadInput(fmt::format("port {} cannot be had; choose another with --port, or leave it out", *wanted));
+        port = server.bind_to_any_port(loopback);
         if (port < 0) throw Inconclusive("there is no free port on the loopback address; end a server and try again");
         thread = std::thread([this] {
             server.listen_after_bind();
@@ -139,7 +137,7 @@ struct PageServer::Running {
     }
 };
 
-PageServer::PageServer(LiveState& state, std::optional<int> port) : running_(std::make_unique<Running>(state, port)) {}
+PageServer::PageServer(LiveState& state) : running_(std::make_unique<Running>(state)) {}
 
 PageServer::~PageServer() = default;
 

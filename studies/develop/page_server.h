@@ -4,7 +4,6 @@
 #include "studies/develop/live_state.h"
 
 #include <memory>
-#include <optional>
 
 namespace shadowbench::develop {
 
@@ -12,8 +11,8 @@ namespace shadowbench::develop {
 /// page, are refused (docs/threat-model.md). Knows its own pages and pictures, no files.
 class PageServer {
 public:
-    /// `state` must outlive the object. None for `port`: a free one. Throws BadInput when the port is taken.
-    PageServer(LiveState& state, std::optional<int> port);
+    /// On a free port. `state` must outlive the object.
+    explicit PageServer(LiveState& state);
     /// Closes the state.
     ~PageServer();
     PageServer(const PageServer&) = delete;

@@ -11,6 +11,7 @@
 #include "report/advice.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
+#include "techniques/variant_name.h"
 
 #include <algorithm>
 #include <array>
@@ -197,7 +198,7 @@ std::optional<std::vector<std::string>> advisedWithMap(const Recommendation& res
     if (!result.technique) return {};
     const std::string& advised = result.technique->variant;
     const auto all = techniques::catalog(); // records may be of another catalogue
-    const auto entry = std::ranges::find(all, advised.substr(0, advised.find(':')), &techniques::Entry::id);
+    const auto entry = std::ranges::find(all, techniques::idOfVariant(advised), &techniques::Entry::id);
     if (entry == all.end() ||
         std::ranges::find(entry->parameters, "map", &techniques::Parameter::name) == entry->parameters.end())
         return {};

@@ -1,6 +1,7 @@
 #include "techniques/folder/pass_program.h"
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/words.h"
 #include "techniques/folder/inputs.h"
 
@@ -122,7 +123,42 @@ private:
     const FolderPass& pass_;
 };
 
+std::string text(const Amount& amount) {
+    return std::visit([](const auto& value) { return fmt::format("{}", value); }, amount);
+}
+
+/// One that includes what is not there has no other text than its own.
+std::string shaderText(const TechniqueFolder& folder, const FolderPass& pass) {
+    if (pass.fragment.empty()) return "";
+    try {
+        return gl::loadShader({"", folder.shaders}, pass.fragment, pass.defines).text;
+    } catch (const InternalError&) {
+        return folder.shaders.at(pass.fragment);
+    }
+}
+
+std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
+    const glm::vec4 clear = pass.clear.value_or(glm::vec4(-1));
+    std::string state = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", pass.casters, text(pass.slopeOffset),
+                                    text(pass.unitOffset), pass.clear.has_value(), clear.x, clear.y, clear.z, clear.w,
+                                    pass.blend ? static_cast<int>(*pass.blend) : -1, static_cast<int>(pass.cull),
+                                    pass.depthTest, text(pass.repeat));
+    for (const FolderTarget& target : folder.targets)
+        if (std::ranges::count(pass.to, target.name) > 0)
+            state += fmt::format("\n{} {} {} {} {} {} {}", target.name, static_cast<int>(target.format), target.ofImage,
+                                 text(target.side), target.linear, target.compare, target.mipmaps);
+    return state;
+}
+
 } // namespace
+
+std::map<std::string, std::string> passHashes(const TechniqueFolder& folder) {
+    std::map<std::string, std::string> texts, hashes;
+    for (const FolderPass& pass : folder.passes)
+        texts[pass.name] += stateOf(folder, pass) + "\n" + shaderText(folder, pass) + "\n";
+    for (const auto& [name, all] : texts) hashes[name] = hash128(all).text();
+    return hashes;
+}
 
 gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values) {
     if (pass.fragment.empty()) return {"shared/maps/depth_map.vert", "gl/depth_only.frag"};

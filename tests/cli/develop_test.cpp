@@ -140,11 +140,6 @@ TEST_F(Develop, TwoRunBesideEachOtherOnPortsOfTheirOwn) {
     const LivePage one = page(), other = page();
     EXPECT_NE(one.port(), other.port());
     EXPECT_EQ(figure(one.drawnAfter(0), "error"), figure(other.drawnAfter(0), "error"));
-    const Outcome taken = shell(fmt::format("shadowbench develop {} --port {}", mine_.path().string(), one.port()));
-    EXPECT_EQ(taken.code, 2);
-    EXPECT_NE(taken.output.find(fmt::format("port {} cannot be had; choose another with --port", one.port())),
-              std::string::npos)
-        << taken.output;
 }
 
 TEST_F(Develop, ANewTechniqueIsShownAtOnce) {

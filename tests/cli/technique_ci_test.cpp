@@ -65,13 +65,15 @@ TEST_F(TechniqueWorkflow, AChangeThatDrawsTheSameIsGreen) {
     EXPECT_TRUE(contains(compare.output, "1 of 1 expected results compared")) << compare.output;
 }
 
-TEST_F(TechniqueWorkflow, AWorseLineIsRedWithSceneAndClass) {
+TEST_F(TechniqueWorkflow, AWorseLineIsRedWithSceneClassAndPass) {
     commit("resolve.frag", replaced(mapShader, "receiver.seen ?", "receiver.seen && gl_FragCoord.x > 22.0 ?"));
     const Outcome check = step("check"), compare = step("compare");
     EXPECT_EQ(check.code, 4) << check.output;
     EXPECT_TRUE(contains(check.output, "FAILS  my:mine on tiny: mismatch below 0.02")) << check.output;
     EXPECT_EQ(compare.code, 4) << compare.output;
     EXPECT_TRUE(contains(compare.output, "worse        leak          my:mine on tiny: accuracy.leak")) << compare.output;
+    EXPECT_TRUE(contains(compare.output, "; the pass resolve was changed\n")) << compare.output;
+    EXPECT_FALSE(contains(compare.output, "the pass depth map")) << compare.output;
     EXPECT_TRUE(contains(compare.output, "::error title=")) << compare.output;
     EXPECT_TRUE(contains(readFile(folder_ / "summary.md"), "my:mine on tiny"));
 }

@@ -78,6 +78,23 @@ TEST_F(TechniqueFolderRun, ABrokenFolderIsOneLineAndNothingIsWritten) {
     }
 }
 
+TEST_F(TechniqueFolderRun, TheGateJudgesItsRowsAgainstRecordsOfBefore) {
+    EXPECT_EQ(run("--cost none").code, 0);
+    const auto gate = [&] {
+        return shell("shadowbench gate --same-program --cost none --scene " + out_ / "tiny.toml" + " --technique-folder " +
+                     mine_.path().string() + " --base " + out_ / "out/results.jsonl" + " --cache " + out_ / "cache" +
+                     " --out " + out_ / "gate");
+    };
+    const Outcome same = gate();
+    EXPECT_EQ(same.code, 0) << same.output;
+    EXPECT_NE(same.output.find("1 of 1 expected results compared"), std::string::npos) << same.output;
+    mine_.write("resolve.frag", replaced(mapShader, "receiver.seen ?", "receiver.seen && gl_FragCoord.x > 22.0 ?"));
+    const Outcome worse = gate(); // what was measured of the files before is no answer
+    EXPECT_EQ(worse.code, 4) << worse.output;
+    EXPECT_NE(worse.output.find("my:mine on tiny: accuracy.leak"), std::string::npos) << worse.output;
+    EXPECT_NE(worse.output.find("; the pass resolve was changed"), std::string::npos) << worse.output;
+}
+
 TEST_F(TechniqueFolderRun, AShaderThatHangsIsOneLineAndTheOtherRowsGoOn) {
     mine_.write("resolve.frag", hangingShader);
     const Outcome outcome =

@@ -1,11 +1,13 @@
 // What technique.toml says, and the one line that a wrong one gets.
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/keys.h"
+#include "techniques/folder/pass_program.h"
 #include "tests/support/message_of.h"
 #include "tests/support/technique_folders.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace shadowbench {
 namespace {
@@ -100,6 +102,28 @@ TEST(TechniqueFolder, HoldsItsOwnFilesAlone) {
     const WrittenTechnique folder;
     std::filesystem::create_symlink("/etc/hostname", folder.path() / "more.glsl");
     EXPECT_NE(test::messageOf<BadInput>([&] { folder.entry(); }).find("is no file of the folder"), std::string::npos);
+}
+
+TEST(TechniqueFolder, APassIsAnotherWhereItsShaderWhatThatIncludesOrItsStateIs) {
+    const WrittenTechnique folder(mapToml, "#include \"more.glsl\"\n");
+    folder.write("more.glsl", "// one\n");
+    folder.write("unused.glsl", "// one\n");
+    const auto hashes = [&] { return techniques::passHashes(techniques::readTechniqueFolder(folder.path())); };
+    const auto before = hashes();
+    ASSERT_EQ(before.size(), 2U);
+    folder.write("unused.glsl", "// two\n");
+    EXPECT_EQ(hashes(), before);
+    folder.write("more.glsl", "// two\n");
+    EXPECT_NE(hashes().at("resolve"), before.at("resolve"));
+    EXPECT_EQ(hashes().at("depth map"), before.at("depth map"));
+    folder.write("more.glsl", "// one\n");
+    for (const auto& [from, to] :
+         {std::pair("offset = [2, 64]", "offset = [2, 65]"), std::pair("size = \"map\"", "size = 64"),
+          std::pair("offset", "cull = \"back\"\noffset")}) {
+        folder.write("technique.toml", replaced(mapToml, from, to));
+        EXPECT_NE(hashes().at("depth map"), before.at("depth map")) << to;
+        EXPECT_EQ(hashes().at("resolve"), before.at("resolve")) << to;
+    }
 }
 
 TEST(TechniqueFolder, TheDocumentNamesEveryInputOfShaders) {
