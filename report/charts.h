@@ -14,6 +14,11 @@ namespace shadowbench::report {
 std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene,
                                        const std::vector<std::string>& named = {});
 
+/// The same against the milliseconds that a standing frame is modelled to take on a card, `on` (Record::modelled); nothing
+/// if no record has such. Rows that wait for the program have no place.
+std::optional<std::string> modelledChart(const std::vector<Record>& records, const std::string& scene, const std::string& on,
+                                         const std::vector<std::string>& named = {});
+
 /// Error over the still frames from an empty history: against the truth, and against the technique's own last image; nothing
 /// without curves.
 std::optional<std::string> convergenceChart(const std::vector<Record>& records, const std::string& scene);

@@ -4,6 +4,7 @@
 #include "report/charts.h"
 #include "report/cost_report.h"
 #include "report/lod_report.h"
+#include "report/modelled_costs.h"
 #include "report/run_report.h"
 #include "report/run_text.h"
 #include "report/slug.h"
@@ -73,6 +74,11 @@ constexpr const char* excessNote =
     "\"Bare passes\"): where a pass has as many fragments as its least, the rest is arithmetic, branches and what it "
     "writes.\n";
 
+constexpr const char* modelledNote =
+    "Nothing was drawn on these cards: milliseconds of a standing frame are modelled (docs/gpu-cost.md). Places are among "
+    "the "
+    "rows that have all these costs, from the cheapest on. Limited by: the longest pass, and what takes longest in it.\n";
+
 constexpr const char* deviceNote =
     "Frames are the G-buffer and the technique; × base: as a multiple of sm-uniform's, of levels of detail lod-switch's. "
     "The "
@@ -92,6 +98,8 @@ std::string costPage(const std::vector<Record>& records) {
         text += rasteriserNote(records, scene) + "\n\n";
         if (!frames.empty()) text += fmt::format("{}\n{}\n", deviceNote, frames);
         text += table;
+        if (const std::string modelled = modelledTable(records, scene); !modelled.empty())
+            text += fmt::format("\n### Modelled on graphics cards\n\n{}\n{}", modelledNote, modelled);
         const std::string excess = excessTable(records, scene);
         if (!excess.empty()) text += fmt::format("\n### Above {} × bare\n\n{}\n{}", closeToBare, excessNote, excess);
     }
@@ -121,6 +129,8 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
             written.charts.push_back(folder / charts.back());
         };
         keep("pareto", paretoChart(records, scene, named));
+        for (const std::string& on : modelledNames(records, scene))
+            keep("modelled-" + slug(on), modelledChart(records, scene, on, named));
         keep("convergence", convergenceChart(records, scene));
         keep("passes", passChart(records, scene));
         page += sceneSection(records, scene, charts);

@@ -2,6 +2,7 @@
 #include "report/families.h"
 #include "report/gnuplot.h"
 #include "report/labels.h"
+#include "report/modelled_costs.h"
 #include "report/run_report.h"
 #include "report/summary.h"
 
@@ -46,14 +47,20 @@ std::string labelText(const std::string& text) {
     return text.substr(0, end) + "…";
 }
 
+/// What costs are, and what the axis says of them.
+struct CostAxis {
+    CostOf of;
+    std::string meaning, unit;
+};
+
 /// Points on the front first, by cost, so that they get the best places for their labels.
-std::vector<Point> points(const std::vector<Record>& records, const std::string& scene,
+std::vector<Point> points(const std::vector<Record>& records, const std::string& scene, const CostOf& costOf,
                           const std::vector<std::string>& named) {
-    const std::vector<std::size_t> front = paretoFront(records, scene);
+    const std::vector<std::size_t> front = paretoFront(records, scene, costOf);
     const std::vector<Tolerance> limits = tolerances(records, scene);
     std::vector<std::size_t> order = front;
     for (const std::size_t i : ofScene(records, scene))
-        if (place(records[i]) && std::find(front.begin(), front.end(), i) == front.end()) order.push_back(i);
+        if (place(records[i], costOf) && std::find(front.begin(), front.end(), i) == front.end()) order.push_back(i);
 
     const auto equals = inseparable(records, scene);
     std::vector<Point> result;
@@ -62,7 +69,7 @@ std::vector<Point> points(const std::vector<Record>& records, const std::string&
         const std::string name =
             equals.contains(i) ? fmt::format("{} ≈ {}", record.variant, variantsOf(records, equals.at(i))) : record.variant;
         const bool onFront = result.size() < front.size();
-        result.push_back({labelText(name), *place(record), &familyOf(record.technique), onFront,
+        result.push_back({labelText(name), *place(record, costOf), &familyOf(record.technique), onFront,
                           isWithin(record, limits) && !isBaseline(record),
                           onFront || std::ranges::find(named, record.variant) != named.end() ||
                               std::ranges::find(named, record.technique) != named.end()});
@@ -309,18 +316,16 @@ std::string key(const std::vector<Tolerance>& limits) {
     return script + point(6, left + end) + text("outside", left + end + 14);
 }
 
-} // namespace
-
-std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene,
-                                       const std::vector<std::string>& named) {
-    const std::vector<Point> all = points(records, scene, named);
+/// `standing`: the front if nothing moves, where it is another one.
+std::optional<std::string> chartOf(const std::vector<Record>& records, const std::string& scene, const CostAxis& axis,
+                                   const std::vector<Place>& standing, const std::vector<std::string>& named) {
+    const std::vector<Point> all = points(records, scene, axis.of, named);
     if (all.empty()) return {};
     const std::string metric = headlineMetric(records, scene);
     const std::vector<Tolerance> limits = tolerances(records, scene);
     const auto found = std::ranges::find(limits, metric, &Tolerance::metric);
     const std::optional<Tolerance> limit = found == limits.end() ? std::nullopt : std::optional(*found);
     const std::vector<External> beside = externals(records, scene);
-    const std::vector<Place> standing = standingFront(records, scene);
     const Canvas area = canvas(all, standing, beside, limit);
     const bool share = isShare(metric);
 
@@ -328,14 +333,27 @@ std::optional<std::string> paretoChart(const std::vector<Record>& records, const
     script += fmt::format("set label {} at {} left font ',18'\n", literal(scene), Canvas::screen({left, 26}));
     script += "unset key\n" + key(limits) + familyKey(all, !beside.empty());
     if (!standing.empty()) script += standingKey();
-    script += fmt::format("set xlabel {}\n", literal("cost: " + costMeaning(records, scene)));
+    script += fmt::format("set xlabel {}\n", literal("cost: " + axis.meaning));
     script += fmt::format("set ylabel {}\n", literal("error: " + meaning(metric)));
-    script += area.cost().script("x", 1, "×");
+    script += area.cost().script("x", 1, axis.unit);
     script += area.error().script("y", share ? 100 : 1, share ? " %%" : "");
     script += labels(all, standing, area, limit);
     script += strip(beside, area);
     script += plotCommand(all, standing, area, limit);
     return svgOf(script, width, height);
+}
+
+} // namespace
+
+std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene,
+                                       const std::vector<std::string>& named) {
+    return chartOf(records, scene, {frameCost, costMeaning(records, scene), "×"}, standingFront(records, scene), named);
+}
+
+std::optional<std::string> modelledChart(const std::vector<Record>& records, const std::string& scene, const std::string& on,
+                                         const std::vector<std::string>& named) {
+    const std::string what = fmt::format("ms of a standing frame on {}, modelled", cardAndSize(on));
+    return chartOf(records, scene, {modelledOn(on), what, ""}, {}, named);
 }
 
 } // namespace shadowbench::report

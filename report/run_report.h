@@ -28,9 +28,10 @@ std::string csv(const std::vector<Record>& records);
 /// Indices of the records of `scene` that no other one beats in headline error and cost ratio (`dominates` in
 /// report/summary.h), by rising cost.
 std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene,
-                                     CostOf costOf = frameCost);
+                                     const CostOf& costOf = frameCost);
 
-/// Writes report.md, results.csv and the charts (SVG, by gnuplot): pareto-<scene>.svg for every scene,
+/// Writes report.md, results.csv and the charts (SVG, by gnuplot): pareto-<scene>.svg for every scene, where costs are
+/// modelled modelled-<card and size>-<scene>.svg,
 /// convergence-<scene>.svg where a record has curves; where records have costs by pass, passes.csv, and costs.md and
 /// passes-<scene>.svg where these are timed. Throws Inconclusive when gnuplot is missing or fails, naming the
 /// package.

@@ -122,7 +122,7 @@ std::string variantsOf(const std::vector<Record>& records, const std::vector<std
     return fmt::format("{}", fmt::join(variants, ", "));
 }
 
-std::optional<Place> place(const Record& record, CostOf costOf) {
+std::optional<Place> place(const Record& record, const CostOf& costOf) {
     const std::optional<Headline> error = headline(record);
     const std::optional<FrameCost> cost = costOf(record);
     if (!error || !cost) return {};
@@ -277,7 +277,7 @@ std::string truth(const ReferenceInfo& reference) {
     return fmt::format("POV-Ray {} samples, σ {:.1g}", reference.samples, reference.sigma);
 }
 
-std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene, CostOf costOf) {
+std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const std::string& scene, const CostOf& costOf) {
     std::vector<std::pair<std::size_t, Place>> candidates;
     for (const std::size_t i : ofScene(records, scene))
         if (const std::optional<Place> here = place(records[i], costOf)) candidates.emplace_back(i, *here);
@@ -289,7 +289,8 @@ std::vector<std::size_t> paretoFront(const std::vector<Record>& records, const s
     return front;
 }
 
-std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index, CostOf costOf) {
+std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index,
+                      const CostOf& costOf) {
     const std::vector<std::size_t> front = paretoFront(records, scene, costOf);
     if (std::ranges::find(front, index) == front.end()) return "";
     if (isBaseline(records[index])) return "○";

@@ -3,6 +3,7 @@
 
 #include "harness/records/record.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,7 +35,8 @@ std::string variantsOf(const std::vector<Record>& records, const std::vector<std
 /// six rounds it is the range of all, which holds less; of one or none 0.
 double spreadOf(std::vector<double> times);
 
-/// What a frame costs, in frames of sm-uniform. It lies within ratio · (1 ± spread), the spread of its rounds.
+/// What a frame costs, in frames of sm-uniform (of modelled costs: in milliseconds). It lies within ratio · (1 ± spread),
+/// the spread of its rounds.
 struct FrameCost {
     double ratio;
     double spread = 0;
@@ -48,7 +50,7 @@ std::optional<FrameCost> frameCost(const Record& record);
 /// The standing frame's alone: with what is kept while light and casters stand still.
 std::optional<FrameCost> standingCost(const Record& record);
 
-using CostOf = std::optional<FrameCost> (*)(const Record& record);
+using CostOf = std::function<std::optional<FrameCost>(const Record& record)>;
 
 bool knowsMotion(const Record& record);
 
@@ -68,7 +70,7 @@ struct Place {
     double cost;           // FrameCost::ratio
     double costSpread = 0; // FrameCost::spread
 };
-std::optional<Place> place(const Record& record, CostOf costOf = frameCost);
+std::optional<Place> place(const Record& record, const CostOf& costOf = frameCost);
 
 /// Whether `a` beats `b`: it is at most as wrong, and cheaper by more than both intervals; or less wrong, and not dearer by
 /// more than both intervals.
@@ -82,7 +84,7 @@ inline constexpr double markedWithin = 10;
 
 /// Of a table's row: ● on the Pareto front, ○ there for a baseline or an error beyond `markedWithin`, "" off it.
 std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index,
-                      CostOf costOf = frameCost);
+                      const CostOf& costOf = frameCost);
 
 /// Of a record that is off the front although no other is both cheaper and no worse by the medians of the times: the index
 /// of one that errs less, and that it is not surely cheaper than. Nothing for all others.

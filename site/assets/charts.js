@@ -199,7 +199,7 @@
       return element;
     };
     const across = select("across", figure.dataset.x), up = select("up", figure.dataset.y);
-    bar.append(make("span", {}, "● within tolerance, ○ not, □ draws no shadow; line: nothing errs less for less"));
+    bar.append(make("span", {}, "● within tolerance, ○ not, □ draws no shadow; line: the Pareto front"));
     bar.append(familyKey(entry));
     figure.prepend(bar);
     // As the program judges it (`dominates`): times count with the interval of their rounds.

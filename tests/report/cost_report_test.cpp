@@ -1,6 +1,7 @@
 #include "base/files.h"
 #include "base/temporary_folder.h"
 #include "report/cost_report.h"
+#include "report/modelled_costs.h"
 #include "report/run_report.h"
 #include "tests/support/report_examples.h"
 
@@ -50,6 +51,23 @@ TEST(PassTable, IsAbsentWithoutTimes) {
     EXPECT_FALSE(report::passChart(untimed(), "dueling-frusta"));
     EXPECT_TRUE(contains(report::passCsv(untimed()), "sm-uniform,gate,256,256,standing,depth map,2,,,32768,70280,1,"))
         << "work is there";
+}
+
+TEST(ModelledTable, SetsPlacesBesideThoseWhereRowsWereMeasured) {
+    std::vector<Record> records = timed(); // sm-uniform and vsm, which is dearer here
+    EXPECT_EQ(report::modelledTable(records, "dueling-frusta"), "");
+    records[0].modelled["h200@800x600"] = {4, 2, 8, false, {{"resolve", 1, 3, 2, 0, 0, 0.5}, {"blur", 0.5, 0, 0, 0, 0, 0}}};
+    records[1].modelled["h200@800x600"] = {3, 2, 8, false, {{"blur", 1, 0.5, 2, 0, 0, 1}}};
+    records.push_back(hardCell("sm-tiled", 0.03, 2));
+    records[2].modelled["h200@800x600"] = {5, 2, 8, true, {}};
+    const std::string table = report::modelledTable(records, "dueling-frusta");
+    EXPECT_TRUE(contains(table, "| technique | standing here, × (place) | ms on h200 at 800×600 (place) | limited by |\n"))
+        << table;
+    const std::size_t vsm = table.find("| vsm | 3.00 (2) | 3.00 (1) | blur: output |\n");
+    const std::size_t uniform = table.find("| sm-uniform | 1.00 (1) | 4.00 (2) | resolve: texture |\n");
+    EXPECT_LT(vsm, uniform) << table;
+    EXPECT_NE(uniform, std::string::npos) << table;
+    EXPECT_TRUE(contains(table, "| sm-tiled | 2.00 | – | waits for the program |\n")) << table;
 }
 
 TEST(DeviceTable, SetsWholeFramesOnAGraphicsProcessorBesideEachOther) {

@@ -1,0 +1,106 @@
+#include "report/modelled_costs.h"
+
+#include "report/text_table.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace shadowbench::report {
+namespace {
+
+using Term = double PassTerms::*;
+
+double milliseconds(const PassTerms& pass) {
+    return std::max({pass.arithmetic, pass.texture, pass.output, pass.geometry, pass.memory}) + pass.fixed;
+}
+
+/// "resolve: texture": the longest pass and its largest term.
+std::string limitOf(const ModelledCost& cost) {
+    if (cost.waits) return "waits for the program";
+    if (cost.passes.empty()) return "–";
+    static constexpr std::pair<const char*, Term> terms[] = {
+        {"arithmetic", &PassTerms::arithmetic}, {"texture", &PassTerms::texture}, {"output", &PassTerms::output},
+        {"geometry", &PassTerms::geometry},     {"memory", &PassTerms::memory},   {"fixed", &PassTerms::fixed}};
+    const PassTerms& pass = *std::ranges::max_element(cost.passes, {}, milliseconds);
+    const auto& largest = *std::ranges::max_element(terms, {}, [&](const auto& term) { return pass.*term.second; });
+    return fmt::format("{}: {}", pass.name, largest.first);
+}
+
+/// The place of each cost from the cheapest, 1, on; 0 where one of a row's costs is missing.
+std::vector<std::size_t> places(const std::vector<std::vector<double>>& rows, std::size_t column) {
+    std::vector<std::size_t> result;
+    for (const std::vector<double>& row : rows)
+        result.push_back(row.empty() ? 0 : 1 + static_cast<std::size_t>(std::ranges::count_if(rows, [&](const auto& other) {
+                                               return !other.empty() && other[column] < row[column];
+                                           })));
+    return result;
+}
+
+/// The costs of a row: where it was measured, then as it is modelled; empty unless it has all.
+std::vector<double> allCosts(const Record& record, const std::vector<CostOf>& of) {
+    std::vector<double> costs;
+    for (const CostOf& each : of)
+        if (const std::optional<FrameCost> cost = each(record)) costs.push_back(cost->ratio);
+    return costs.size() == of.size() ? costs : std::vector<double>();
+}
+
+std::string withPlace(const std::optional<FrameCost>& cost, std::size_t place) {
+    if (!cost) return "–";
+    return place == 0 ? fmt::format("{:.2f}", cost->ratio) : fmt::format("{:.2f} ({})", cost->ratio, place);
+}
+
+} // namespace
+
+std::vector<std::string> modelledNames(const std::vector<Record>& records, const std::string& scene) {
+    std::set<std::string> names;
+    for (const std::size_t i : ofScene(records, scene))
+        for (const auto& [name, cost] : records[i].modelled) names.insert(name);
+    return {names.begin(), names.end()};
+}
+
+std::string cardAndSize(const std::string& name) {
+    const std::size_t at = name.find('@'), cross = name.rfind('x');
+    if (at == std::string::npos || cross == std::string::npos || cross < at) return name;
+    return fmt::format("{} at {}×{}", name.substr(0, at), name.substr(at + 1, cross - at - 1), name.substr(cross + 1));
+}
+
+CostOf modelledOn(const std::string& name) {
+    return [name](const Record& record) -> std::optional<FrameCost> {
+        const auto found = record.modelled.find(name);
+        if (found == record.modelled.end() || found->second.waits) return {};
+        return FrameCost{found->second.milliseconds};
+    };
+}
+
+std::string modelledTable(const std::vector<Record>& records, const std::string& scene) {
+    const std::vector<std::string> names = modelledNames(records, scene);
+    if (names.empty()) return "";
+    std::vector<CostOf> costs{standingCost};
+    TextTable table{{"technique", "standing here, × (place)"}, {}};
+    for (const std::string& name : names) {
+        costs.push_back(modelledOn(name));
+        table.titles.insert(table.titles.end(), {fmt::format("ms on {} (place)", cardAndSize(name)), "limited by"});
+    }
+    std::vector<const Record*> rows;
+    for (const std::size_t i : scoredOf(records, scene))
+        if (records[i].modelled.contains(names.front())) rows.push_back(&records[i]);
+    std::ranges::stable_sort(rows, {}, [&](const Record* row) { return row->modelled.at(names.front()).milliseconds; });
+    std::vector<std::vector<double>> all;
+    for (const Record* row : rows) {
+        all.push_back(allCosts(*row, costs));
+        table.rows.push_back({row->variant});
+    }
+    for (std::size_t column = 0; column < costs.size(); ++column) {
+        const std::vector<std::size_t> order = places(all, column);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            table.rows[i].push_back(withPlace(costs[column](*rows[i]), order[i]));
+            if (column == 0) continue;
+            const auto found = rows[i]->modelled.find(names[column - 1]);
+            table.rows[i].push_back(found == rows[i]->modelled.end() ? "–" : limitOf(found->second));
+        }
+    }
+    return markdown(table);
+}
+
+} // namespace shadowbench::report
