@@ -85,6 +85,12 @@ constexpr const char* deviceNote =
     "program's is its own time in passes that draw nothing; it is in a frame as far as the graphics processor waits for it "
     "(docs/devices.md). Passes below are of the first size.\n";
 
+/// "modelled-gtx-1080-1920x1080".
+std::string modelledFile(std::string name) {
+    std::ranges::replace(name, '@', '-');
+    return "modelled-" + slug(name);
+}
+
 /// costs.md; "" where no record has passes with times.
 std::string costPage(const std::vector<Record>& records) {
     std::string text;
@@ -130,7 +136,7 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
         };
         keep("pareto", paretoChart(records, scene, named));
         for (const std::string& on : modelledNames(records, scene))
-            keep("modelled-" + slug(on), modelledChart(records, scene, on, named));
+            keep(modelledFile(on), modelledChart(records, scene, on, named));
         keep("convergence", convergenceChart(records, scene));
         keep("passes", passChart(records, scene));
         page += sceneSection(records, scene, charts);

@@ -179,13 +179,15 @@ TEST(Charts, AreAbsentWithoutCostsOrCurves) {
 
 TEST_F(ReportFolder, HoldsThePageTheFiguresAndTheCharts) {
     std::vector<Record> records = hardScene();
+    records[0].modelled["h200@1920x1080"] = {2, 1, 4, false, {}};
     for (const Record& record : softScene()) records.push_back(record);
     const report::Written written = report::writeReport(records, folder());
     EXPECT_EQ(written.page, folder() / "report.md");
-    EXPECT_EQ(written.charts, (std::vector<std::filesystem::path>{
-                                  folder() / "pareto-dueling-frusta.svg", folder() / "convergence-dueling-frusta.svg",
-                                  folder() / "passes-dueling-frusta.svg", folder() / "pareto-overlapping-occluders.svg",
-                                  folder() / "passes-overlapping-occluders.svg"}));
+    EXPECT_EQ(written.charts,
+              (std::vector<std::filesystem::path>{
+                  folder() / "pareto-dueling-frusta.svg", folder() / "modelled-h200-1920x1080-dueling-frusta.svg",
+                  folder() / "convergence-dueling-frusta.svg", folder() / "passes-dueling-frusta.svg",
+                  folder() / "pareto-overlapping-occluders.svg", folder() / "passes-overlapping-occluders.svg"}));
     for (const std::filesystem::path& chart : written.charts) EXPECT_TRUE(contains(readFile(chart), "</svg>")) << chart;
     EXPECT_EQ(readFile(folder() / "results.csv"), report::csv(records));
 
