@@ -15,14 +15,16 @@ double milliseconds(const PassTerms& pass) {
     return std::max({pass.arithmetic, pass.texture, pass.output, pass.geometry, pass.memory}) + pass.fixed;
 }
 
-/// "resolve: texture": the longest pass and its largest term.
+/// "resolve: texture": the technique's longest pass and its largest term.
 std::string limitOf(const ModelledCost& cost) {
     if (cost.waits) return "waits for the program";
-    if (cost.passes.empty()) return "–";
+    std::vector<PassTerms> own = cost.passes;
+    std::erase_if(own, [](const PassTerms& pass) { return pass.name == "G-buffer"; });
+    if (own.empty()) return "–";
     static constexpr std::pair<const char*, Term> terms[] = {
         {"arithmetic", &PassTerms::arithmetic}, {"texture", &PassTerms::texture}, {"output", &PassTerms::output},
         {"geometry", &PassTerms::geometry},     {"memory", &PassTerms::memory},   {"fixed", &PassTerms::fixed}};
-    const PassTerms& pass = *std::ranges::max_element(cost.passes, {}, milliseconds);
+    const PassTerms& pass = *std::ranges::max_element(own, {}, milliseconds);
     const auto& largest = *std::ranges::max_element(terms, {}, [&](const auto& term) { return pass.*term.second; });
     return fmt::format("{}: {}", pass.name, largest.first);
 }

@@ -77,7 +77,8 @@ constexpr const char* excessNote =
 constexpr const char* modelledNote =
     "Nothing was drawn on these cards: milliseconds of a standing frame are modelled (docs/gpu-cost.md). Places are among "
     "the "
-    "rows that have all these costs, from the cheapest on. Limited by: the longest pass, and what takes longest in it.\n";
+    "rows that have all these costs, from the cheapest on. Limited by: the technique's "
+    "longest pass, and what takes longest in it.\n";
 
 constexpr const char* deviceNote =
     "Frames are the G-buffer and the technique; × base: as a multiple of sm-uniform's, of levels of detail lod-switch's. "

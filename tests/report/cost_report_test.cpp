@@ -56,7 +56,8 @@ TEST(PassTable, IsAbsentWithoutTimes) {
 TEST(ModelledTable, SetsPlacesBesideThoseWhereRowsWereMeasured) {
     std::vector<Record> records = timed(); // sm-uniform and vsm, which is dearer here
     EXPECT_EQ(report::modelledTable(records, "dueling-frusta"), "");
-    records[0].modelled["h200@800x600"] = {4, 2, 8, false, {{"resolve", 1, 3, 2, 0, 0, 0.5}, {"blur", 0.5, 0, 0, 0, 0, 0}}};
+    records[0].modelled["h200@800x600"] = {
+        4, 2, 8, false, {{"G-buffer", 9, 0, 0, 0, 0, 0}, {"resolve", 1, 3, 2, 0, 0, 0.5}, {"blur", 0.5, 0, 0, 0, 0, 0}}};
     records[1].modelled["h200@800x600"] = {3, 2, 8, false, {{"blur", 1, 0.5, 2, 0, 0, 1}}};
     records.push_back(hardCell("sm-tiled", 0.03, 2));
     records[2].modelled["h200@800x600"] = {5, 2, 8, true, {}};
