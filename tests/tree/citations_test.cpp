@@ -24,7 +24,8 @@ std::vector<std::string> allFiles() {
         if (!top.is_directory() || name == ".git" || name == "build") continue;
         for (auto entry = fs::recursive_directory_iterator(top); entry != fs::recursive_directory_iterator(); ++entry) {
             const std::string path = entry->path().lexically_relative(root).string();
-            if (path == "results/latest" || path.ends_with("/node_modules")) entry.disable_recursion_pending();
+            const bool isOfASite = path.starts_with("results/") && path.ends_with("/docs"); // a copy, for its links
+            if (path == "results/latest" || isOfASite || path.ends_with("/node_modules")) entry.disable_recursion_pending();
             if (entry->is_regular_file()) files.push_back(path);
         }
     }
