@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <iterator>
 
 namespace shadowbench::browser {
 namespace {
@@ -41,8 +42,9 @@ constexpr const char* crossing = R"js((() => {
 
 TEST(ChartFiles, OfErrorAgainstCostHaveNoLabelOnAnotherOnAMarkOrCut) {
     const auto tab = chromium().tab();
-    const std::vector<fs::path> charts = chartsOf(fs::path(SOURCE_FOLDER) / "results", "pareto-");
+    std::vector<fs::path> charts = chartsOf(fs::path(SOURCE_FOLDER) / "results", "pareto-");
     EXPECT_GE(charts.size(), 10U);
+    std::ranges::move(chartsOf(fs::path(SOURCE_FOLDER) / "results", "modelled-"), std::back_inserter(charts));
     for (const fs::path& chart : charts) {
         tab->open(chart);
         const nlohmann::json found = tab->value(crossing);

@@ -19,7 +19,7 @@ TEST(Log, ARunWithoutATerminalIsShortAndThePageHasEveryTechnique) {
     EXPECT_EQ(run.output.find('\r'), std::string::npos) << run.output;
 
     const std::string page = readFile(folder / "out/report.md");
-    for (const char* technique : {"| sm-uniform |", "| sm-psm |", "| sm-alias-free |"})
+    for (const char* technique : {"<sub>sm-uniform</sub>", "<sub>sm-psm</sub>", "<sub>sm-alias-free</sub>"})
         EXPECT_NE(page.find(technique), std::string::npos) << technique;
 }
 
