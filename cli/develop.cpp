@@ -1,6 +1,7 @@
 #include "studies/develop/develop.h"
 
 #include "base/error.h"
+#include "base/shell_word.h"
 #include "cli/command.h"
 #include "cli/options.h"
 #include "groundtruth/store/cache.h"
@@ -17,17 +18,6 @@ namespace shadowbench {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string shellWord(const std::string& word) {
-    const bool plain = !word.empty() && std::ranges::all_of(word, [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-               std::string_view("-_./=,:+").find(c) != std::string_view::npos;
-    });
-    if (plain) return word;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
 
 /// The words with which `run` shows the same again.
 std::string commandFor(const develop::Request& request) {

@@ -1,6 +1,7 @@
 #include "gate/gate_report.h"
 
 #include "base/one_line.h"
+#include "base/shell_word.h"
 #include "gate/verdict.h"
 
 #include <algorithm>
@@ -84,29 +85,24 @@ std::vector<std::string> slowest(std::vector<StepTime> times) {
     return lines;
 }
 
-/// An argument as a shell takes it.
-std::string quoted(const std::string& word) {
-    return word.find_first_of("*?[]$&;()<>| '\"~") == std::string::npos ? word : "'" + word + "'";
-}
-
 } // namespace
 
 std::string reproduction(const Change& change, const GateOptions& options) {
     std::string which =
-        fmt::format("--scene {} --technique {} --profile {} --seed {}", quoted(sceneArgument(change.scene, options)),
-                    quoted(change.variant), name(options.profile), options.seed);
+        fmt::format("--scene {} --technique {} --profile {} --seed {}", shellWord(sceneArgument(change.scene, options)),
+                    shellWord(change.variant), name(options.profile), options.seed);
     const bool isOther = change.variant.starts_with(externalPrefix);
     for (const auto& file : options.externalFiles)
-        if (isOther) which += " --external " + quoted(file.string());
+        if (isOther) which += " --external " + shellWord(file.string());
     const char* program = isOther ? "shadowbench" : "./bench"; // which is of our own clone
     switch (change.changeClass) {
     case Class::Time:
-        return fmt::format("{} gate --base {} --cost time {}", program, quoted(options.base), which);
+        return fmt::format("{} gate --base {} --cost time {}", program, shellWord(options.base), which);
     case Class::BreakPoint:
         return fmt::format("{} sweep --axis {} {}", program, change.axis, which);
     case Class::Shader:
-        return fmt::format("{} shader-cost --technique {} --base {}", program, quoted(change.variant),
-                           quoted((shaderFolder(options) / "base/shader-cost.jsonl").string()));
+        return fmt::format("{} shader-cost --technique {} --base {}", program, shellWord(change.variant),
+                           shellWord((shaderFolder(options) / "base/shader-cost.jsonl").string()));
     case Class::Instructions:
         return fmt::format("{} run --cost instructions {}", program, which);
     default:

@@ -1,5 +1,6 @@
 #include "report/run_text.h"
 
+#include "base/shell_word.h"
 #include "report/summary.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
@@ -55,18 +56,6 @@ std::string truths(const Record& record) {
 }
 
 std::string commit(const Record& record) { return record.commit + (record.dirty ? " with uncommitted changes" : ""); }
-
-/// A word as a shell takes it.
-std::string shellWord(const std::string& word) {
-    const auto plain = [](char letter) {
-        return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
-               std::string_view("-_=+.,:/").find(letter) != std::string_view::npos;
-    };
-    if (!word.empty() && std::ranges::all_of(word, plain)) return word;
-    std::string text = "'";
-    for (const char letter : word) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-    return text + "'";
-}
 
 /// Words of `chosen` as repeated options; nothing if they are all there are.
 std::string options(const std::string& option, const std::vector<std::string>& chosen, const std::vector<std::string>& all) {

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/shell_word.h"
 #include "base/toml_value.h"
 #include "base/words.h"
 
@@ -131,12 +132,6 @@ Renderer rendererIn(const TomlValue& entry) {
     return renderer;
 }
 
-std::string quotedForShell(const std::string& word) {
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
-
 } // namespace
 
 std::vector<Renderer> readRenderers(const fs::path& file) {
@@ -172,7 +167,7 @@ std::string filledIn(std::string text, const std::vector<std::pair<std::string, 
             filled += text[at++];
             continue;
         }
-        filled += quoted ? quotedForShell(stands->second) : stands->second;
+        filled += quoted ? shellWord(stands->second) : stands->second;
         at += stands->first.size() + 2;
     }
     return filled;
