@@ -85,6 +85,7 @@ void addRecommend(CLI::App& app, Action& action) {
         "  shadowbench recommend --scene simple --levels 500,320,180,80,20 --json\n"
         "  shadowbench recommend --what technique --records results/published/results.jsonl\n"
         "  shadowbench recommend --scene hall.toml --what technique --static --needs any-receiver,any-eye\n"
+        "  shadowbench recommend --scene hall.toml --what technique --card gtx-1080\n"
         "  shadowbench recommend --scene windmills --what map --technique 'sm-*'");
     verb->add_option("--scene", options.scenes,
                      "Scene id or file; repeatable (default: the standard scenes, for casters those with levels)");
@@ -121,6 +122,10 @@ void addRecommend(CLI::App& app, Action& action) {
                      "Folder of the records of cells that are run; those of this program that it holds are kept")
         ->excludes(records)
         ->capture_default_str();
+    verb->add_option("--card", options.card,
+                     "Graphics card whose modelled milliseconds decide what is cheapest (default: that of the records, else "
+                     "what is measured here)")
+        ->type_name("TEXT:{geforce-7600-gt,gtx-1080,h200,rtx-2080-ti,rx-6800-xt}");
     addStaticOption(*verb, options.standing);
     addProfileOption(*verb, words->profile);
     addGlOption(*verb);

@@ -1,5 +1,6 @@
 #include "report/advice.h"
 
+#include "report/costing.h"
 #include "techniques/catalog.h"
 #include "techniques/contract/entry.h"
 
@@ -16,15 +17,12 @@ namespace {
 constexpr double widestSpread = 0.5;
 
 /// By cost, then error; those that were not timed last.
-std::tuple<double, double> rank(const Record& record) {
-    const std::optional<Place> here = place(record);
+std::tuple<double, double> rank(const Record& record, const CostOf& costOf) {
+    const std::optional<Place> here = place(record, costOf);
     return {here ? here->cost : std::numeric_limits<double>::infinity(), headline(record)->value};
 }
 
-bool isUncertain(const Record& record) {
-    const std::optional<Place> here = place(record);
-    return here && here->costSpread > widestSpread;
-}
+bool isUncertain(const Place& place) { return place.costSpread > widestSpread; }
 
 bool overlap(const Place& a, const Place& b) {
     return a.cost * (1 - a.costSpread) <= b.cost * (1 + b.costSpread) &&
@@ -43,6 +41,7 @@ std::set<Need> lackedOf(const Record& record, const std::set<Need>& needs) {
 
 Advice adviceFor(const std::vector<Record>& records, const std::string& scene, const std::set<Need>& needs) {
     const std::vector<Tolerance> limits = tolerances(records, scene);
+    const CostOf costOf = shownCosting(records, scene).of;
     Advice advice;
     for (const std::size_t i : ofScene(records, scene)) {
         const Record& record = records[i];
@@ -52,14 +51,15 @@ Advice adviceFor(const std::vector<Record>& records, const std::string& scene, c
         else
             (lackedOf(record, needs).empty() ? advice.within : advice.unsuited).push_back(i);
     }
-    std::ranges::stable_sort(advice.within, {}, [&](std::size_t i) { return rank(records[i]); });
+    std::ranges::stable_sort(advice.within, {}, [&](std::size_t i) { return rank(records[i], costOf); });
     for (const std::size_t i : advice.within) {
-        if (!place(records[i])) continue;
-        if (isUncertain(records[i]))
+        const std::optional<Place> here = place(records[i], costOf);
+        if (!here) continue;
+        if (isUncertain(*here))
             advice.uncertain.push_back(i);
         else if (!advice.take)
             advice.take = i;
-        else if (overlap(*place(records[i]), *place(records[*advice.take])))
+        else if (overlap(*here, *place(records[*advice.take], costOf)))
             advice.asCheap.push_back(i);
     }
     return advice;
@@ -85,15 +85,19 @@ std::vector<std::string> notesOn(const Advice& advice, const std::vector<Record>
 
 std::optional<CommonAdvice> commonAdvice(const std::vector<Record>& records, const std::vector<std::string>& scenes,
                                          const std::set<Need>& needs) {
+    std::set<std::string> cards;
+    for (const std::string& scene : scenes) cards.insert(shownCosting(records, scene).card);
+    const Costing costing =
+        cards.size() == 1 && !cards.begin()->empty() ? modelledOn(*cards.begin()) : measuredHere(records, scenes.front());
     std::map<std::string, CommonAdvice> common; // by variant, of those within on all scenes so far
     for (const std::string& scene : scenes) {
         std::map<std::string, CommonAdvice> still;
         for (const std::size_t i : adviceFor(records, scene, needs).within) {
             const std::string& variant = records[i].variant;
-            const std::optional<FrameCost> cost = frameCost(records[i]);
+            const std::optional<FrameCost> cost = costing.of(records[i]);
             if (!cost || (&scene != &scenes.front() && !common.contains(variant))) continue;
-            CommonAdvice advice = common.contains(variant) ? common[variant] : CommonAdvice{variant, scene, 0};
-            if (cost->ratio > advice.cost) advice = {variant, scene, cost->ratio};
+            CommonAdvice advice = common.contains(variant) ? common[variant] : CommonAdvice{variant, scene, costing.card, 0};
+            if (cost->ratio > advice.cost) advice = {variant, scene, costing.card, cost->ratio};
             still[variant] = advice;
         }
         common = std::move(still);

@@ -17,7 +17,8 @@ using techniques::Need;
 /// The needs that the record's technique has no right answer for. Empty for one that the catalogue lacks.
 std::set<Need> lackedOf(const Record& record, const std::set<Need>& needs);
 
-/// Indices of the scene's records. Those of `none`, which draws no shadow, are in no list.
+/// Indices of the scene's records, by their costs as shown (report/costing.h). Those of `none`, which draws no shadow, are
+/// in no list.
 struct Advice {
     std::vector<std::size_t> within;    // tolerance, and suited to the needs: by cost, untimed ones last, by error
     std::vector<std::size_t> unsuited;  // within tolerance, but they lack something that is needed
@@ -37,7 +38,8 @@ std::vector<std::string> notesOn(const Advice& advice, const std::vector<Record>
 struct CommonAdvice {
     std::string variant;
     std::string dearest; // the scene where it costs most
-    double cost = 0;     // frames of sm-uniform there
+    std::string card;    // on which costs of all scenes are modelled, as records name it; "" where they are measured here
+    double cost = 0;     // there: ms on the card, else frames of sm-uniform
 };
 
 /// The variant that is within tolerance on every scene, and whose cost on its dearest scene is the least. Nothing if none

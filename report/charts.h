@@ -14,8 +14,8 @@ namespace shadowbench::report {
 std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene,
                                        const std::vector<std::string>& named = {});
 
-/// The same against the milliseconds that a standing frame is modelled to take on a card, `on` (Record::modelled); nothing
-/// if no record has such. Rows that wait for the program have no place.
+/// The same against the milliseconds that a frame is modelled to take on a card, `on` (report/costing.h); nothing if no
+/// record has such.
 std::optional<std::string> modelledChart(const std::vector<Record>& records, const std::string& scene, const std::string& on,
                                          const std::vector<std::string>& named = {});
 

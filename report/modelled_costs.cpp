@@ -1,10 +1,10 @@
 #include "report/modelled_costs.h"
 
+#include "report/costing.h"
 #include "report/text_table.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <set>
 
 namespace shadowbench::report {
 namespace {
@@ -54,34 +54,13 @@ std::string withPlace(const std::optional<FrameCost>& cost, std::size_t place) {
 
 } // namespace
 
-std::vector<std::string> modelledNames(const std::vector<Record>& records, const std::string& scene) {
-    std::set<std::string> names;
-    for (const std::size_t i : ofScene(records, scene))
-        for (const auto& [name, cost] : records[i].modelled) names.insert(name);
-    return {names.begin(), names.end()};
-}
-
-std::string cardAndSize(const std::string& name) {
-    const std::size_t at = name.find('@'), cross = name.rfind('x');
-    if (at == std::string::npos || cross == std::string::npos || cross < at) return name;
-    return fmt::format("{} at {}×{}", name.substr(0, at), name.substr(at + 1, cross - at - 1), name.substr(cross + 1));
-}
-
-CostOf modelledOn(const std::string& name) {
-    return [name](const Record& record) -> std::optional<FrameCost> {
-        const auto found = record.modelled.find(name);
-        if (found == record.modelled.end() || found->second.waits) return {};
-        return FrameCost{found->second.milliseconds};
-    };
-}
-
 std::string modelledTable(const std::vector<Record>& records, const std::string& scene) {
     const std::vector<std::string> names = modelledNames(records, scene);
     if (names.empty()) return "";
     std::vector<CostOf> costs{standingCost};
     TextTable table{{"technique", "standing here, × (place)"}, {}};
     for (const std::string& name : names) {
-        costs.push_back(modelledOn(name));
+        costs.push_back(modelledOn(name).standing);
         table.titles.insert(table.titles.end(), {fmt::format("ms on {} (place)", cardAndSize(name)), "limited by"});
     }
     std::vector<const Record*> rows;

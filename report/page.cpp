@@ -3,6 +3,7 @@
 #include "harness/cells/cell_images.h"
 #include "report/charts.h"
 #include "report/cost_report.h"
+#include "report/costing.h"
 #include "report/lod_report.h"
 #include "report/modelled_costs.h"
 #include "report/run_report.h"
@@ -27,7 +28,8 @@ constexpr const char* columnLegend = R"(## The columns
 | penumbra rmse, umbra leak | under an area light: error within the penumbra; mean visibility where the light is fully hidden |
 | flicker | mean change between moving frames beyond that of the true pixel areas |
 | cost | time of a frame as a multiple of `sm-uniform`'s: the dearer of standing and in motion; where motion was not measured, or is told not to be there (`--static`), standing |
-| front | ● no other technique has both less error and less cost, beyond the intervals of the times; ○ the same for a baseline or an error of more than 10 times the tolerance |
+| modelled ms | milliseconds of a frame on the graphics card that costs.md names first, modelled and not measured (docs/gpu-cost.md): the dearer of standing and in motion; – waits for the program |
+| front | ● no other technique has both less error and less cost, modelled where it is and else measured, beyond the intervals of the costs; ○ the same for a baseline or an error of more than 10 times the tolerance |
 
 – does not apply. Pixels count where the rasteriser and the truth see the same receiver. Every other figure of a row is in
 results.csv and on the scene's page (index.html); docs/metrics.md says what each means.
@@ -86,12 +88,6 @@ constexpr const char* deviceNote =
     "program's is its own time in passes that draw nothing; it is in a frame as far as the graphics processor waits for it "
     "(docs/devices.md). Passes below are of the first size.\n";
 
-/// "modelled-gtx-1080-1920x1080".
-std::string modelledFile(std::string name) {
-    std::ranges::replace(name, '@', '-');
-    return "modelled-" + slug(name);
-}
-
 /// costs.md; "" where no record has passes with times.
 std::string costPage(const std::vector<Record>& records) {
     std::string text;
@@ -135,9 +131,9 @@ Written writeReport(const std::vector<Record>& records, const std::filesystem::p
             writeFile(folder / charts.back(), *svg);
             written.charts.push_back(folder / charts.back());
         };
-        keep("pareto", paretoChart(records, scene, named));
         for (const std::string& on : modelledNames(records, scene))
-            keep(modelledFile(on), modelledChart(records, scene, on, named));
+            keep(chartName(modelledOn(on)), modelledChart(records, scene, on, named));
+        keep("pareto", paretoChart(records, scene, named));
         keep("convergence", convergenceChart(records, scene));
         keep("passes", passChart(records, scene));
         page += sceneSection(records, scene, charts);

@@ -1,8 +1,8 @@
 #include "report/charts.h"
+#include "report/costing.h"
 #include "report/families.h"
 #include "report/gnuplot.h"
 #include "report/labels.h"
-#include "report/modelled_costs.h"
 #include "report/run_report.h"
 #include "report/summary.h"
 
@@ -47,12 +47,6 @@ std::string labelText(const std::string& text) {
     return text.substr(0, end) + "…";
 }
 
-/// What costs are, and what the axis says of them.
-struct CostAxis {
-    CostOf of;
-    std::string meaning, unit;
-};
-
 /// Points on the front first, by cost, so that they get the best places for their labels.
 std::vector<Point> points(const std::vector<Record>& records, const std::string& scene, const CostOf& costOf,
                           const std::vector<std::string>& named) {
@@ -78,13 +72,12 @@ std::vector<Point> points(const std::vector<Record>& records, const std::string&
 }
 
 /// The front of a scene that stands still, by cost; empty where that is the only one known.
-std::vector<Place> standingFront(const std::vector<Record>& records, const std::string& scene) {
+std::vector<Place> standingFront(const std::vector<Record>& records, const std::string& scene, const CostOf& standing) {
     std::vector<Place> front;
     bool known = false;
     for (const std::size_t i : ofScene(records, scene)) known = known || knowsMotion(records[i]);
     if (known)
-        for (const std::size_t i : paretoFront(records, scene, standingCost))
-            front.push_back(*place(records[i], standingCost));
+        for (const std::size_t i : paretoFront(records, scene, standing)) front.push_back(*place(records[i], standing));
     return front;
 }
 
@@ -316,11 +309,11 @@ std::string key(const std::vector<Tolerance>& limits) {
     return script + point(6, left + end) + text("outside", left + end + 14);
 }
 
-/// `standing`: the front if nothing moves, where it is another one.
-std::optional<std::string> chartOf(const std::vector<Record>& records, const std::string& scene, const CostAxis& axis,
-                                   const std::vector<Place>& standing, const std::vector<std::string>& named) {
-    const std::vector<Point> all = points(records, scene, axis.of, named);
+std::optional<std::string> chartOf(const std::vector<Record>& records, const std::string& scene, const Costing& costing,
+                                   const std::vector<std::string>& named) {
+    const std::vector<Point> all = points(records, scene, costing.of, named);
     if (all.empty()) return {};
+    const std::vector<Place> standing = standingFront(records, scene, costing.standing);
     const std::string metric = headlineMetric(records, scene);
     const std::vector<Tolerance> limits = tolerances(records, scene);
     const auto found = std::ranges::find(limits, metric, &Tolerance::metric);
@@ -333,9 +326,9 @@ std::optional<std::string> chartOf(const std::vector<Record>& records, const std
     script += fmt::format("set label {} at {} left font ',18'\n", literal(scene), Canvas::screen({left, 26}));
     script += "unset key\n" + key(limits) + familyKey(all, !beside.empty());
     if (!standing.empty()) script += standingKey();
-    script += fmt::format("set xlabel {}\n", literal("cost: " + axis.meaning));
+    script += fmt::format("set xlabel {}\n", literal("cost: " + costing.meaning));
     script += fmt::format("set ylabel {}\n", literal("error: " + meaning(metric)));
-    script += area.cost().script("x", 1, axis.unit);
+    script += area.cost().script("x", 1, costing.unit == "×" ? costing.unit : "");
     script += area.error().script("y", share ? 100 : 1, share ? " %%" : "");
     script += labels(all, standing, area, limit);
     script += strip(beside, area);
@@ -347,13 +340,12 @@ std::optional<std::string> chartOf(const std::vector<Record>& records, const std
 
 std::optional<std::string> paretoChart(const std::vector<Record>& records, const std::string& scene,
                                        const std::vector<std::string>& named) {
-    return chartOf(records, scene, {frameCost, costMeaning(records, scene), "×"}, standingFront(records, scene), named);
+    return chartOf(records, scene, measuredHere(records, scene), named);
 }
 
 std::optional<std::string> modelledChart(const std::vector<Record>& records, const std::string& scene, const std::string& on,
                                          const std::vector<std::string>& named) {
-    const std::string what = fmt::format("ms of a standing frame on {}, modelled", cardAndSize(on));
-    return chartOf(records, scene, {modelledOn(on), what, ""}, {}, named);
+    return chartOf(records, scene, modelledOn(on), named);
 }
 
 } // namespace shadowbench::report

@@ -65,6 +65,7 @@ std::vector<Record> standing(std::vector<Record> records) {
     for (Record& record : records) {
         for (const metrics::Metric& line : metrics::linesOf("cost.motion")) record.values.clear(line);
         record.motionPasses.clear();
+        for (auto& [name, cost] : record.modelled) cost.motion.reset();
     }
     return records;
 }
@@ -299,12 +300,13 @@ std::string frontMark(const std::vector<Record>& records, const std::string& sce
     return limits.empty() || (share && *share <= markedWithin) ? "●" : "○";
 }
 
-std::optional<std::size_t> keptOffFrontBy(const std::vector<Record>& records, const std::string& scene, std::size_t index) {
-    const std::optional<Place> here = place(records[index]);
+std::optional<std::size_t> keptOffFrontBy(const std::vector<Record>& records, const std::string& scene, std::size_t index,
+                                          const CostOf& costOf) {
+    const std::optional<Place> here = place(records[index], costOf);
     if (!here) return {};
     std::optional<std::size_t> by;
     for (const std::size_t i : ofScene(records, scene)) {
-        const std::optional<Place> other = place(records[i]);
+        const std::optional<Place> other = place(records[i], costOf);
         if (!other) continue;
         if (dominates({other->error, other->cost}, {here->error, here->cost})) return {};
         if (dominates(*other, *here)) by = i;

@@ -86,9 +86,10 @@ inline constexpr double markedWithin = 10;
 std::string frontMark(const std::vector<Record>& records, const std::string& scene, std::size_t index,
                       const CostOf& costOf = frameCost);
 
-/// Of a record that is off the front although no other is both cheaper and no worse by the medians of the times: the index
+/// Of a record that is off the front although no other is both cheaper and no worse without the costs' spreads: the index
 /// of one that errs less, and that it is not surely cheaper than. Nothing for all others.
-std::optional<std::size_t> keptOffFrontBy(const std::vector<Record>& records, const std::string& scene, std::size_t index);
+std::optional<std::size_t> keptOffFrontBy(const std::vector<Record>& records, const std::string& scene, std::size_t index,
+                                          const CostOf& costOf = frameCost);
 
 /// The worst error that a viewer of a scene accepts.
 struct Tolerance {

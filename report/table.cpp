@@ -2,6 +2,7 @@
 #include "report/advice.h"
 #include "report/columns.h"
 #include "report/cost_report.h"
+#include "report/costing.h"
 #include "report/doubts.h"
 #include "report/run_report.h"
 #include "report/summary.h"
@@ -60,10 +61,18 @@ TextTable table(const std::vector<Record>& records, const std::string& scene, bo
                page ? decidingColumns(headlineMetric(records, scene) == "rmse")
                     : std::vector<Column>(columns().begin(), columns().end()),
                rows, page);
-    if (paretoFront(records, scene).empty()) return result;
+    const Costing costing = shownCosting(records, scene);
+    if (paretoFront(records, scene, costing.of).empty()) return result;
+    if (!costing.card.empty()) {
+        result.titles.emplace_back("modelled ms");
+        for (std::size_t row = 0; row < scored.size(); ++row) {
+            const std::optional<FrameCost> cost = costing.of(records[scored[row]]);
+            result.rows[row].push_back(cost ? fmt::format("{:.3f}", cost->ratio) : "–");
+        }
+    }
     result.titles.emplace_back("front");
     for (std::size_t row = 0; row < scored.size(); ++row)
-        result.rows[row].emplace_back(frontMark(records, scene, scored[row]));
+        result.rows[row].emplace_back(frontMark(records, scene, scored[row], costing.of));
     return result;
 }
 
@@ -134,12 +143,14 @@ std::vector<std::string> footnotes(const std::vector<Record>& all, const std::ve
     std::vector<std::string> lines = adviceLines(all, scene);
     if (const std::string line = truthLine(records, scene); !line.empty()) lines.insert(lines.begin(), line);
     std::vector<std::string> kept;
+    const Costing costing = shownCosting(records, scene);
+    if (!costing.card.empty()) lines.push_back(fmt::format("modelled ms: {}; – waits for the program", costing.meaning));
     for (const std::size_t i : ofScene(records, scene))
-        if (const std::optional<std::size_t> by = keptOffFrontBy(records, scene, i))
+        if (const std::optional<std::size_t> by = keptOffFrontBy(records, scene, i, costing.of))
             kept.push_back(fmt::format("{} (by {})", records[i].variant, records[*by].variant));
     if (!kept.empty())
         lines.push_back(fmt::format(
-            "off the front by the intervals of the times (what is in brackets errs less and may be as cheap): {}",
+            "off the front by the intervals of the costs (what is in brackets errs less and may be as cheap): {}",
             fmt::join(kept, ", ")));
     for (std::string& line : motionLines(records, scene)) lines.push_back(std::move(line));
     for (const auto& [row, others] : inseparable(records, scene))

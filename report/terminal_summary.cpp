@@ -1,6 +1,7 @@
 #include "report/terminal_summary.h"
 
 #include "report/advice.h"
+#include "report/costing.h"
 #include "report/run_report.h"
 #include "report/summary.h"
 
@@ -25,10 +26,13 @@ std::vector<std::size_t> leastErrors(const std::vector<Record>& records, std::ve
 }
 
 std::vector<std::size_t> frontAndCheapest(const std::vector<Record>& records, const std::string& scene) {
-    std::vector<std::size_t> rows = paretoFront(records, scene);
+    const CostOf costOf = shownCosting(records, scene).of;
+    std::vector<std::size_t> rows = paretoFront(records, scene, costOf);
     const std::optional<std::size_t> cheapest = adviceFor(records, scene).take;
     if (!cheapest || std::ranges::find(rows, *cheapest) != rows.end()) return rows;
-    const auto dearer = [&](std::size_t i) { return place(records[i])->cost > place(records[*cheapest])->cost; };
+    const auto dearer = [&](std::size_t i) {
+        return place(records[i], costOf)->cost > place(records[*cheapest], costOf)->cost;
+    };
     rows.insert(std::ranges::find_if(rows, dearer), *cheapest);
     return rows;
 }

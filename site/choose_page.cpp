@@ -1,4 +1,5 @@
 // Which technique to take on which scene, and every technique on every scene.
+#include "report/costing.h"
 #include "report/summary.h"
 #include "site/choice.h"
 #include "site/matrix.h"
@@ -13,8 +14,7 @@
 namespace shadowbench::site {
 namespace {
 
-Cell costCell(const Record& record) {
-    const std::optional<report::FrameCost> cost = report::frameCost(record);
+Cell costCell(const std::optional<report::FrameCost>& cost) {
     return cost ? Cell{fmt::format("{:.2f}", cost->ratio), cost->ratio} : Cell{"–"};
 }
 
@@ -35,7 +35,7 @@ Row answerRow(const std::vector<Record>& records, const std::string& scene, cons
     const Choice choice = choiceFor(records, scene);
     Row row{{{.text = scene, .address = sceneAddress(scene)}}};
     if (!choice.take) {
-        row.cells.resize(6, Cell{"–"});
+        row.cells.resize(7, Cell{"–"});
         row.cells.push_back({choice.why});
         return row;
     }
@@ -49,7 +49,9 @@ Row answerRow(const std::vector<Record>& records, const std::string& scene, cons
     row.cells.push_back(take);
     row.cells.push_back({errorText(taken), headline(taken)->value});
     row.cells.push_back(share ? Cell{fmt::format("{:.2f}", *share), *share, {}, *share <= 1 ? "within" : ""} : Cell{"–"});
-    row.cells.push_back(costCell(taken));
+    const report::Costing costing = report::shownCosting(records, scene);
+    row.cells.push_back(costing.card.empty() ? Cell{"–"} : costCell(costing.of(taken)));
+    row.cells.push_back(costCell(report::frameCost(taken)));
     row.cells.push_back({.text = report::admittedFailure(taken.technique), .kind = "small"});
     row.cells.push_back({.text = reason(records, choice), .kind = "small"});
     return row;
@@ -63,6 +65,8 @@ Table answers(const std::vector<Record>& records, const std::filesystem::path& i
         {.title = "error",
          .hint = "Share of receiver pixels with the wrong label (per cent), or rms error of visibility under an area light"},
         {.title = "× tolerance", .hint = "Its error nearest to a tolerance of the scene, as a multiple of it"},
+        {.title = "modelled ms",
+         .hint = "Milliseconds of a frame on the graphics card that the scene's page names, modelled and not measured"},
         {.title = "cost", .hint = "Frame time as a multiple of sm-uniform's: the dearer of standing and in motion"},
         {.title = "its weakness", .number = false, .brief = false, .prose = true},
         {.title = "why", .number = false, .brief = false, .prose = true}};

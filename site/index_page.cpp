@@ -66,12 +66,15 @@ Table exampleTable(const std::vector<Record>& records, const std::string& scene,
                              .unit = report::isShare(metric) ? "share" : "1"},
                             {.title = "cost", .hint = report::costMeaning(records, scene), .key = "cost"}},
                 .rows = {}};
+    const report::Costing costing = report::shownCosting(records, scene);
+    if (!costing.card.empty()) table.columns.push_back(modelledColumn(costing));
     for (const std::size_t i : report::scoredOf(records, scene)) {
         const std::optional<report::Place> place = report::place(records[i]);
         if (!place) continue;
         table.rows.push_back({{techniqueCell(records[i], images), Cell{errorText(records[i]), place->error},
                                Cell{fmt::format("{:.2f}", place->cost), place->cost}},
                               marksOf(records, i)});
+        if (!costing.card.empty()) table.rows.back().cells.push_back(modelledCell(records[i], costing));
     }
     return table;
 }
@@ -79,20 +82,10 @@ Table exampleTable(const std::vector<Record>& records, const std::string& scene,
 /// The chart of one scene, and its figures.
 void setChart(Data& data, const Contents& contents, SiteWriter& site) {
     const std::string scene = chartedScene(contents.records);
-    const std::string name = "pareto-" + slug(scene);
-    const bool drawn = !scene.empty() && std::filesystem::exists(site.folder() / (name + ".svg"));
+    const Chart chart = costChart(contents.records, scene, "example");
+    const bool drawn = !scene.empty() && std::filesystem::exists(site.folder() / (chart.name + ".svg"));
     data.set("charted", drawn);
     if (!drawn) return;
-    Chart chart{.name = name,
-                .title = "Error against cost on " + truncate(scene) + ".",
-                .text =
-                    "Error against cost of every technique on " + truncate(scene) + "; the figures are in the table below.",
-                .kind = "scatter",
-                .table = "example",
-                .options = {{"x", "cost"}, {"y", "error"}}};
-    for (const report::Tolerance& limit : report::tolerances(contents.records, scene))
-        if (limit.metric == report::headlineMetric(contents.records, scene))
-            chart.options.emplace_back("tolerance", fmt::format("{}", limit.value));
     data.set("chart", site.chart(indexAddress, chart));
     data.set("example", site.table(indexAddress, exampleTable(contents.records, scene, contents.images)));
     data.set("chartscene", truncate(scene));

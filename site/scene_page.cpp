@@ -30,13 +30,14 @@ std::string describe(const std::vector<Record>& records, const std::string& scen
     return text + (truth.empty() ? "" : "; truth: " + truth) + ".";
 }
 
-std::string namesOf(const std::vector<Record>& records, const std::vector<std::size_t>& indices) {
+std::string namesOf(const std::vector<Record>& records, const std::vector<std::size_t>& indices,
+                    const report::Costing& costing) {
     constexpr std::size_t most = 4;
     std::string text;
     for (std::size_t i = 0; i < std::min(indices.size(), most); ++i) {
-        const auto place = report::place(records[indices[i]]);
+        const auto cost = costing.of(records[indices[i]]);
         text += fmt::format("{}{}", text.empty() ? "" : ", ", truncate(records[indices[i]].variant));
-        if (place) text += fmt::format(" ({:.2f} ×)", place->cost);
+        if (cost) text += fmt::format(" ({:.2f} {})", cost->ratio, costing.unit);
     }
     return indices.size() > most ? fmt::format("{} and {} more", text, indices.size() - most) : text;
 }
@@ -72,17 +73,18 @@ void setAnswer(Data& data, const std::vector<Record>& records, const Choice& cho
     data.set("adequate", choice.adequate);
     if (!choice.take) return;
     const Record& record = records[*choice.take];
-    const auto place = report::place(record);
+    const report::Costing costing = report::shownCosting(records, record.scene);
+    const auto cost = costing.of(record);
     const std::string weakness = report::admittedFailure(record.technique);
     data.set("take", truncate(record.variant));
     data.set("name", truncate(factsOf(record.technique).title));
     data.set("errs", errorText(record));
-    data.set("timed", place.has_value());
-    data.set("cost", place ? fmt::format("{:.2f}", place->cost) : "");
-    data.set("frames", report::costMeaning(records, record.scene));
+    data.set("timed", cost.has_value());
+    data.set("cost", cost ? fmt::format("{:.2f}", cost->ratio) : "");
+    data.set("frames", costing.meaning);
     data.set("weak", !weakness.empty());
     data.set("weakness", weakness);
-    data.set("others", namesOf(records, choice.others));
+    data.set("others", namesOf(records, choice.others, costing));
     data.set("rivals", !choice.others.empty());
     data.set("noted", !choice.notes.empty());
     data.set("notes", fmt::format("{}", fmt::join(choice.notes, "; ")));
@@ -96,26 +98,11 @@ public:
         : records_(records), scene_(scene), site_(site) {}
 
     /// `drawn`: the files of all charts that there are.
-    [[nodiscard]] std::string place(const std::vector<std::filesystem::path>& drawn, Chart chart) const {
-        chart.name = fmt::format("{}-{}", chart.name, slug(scene_));
+    [[nodiscard]] std::string place(const std::vector<std::filesystem::path>& drawn, const Chart& chart) const {
         const std::filesystem::path file = site_.folder() / (chart.name + ".svg");
         if (std::ranges::find(drawn, file) == drawn.end()) return "";
         writePdf(site_, chart.name);
         return site_.chart(sceneAddress(scene_), chart);
-    }
-
-    [[nodiscard]] Chart pareto() const {
-        Chart chart{.name = "pareto",
-                    .title = "Accuracy against cost.",
-                    .text = fmt::format("Error against cost of every technique on {}; the figures are in the table below.",
-                                        truncate(scene_)),
-                    .kind = "scatter",
-                    .table = "errors",
-                    .options = {{"x", "cost"}, {"y", "error"}}};
-        for (const report::Tolerance& limit : report::tolerances(records_, scene_))
-            if (limit.metric == report::headlineMetric(records_, scene_))
-                chart.options.emplace_back("tolerance", fmt::format("{}", limit.value));
-        return chart;
     }
 
     /// A chart that a script alone draws.
@@ -129,8 +116,8 @@ public:
                                                   .options = {{"xlabel", xLabel}, {"ylabel", yLabel}}});
     }
 
-    static Chart convergence() {
-        return {.name = "convergence",
+    [[nodiscard]] Chart convergence() const {
+        return {.name = "convergence-" + slug(scene_),
                 .title = "Error over the still frames, from an empty history.",
                 .text = "Error of each still frame; the figures are in the table below.",
                 .kind = "lines",
@@ -138,8 +125,8 @@ public:
                 .options = {{"xlabel", "still frame"}, {"ylabel", "error"}}};
     }
 
-    static Chart passes() {
-        return {.name = "passes",
+    [[nodiscard]] Chart passes() const {
+        return {.name = "passes-" + slug(scene_),
                 .title = "Frame time by pass.",
                 .text = "Milliseconds of a frame by pass; the figures are in the table below.",
                 .kind = "bars",
@@ -147,8 +134,8 @@ public:
                 .options = {{"unit", "ms"}}};
     }
 
-    static Chart lod() {
-        return {.name = "lod",
+    [[nodiscard]] Chart lod() const {
+        return {.name = "lod-" + slug(scene_),
                 .title = "Change of colour beyond lod-full's along the walk.",
                 .text = "Change of colour and frame time along the walk, by technique; the figures are in the tables below.",
                 .kind = "lines",
@@ -184,7 +171,7 @@ void addScenePage(const std::vector<Record>& records, const std::string& scene, 
     data.set("scene", truncate(scene));
     data.set("described", truncate(describe(records, scene), sentenceRoom));
     setAnswer(data, records, choiceFor(records, scene), images, site);
-    data.set("pareto", charts.place(drawn, charts.pareto()));
+    data.set("pareto", charts.place(drawn, costChart(records, scene, "errors")));
     data.set("errors", site.table(address, errorTable(records, scene, images)));
     const std::string metric = report::headlineMetric(records, scene);
     const metrics::MetricId errors =

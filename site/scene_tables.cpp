@@ -3,6 +3,7 @@
 #include "harness/metrics/table.h"
 #include "report/columns.h"
 #include "report/cost_report.h"
+#include "report/costing.h"
 #include "report/doubts.h"
 #include "report/run_report.h"
 #include "report/summary.h"
@@ -78,19 +79,54 @@ std::vector<std::pair<std::string, std::string>> marksOf(const std::vector<Recor
     const Record& record = records[index];
     const TechniqueFacts facts = factsOf(record.technique);
     const std::vector<Tolerance> limits = report::tolerances(records, record.scene);
+    const report::CostOf modelled = report::shownCosting(records, record.scene).of;
     return {{"family", facts.family},
             {"answer", facts.answer},
             {"lacks", facts.lacks},
             {"within", report::isWithin(record, limits) ? "yes" : "no"},
             {"baseline", report::isBaseline(record) ? "yes" : "no"},
-            {"spread", fmt::format("{}", report::frameCost(record).value_or(report::FrameCost{}).spread)}};
+            {"spread", fmt::format("{}", report::frameCost(record).value_or(report::FrameCost{}).spread)},
+            {"modelled-spread", fmt::format("{}", modelled(record).value_or(report::FrameCost{}).spread)}};
+}
+
+Column modelledColumn(const report::Costing& costing) {
+    return {.title = "modelled ms",
+            .hint = costing.meaning + "; – waits for the program (docs/gpu-cost.md)",
+            .key = "modelled",
+            .unit = "ms",
+            .least = true};
+}
+
+Cell modelledCell(const Record& record, const report::Costing& costing) {
+    const std::optional<report::FrameCost> cost = costing.of(record);
+    return cost ? Cell{fmt::format("{:.3f}", cost->ratio), cost->ratio} : Cell{"–"};
+}
+
+Chart costChart(const std::vector<Record>& records, const std::string& scene, const std::string& table) {
+    const report::Costing costing = report::shownCosting(records, scene);
+    Chart chart{
+        .name = fmt::format("{}-{}", report::chartName(costing), slug(scene)),
+        .title = fmt::format("Error against cost on {}{}.", truncate(scene), costing.card.empty() ? "" : ", modelled"),
+        .text =
+            fmt::format("Error against cost of every technique on {}; the figures are in the table below.", truncate(scene)),
+        .kind = "scatter",
+        .table = table,
+        .options = {{"x", costing.card.empty() ? "cost" : "modelled"},
+                    {"y", "error"},
+                    {"costlabel", "cost: frame time here, as a multiple of sm-uniform's"},
+                    {"modelledlabel", costing.meaning}}};
+    for (const report::Tolerance& limit : report::tolerances(records, scene))
+        if (limit.metric == report::headlineMetric(records, scene))
+            chart.options.emplace_back("tolerance", fmt::format("{}", limit.value));
+    return chart;
 }
 
 Table errorTable(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images) {
     const std::vector<std::size_t> scored = report::scoredOf(records, scene);
     const std::vector<Tolerance> limits = report::tolerances(records, scene);
     const std::string metric = report::headlineMetric(records, scene);
-    const bool timed = !report::paretoFront(records, scene).empty();
+    const report::Costing costing = report::shownCosting(records, scene);
+    const bool timed = !report::paretoFront(records, scene, costing.of).empty();
     const bool moves = std::ranges::any_of(scored, [&](std::size_t i) { return report::knowsMotion(records[i]); });
     Table table{.id = "errors",
                 .caption = "Every technique on " + scene,
@@ -121,11 +157,12 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
     for (const std::size_t i : scored) rows.push_back(&records[i]);
     const std::vector<const report::Column*> chosen = report::applying(report::columns(), rows);
     for (const report::Column* column : chosen) table.columns.push_back(columnOf(*column));
+    if (!costing.card.empty()) table.columns.push_back(modelledColumn(costing));
     if (timed)
         table.columns.push_back(
             {.title = "front",
              .hint = "● nothing else has both less error and less cost; ○ the same for a baseline or a large error; ≈ kept "
-                     "off the front by the intervals of the times alone",
+                     "off the front by the intervals of the costs alone",
              .number = false});
     if (moves)
         table.columns.push_back({.title = "front, standing",
@@ -151,16 +188,17 @@ Table errorTable(const std::vector<Record>& records, const std::string& scene, c
             const std::optional<double> value = column->of(record);
             row.cells.push_back(value ? Cell{column->format(*value), *value} : Cell{"–"});
         }
+        if (!costing.card.empty()) row.cells.push_back(modelledCell(record, costing));
         if (timed) {
-            Cell front{report::frontMark(records, scene, i)};
-            if (const std::optional<std::size_t> by = report::keptOffFrontBy(records, scene, i)) {
+            Cell front{report::frontMark(records, scene, i, costing.of)};
+            if (const std::optional<std::size_t> by = report::keptOffFrontBy(records, scene, i, costing.of)) {
                 front.text = "≈";
                 front.note =
-                    fmt::format("{} errs less, and by the intervals of the times it may be as cheap", records[*by].variant);
+                    fmt::format("{} errs less, and by the intervals of the costs it may be as cheap", records[*by].variant);
             }
             row.cells.push_back(std::move(front));
         }
-        if (moves) row.cells.push_back({report::frontMark(records, scene, i, report::standingCost)});
+        if (moves) row.cells.push_back({report::frontMark(records, scene, i, costing.standing)});
         table.rows.push_back(std::move(row));
     }
     return table;

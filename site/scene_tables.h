@@ -2,6 +2,8 @@
 #pragma once
 
 #include "harness/records/record.h"
+#include "report/costing.h"
+#include "site/site_writer.h"
 #include "site/table.h"
 
 #include <filesystem>
@@ -16,6 +18,13 @@ Cell techniqueCell(const Record& record, const std::filesystem::path& images);
 /// What filters go by: family, answer, whether it is within the tolerances; "baseline", "front" and the interval of its
 /// cost.
 std::vector<std::pair<std::string, std::string>> marksOf(const std::vector<Record>& records, std::size_t index);
+
+/// The column of costs that are modelled on a card, and a row's cell.
+Column modelledColumn(const report::Costing& costing);
+Cell modelledCell(const Record& record, const report::Costing& costing);
+
+/// The chart of error against cost of the scene, drawn from `table`.
+Chart costChart(const std::vector<Record>& records, const std::string& scene, const std::string& table);
 
 /// Every scored technique with every metric that applies to one of them.
 Table errorTable(const std::vector<Record>& records, const std::string& scene, const std::filesystem::path& images);

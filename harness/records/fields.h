@@ -142,6 +142,10 @@ void fields(auto& visit, Is<ModelledCost> auto& m) {
     visit("most", m.most);
     visit("waits", m.waits);
     visit.objects("by_pass", m.passes);
+    visit("motion", m.motion);
+    visit.objects("motion_by_pass", m.motionPasses);
+    visit("cold", m.cold);
+    visit.objects("cold_by_pass", m.coldPasses);
 }
 
 void fields(auto& visit, Is<ReportedCost> auto& r) {

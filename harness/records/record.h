@@ -97,11 +97,13 @@ struct PassTerms {
     double arithmetic = 0, texture = 0, output = 0, geometry = 0, memory = 0, fixed = 0;
 };
 
-/// Of a standing frame on one card and an image of one size, by the model: nothing was drawn there.
+/// Of frames on one card and an image of one size, by the model: nothing was drawn there.
 struct ModelledCost {
-    double milliseconds = 0, least = 0, most = 0; // as the card says, and if one of its rates is another
+    double milliseconds = 0, least = 0, most = 0; // standing: as the card says, and if one of its rates is another
     bool waits = false;                           // for the program, in some pass: what that takes is in no number
     std::vector<PassTerms> passes;
+    std::optional<double> motion = {}, cold = {}; // of the frame in motion and of the first, where they draw otherwise
+    std::vector<PassTerms> motionPasses = {}, coldPasses = {};
 };
 
 /// What a renderer that is not ours says of its own cost: never compared with what is measured here.

@@ -190,7 +190,7 @@ constexpr const char* withoutMetrics = R"({
     },
     "gpu": {
       "type": "object",
-      "description": "milliseconds of a standing frame by a model, by card and size of the image; nothing was drawn on that card",
+      "description": "milliseconds of frames by a model, by card and size of the image; nothing was drawn on that card",
       "minProperties": 1,
       "additionalProperties": {
         "type": "object",
@@ -201,25 +201,30 @@ constexpr const char* withoutMetrics = R"({
           "least": {"$ref": "#/definitions/size", "description": "if one rate of the card is twice what is said of it"},
           "most": {"$ref": "#/definitions/size", "description": "if one is half of it"},
           "waits": {"type": "boolean", "description": "for the program, which is in no number"},
-          "by_pass": {
-            "type": "array",
-            "description": "a pass takes the largest of the first five, and the fixed term",
-            "minItems": 1,
-            "items": {
-              "type": "object",
-              "additionalProperties": false,
-              "required": ["name", "arithmetic", "texture", "output", "geometry", "memory", "fixed"],
-              "properties": {
-                "name": {"type": "string", "minLength": 1},
-                "arithmetic": {"$ref": "#/definitions/size"},
-                "texture": {"$ref": "#/definitions/size"},
-                "output": {"$ref": "#/definitions/size"},
-                "geometry": {"$ref": "#/definitions/size"},
-                "memory": {"$ref": "#/definitions/size"},
-                "fixed": {"$ref": "#/definitions/size"}
-              }
-            }
-          }
+          "by_pass": {"$ref": "#/definitions/terms"},
+          "motion": {"$ref": "#/definitions/size", "description": "of the frame in motion, where it draws otherwise"},
+          "motion_by_pass": {"$ref": "#/definitions/terms"},
+          "cold": {"$ref": "#/definitions/size", "description": "of the first frame, where it draws otherwise"},
+          "cold_by_pass": {"$ref": "#/definitions/terms"}
+        }
+      }
+    },
+    "terms": {
+      "type": "array",
+      "description": "milliseconds; a pass takes the largest of the first five, and the fixed term",
+      "minItems": 1,
+      "items": {
+        "type": "object",
+        "additionalProperties": false,
+        "required": ["name", "arithmetic", "texture", "output", "geometry", "memory", "fixed"],
+        "properties": {
+          "name": {"type": "string", "minLength": 1},
+          "arithmetic": {"$ref": "#/definitions/size"},
+          "texture": {"$ref": "#/definitions/size"},
+          "output": {"$ref": "#/definitions/size"},
+          "geometry": {"$ref": "#/definitions/size"},
+          "memory": {"$ref": "#/definitions/size"},
+          "fixed": {"$ref": "#/definitions/size"}
         }
       }
     },

@@ -209,10 +209,10 @@
     function draw() {
       const x = columns[across.value], y = columns[up.value];
       const all = shownRows(entry).map((row) => ({ row, x: valueOf(row.cells[x.column]), y: valueOf(row.cells[y.column]),
-        spread: x.key === "cost" ? Number(row.dataset.spread) || 0 : 0 })).filter((p) => !Number.isNaN(p.y));
+        spread: Number({ cost: row.dataset.spread, modelled: row.dataset.modelledSpread }[x.key]) || 0 })).filter((p) => !Number.isNaN(p.y));
       const points = all.filter((p) => !Number.isNaN(p.x));
       // Other renderers have no cost of ours: they stand beside the plot, at their errors, and are on no front.
-      const beside = x.key.startsWith("cost") ? all.filter((p) => Number.isNaN(p.x) && p.row.dataset.family === "external") : [];
+      const beside = x.key.startsWith("cost") || x.key === "modelled" ? all.filter((p) => Number.isNaN(p.x) && p.row.dataset.family === "external") : [];
       const area = canvas(figure, 460);
       if (beside.length > 0) area.right += 84;
       const limit = y.key === figure.dataset.y && figure.dataset.tolerance ? Number(figure.dataset.tolerance) : NaN;
@@ -220,7 +220,7 @@
       const sy = scaleOf(points.concat(beside).map((p) => p.y).concat(Number.isNaN(limit) ? [] : [limit]), [area.height - area.bottom, area.top]);
       drawAxis(area.svg.append("g").attr("transform", `translate(0,${area.height - area.bottom})`), sx, "x", x.unit, area.height - area.top - area.bottom);
       drawAxis(area.svg.append("g").attr("transform", `translate(${area.left},0)`), sy, "y", y.unit, area.width - area.left - area.right);
-      labels(area, x.title === "cost" ? "cost: frame time as a multiple of sm-uniform's" : x.title, y.title);
+      labels(area, figure.dataset[`${x.key}label`] || x.title, y.title);
       const front = points.filter((p) => !points.some((q) => beats(q, p))).sort((a, b) => a.x - b.x || b.y - a.y);
       if (!Number.isNaN(limit)) area.svg.append("line").attr("class", "limit").attr("x1", area.left).attr("x2", area.width - area.right).attr("y1", sy.at(limit)).attr("y2", sy.at(limit));
       area.svg.append("path").attr("class", "front").attr("d", d3.line().x((p) => sx.at(p.x)).y((p) => sy.at(p.y)).curve(d3.curveStepAfter)(front));

@@ -170,7 +170,7 @@ private:
 std::set<std::size_t> withSequence(const std::vector<Record>& records, const std::string& scene, Sequences sequences) {
     std::vector<std::size_t> rows = report::scoredOf(records, scene);
     if (sequences == Sequences::All) return {rows.begin(), rows.end()};
-    const std::vector<std::size_t> front = report::paretoFront(records, scene);
+    const std::vector<std::size_t> front = report::paretoFront(records, scene, report::shownCosting(records, scene).of);
     if (!front.empty()) return {front.begin(), front.end()};
     std::ranges::stable_sort(rows, {}, [&](std::size_t i) { return headline(records[i])->value; });
     return {rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), leastErrors))};

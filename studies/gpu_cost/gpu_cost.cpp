@@ -31,12 +31,15 @@ void requireJoinable(const std::vector<Record>& records) {
         throw BadInput("no record counts the work of its passes; name records of `shadowbench run` with costs");
 }
 
-/// A technique's name → its shaders on one scene.
-std::map<std::string, Drawn> drawnOn(const std::string& scene, const std::vector<std::string>& variants,
+using shaders::CountedFrame;
+
+/// A technique's name → its shaders in one frame of one scene.
+std::map<std::string, Drawn> drawnOn(const std::string& scene, CountedFrame frame, const std::vector<std::string>& variants,
                                      const GpuCostOptions& options, GpuCostResult& result) {
     shaders::ShaderCostOptions asked;
     asked.techniques = variants;
     asked.scene = scene;
+    asked.frame = frame;
     asked.architectures = {architecture};
     asked.cache = options.cache;
     asked.quiet = options.quiet;
@@ -55,15 +58,27 @@ bool wasMeasuredOn(const Record& record, const gpu::Card& card) {
     return !record.deviceCosts.empty() && record.environment.renderer.starts_with(card.name);
 }
 
-ModelledFrame modelled(const Cell& cell, const Drawn& drawn, const gpu::Card& card, glm::ivec2 size) {
+/// The shaders of one technique on one scene, by frame; only the standing one where the others draw as it does.
+using DrawnFrames = std::map<CountedFrame, Drawn>;
+
+ModelledFrame modelled(const Cell& cell, const DrawnFrames& drawn, const gpu::Card& card, glm::ivec2 size) {
     ModelledFrame frame{cell.front()->scene, cell.front()->variant, card.id, size, {}, false, {}, {}};
-    std::vector<gpu::PassWork> works;
-    for (const NamedWork& named : worksOf(cell, drawn, size)) {
-        works.push_back(named.work);
-        frame.passes.push_back({named.pass, gpu::termsOf(named.work, card), {}});
-        frame.waits |= frame.passes.back().terms.waits;
+    for (const auto& [which, shaders] : drawn) {
+        std::vector<gpu::PassWork> works;
+        std::vector<ModelledPass> passes;
+        for (const NamedWork& named : worksOf(cell, shaders, size, which)) {
+            works.push_back(named.work);
+            passes.push_back({named.pass, gpu::termsOf(named.work, card), {}});
+            frame.waits |= passes.back().terms.waits;
+        }
+        const gpu::FrameTime time = gpu::frameTime(works, card);
+        if (which == CountedFrame::Standing) {
+            frame.time = time;
+            frame.passes = std::move(passes);
+        } else {
+            (which == CountedFrame::First ? frame.cold : frame.motion) = {time.seconds, std::move(passes)};
+        }
     }
-    frame.time = gpu::frameTime(works, card);
     return frame;
 }
 
@@ -75,7 +90,7 @@ ModelledFrame beside(ModelledFrame frame, const DeviceCost& cost) {
     return frame;
 }
 
-std::vector<ModelledFrame> framesOf(const Cell& cell, const Drawn& drawn, const std::vector<gpu::Card>& cards,
+std::vector<ModelledFrame> framesOf(const Cell& cell, const DrawnFrames& drawn, const std::vector<gpu::Card>& cards,
                                     const std::vector<glm::ivec2>& sizes) {
     std::vector<ModelledFrame> frames;
     for (const gpu::Card& card : cards) {
@@ -86,6 +101,17 @@ std::vector<ModelledFrame> framesOf(const Cell& cell, const Drawn& drawn, const 
                     frames.push_back(beside(modelled(cell, drawn, card, {cost.width, cost.height}), cost));
     }
     return frames;
+}
+
+/// In milliseconds.
+std::vector<PassTerms> termsOf(const std::vector<ModelledPass>& passes) {
+    std::vector<PassTerms> all;
+    for (const ModelledPass& pass : passes) {
+        const gpu::Terms& terms = pass.terms;
+        all.push_back({pass.name, 1e3 * terms.arithmetic, 1e3 * terms.texture, 1e3 * terms.output, 1e3 * terms.geometry,
+                       1e3 * terms.memory, 1e3 * terms.fixed});
+    }
+    return all;
 }
 
 /// In the order of the records; of each, those of graphics processors first: they count on images as large as screens.
@@ -111,12 +137,15 @@ const ModelledPass& ModelledFrame::slowest() const {
 }
 
 std::pair<std::string, ModelledCost> modelledCost(const ModelledFrame& frame) {
-    ModelledCost cost{1e3 * frame.time.seconds, 1e3 * frame.time.least, 1e3 * frame.time.most, frame.waits, {}};
-    for (const ModelledPass& pass : frame.passes) {
-        const gpu::Terms& terms = pass.terms;
-        cost.passes.push_back({pass.name, 1e3 * terms.arithmetic, 1e3 * terms.texture, 1e3 * terms.output,
-                               1e3 * terms.geometry, 1e3 * terms.memory, 1e3 * terms.fixed});
-    }
+    ModelledCost cost{1e3 * frame.time.seconds, 1e3 * frame.time.least, 1e3 * frame.time.most, frame.waits,
+                      termsOf(frame.passes)};
+    const auto add = [](const OtherFrame& other, std::optional<double>& milliseconds, std::vector<PassTerms>& passes) {
+        if (other.passes.empty()) return;
+        milliseconds = 1e3 * other.seconds;
+        passes = termsOf(other.passes);
+    };
+    add(frame.motion, cost.motion, cost.motionPasses);
+    add(frame.cold, cost.cold, cost.coldPasses);
     return {fmt::format("{}@{}x{}", frame.card, frame.size.x, frame.size.y), std::move(cost)};
 }
 
@@ -133,15 +162,20 @@ GpuCostResult gpuCosts(const std::vector<Record>& records, const GpuCostOptions&
     const std::vector<gpu::Card> cards = chosenCards(options.cards);
     requireJoinable(records);
     const std::vector<Cell> cells = cellsOf(records);
-    std::map<std::string, std::vector<std::string>> variants; // of each scene
-    for (const Cell& cell : cells) variants[cell.front()->scene].push_back(cell.front()->variant);
-    std::map<std::string, std::map<std::string, Drawn>> drawn;
+    std::map<std::pair<std::string, CountedFrame>, std::vector<std::string>> variants; // of each scene
+    for (const Cell& cell : cells)
+        for (const CountedFrame frame : {CountedFrame::Standing, CountedFrame::First, CountedFrame::InMotion})
+            if (frame == CountedFrame::Standing ||
+                std::ranges::any_of(cell, [&](const Record* record) { return !passesOf(*record, frame).empty(); }))
+                variants[{cell.front()->scene, frame}].push_back(cell.front()->variant);
+    std::map<std::pair<std::string, std::string>, DrawnFrames> drawn; // by scene and variant
     GpuCostResult result;
-    for (const auto& [scene, names] : variants) drawn[scene] = drawnOn(scene, names, options, result);
+    for (const auto& [place, names] : variants)
+        for (auto& [variant, each] : drawnOn(place.first, place.second, names, options, result))
+            drawn[{place.first, variant}].emplace(place.second, std::move(each));
     for (const Cell& cell : cells) {
-        const auto& onScene = drawn.at(cell.front()->scene);
-        const auto found = onScene.find(cell.front()->variant);
-        if (found == onScene.end()) continue;
+        const auto found = drawn.find({cell.front()->scene, cell.front()->variant});
+        if (found == drawn.end() || !found->second.contains(CountedFrame::Standing)) continue;
         try {
             std::ranges::move(framesOf(cell, found->second, cards, options.sizes), std::back_inserter(result.frames));
         } catch (const BadInput& error) {

@@ -21,7 +21,13 @@ struct ModelledPass {
     std::optional<double> measured; // ms
 };
 
-/// A standing frame on one card.
+/// Another frame than the standing one.
+struct OtherFrame {
+    double seconds = 0;
+    std::vector<ModelledPass> passes; // none where it draws as the standing one does
+};
+
+/// A standing frame on one card, and what it takes in motion and from cold.
 struct ModelledFrame {
     std::string scene, variant, card; // the card's id
     glm::ivec2 size{};
@@ -29,6 +35,7 @@ struct ModelledFrame {
     bool waits = false;  // for the program, in some pass: what that takes is not in `time`
     std::vector<ModelledPass> passes;
     std::optional<double> measured; // ms
+    OtherFrame motion = {}, cold = {};
 
     /// The pass that takes longest.
     [[nodiscard]] const ModelledPass& slowest() const;

@@ -11,6 +11,15 @@
 #include <optional>
 
 namespace shadowbench::gpucost {
+
+using shaders::CountedFrame;
+
+const std::vector<PassRecord>& passesOf(const Record& record, CountedFrame frame) {
+    return frame == CountedFrame::Standing ? record.passes
+           : frame == CountedFrame::First  ? record.coldPasses
+                                           : record.motionPasses;
+}
+
 namespace {
 
 /// An image that a record counted on.
@@ -170,10 +179,10 @@ private:
 
 /// Whether a pass draws as many fragments on an image of another size: none of its targets is the screen then, though one
 /// may happen to be as large as the screen that was drawn was.
-bool isOfMap(const Record& record, const PassRecord& counts, glm::ivec2 size) {
-    const PassRecord* small = passNamed(record.passes, counts.name);
-    return size != glm::ivec2(record.width, record.height) && small != nullptr && counts.fragments > 0 &&
-           counts.fragments == small->fragments;
+bool isOfMap(const Record& record, const PassRecord* standing, glm::ivec2 size) {
+    const PassRecord* small = standing == nullptr ? nullptr : passNamed(record.passes, standing->name);
+    return size != glm::ivec2(record.width, record.height) && small != nullptr && standing->fragments > 0 &&
+           standing->fragments == small->fragments;
 }
 
 /// Nothing for a record that counted on one other size alone.
@@ -197,6 +206,39 @@ std::optional<std::vector<PassRecord>> countsOf(const Record& record, glm::ivec2
     return passes;
 }
 
+/// Whether a pass draws into a target as large as the screen.
+bool growsWithScreen(const Drawn& drawn, const std::string& pass) {
+    return std::ranges::any_of(drawn.shaders, [&](const shaders::ShaderCost& shader) {
+        return shader.pass == pass && shader.output.extents.contains({drawn.screen.x, drawn.screen.y});
+    });
+}
+
+std::uint64_t grown(std::uint64_t count, double large, double small) {
+    return small > 0 ? static_cast<std::uint64_t>(std::llround(static_cast<double>(count) * large / small)) : count;
+}
+
+/// What passes of another frame than the standing one count on an image of `size` pixels, on which that counts `standing`.
+std::vector<PassRecord> countsOfOther(const Cell& cell, const Drawn& drawn, glm::ivec2 size, CountedFrame frame,
+                                      const std::vector<PassRecord>& standing) {
+    const auto record = std::ranges::find_if(cell, [&](const Record* each) { return !passesOf(*each, frame).empty(); });
+    if (record == cell.end()) return {};
+    const double pixels = static_cast<double>(size.x) * size.y;
+    const double drawnPixels = static_cast<double>((*record)->width) * (*record)->height;
+    std::vector<PassRecord> passes = passesOf(**record, frame);
+    for (PassRecord& pass : passes) {
+        const PassRecord *small = passNamed((*record)->passes, pass.name), *large = passNamed(standing, pass.name);
+        if (small != nullptr && large != nullptr) {
+            const auto grow = [&](std::uint64_t PassRecord::*count) {
+                pass.*count = grown(pass.*count, static_cast<double>(large->*count), static_cast<double>(small->*count));
+            };
+            for (const auto count : {&PassRecord::fragments, &PassRecord::vertices, &PassRecord::draws}) grow(count);
+        } else if (growsWithScreen(drawn, pass.name)) {
+            pass.fragments = grown(pass.fragments, pixels, drawnPixels);
+        }
+    }
+    return passes;
+}
+
 } // namespace
 
 std::vector<PassRecord> countsOn(const Cell& cell, glm::ivec2 size) {
@@ -217,11 +259,13 @@ std::vector<PassRecord> countsOn(const Cell& cell, glm::ivec2 size) {
     return *counts;
 }
 
-std::vector<NamedWork> worksOf(const Cell& cell, const Drawn& drawn, glm::ivec2 size) {
+std::vector<NamedWork> worksOf(const Cell& cell, const Drawn& drawn, glm::ivec2 size, CountedFrame frame) {
+    const std::vector<PassRecord> standing = countsOn(cell, size);
     std::vector<NamedWork> works;
-    for (const PassRecord& counts : countsOn(cell, size)) {
-        works.push_back(
-            {counts.name, Join(drawn, counts, isOfMap(*cell.front(), counts, size) ? drawn.screen : size).work()});
+    for (const PassRecord& counts :
+         frame == CountedFrame::Standing ? standing : countsOfOther(cell, drawn, size, frame, standing)) {
+        const bool ofMap = isOfMap(*cell.front(), passNamed(standing, counts.name), size);
+        works.push_back({counts.name, Join(drawn, counts, ofMap ? drawn.screen : size).work()});
     }
     return works;
 }

@@ -9,7 +9,9 @@
 #include "harness/render/shared_shaders.h"
 #include "harness/runs/run.h"
 #include "report/advice.h"
+#include "report/costing.h"
 #include "scene/load/load.h"
+#include "studies/gpu_cost/gpu_cost.h"
 #include "techniques/catalog.h"
 #include "techniques/variant_name.h"
 
@@ -17,6 +19,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <iterator>
 #include <limits>
 
 namespace shadowbench::recommend {
@@ -99,6 +102,7 @@ private:
         cells.out = options_.out / std::string(name(question));
         cells.cache = options_.cache;
         cells.measure.time = question == Question::Technique;
+        cells.measure.otherScreen = cells.measure.time && !options_.card.empty();
         cells.resume = true;
         cells.quiet = options_.quiet;
         const OutputLock alone(cells.out);
@@ -120,14 +124,27 @@ std::set<techniques::Need> needsOf(const RecommendOptions& options) {
     return needs;
 }
 
+/// Adds what frames cost on the card; returns a sentence for each technique whose cost is not known there.
+std::vector<std::string> model(std::vector<Record>& records, const RecommendOptions& options) {
+    gpucost::GpuCostOptions study;
+    study.cards = {options.card};
+    study.cache = options.cache;
+    study.quiet = options.quiet;
+    gpucost::GpuCostResult costs = gpucost::gpuCosts(records, study);
+    gpucost::addTo(records, costs.frames);
+    std::ranges::move(costs.leftOut, std::back_inserter(costs.errors));
+    return std::move(costs.errors);
+}
+
 void adviseTechnique(const std::vector<Record>& records, const std::set<techniques::Need>& needs, Recommendation& result) {
     const report::Advice advice = report::adviceFor(records, result.scene, needs);
-    result.techniqueNotes = report::notesOn(advice, records, needs);
+    for (std::string& note : report::notesOn(advice, records, needs)) result.techniqueNotes.push_back(std::move(note));
     if (!advice.take) return;
     const Record& record = records[*advice.take];
     const std::optional<double> error = metrics::bounded(record.values, result.tolerances.front().metric);
+    const report::Costing costing = report::shownCosting(records, result.scene);
     result.technique =
-        Cheapest{record.variant, error.value_or(0), report::frameCost(record)->ratio, report::knowsMotion(record)};
+        Cheapest{record.variant, error.value_or(0), costing.of(record)->ratio, report::knowsMotion(record), costing.card};
 }
 
 /// The row whose error is explained: the one that is advised, else the one that errs least.
@@ -208,6 +225,7 @@ std::optional<std::vector<std::string>> advisedWithMap(const Recommendation& res
 } // namespace
 
 Recommendations recommend(const RecommendOptions& options) {
+    if (!options.card.empty()) (void)gpu::cardNamed(options.card);
     Recommendations all;
     Records records(options);
     const std::set<techniques::Need> needs = needsOf(options);
@@ -229,7 +247,8 @@ Recommendations recommend(const RecommendOptions& options) {
                 result.questions.erase(question);
                 continue;
             }
-            const std::vector<Record> found = records.of(question, *techniques, idOrFile, scene);
+            std::vector<Record> found = records.of(question, *techniques, idOrFile, scene);
+            if (question == Question::Technique && !options.card.empty()) result.techniqueNotes = model(found, options);
             answerFromRecords(question, found, needs, result);
             if (question != Question::Technique) continue;
             for (const std::size_t i : report::ofScene(found, scene.id)) ofTechniques.push_back(found[i]);

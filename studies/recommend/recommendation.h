@@ -29,7 +29,8 @@ struct RecommendOptions {
     std::filesystem::path records;                   // of a run; empty: the cells that the questions need are run
     std::filesystem::path out = "results/recommend"; // of those cells' records
     std::filesystem::path cache;
-    bool standing = false;                                       // light and casters stand still: moving ones are not needed
+    std::string card;      // costs are modelled on it, of images of 1920 × 1080; "": as the records say
+    bool standing = false; // light and casters stand still: moving ones are not needed
     std::set<techniques::Need> needs = techniques::usualNeeds(); // of the technique
     bool quiet = false;
 };
@@ -37,9 +38,10 @@ struct RecommendOptions {
 /// The cheapest technique within tolerance that can do what is needed.
 struct Cheapest {
     std::string variant;
-    double error; // by the first tolerance's metric
-    double cost;  // frames of sm-uniform, the dearer of standing and in motion
-    bool moving;  // false: of the standing frame alone
+    double error;     // by the first tolerance's metric
+    double cost;      // of the card in ms, else in frames of sm-uniform: the dearer of standing and in motion
+    bool moving;      // false: of the standing frame alone
+    std::string card; // on which it is modelled, as records name it; "": measured here
 };
 
 /// Answers for one scene; what was not asked for is empty.

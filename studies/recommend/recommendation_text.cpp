@@ -1,5 +1,6 @@
 #include "studies/recommend/recommendation_text.h"
 
+#include "report/costing.h"
 #include "report/text_table.h"
 #include "studies/causes/causes.h"
 
@@ -109,11 +110,15 @@ std::string leastTable(const std::string& what, const std::string& unit, const s
     return heading + "\n" + report::aligned(table);
 }
 
+std::string unitOf(const std::string& card) {
+    return card.empty() ? "frames of sm-uniform" : fmt::format("ms on {}, modelled", report::cardAndSize(card));
+}
+
 std::string cheapestLine(const std::optional<Cheapest>& technique, const std::vector<report::Tolerance>& tolerances) {
     const std::string heading = fmt::format(" cheapest technique within {}", report::formatBounds(tolerances));
     if (!technique) return heading + ": none\n";
-    return fmt::format("{}: {}, at {} and {:.2f} frames of sm-uniform, {}\n", heading, technique->variant,
-                       asText(tolerances.front().metric, technique->error), technique->cost,
+    return fmt::format("{}: {}, at {} and {:.2f} {}, {}\n", heading, technique->variant,
+                       asText(tolerances.front().metric, technique->error), technique->cost, unitOf(technique->card),
                        technique->moving ? "the dearer of standing and in motion" : "standing");
 }
 
@@ -183,6 +188,7 @@ ordered_json toJson(const Recommendation& r) {
                                {"error", r.technique->error},
                                {"cost", r.technique->cost},
                                {"in_motion", r.technique->moving}};
+    if (r.technique && !r.technique->card.empty()) result["technique"]["modelled_on"] = r.technique->card;
     if (!r.techniqueNotes.empty()) result["notes"] = r.techniqueNotes;
     if (r.left) {
         ordered_json& left = result["left"] = {{"variant", r.left->variant}, {r.left->metric, r.left->error}};
@@ -211,8 +217,8 @@ std::string commonText(const Recommendations& all) {
     if (!asksForTechnique(all)) return "";
     const std::string heading = fmt::format(" one technique for {}", fmt::join(idsOf(all), ", "));
     if (!all.common) return heading + ": none is within tolerance on all of them\n";
-    return fmt::format("{}: {}, at most {:.2f} frames of sm-uniform (on {})\n", heading, all.common->variant,
-                       all.common->cost, all.common->dearest);
+    return fmt::format("{}: {}, at most {:.2f} {} (on {})\n", heading, all.common->variant, all.common->cost,
+                       unitOf(all.common->card), all.common->dearest);
 }
 
 std::string json(const Recommendations& all) {

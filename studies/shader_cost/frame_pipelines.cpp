@@ -6,6 +6,7 @@
 #include "gpu/counter.h"
 #include "groundtruth/contract/reference_key.h"
 #include "harness/render/lod_stage.h"
+#include "harness/render/motion.h"
 #include "harness/render/stage.h"
 #include "studies/shader_cost/shader_cost.h"
 #include "techniques/gl/context.h"
@@ -45,7 +46,7 @@ void addOthers(std::vector<gpu::Use>& uses, const std::vector<gpu::Use>& others)
     }
 }
 
-FrameUses ofShadow(const Scene& scene, const techniques::Variant& variant) {
+FrameUses ofShadow(const Scene& scene, const techniques::Variant& variant, CountedFrame which) {
     const auto counter = counterOf(gl::Context::current()); // before anything is compiled
     Stage stage(scene);
     const auto technique = variant.entry->make(variant.parameters);
@@ -58,7 +59,16 @@ FrameUses ofShadow(const Scene& scene, const techniques::Variant& variant) {
         stage.render(*technique, number++, seed);
         return FrameUses{observer.take(), observer.takeMoves(), counter != nullptr};
     };
-    const FrameUses first = render(); // with what is done once
+    FrameUses first = render(); // with what is done once
+    if (which == CountedFrame::First) return first;
+    if (which == CountedFrame::InMotion) {
+        const Snapshot standing = stage.shown();
+        const Casters casters = castersUnder(*variant.entry, scene);
+        stage.show(displaced(standing, casters));
+        (void)render();
+        stage.show(returned(standing, casters));
+        return render();
+    }
     FrameUses steady = render();
     steady.frame = hashOf(stage.shown(), scene.size);
     addOthers(steady.uses, first.uses);
@@ -106,14 +116,14 @@ const gpu::Use* FrameUses::larger(const gpu::Use& use) const {
     return found == largerDispatches.end() ? nullptr : &*found;
 }
 
-FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant) {
+FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant, CountedFrame counted) {
     std::set<std::string>& files = gl::Context::current().shaderFiles();
     files.clear();
-    FrameUses frame = variant.isLod() ? ofLevels(scene, variant) : ofShadow(scene, variant);
+    FrameUses frame = variant.isLod() ? ofLevels(scene, variant) : ofShadow(scene, variant, counted);
     if (frame.isCounted && !variant.isLod() && std::ranges::any_of(frame.uses, isSteadyDispatch)) {
         Scene large = scene;
         large.size *= largerBy;
-        frame.largerDispatches = ofShadow(large, variant).uses;
+        frame.largerDispatches = ofShadow(large, variant, counted).uses;
         std::erase_if(frame.largerDispatches, std::not_fn(isSteadyDispatch));
     }
     frame.shaderFiles = files;

@@ -3,6 +3,7 @@
 
 #include "gpu/observer.h"
 #include "scene/scene.h"
+#include "studies/shader_cost/shader_cost.h"
 #include "techniques/contract/entry.h"
 
 #include <set>
@@ -24,9 +25,9 @@ struct FrameUses {
 };
 
 /// Renders still frames, the first of which does what is done once, and one in which things move, and returns what the
-/// steady frame uses, in order, then what only the others use, with 0 draws. Of levels of detail the steady frame is the one
-/// with most transitions. Needs a GL context.
-FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant);
+/// counted frame uses, in order, then what only the others use, with 0 draws. Of levels of detail the counted frame is the
+/// one with most transitions. Needs a GL context.
+FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant, CountedFrame counted = CountedFrame::Standing);
 
 /// What this depends on of the program beside shaders, built-in scenes among it: a hash of sources …
 std::string drawingSources();

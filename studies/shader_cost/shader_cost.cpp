@@ -233,7 +233,7 @@ std::vector<std::string> scenesToTry(const std::string& asked) {
 class CatalogueShaders : public Study {
 public:
     CatalogueShaders(const ShaderCostOptions& options, Architectures architectures)
-        : Study(options, std::move(architectures)), names_(scenesToTry(options.scene)) {
+        : Study(options, std::move(architectures)), counted_(options.frame), names_(scenesToTry(options.scene)) {
         for (techniques::Variant& variant : chosenVariants(options.techniques)) choosePlace(std::move(variant));
     }
 
@@ -250,15 +250,17 @@ protected:
 
     ShaderCosts costsOf(std::size_t item) override {
         const Place& place = places_[item];
-        const std::string key = fmt::format("pipelines of {} {} on {} by {}", place.variant.name,
-                                            place.variant.entry->digest, place.scene->id, drawingSources());
+        static constexpr const char* frames[] = {"", "first frame ", "frame in motion "}; // by CountedFrame
+        const std::string key =
+            fmt::format("pipelines of {}{} {} on {} by {}", frames[static_cast<std::size_t>(counted_)], place.variant.name,
+                        place.variant.entry->digest, place.scene->id, drawingSources());
         if (place.isBuiltIn)
             if (const auto kept = keptList(key))
                 if (auto costs = keptCosts(place, frameList(*kept))) return *std::move(costs);
         if (!context_) context_ = contextOfRun(cache(), false);
         FrameList list;
         ShaderCosts costs;
-        const FrameUses frame = pipelinesOf(*place.scene, place.variant);
+        const FrameUses frame = pipelinesOf(*place.scene, place.variant, counted_);
         list.frame = frame.frame;
         for (const gpu::Use& use : frame.uses) {
             const FramePipeline& pipeline = list.pipelines.emplace_back(pipelineOf(use, frame.larger(use)));
@@ -354,6 +356,7 @@ private:
         return costs;
     }
 
+    CountedFrame counted_;
     std::vector<std::string> names_;
     std::map<std::string, std::shared_ptr<const Scene>> scenes_;
     std::vector<Place> places_;

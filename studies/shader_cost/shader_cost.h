@@ -76,12 +76,17 @@ struct ShaderCosts {
     std::vector<FrameMove> moves = {}; // none in older lines
 };
 
+/// The frame whose shaders are counted: the standing one; the first, with what is done once; or the same after light and
+/// casters were elsewhere (harness/render/motion.h).
+enum class CountedFrame { Standing, First, InMotion };
+
 struct ShaderCostOptions {
-    std::vector<std::string> files;         // shaders; empty: those of the catalogue
-    std::vector<std::string> techniques;    // variants or globs; empty: all
-    std::string scene;                      // id or file; empty: for each variant the first that it applies to
-    std::vector<std::string> architectures; // empty: all
-    std::filesystem::path cache;            // empty: as of references
+    std::vector<std::string> files;              // shaders; empty: those of the catalogue
+    std::vector<std::string> techniques;         // variants or globs; empty: all
+    std::string scene;                           // id or file; empty: for each variant the first that it applies to
+    std::vector<std::string> architectures;      // empty: all
+    CountedFrame frame = CountedFrame::Standing; // of levels of detail always that
+    std::filesystem::path cache;                 // empty: as of references
     bool quiet = false;
 };
 

@@ -80,6 +80,22 @@ TEST(CountedFrames, CountTheSameInEveryRun) {
     }
 }
 
+TEST(CountedFrames, InMotionDrawWhatACacheSavesOtherwise) {
+    testContext();
+    const Scene scene = smallScene("simple", 64);
+    const auto drawsOfMap = [&](shaders::CountedFrame frame, const char* technique) {
+        std::uint64_t draws = 0;
+        for (const gpu::Use& use : shaders::pipelinesOf(scene, techniques::parseVariant(technique), frame).uses)
+            if (use.pass == "depth map") draws += use.draws;
+        return draws;
+    };
+    EXPECT_EQ(drawsOfMap(shaders::CountedFrame::Standing, "sm-adaptive"), 0U) << "its pages are kept";
+    EXPECT_GT(drawsOfMap(shaders::CountedFrame::InMotion, "sm-adaptive"), 0U);
+    EXPECT_GT(drawsOfMap(shaders::CountedFrame::First, "sm-adaptive"), 0U);
+    EXPECT_EQ(drawsOfMap(shaders::CountedFrame::InMotion, "sm-uniform"),
+              drawsOfMap(shaders::CountedFrame::Standing, "sm-uniform"));
+}
+
 TEST(CountedFrames, DispatchesAreCountedOnALargerImageToo) {
     testContext();
     const shaders::FrameUses frame =

@@ -164,7 +164,7 @@ TEST(Charts, OfModelledCostsAreOfOneCardAndSize) {
     EXPECT_FALSE(report::modelledChart(records, "dueling-frusta", "h200@1920x1080"));
     for (Record& record : records) record.modelled["h200@1920x1080"] = {2, 1, 4, record.technique.starts_with("sm-"), {}};
     const std::string svg = report::modelledChart(records, "dueling-frusta", "h200@1920x1080").value();
-    EXPECT_TRUE(contains(svg, "cost: ms of a standing frame on h200 at 1920×1080, modelled")) << svg;
+    EXPECT_TRUE(contains(svg, "cost: ms on h200 at 1920×1080, modelled: the dearer of standing and in motion")) << svg;
     EXPECT_TRUE(contains(svg, ">shadow volumes<"));
     EXPECT_FALSE(contains(svg, ">shadow maps<")) << "these wait for the program";
     EXPECT_FALSE(report::modelledChart(records, "dueling-frusta", "h200@3840x2160"));

@@ -79,6 +79,25 @@ TEST(PassCounts, ARecordOfOneSizeLeavesOthersToTheNext) {
     EXPECT_EQ(countsOn({&one, &two}, {200, 200}).at(0).fragments, 40000U);
 }
 
+TEST(PassCounts, OfAFrameInMotionGrowAsThoseOfTheStandingOneAndAsTargets) {
+    using shaders::CountedFrame;
+    Record record = recordOf(counted("resolve", 10000));
+    const shaders::Output screen{{"R8"}, false, "", false, {{{50, 50}, 1}}},
+        map{{}, false, "Depth32F", true, {{{64, 64}, 1}}};
+    const Drawn drawn{{shader("resolve", gpu::Stage::Fragment, 1, screen), shader("mask", gpu::Stage::Fragment, 1, screen),
+                       shader("depth map", gpu::Stage::Fragment, 1, map)},
+                      {},
+                      {50, 50}};
+    EXPECT_TRUE(worksOf({&record}, drawn, {200, 200}, CountedFrame::InMotion).empty()) << "it draws as the standing one";
+    record.motionPasses = {counted("depth map", 5000, 300, 64), counted("mask", 2500), counted("resolve", 20000)};
+    const std::vector<NamedWork> works = worksOf({&record}, drawn, {200, 200}, CountedFrame::InMotion);
+    ASSERT_EQ(works.size(), 3U);
+    EXPECT_EQ(works[0].work.depthPixels, 5000) << "a map";
+    EXPECT_EQ(works[1].work.output.at(0).pixels, 4 * 2500) << "of the motion alone, as large as the screen";
+    EXPECT_EQ(works[2].work.output.at(0).pixels, 4 * 20000) << "as the standing frame's pass grows";
+    EXPECT_TRUE(worksOf({&record}, drawn, {200, 200}, CountedFrame::First).empty());
+}
+
 TEST(PassWork, AFragmentIsWrittenToEachTarget) {
     const shaders::Output output{{"RGBA32F", "R8"}, false, "Depth32F", true, {{{50, 50}, 1}}};
     const gpu::PassWork work =
