@@ -96,8 +96,8 @@ std::optional<CommonAdvice> commonAdvice(const std::vector<Record>& records, con
             const std::string& variant = records[i].variant;
             const std::optional<FrameCost> cost = costing.of(records[i]);
             if (!cost || (&scene != &scenes.front() && !common.contains(variant))) continue;
-            CommonAdvice advice = common.contains(variant) ? common[variant] : CommonAdvice{variant, scene, costing.card, 0};
-            if (cost->ratio > advice.cost) advice = {variant, scene, costing.card, cost->ratio};
+            CommonAdvice advice = common.contains(variant) ? common[variant] : CommonAdvice{variant, scene, 0, costing.card};
+            if (cost->ratio > advice.cost) advice = {variant, scene, cost->ratio, costing.card};
             still[variant] = advice;
         }
         common = std::move(still);

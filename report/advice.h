@@ -37,9 +37,9 @@ std::vector<std::string> notesOn(const Advice& advice, const std::vector<Record>
 /// One variant for several scenes.
 struct CommonAdvice {
     std::string variant;
-    std::string dearest; // the scene where it costs most
-    std::string card;    // on which costs of all scenes are modelled, as records name it; "" where they are measured here
-    double cost = 0;     // there: ms on the card, else frames of sm-uniform
+    std::string dearest;   // the scene where it costs most
+    double cost = 0;       // there: ms on the card, else frames of sm-uniform
+    std::string card = {}; // on which costs of all scenes are modelled, as records name it; "" where they are measured here
 };
 
 /// The variant that is within tolerance on every scene, and whose cost on its dearest scene is the least. Nothing if none

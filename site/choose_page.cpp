@@ -1,4 +1,5 @@
 // Which technique to take on which scene, and every technique on every scene.
+#include "report/advice.h"
 #include "report/costing.h"
 #include "report/summary.h"
 #include "site/choice.h"
@@ -74,12 +75,53 @@ Table answers(const std::vector<Record>& records, const std::filesystem::path& i
     return table;
 }
 
+/// Indices of the scene's rows that do what is usually needed, by error.
+std::vector<std::size_t> suitedByError(const std::vector<Record>& records, const std::string& scene) {
+    std::vector<std::size_t> rows = report::scoredOf(records, scene);
+    std::erase_if(rows, [&](std::size_t i) {
+        return report::isBaseline(records[i]) || !report::lackedOf(records[i], techniques::usualNeeds()).empty();
+    });
+    std::ranges::stable_sort(rows, {}, [&](std::size_t i) { return headline(records[i])->value; });
+    return rows;
+}
+
+/// The row of least error at each cost, in frames of sm-uniform; without rows where no scene has such a frame's cost.
+Table budgets(const std::vector<Record>& records, const std::filesystem::path& images) {
+    static constexpr double factors[] = {1, 1.25, 1.5, 2, 4, 8};
+    Table table{.id = "budgets",
+                .caption = "The least error for a cost, in frames of sm-uniform",
+                .columns = {{.title = "scene", .number = false}},
+                .rows = {},
+                .headed = false};
+    for (const double factor : factors) table.columns.push_back({.title = fmt::format("{:g} ×", factor), .number = false});
+    for (const std::string& scene : report::scenes(records)) {
+        const report::CostOf costOf = report::shownCosting(records, scene).of;
+        const std::vector<std::size_t> rows = suitedByError(records, scene);
+        const auto base = std::ranges::find(rows, "sm-uniform", [&](std::size_t i) { return records[i].variant; });
+        const auto unit = base == rows.end() ? std::nullopt : costOf(records[*base]);
+        if (!unit) continue;
+        Row& row = table.rows.emplace_back(Row{{{.text = scene, .address = sceneAddress(scene)}}, {}});
+        for (const double factor : factors) {
+            const auto best = std::ranges::find_if(rows, [&](std::size_t i) {
+                const auto cost = costOf(records[i]);
+                return cost && cost->ratio <= factor * unit->ratio;
+            });
+            Cell cell = techniqueCell(records[*best], images); // sm-uniform itself, where nothing is better
+            cell.small = errorText(records[*best]);
+            row.cells.push_back(std::move(cell));
+        }
+    }
+    return table;
+}
+
 } // namespace
 
 void addChoosePage(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site) {
     Data data;
     data.set("empty", records.empty());
     data.set("answers", site.table(chooseAddress, answers(records, images)));
+    data.set("budgets", site.table(chooseAddress, budgets(records, images)));
+    data.set("hasbudgets", !data.get("budgets")->string_value().empty());
     data.set("all", site.table(chooseAddress, matrixTable(records, images, "Every technique on every scene")));
     site.add({.address = chooseAddress,
               .title = "Choose a technique",

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "harness/cells/cell_images.h"
 #include "harness/cells/kept_images.h"
+#include "report/costing.h"
 #include "report/run_report.h"
 #include "report/summary.h"
 #include "site/made_file.h"

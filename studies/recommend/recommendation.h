@@ -38,10 +38,10 @@ struct RecommendOptions {
 /// The cheapest technique within tolerance that can do what is needed.
 struct Cheapest {
     std::string variant;
-    double error;     // by the first tolerance's metric
-    double cost;      // of the card in ms, else in frames of sm-uniform: the dearer of standing and in motion
-    bool moving;      // false: of the standing frame alone
-    std::string card; // on which it is modelled, as records name it; "": measured here
+    double error;          // by the first tolerance's metric
+    double cost;           // of the card in ms, else in frames of sm-uniform: the dearer of standing and in motion
+    bool moving;           // false: of the standing frame alone
+    std::string card = {}; // on which it is modelled, as records name it; "": measured here
 };
 
 /// Answers for one scene; what was not asked for is empty.

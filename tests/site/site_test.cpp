@@ -7,6 +7,7 @@
 #include "site/site.h"
 #include "tests/support/report_examples.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -100,6 +101,35 @@ TEST(BothSite, ShowsEveryFigureUnroundedWithoutAScript) {
     EXPECT_FALSE(has(page, "<style"));
     EXPECT_EQ(attributes(page, "style"), std::vector<std::string>());
     EXPECT_EQ(attributes(page, "onclick"), std::vector<std::string>());
+}
+
+TEST_F(Site, SaysWhatACostBuysOnTheCardWhereThatIsModelled) {
+    std::vector<Record> records{hardCell("sm-uniform", 0.05, 1), hardCell("sm-lispsm", 0.01, 1.2),
+                                hardCell("sm-cascaded", 0.001, 3)};
+    const auto bought = [&] {
+        writeSite({.records = records}, folder());
+        const std::string page = readFile(folder() / "choose.html");
+        const std::size_t at = page.find("data-table=\"budgets\"");
+        std::string table = page.substr(at, page.find("</table>", at) - at), names;
+        for (const char* name : {"sm-uniform", "sm-lispsm", "sm-cascaded"}) {
+            int times = 0;
+            for (std::size_t i = table.find(">" + std::string(name) + "<"); i != std::string::npos;
+                 i = table.find(">" + std::string(name) + "<", i + 1))
+                ++times;
+            names += fmt::format("{} {} ", name, times);
+        }
+        return names;
+    };
+    // At 1, 1.25, 1.5, 2, 4 and 8 frames of sm-uniform.
+    EXPECT_EQ(bought(), "sm-uniform 1 sm-lispsm 3 sm-cascaded 2 ");
+    EXPECT_TRUE(has(readFile(folder() / "index.html"), "src=\"pareto-dueling-frusta.svg\""));
+    const double milliseconds[] = {1, 3, 1.2};
+    for (std::size_t i = 0; i < 3; ++i) records[i].modelled["gtx-1080@1920x1080"] = {milliseconds[i], 0.5, 6, false, {}};
+    EXPECT_EQ(bought(), "sm-uniform 1 sm-lispsm 0 sm-cascaded 5 ");
+    const std::string index = readFile(folder() / "index.html");
+    for (const char* part : {"src=\"modelled-gtx-1080-1920x1080-dueling-frusta.svg\"", "data-x=\"modelled\"",
+                             "data-modelledlabel=\"ms on gtx-1080 at 1920×1080, modelled", "data-key=\"cost\""})
+        EXPECT_TRUE(has(index, part)) << part;
 }
 
 TEST_F(Site, CountsTechniquesAndHasOtherRenderersOnAPageOfTheirOwn) {

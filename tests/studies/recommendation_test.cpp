@@ -136,6 +136,11 @@ TEST(RecommendationJson, HasEveryAnswer) {
     EXPECT_EQ(commonText({.scenes = {one, one}}),
               " one technique for yard, yard: none is within tolerance on all of them\n");
     EXPECT_EQ(commonText({.scenes = {one}}), "") << "its own line says it";
+    one.technique->card = "gtx-1080@1920x1080";
+    EXPECT_NE(text(one).find("2.25 ms on gtx-1080 at 1920×1080, modelled, the dearer of standing and in motion"),
+              std::string::npos)
+        << text(one);
+    EXPECT_EQ(json::parse(recommend::json({.scenes = {one}})).at(0).at("technique").at("modelled_on"), "gtx-1080@1920x1080");
     one.questions = {Question::Map};
     one.technique.reset();
     one.casters.reset();
