@@ -57,7 +57,6 @@ std::span<const Column> columns() {
         {"peak MiB", true, "cost.work.peak_bytes", decimals<1, 1 << 20>},
         {"ms", true, "cost.time.median", decimals<2>},
         {"processor", true, "cost.time.processor", percent},
-        {"× bare", true, "cost.time.bare_ratio", decimals<2>},
         {"first frame ms", true, "cost.cold.time", decimals<2>},
         {"compiling ms", true, "cost.cold.compile", decimals<0>},
         {"standing", true, "cost.time.ratio", decimals<2>},

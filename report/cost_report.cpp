@@ -44,17 +44,6 @@ std::string growsWith(const PassRecord& pass, const TimedFrame& here, const Time
 
 std::string milliseconds(const std::optional<double>& value) { return value ? fmt::format("{:.2f}", *value) : "–"; }
 
-std::string least(const PassRecord& pass) {
-    return pass.bare ? fmt::format("{} fragments, {} vertices, {} taps: {}", pass.bare->fragments, pass.bare->vertices,
-                                   pass.bare->taps, pass.bare->source)
-                     : "–";
-}
-
-std::string timesBare(const PassRecord& pass) {
-    const bool known = pass.bare && pass.bare->milliseconds && *pass.bare->milliseconds > 0;
-    return known ? fmt::format("{:.2f}", *pass.milliseconds / *pass.bare->milliseconds) : "–";
-}
-
 class PassRows {
 public:
     explicit PassRows(const std::vector<const Record*>& records) {
@@ -64,7 +53,6 @@ public:
         if (other_) table_.titles.push_back("ms at " + sizeOf(other_->width, other_->height));
         table_.titles.insert(table_.titles.end(), {"fragments", "vertices", "draws"});
         if (other_) table_.titles.emplace_back("grows with");
-        table_.titles.insert(table_.titles.end(), {"× bare", "the least"});
         for (const Record* record : records) addAll(*record);
     }
 
@@ -88,8 +76,6 @@ private:
         if (other_) row.push_back(milliseconds(other != nullptr ? other->milliseconds : std::nullopt));
         for (const std::uint64_t count : {pass.fragments, pass.vertices, pass.draws}) row.push_back(std::to_string(count));
         if (other_) row.push_back(hasOther ? growsWith(pass, frames[0], frames[1]) : "–");
-        row.push_back(timesBare(pass));
-        row.push_back(least(pass));
         table_.rows.push_back(std::move(row));
     }
 
@@ -97,48 +83,12 @@ private:
     TextTable table_;
 };
 
-/// Milliseconds of a pass beyond the least that it needs; of one without a least, all.
-double excess(const PassRecord& pass) {
-    const double bare = pass.bare ? pass.bare->milliseconds.value_or(0) : 0;
-    return std::max(pass.milliseconds.value_or(0) - bare, 0.0);
-}
-
-/// What asks something of the GPU: the processor's share is no part of a record's multiple of its bare passes.
-bool asksTheGpu(const PassRecord& pass) { return pass.draws > 0 || pass.fragments > 0 || pass.bare; }
-
-/// The G-buffer is on both sides.
-bool mayExceed(const PassRecord& pass) { return pass.name != "G-buffer" && asksTheGpu(pass); }
-
-std::vector<std::string> excessRow(const Record& record) {
-    const PassRecord* most = nullptr;
-    double all = 0;
-    for (const PassRecord& pass : record.passes) {
-        if (!mayExceed(pass)) continue;
-        all += excess(pass);
-        if (most == nullptr || excess(pass) > excess(*most)) most = &pass;
-    }
-    if (most == nullptr || all <= 0) return {};
-    const bool bounded = most->bare && most->bare->fragments > 0;
-    return {record.variant,
-            fmt::format("{:.2f}", record.values["cost.time.bare_ratio"].value()),
-            most->name,
-            percent(excess(*most) / all),
-            milliseconds(most->milliseconds),
-            milliseconds(most->bare ? most->bare->milliseconds : std::nullopt),
-            bounded
-                ? fmt::format("{:.2f}", static_cast<double>(most->fragments) / static_cast<double>(most->bare->fragments))
-                : "–"};
-}
-
 std::string cellOf(const std::optional<double>& value) { return value ? csvText(*value) : ""; }
 
 std::string csvRow(const Record& record, int width, int height, const char* frame, const PassRecord& pass) {
-    const BareCost bare = pass.bare.value_or(BareCost{});
-    const auto ofBare = [&](std::uint64_t value) { return pass.bare ? csvText(value) : std::string(); };
     return csvLine({quoted(record.scene), quoted(record.variant), record.profile, csvText(width), csvText(height), frame,
                     quoted(pass.name), csvText(pass.runs), cellOf(pass.milliseconds), cellOf(pass.share),
-                    csvText(pass.fragments), csvText(pass.vertices), csvText(pass.draws), cellOf(bare.milliseconds),
-                    ofBare(bare.fragments), ofBare(bare.vertices), ofBare(bare.taps), quoted(bare.source)});
+                    csvText(pass.fragments), csvText(pass.vertices), csvText(pass.draws)});
 }
 
 /// " on images of 1024² and 2048² pixels, costs of the first".
@@ -165,7 +115,7 @@ std::string rasteriserNote(const std::vector<Record>& records, const std::string
            fmt::format(", a rasteriser in software: it shades {} pixels at a time and pays for both sides of every "
                        "`if` among them, each vertex is a call of compiled code, and a fragment costs what its texture "
                        "reads and arithmetic cost the processor, without units of their own for depth, blending and "
-                       "filtering. A GPU hides much of that: compare fragments, vertices and taps there.",
+                       "filtering. A GPU hides much of that: compare fragments and vertices there.",
                        e.vectorBits / 32);
 }
 
@@ -211,18 +161,6 @@ std::string passTable(const std::vector<Record>& records, const std::string& sce
     return timed.empty() ? "" : PassRows(timed).text();
 }
 
-std::string excessTable(const std::vector<Record>& records, const std::string& scene) {
-    TextTable table{{"technique", "× bare", "pass with most of the rest", "of the rest", "ms", "ms of its least",
-                     "fragments × its least"},
-                    {}};
-    for (const Record* record : timedRecords(records, scene)) {
-        if (record->values["cost.time.bare_ratio"].value_or(0) <= closeToBare) continue;
-        std::vector<std::string> row = excessRow(*record);
-        if (!row.empty()) table.rows.push_back(std::move(row));
-    }
-    return markdown(table);
-}
-
 std::string passCsv(const std::vector<Record>& records) {
     std::string rows;
     for (const Record& record : records) {
@@ -237,10 +175,7 @@ std::string passCsv(const std::vector<Record>& records) {
         for (const DeviceCost& cost : record.deviceCosts) add(cost.passes, cost.width, cost.height, "standing");
     }
     if (rows.empty()) return "";
-    return "scene,variant,profile,width,height,frame,pass,runs,milliseconds,share,fragments,vertices,draws,bare."
-           "milliseconds,"
-           "bare.fragments,bare.vertices,bare.taps,bare.source\n" +
-           rows;
+    return "scene,variant,profile,width,height,frame,pass,runs,milliseconds,share,fragments,vertices,draws\n" + rows;
 }
 
 } // namespace shadowbench::report

@@ -27,21 +27,13 @@ std::vector<TimedFrame> timedFrames(const Record& record);
 /// of detail lod-switch. "" where none drew.
 std::string deviceTable(const std::vector<Record>& records, const std::string& scene);
 
-/// Markdown: the passes of every timed record of `scene` with their times, work, what they grow with and the least that
-/// they need; below them the changed ones of the frame in motion and of the first frame. "" where no record has passes with
-/// times.
+/// Markdown: the passes of every timed record of `scene` with their times, work and what they grow with; below them the
+/// changed ones of the frame in motion and of the first frame. "" where no record has passes with times.
 std::string passTable(const std::vector<Record>& records, const std::string& scene);
 
 /// Those of `passes`, of a frame in motion or the first one, that the standing frame lacks or runs and draws otherwise.
 /// Fragments alone do not count: a map that is turned from frame to frame covers a few more or less.
 std::vector<PassRecord> changedPasses(const std::vector<PassRecord>& passes, const std::vector<PassRecord>& standing);
-
-/// A row that costs at most so many times its bare passes is close to them.
-inline constexpr double closeToBare = 1.3;
-
-/// Markdown: the timed records of `scene` that are not close to their bare passes, each with the pass that most of the rest
-/// is in. "" where there are none.
-std::string excessTable(const std::vector<Record>& records, const std::string& scene);
 
 /// One row a pass of a record, what is absent empty; passes of the frame in motion and of the first one, and on an image of
 /// another size (Record::otherScreen), have rows of their own. "" without passes.

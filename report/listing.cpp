@@ -81,8 +81,7 @@ Json metricsAsJson() {
                        {"bound", ""},
                        {"allowance", ""},
                        {"not compared", "its sums are: a cost that moves from one pass to another is none"},
-                       {"meaning", "work and time pass by pass, beside the least that each pass needs; on the scored image, "
-                                   "and on one of another size"}});
+                       {"meaning", "work and time pass by pass; on the scored image, and on one of another size"}});
     return all;
 }
 

@@ -11,15 +11,32 @@ namespace {
 
 using Term = double PassTerms::*;
 
-double milliseconds(const PassTerms& pass) {
-    return std::max({pass.arithmetic, pass.texture, pass.output, pass.geometry, pass.memory}) + pass.fixed;
+double lowerBound(const PassTerms& pass) {
+    return std::max({pass.texture, pass.output, pass.geometry, pass.memory}) + pass.fixed;
+}
+
+double milliseconds(const PassTerms& pass) { return std::max(lowerBound(pass), pass.arithmetic + pass.fixed); }
+
+std::vector<PassTerms> ownPasses(const ModelledCost& cost) {
+    std::vector<PassTerms> own = cost.passes;
+    std::erase_if(own, [](const PassTerms& pass) { return pass.name == "G-buffer"; });
+    return own;
+}
+
+/// What the technique's passes take as a multiple of what they would take without arithmetic.
+std::string timesBound(const ModelledCost& cost) {
+    double all = 0, least = 0;
+    for (const PassTerms& pass : ownPasses(cost)) {
+        all += milliseconds(pass);
+        least += lowerBound(pass);
+    }
+    return cost.waits || least <= 0 ? "–" : fmt::format("{:.2f}", all / least);
 }
 
 /// "resolve: texture": the technique's longest pass and its largest term.
 std::string limitOf(const ModelledCost& cost) {
     if (cost.waits) return "waits for the program";
-    std::vector<PassTerms> own = cost.passes;
-    std::erase_if(own, [](const PassTerms& pass) { return pass.name == "G-buffer"; });
+    const std::vector<PassTerms> own = ownPasses(cost);
     if (own.empty()) return "–";
     static constexpr std::pair<const char*, Term> terms[] = {
         {"arithmetic", &PassTerms::arithmetic}, {"texture", &PassTerms::texture}, {"output", &PassTerms::output},
@@ -61,7 +78,8 @@ std::string modelledTable(const std::vector<Record>& records, const std::string&
     TextTable table{{"technique", "standing here, × (place)"}, {}};
     for (const std::string& name : names) {
         costs.push_back(modelledOn(name).standing);
-        table.titles.insert(table.titles.end(), {fmt::format("ms on {} (place)", cardAndSize(name)), "limited by"});
+        table.titles.insert(table.titles.end(),
+                            {fmt::format("ms on {} (place)", cardAndSize(name)), "limited by", "× bound"});
     }
     std::vector<const Record*> rows;
     for (const std::size_t i : scoredOf(records, scene))
@@ -78,7 +96,9 @@ std::string modelledTable(const std::vector<Record>& records, const std::string&
             table.rows[i].push_back(withPlace(costs[column](*rows[i]), order[i]));
             if (column == 0) continue;
             const auto found = rows[i]->modelled.find(names[column - 1]);
-            table.rows[i].push_back(found == rows[i]->modelled.end() ? "–" : limitOf(found->second));
+            const bool known = found != rows[i]->modelled.end();
+            table.rows[i].push_back(known ? limitOf(found->second) : "–");
+            table.rows[i].push_back(known ? timesBound(found->second) : "–");
         }
     }
     return markdown(table);

@@ -40,8 +40,7 @@ const std::string costPageHead = R"(# Costs, pass by pass
 A frame is the G-buffer and the technique's passes; a pass that ran several times is one row. Between passes nothing is drawn.
 Below a technique's standing frame stand the passes that are others in motion and in the first frame (wall time).
 What grows with the screen has fragments in proportion to the pixels of the image; what grows with the map has as many on an
-image of any size. × bare: the pass' time as a multiple of the least that it needs, which its last column states with its
-source. A pass without a least of its own is work of the processor, or what an implementation adds.
+image of any size.
 )";
 
 std::string sceneSection(const std::vector<Record>& records, const std::string& scene,
@@ -71,16 +70,12 @@ std::string lodPictures(const std::vector<Record>& records, const std::string& s
     return rows.empty() ? "" : frame + "| technique | one instance through its transition |\n|:---|:---|\n" + rows + "\n";
 }
 
-constexpr const char* excessNote =
-    "A bare pass is the technique's with its shader's body replaced by a sum of the same texture reads (docs/metrics.md, "
-    "\"Bare passes\"): where a pass has as many fragments as its least, the rest is arithmetic, branches and what it "
-    "writes.\n";
-
 constexpr const char* modelledNote =
     "Nothing was drawn on these cards: milliseconds of a standing frame are modelled (docs/gpu-cost.md). Places are among "
     "the "
     "rows that have all these costs, from the cheapest on. Limited by: the technique's "
-    "longest pass, and what takes longest in it.\n";
+    "longest pass, and what takes longest in it. × bound: the technique's passes as a multiple of what they would take "
+    "without arithmetic.\n";
 
 constexpr const char* deviceNote =
     "Frames are the G-buffer and the technique; × base: as a multiple of sm-uniform's, of levels of detail lod-switch's. "
@@ -103,8 +98,6 @@ std::string costPage(const std::vector<Record>& records) {
         text += table;
         if (const std::string modelled = modelledTable(records, scene); !modelled.empty())
             text += fmt::format("\n### Modelled on graphics cards\n\n{}\n{}", modelledNote, modelled);
-        const std::string excess = excessTable(records, scene);
-        if (!excess.empty()) text += fmt::format("\n### Above {} × bare\n\n{}\n{}", closeToBare, excessNote, excess);
     }
     return text.empty() ? "" : costPageHead + text;
 }

@@ -41,8 +41,6 @@ void setTime(Record& record, const Time& time) {
     record.values["cost.time.ratio"] = time.ratio;
     record.values["cost.time.floor_ratio"] = time.floorRatio;
     record.values["cost.time.base_ratio"] = time.baseRatio;
-    record.values["cost.time.bare"] = time.bare;
-    record.values["cost.time.bare_ratio"] = time.bareRatio;
     record.values["cost.time.processor"] = time.processorShare;
     record.values.list("cost.time.samples") = time.samples;
 }

@@ -15,8 +15,6 @@ struct Time {
     double ratio = 1;                    // to sm-uniform in the same interleaved rounds, both with the G-buffer
     double floorRatio = 0;               // share of the frame that the G-buffer alone takes
     std::optional<double> baseRatio;     // to the technique's own base (history over its base map)
-    std::optional<double> bare;          // ms of the least that it needs, G-buffer included
-    std::optional<double> bareRatio;     // to that, without the processor's share
     double processorShare = 0;           // of the frame's time, in passes of the processor
     std::vector<double> samples;
 };

@@ -19,8 +19,7 @@ std::unique_ptr<techniques::Technique> make(const techniques::Variant& variant) 
 
 } // namespace
 
-Time measureTime(Stage& stage, const techniques::Variant& variant, Sequence& frames,
-                 const std::vector<techniques::BarePass>& bare, const TimingLimits& limits) {
+Time measureTime(Stage& stage, const techniques::Variant& variant, Sequence& frames, const TimingLimits& limits) {
     const auto uniformMap = make(techniques::parseVariant("sm-uniform"));
     const std::optional<techniques::Variant> baseVariant = techniques::costBase(variant);
     const auto baseTechnique = baseVariant ? make(*baseVariant) : nullptr;
@@ -31,17 +30,12 @@ Time measureTime(Stage& stage, const techniques::Variant& variant, Sequence& fra
             stage.render(t, frames.index, frames.seed);
         };
     };
-    Runner floor{[&stage] { stage.redraw(); }}, uniform{frameOf(*uniformMap)}, own{frameOf(frames.technique)}, base, least;
+    Runner floor{[&stage] { stage.redraw(); }}, uniform{frameOf(*uniformMap)}, own{frameOf(frames.technique)}, base;
     if (baseTechnique) base.frame = frameOf(*baseTechnique);
-    if (!bare.empty())
-        least.frame = [&] {
-            stage.redraw();
-            stage.renderBare(bare);
-        };
 
-    for (const Runner* runner : {&floor, &uniform, &base, &least})
+    for (const Runner* runner : {&floor, &uniform, &base})
         if (runner->frame) runner->frame(); // warm up; the technique itself is warm from being scored
-    timeRounds({&floor, &uniform, &own, &base, &least}, limits, [&frames] { ++frames.index; });
+    timeRounds({&floor, &uniform, &own, &base}, limits, [&frames] { ++frames.index; });
     ++frames.index;
 
     Time time;
@@ -51,8 +45,6 @@ Time measureTime(Stage& stage, const techniques::Variant& variant, Sequence& fra
     time.ratio = median(quotients(own.samples, uniform.samples));
     time.floorRatio = median(quotients(floor.samples, own.samples));
     if (base.frame) time.baseRatio = median(quotients(own.samples, base.samples));
-    if (least.frame) time.bare = median(least.samples);
-    if (least.frame) time.bareRatio = median(quotients(own.samples, least.samples));
     time.samples = own.samples;
     return time;
 }
@@ -60,19 +52,18 @@ Time measureTime(Stage& stage, const techniques::Variant& variant, Sequence& fra
 void settle(Stage& stage, Sequence& frames) { stage.render(frames.technique, frames.index++, frames.seed); }
 
 void measureWork(Stage& stage, Sequence& frames, Record& record) {
-    const ComparedPasses passes = countPasses(stage, frames);
-    setWork(record, WorkOf::StandingFrame, passes.own.frame().work);
-    record.passes = passes.records(false);
+    const FramePasses passes = countPasses(framesOf(stage, frames));
+    setWork(record, WorkOf::StandingFrame, passes.frame().work);
+    record.passes = passRecords(passes, false);
 }
 
 void measureTimes(Stage& stage, const techniques::Variant& variant, Sequence& frames, Record& record) {
-    ComparedPasses passes = countPasses(stage, frames);
-    Time time = measureTime(stage, variant, frames, passes.declared);
+    FramePasses passes = countPasses(framesOf(stage, frames));
+    Time time = measureTime(stage, variant, frames);
     timePasses(passes, stage, frames);
-    time.processorShare = passes.own.processorShare();
-    if (time.bareRatio) *time.bareRatio *= 1 - time.processorShare;
+    time.processorShare = passes.processorShare();
     setTime(record, time);
-    addTimes(passes.records(true), record.passes);
+    addTimes(passRecords(passes, true), record.passes);
 }
 
 } // namespace shadowbench::timing

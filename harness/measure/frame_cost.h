@@ -19,10 +19,9 @@ void measureWork(Stage& stage, Sequence& frames, Record& record);
 void measureTimes(Stage& stage, const techniques::Variant& variant, Sequence& frames, Record& record);
 
 /// Times the technique on the frame that the stage shows. Every round times one frame each of the G-buffer alone,
-/// sm-uniform with default parameters, what its cost is compared with if there is such (Entry::costBase), the technique, and
-/// the bare passes if there are such, in an order that alternates from round to round; all of them are warmed up first (the
-/// first frame compiles shaders).
-Time measureTime(Stage& stage, const techniques::Variant& variant, Sequence& frames,
-                 const std::vector<techniques::BarePass>& bare, const TimingLimits& limits = {});
+/// sm-uniform with default parameters, the technique, and what its cost is compared with if there is such
+/// (Entry::costBase), in an order that alternates from round to round; all of them are warmed up first (the first frame
+/// compiles shaders).
+Time measureTime(Stage& stage, const techniques::Variant& variant, Sequence& frames, const TimingLimits& limits = {});
 
 } // namespace shadowbench::timing

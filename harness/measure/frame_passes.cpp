@@ -12,25 +12,6 @@ namespace {
 constexpr int passRounds = 5;
 constexpr double budgetMilliseconds = 100;
 
-RenderFrame bareFramesOf(Stage& stage, const std::vector<techniques::BarePass>& passes) {
-    return [&](techniques::PassListener& listener) {
-        stage.redraw(&listener);
-        stage.renderBare(passes, &listener);
-    };
-}
-
-/// What is declared of one pass, as one: sources joined, reads added up.
-BareCost declaredOf(const std::vector<techniques::BarePass>& declared, const std::string& pass) {
-    BareCost cost;
-    for (const techniques::BarePass& bare : declared) {
-        if (bare.pass != pass) continue;
-        cost.taps += bare.tapsRead();
-        if (cost.source.find(bare.source) == std::string::npos)
-            cost.source += (cost.source.empty() ? "" : "; ") + bare.source;
-    }
-    return cost;
-}
-
 PassRecord recordOf(const PassCost& pass, double frameTime, bool timed) {
     PassRecord record{.name = pass.name, .runs = pass.runs};
     if (timed) record.milliseconds = pass.milliseconds;
@@ -70,36 +51,11 @@ void addTimes(const std::vector<PassRecord>& timed, std::vector<PassRecord>& pas
         }
         found->milliseconds = pass.milliseconds;
         found->share = pass.share;
-        if (found->bare && pass.bare) found->bare->milliseconds = pass.bare->milliseconds;
     }
 }
 
-std::vector<PassRecord> ComparedPasses::records(bool timed) const {
-    std::vector<PassRecord> records = passRecords(own, timed);
-    for (PassRecord& record : records) {
-        BareCost cost = declaredOf(declared, record.name);
-        const auto drawn = std::ranges::find(bare.passes, record.name, &PassCost::name);
-        if (cost.source.empty() || drawn == bare.passes.end()) continue;
-        if (timed) cost.milliseconds = drawn->milliseconds;
-        cost.fragments = drawn->work.fragments;
-        cost.vertices = drawn->work.vertices;
-        record.bare = cost;
-    }
-    return records;
-}
-
-ComparedPasses countPasses(Stage& stage, Sequence& frames) {
-    ComparedPasses result;
-    result.own = countPasses(framesOf(stage, frames));
-    result.declared = frames.technique.bare(stage.frame(frames.index - 1, frames.seed));
-    if (!result.declared.empty()) result.bare = countPasses(bareFramesOf(stage, result.declared));
-    return result;
-}
-
-void timePasses(ComparedPasses& counted, Stage& stage, Sequence& frames) {
-    timePasses(counted.own, framesOf(stage, frames), passRounds, budgetMilliseconds);
-    if (!counted.declared.empty())
-        timePasses(counted.bare, bareFramesOf(stage, counted.declared), passRounds, budgetMilliseconds);
+void timePasses(FramePasses& counted, Stage& stage, Sequence& frames) {
+    timePasses(counted, framesOf(stage, frames), passRounds, budgetMilliseconds);
 }
 
 OtherScreen measureOtherScreen(const Scene& scene, const techniques::Variant& variant, int frame, std::uint32_t seed) {
@@ -112,9 +68,9 @@ OtherScreen measureOtherScreen(const Scene& scene, const techniques::Variant& va
     const auto technique = variant.entry->make(variant.parameters);
     Sequence frames{*technique, 0, seed};
     for (; frames.index < warmFrames; ++frames.index) stage.render(*technique, frames.index, seed);
-    ComparedPasses passes = countPasses(stage, frames);
+    FramePasses passes = countPasses(framesOf(stage, frames));
     timePasses(passes, stage, frames);
-    return {other.size.x, other.size.y, passes.records(true)};
+    return {other.size.x, other.size.y, passRecords(passes, true)};
 }
 
 } // namespace shadowbench::timing

@@ -1,4 +1,4 @@
-// What a shadow technique's frame costs pass by pass, beside the least that it needs.
+// What a shadow technique's frame costs pass by pass.
 #pragma once
 
 #include "harness/measure/pass_cost.h"
@@ -21,22 +21,10 @@ struct Sequence {
 /// Renders the sequence's next frame of what the stage shows, G-buffer included.
 RenderFrame framesOf(Stage& stage, Sequence& frames);
 
-/// A frame's passes and what they are compared with. Both have the G-buffer.
-struct ComparedPasses {
-    FramePasses own, bare;
-    std::vector<techniques::BarePass> declared; // empty: the technique declares none, and `bare` holds nothing
+/// Times the passes of a counted frame over the next frames of what the stage shows.
+void timePasses(FramePasses& counted, Stage& stage, Sequence& frames);
 
-    /// Pass by pass as records have them. `timed`: with their times.
-    [[nodiscard]] std::vector<PassRecord> records(bool timed) const;
-};
-
-/// Counts the work of the next frame of what the stage shows, and of its bare passes.
-ComparedPasses countPasses(Stage& stage, Sequence& frames);
-
-/// Times both over the next frames.
-void timePasses(ComparedPasses& counted, Stage& stage, Sequence& frames);
-
-/// Pass by pass as records have them, without anything to compare.
+/// Pass by pass as records have them. `timed`: with their times.
 std::vector<PassRecord> passRecords(const FramePasses& passes, bool timed);
 
 /// Sets the times in `passes` by those of `timed`. Work stays that of the frame that was counted: another frame's may

@@ -90,14 +90,6 @@ void fields(auto& visit, Is<SweepStep> auto& s) {
     visit("break_point", s.breakPoint);
 }
 
-void fields(auto& visit, Is<BareCost> auto& b) {
-    visit("source", b.source);
-    visit("milliseconds", b.milliseconds);
-    visit("fragments", b.fragments);
-    visit("vertices", b.vertices);
-    visit("taps", b.taps);
-}
-
 void fields(auto& visit, Is<PassRecord> auto& p) {
     visit("name", p.name);
     visit("runs", p.runs);
@@ -106,7 +98,6 @@ void fields(auto& visit, Is<PassRecord> auto& p) {
     visit("fragments", p.fragments);
     visit("vertices", p.vertices);
     visit("draws", p.draws);
-    visit("bare", p.bare);
     visit.text("drawn_with", p.drawnWith);
 }
 

@@ -56,13 +56,6 @@ struct SweepStep {
     std::optional<double> breakPoint; // first value of the whole curve at which the scene's tolerance is exceeded
 };
 
-/// The least that a pass needs (techniques/contract/bare.h), as passes that do nothing else.
-struct BareCost {
-    std::string source;                      // what asks for it: section, equation
-    std::optional<double> milliseconds = {}; // where times are measured
-    std::uint64_t fragments = 0, vertices = 0, taps = 0;
-};
-
 /// What the pass of a frame costs that techniques name so (techniques/contract/pass.h); all its runs together.
 struct PassRecord {
     std::string name; // "G-buffer" for the harness' own, `betweenPasses` for what belongs to none
@@ -70,7 +63,6 @@ struct PassRecord {
     std::optional<double> milliseconds = {}; // where times are measured
     std::optional<double> share = {};        // of the frame's time that the pass takes
     std::uint64_t fragments = 0, vertices = 0, draws = 0;
-    std::optional<BareCost> bare = {};
     std::string drawnWith = {}; // hash of shaders and state, of a technique folder's own passes
 };
 inline constexpr std::string_view betweenPasses = "between passes";
@@ -164,7 +156,7 @@ std::string toJson(const Record& record);
 std::string recordSchema();
 
 /// Throws BadInput naming the key when `json` is not a record of this schema version: a key is missing, unknown or of
-/// another type. Older records, which state one tolerance only, are read, too.
+/// another type. Older records, which state one tolerance only or have the times of bare passes, are read, too.
 Record parseRecord(const std::string& json);
 
 /// All records of a results.jsonl; throws BadInput naming file and line. A last line without newline (a killed writer of

@@ -56,11 +56,6 @@ techniques::Frame Stage::frame(int index, std::uint32_t seed, techniques::PassLi
             .passes = passes};
 }
 
-void Stage::renderBare(const std::vector<techniques::BarePass>& passes, techniques::PassListener* listener) {
-    bareDrawer_.draw(frame(0, 0, listener), passes);
-    gl::Context::current().check("drawing bare passes on scene " + scene_.id);
-}
-
 void Stage::render(techniques::Technique& technique, int index, std::uint32_t seed, techniques::PassListener* passes) {
     technique.render(frame(index, seed, passes), visibility_);
     gl::Context::current().check("rendering frame " + std::to_string(index) + " of scene " + scene_.id);

@@ -3,7 +3,6 @@
 
 #include "harness/metrics/frames.h"
 #include "scene/scene.h"
-#include "techniques/contract/bare/bare_drawer.h"
 #include "techniques/contract/technique.h"
 
 #include <vector>
@@ -41,9 +40,6 @@ public:
     /// Renders `frame(index, seed, passes)`.
     void render(techniques::Technique& technique, int index, std::uint32_t seed, techniques::PassListener* passes = nullptr);
 
-    /// Draws the least that a technique's passes need in place of these.
-    void renderBare(const std::vector<techniques::BarePass>& passes, techniques::PassListener* listener = nullptr);
-
     /// The visibility image of the last `render`.
     [[nodiscard]] Image<float> visibility() const { return target_.readFloat(0); }
 
@@ -55,7 +51,6 @@ private:
     gl::GBuffer gbuffer_;
     gl::Texture visibility_;
     gl::RenderTarget target_;
-    techniques::BareDrawer bareDrawer_;
 };
 
 } // namespace shadowbench

@@ -127,7 +127,6 @@ Record withoutTimings(Record record) {
         for (PassRecord& pass : *passes) {
             pass.milliseconds.reset();
             pass.share.reset();
-            if (pass.bare) pass.bare->milliseconds.reset();
         }
     record.otherScreen.reset(); // measured for its times
     record.deviceCosts.clear();

@@ -1,7 +1,5 @@
 #include "techniques/contract/resolve.h"
 
-#include <numeric>
-
 namespace shadowbench::techniques {
 
 void resolve(const Frame& frame, std::initializer_list<const gl::Texture*> outputs, const gl::Program& program,
@@ -18,11 +16,6 @@ Image<float> numbersOf(const Frame& frame, const gl::Program& program) {
     target.bind();
     program.drawScreen();
     return target.readFloat(0);
-}
-
-double sumOverPixels(const Frame& frame, const gl::Program& program) {
-    const Image<float> written = numbersOf(frame, program);
-    return std::accumulate(written.begin(), written.end(), 0.0);
 }
 
 } // namespace shadowbench::techniques

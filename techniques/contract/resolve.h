@@ -17,7 +17,4 @@ void resolve(const Frame& frame, std::initializer_list<const gl::Texture*> outpu
 /// What a full-screen pass over the frame's pixels writes, a number a pixel.
 Image<float> numbersOf(const Frame& frame, const gl::Program& program);
 
-/// What a full-screen pass over the frame's pixels writes, added up: how many they are, or how often they read something.
-double sumOverPixels(const Frame& frame, const gl::Program& program);
-
 } // namespace shadowbench::techniques

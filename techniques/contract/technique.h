@@ -3,7 +3,6 @@
 #pragma once
 
 #include "scene/snapshot.h"
-#include "techniques/contract/bare.h"
 #include "techniques/contract/pass.h"
 #include "techniques/gl/gbuffer.h"
 #include "techniques/gl/scene_buffers.h"
@@ -17,7 +16,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace shadowbench::techniques {
 
@@ -36,13 +34,6 @@ struct Frame {
 
     [[nodiscard]] double aspect() const { return static_cast<double>(size.x) / size.y; }
     [[nodiscard]] bool cameraMoved() const { return clipFromWorld != previousClipFromWorld; }
-
-    /// The same frame, of whose passes nobody learns: for what draws a part of it again (BarePass::own).
-    [[nodiscard]] Frame withoutListener() const {
-        Frame frame = *this;
-        frame.passes = nullptr;
-        return frame;
-    }
 
     /// Begins a pass, which ends with what is returned: `const auto pass = frame.pass("blur");`.
     [[nodiscard]] Pass pass(std::string_view name) const { return {name, passes}; }
@@ -63,10 +54,6 @@ public:
     /// Numbers of `frame`, the one that was rendered last, that only the technique knows, by names that its entry declares.
     /// The work of counting them belongs here, where it is not timed.
     [[nodiscard]] virtual std::map<std::string, double> figures([[maybe_unused]] const Frame& frame) const { return {}; }
-
-    /// The least that the passes of `frame`, the one that was rendered last, need of the GPU. Empty: not declared. Passes of
-    /// the processor are not among them.
-    [[nodiscard]] virtual std::vector<BarePass> bare([[maybe_unused]] const Frame& frame) const { return {}; }
 
     /// Where `world` lies in the map that it was tested against in the frame rendered last: in texels, continuous within a
     /// map; how several maps lie to each other does not matter, nor does a normal offset, which moves a plane's points

@@ -3,7 +3,6 @@
 #include "techniques/gl/api.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/vec3.hpp>
 
 namespace shadowbench::techniques {
@@ -61,19 +60,6 @@ void PointShading::setDotProducts(const gl::Buffer& results, std::size_t count, 
     results.bindStorage(2);
     dotProducts_.set("vectors", static_cast<int>(count)).set("coefficients", static_cast<int>(coefficients));
     dotProducts_.dispatch(count);
-}
-
-std::vector<BarePass> PointShading::bare(const Frame& frame, std::size_t numbers, std::size_t terms) {
-    constexpr int width = 256; // any will do
-    const int rows = std::max(1, static_cast<int>(numbers) / width), side = static_cast<int>(std::sqrt(terms));
-    const Taps transfer{gl::Format::R32F, glm::ivec2(side), Read::Nearest, static_cast<int>(terms / numbers)};
-    return {{.pass = "dot products",
-             .source = "course, Precomputed Radiance Transfer: light and transfer vectors",
-             .size = {width, rows},
-             .targets = {gl::Format::R32F},
-             .taps = {transfer}},
-            bareLookup("lookup", "interpolated between three points", frame.size,
-                       {{gl::Format::R32F, {width, rows}, Read::Nearest, 3}})};
 }
 
 void PointShading::lookUp(const Frame& frame, const gl::Texture& visibility) {

@@ -38,9 +38,6 @@ public:
     void setDotProducts(const gl::Buffer& results, std::size_t count, const gl::Buffer& transfer, const gl::Buffer& light,
                         std::size_t coefficients);
 
-    /// The least of a frame: as the pass "dot products" `numbers` numbers, from `terms` terms in all, and the pass "lookup".
-    [[nodiscard]] static std::vector<BarePass> bare(const Frame& frame, std::size_t numbers, std::size_t terms);
-
     /// Writes E / E₀, clamped to [0, 1], at every pixel of the G-buffer, as the pass "lookup".
     void lookUp(const Frame& frame, const gl::Texture& visibility);
 

@@ -182,52 +182,13 @@ void PrefilteredMap::blurColumns(const gl::Texture& rows, int layer) {
     means_.dispatch(static_cast<std::size_t>(rows.size().x) * runs);
 }
 
-std::vector<BarePass> PrefilteredMap::bare(const Frame& frame, const std::string& stored, int read) const {
-    const gl::Texture& rows = rows_.front();
-    const std::vector<gl::Format> ofRows(rows_.size(), rows.format()), ofMeans(rows_.size(), format_);
-    const int depths = 4 / numbersOf(format_) * (1 << (2 * box_.level)); // that a texel of the rows is made of
-    const Taps everyDepth{gl::Format::Depth32F, glm::ivec2(depth_.side()), Read::Nearest, depths};
-    const std::vector<Taps> everyRow(rows_.size(), {rows.format(), rows.size(), Read::Pixel});
-    const std::vector<Taps> finerLevel(rows_.size(), {format_, filtered_.size(), Read::Linear});
-    const glm::ivec2 third = glm::max(filtered_.size() * glm::ivec2(3, 4) / 6, 1); // ¼ + 1/16 + … of the texels
-
-    std::vector<BarePass> passes{bareDepthMap("course, Shadow Mapping", depth_.side(), light_.clipFromWorld)};
-    for (int first = 0; first < filtered_.layers(); first += static_cast<int>(rows_.size())) {
-        passes.push_back({.pass = "blur",
-                          .source = stored + "; a separable box, along rows: each depth once",
-                          .size = rows.size(),
-                          .targets = ofRows,
-                          .taps = {everyDepth}});
-        passes.push_back({.pass = "blur",
-                          .source = "along columns: each mean once",
-                          .size = rows.size(),
-                          .targets = ofRows,
-                          .taps = everyRow});
-        passes.push_back({.pass = "blur",
-                          .source = "mip mapping: each texel from one bilinear read",
-                          .size = third,
-                          .targets = ofMeans,
-                          .taps = finerLevel});
-    }
-    passes.push_back(bareLookup(
-        "resolve", "dissertation 2.2.1: prefiltered and mipmapped, the bilinear reads of a pixel's footprint", frame.size,
-        std::vector<Taps>(static_cast<std::size_t>(read), {format_, filtered_.size(), Read::Linear, readsOf(frame)})));
-    return passes;
-}
-
-int PrefilteredMap::readsOf(const Frame& frame) const {
-    gl::Program counting = gl::Program::screen("filtered/reads.frag");
-    bindTo(counting, frame);
-    return std::max(static_cast<int>(sumOverPixels(frame, counting) / (frame.size.x * frame.size.y)), 1);
-}
-
 void PrefilteredMap::bindTo(gl::Program& resolve, const Frame& frame) const {
     resolve.set("positions", frame.gbuffer.position())
         .set("normals", frame.gbuffer.normal())
         .set("mapFromWorld", mapFromWorld(light_))
         .set("imageFromWorld", glm::mat4(imageFromClip(frame.size) * frame.clipFromWorld))
+        .set("unitDepthFromWorld", glm::vec4(unitDepthFromWorld(light_)))
         .set("maps", filtered_);
-    if (resolve.uses("unitDepthFromWorld")) resolve.set("unitDepthFromWorld", glm::vec4(unitDepthFromWorld(light_)));
 }
 
 void PrefilteredMap::bindDepthsTo(gl::Program& resolve) const {

@@ -55,11 +55,6 @@ public:
     /// over the box, with mipmaps ("blur").
     void draw(const Frame& frame);
 
-    /// The least of the frame drawn last: that of the map, of its filter and of a lookup that reads `read` of the textures.
-    /// `stored`: what asks for the basis. The filter's two passes and its mipmaps read each texel once: a box's running sum
-    /// needs no more, however wide it is.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame, const std::string& stored, int read) const;
-
     /// Sets what filtered/prefiltered_map.glsl reads.
     void bindTo(gl::Program& resolve, const Frame& frame) const;
 
@@ -72,8 +67,6 @@ public:
     void bindDepthsTo(gl::Program& resolve) const;
 
 private:
-    /// Bilinear reads that a pixel's lookup takes in the mean, rounded down: a trilinear one is two.
-    [[nodiscard]] int readsOf(const Frame& frame) const;
     void blurRows(int firstTexture);
     void blurColumns(const gl::Texture& rows, int layer);
 

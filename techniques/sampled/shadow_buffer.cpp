@@ -112,18 +112,6 @@ void ShadowBuffer::crop(const Frame& frame, const gl::Texture& visibility) const
     ++gl::Context::current().tally().passes;
 }
 
-/// The overscan's part of the G-buffer is not among it: drawn with the rest it needs no vertices of its own. Nor is the
-/// crop, which copies texels.
-std::vector<BarePass> ShadowBuffer::bare(int side, Read read, const std::string& source) const {
-    const glm::ivec2 wide = images_->overscan.size();
-    BarePass update = bareLookup("temporal resolve", source, wide,
-                                 {{gl::Format::RGBA32F, wide, Read::Pixel},
-                                  {gl::Format::Depth32F, glm::ivec2(side), read},
-                                  {gl::Format::RGBA16F, wide, Read::Linear}});
-    update.targets.push_back(gl::Format::RGBA16F);
-    return {std::move(update)};
-}
-
 std::map<std::string, double> ShadowBuffer::figures(int firstSamples) const {
     const Image<glm::vec4> buffer = gl::RenderTarget({&images_->read}).readVec4(0);
     const auto counts = [&](float least) {

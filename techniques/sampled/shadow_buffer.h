@@ -44,10 +44,6 @@ public:
     /// pass "temporal resolve"), and copies what it shows of the image into `visibility` (a pass "crop").
     void update(const Frame& frame, gl::Program& resolve, const gl::Texture& visibility);
 
-    /// The least of the frame that was updated last beside its map of `side`² texels, of which each pixel reads one as
-    /// `read` says. `source`: what asks for that.
-    [[nodiscard]] std::vector<BarePass> bare(int side, Read read, const std::string& source) const;
-
     /// Of the frame that was updated last; a pixel that it began anew counts for `firstSamples`.
     [[nodiscard]] std::map<std::string, double> figures(int firstSamples) const;
 

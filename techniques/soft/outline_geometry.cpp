@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <utility>
 
 namespace shadowbench::techniques {
 
@@ -78,14 +77,6 @@ void OutlineGeometry::draw(gl::Program& program, const LinearisedMap& map) const
     glBlendEquation(GL_FUNC_ADD);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_CLAMP);
-}
-
-std::vector<BarePass> bareOutlineMap(const Frame& frame, const LightView& view, const LinearisedMap& map, gl::Format format,
-                                     BarePass attached) {
-    const glm::ivec2 size(map.side());
-    return {bareDepthMap("course, Shadow Mapping", map.side(), view.clipFromWorld), std::move(attached),
-            bareLookup("resolve", "dissertation 2.3.2: a depth, and what is drawn over it", frame.size,
-                       {{gl::Format::Depth32F, size, Read::Compare}, {format, size, Read::Nearest}})};
 }
 
 std::vector<Parameter> receiverBiasParameters() {

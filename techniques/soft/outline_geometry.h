@@ -62,11 +62,6 @@ private:
     bool bound_ = false;
 };
 
-/// The least of such a technique: the map, what is drawn over it (`attached`), and a lookup of both, the latter of texels of
-/// `format`.
-std::vector<BarePass> bareOutlineMap(const Frame& frame, const LightView& view, const LinearisedMap& map, gl::Format format,
-                                     BarePass attached);
-
 /// `depthMapParameters` of techniques that test receivers as soft/outline_receiver.glsl does. The map has no bias: where a
 /// caster is seen nearly edge-on, one by its slope would push it behind its own receiver, and no penumbra covers that texel.
 std::vector<Parameter> receiverBiasParameters();

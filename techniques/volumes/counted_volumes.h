@@ -13,10 +13,6 @@ public:
         volumes_.render(frame, frame.hardLight.homogeneous(), frame.gbuffer.depthStencil(), visibility);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return volumes_.bare(frame.gbuffer.depthStencil());
-    }
-
     [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
         return volumes_.figures(frame.gbuffer.depthStencil());
     }

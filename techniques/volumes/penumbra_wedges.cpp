@@ -156,7 +156,7 @@ void PenumbraWedges::uploadWedges() {
 /// Depth-pass: where a ray from the eye enters what a quad bounds, a layer begins, and where it leaves it, one ends. The
 /// layers around the eye are known, so that no volume needs caps. Whether a quad lies before a pixel's point is for the
 /// shader to say; the depth test leaves out those that are far behind.
-void PenumbraWedges::countLayers(const Frame& frame, const gl::Texture& layers) const {
+void PenumbraWedges::countLayers(const Frame& frame, const gl::Texture& layers) {
     const auto pass = frame.pass("hard shadow quads");
     const gl::RenderTarget target({&layers, &frame.gbuffer.depthStencil()});
     target.clearColour(0, glm::vec4(static_cast<float>(eyeLayers_)));

@@ -44,7 +44,7 @@ public:
     void build(const Frame& frame, const Light& light);
 
     /// Writes to each pixel how many layers (`layerEdges`) hide the light's middle from its surface point.
-    void countLayers(const Frame& frame, const gl::Texture& layers) const;
+    void countLayers(const Frame& frame, const gl::Texture& layers);
 
     /// Draws the wedges with a program of volumes/wedge.vert, whose further uniforms are set, into `target`, adding to
     /// its colour: a fragment for each pixel whose point lies before the far side of a wedge. The target has the G-buffer's
@@ -81,7 +81,7 @@ private:
     std::vector<DrawnWedge> wedges_;
     gl::Buffer edgeBuffer_, wedgeBuffer_, wedgeIndices_;
     gl::VertexArray wedgeLayout_;
-    mutable gl::Program quad_;
+    gl::Program quad_;
 };
 
 } // namespace shadowbench::techniques

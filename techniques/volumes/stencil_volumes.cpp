@@ -64,24 +64,19 @@ StencilVolumes::StencilVolumes(VolumeTest test, FarPlane far)
 
 void StencilVolumes::render(const Frame& frame, const glm::dvec4& light, const gl::Texture& depthStencil,
                             const gl::Texture& visibility) {
-    buildVolumes(frame, light, volumes_);
-    setView(frame, light);
+    buildVolumes(frame, light);
+    volume_.set("clipFromWorld", glm::mat4(clipFromWorld(frame, far_))).set("light", glm::vec4(light));
 
     const gl::RenderTarget target({&visibility, &depthStencil});
     target.clearColour(0, glm::vec4(1));
     // A parity has no range that it could leave.
-    const Draws draws = volumes_.draws;
-    const std::size_t group = test_ == VolumeTest::ExclusiveOr ? draws.size() : countedTogether;
-    for (std::size_t first = 0; first < draws.size(); first += group) {
+    const std::size_t group = test_ == VolumeTest::ExclusiveOr ? draws_.size() : countedTogether;
+    for (std::size_t first = 0; first < draws_.size(); first += group) {
         target.clearStencil();
         target.bind();
-        count(frame, draws.subspan(first, std::min(group, draws.size() - first)));
+        count(frame, Draws(draws_).subspan(first, std::min(group, draws_.size() - first)));
         darken(frame, target);
     }
-}
-
-void StencilVolumes::setView(const Frame& frame, const glm::dvec4& light) {
-    volume_.set("clipFromWorld", glm::mat4(clipFromWorld(frame, far_))).set("light", glm::vec4(light));
 }
 
 const StencilVolumes::VolumeMesh& StencilVolumes::volumeMesh(const std::shared_ptr<const Mesh>& mesh,
@@ -110,36 +105,34 @@ std::optional<VolumeTest> StencilVolumes::testFor(const EdgeMesh& mesh, const Vo
 }
 
 /// The volumes of all placements, each with its own light position in object space.
-void StencilVolumes::buildVolumes(const Frame& frame, const glm::dvec4& light, Volumes& volumes) {
+void StencilVolumes::buildVolumes(const Frame& frame, const glm::dvec4& light) {
     const auto pass = frame.pass("silhouette volumes");
     const Camera& camera = frame.snapshot.camera;
     const double far = far_ == FarPlane::AtInfinity ? std::numeric_limits<double>::infinity() : camera.far;
     const View view{{camera, frame.aspect(), far}, {camera, frame.aspect(), camera.near}};
-    volumes.draws.clear();
-    volumes.corners.clear();
+    draws_.clear();
+    corners_.clear();
     std::size_t placements = 0;
     for (const Batch& batch : frame.snapshot.batches) {
         const VolumeMesh& mesh = volumeMesh(batch.mesh, frame.scene);
         for (const Placement& placement : batch.placements) {
             const VolumeBounds volume(mesh.edges.bounds(), placement.world, {&light, 1});
             if (const auto test = testFor(mesh.edges, volume, view))
-                appendVolume(mesh, placements, *test, glm::inverse(placement.world) * light, volumes);
+                appendVolume(mesh, placements, *test, glm::inverse(placement.world) * light);
             ++placements;
         }
     }
-    volumes.culled = placements - volumes.draws.size();
-    std::ranges::stable_partition(volumes.draws, [](const Draw& draw) { return draw.test != VolumeTest::DepthFail; });
-    volumes.indices.upload(volumes.corners.data(), volumes.corners.size() * sizeof(std::uint32_t));
+    culled_ = placements - draws_.size();
+    std::ranges::stable_partition(draws_, [](const Draw& draw) { return draw.test != VolumeTest::DepthFail; });
+    indices_.upload(corners_.data(), corners_.size() * sizeof(std::uint32_t));
 }
 
 void StencilVolumes::appendVolume(const VolumeMesh& mesh, std::size_t placement, VolumeTest test,
-                                  const glm::dvec4& objectLight, Volumes& volumes) {
+                                  const glm::dvec4& objectLight) {
     const Caps caps = test == VolumeTest::DepthFail ? Caps::Both : Caps::None;
-    std::vector<std::uint32_t>& corners = volumes.corners;
-    const std::size_t first = corners.size();
-    const std::size_t capCorners = appendShadowVolume(mesh.edges, objectLight, caps, corners);
-    volumes.draws.push_back(
-        {&mesh, &volumes.indices, placement, test, first, capCorners, corners.size() - first - capCorners});
+    const std::size_t first = corners_.size();
+    const std::size_t capCorners = appendShadowVolume(mesh.edges, objectLight, caps, corners_);
+    draws_.push_back({&mesh, placement, test, first, capCorners, corners_.size() - first - capCorners});
 }
 
 /// Those counted from the eye, and those counted by depth-fail.
@@ -176,7 +169,7 @@ void StencilVolumes::drawVolumes(Draws draws) const {
     volume_.use();
     for (const Draw& draw : draws) {
         draw.mesh->layout.bind();
-        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, draw.indices->id());
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
         drawCaps(draw);
         drawCorners(draw, draw.first + draw.caps, draw.sides);
     }
@@ -194,51 +187,19 @@ std::uint64_t StencilVolumes::fragmentsPassing(unsigned depthFunction, Draws dra
     return meter.finish();
 }
 
-void StencilVolumes::countAgain(const Volumes& volumes, const gl::Texture& depthStencil) const {
-    const gl::RenderTarget target({&depthStencil});
-    target.clearStencil();
-    target.bind();
-    drawCounting(volumes.draws);
-}
-
-BarePass StencilVolumes::bareCount(const Frame& frame, const glm::dvec4& light, const gl::Texture& depthStencil) {
-    const auto volumes = std::make_shared<Volumes>();
-    buildVolumes(frame.withoutListener(), light, *volumes);
-    return {.pass = "stencil count",
-            .source = "Zápotocký 2.4: sides and caps of the volumes",
-            .size = depthStencil.size(),
-            .targets = {},
-            .own = [this, volumes, light, frame = frame.withoutListener(), &depthStencil] {
-                setView(frame, light);
-                countAgain(*volumes, depthStencil);
-            }};
-}
-
-std::vector<BarePass> StencilVolumes::bare(const gl::Texture& depthStencil) const {
-    return {{.pass = "stencil count",
-             .source = "Zápotocký 2.4: sides and caps of the volumes",
-             .size = depthStencil.size(),
-             .targets = {},
-             .own = [this, &depthStencil] { countAgain(volumes_, depthStencil); }},
-            {.pass = "resolve",
-             .source = "Zápotocký 2.4: where the count is 0",
-             .size = depthStencil.size(),
-             .targets = {gl::Format::R32F}}};
-}
-
 std::map<std::string, double> StencilVolumes::figures(const gl::Texture& depthStencil) const {
     std::uint64_t fragments = 0, updates = 0;
-    for (const Draws& part : byTest(volumes_.draws)) {
+    for (const Draws& part : byTest(draws_)) {
         const std::uint64_t all = fragmentsPassing(GL_ALWAYS, part, depthStencil);
         const std::uint64_t passing = fragmentsPassing(GL_LESS, part, depthStencil);
         const bool byDepthFail = !part.empty() && part.front().test == VolumeTest::DepthFail;
         fragments += all;
         updates += byDepthFail ? all - passing : passing;
     }
-    return {{"volume_triangles", static_cast<double>(volumes_.corners.size()) / 3},
+    return {{"volume_triangles", static_cast<double>(corners_.size()) / 3},
             {"volume_fragments", static_cast<double>(fragments)},
-            {"volumes_culled", static_cast<double>(volumes_.culled)},
-            {"volumes_by_depth_fail", static_cast<double>(byTest(volumes_.draws).back().size())},
+            {"volumes_culled", static_cast<double>(culled_)},
+            {"volumes_by_depth_fail", static_cast<double>(byTest(draws_).back().size())},
             {"stencil_updates", static_cast<double>(updates)},
             {"stencil_bytes", 4.0 * static_cast<double>(fragments + updates)}};
 }

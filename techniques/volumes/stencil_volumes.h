@@ -50,13 +50,6 @@ public:
     /// `volumeFigures` of the frame rendered last, against the same depth: its volumes are drawn again, and change nothing.
     [[nodiscard]] std::map<std::string, double> figures(const gl::Texture& depthStencil) const;
 
-    /// The least that the frame rendered last needs of the GPU: its volumes, drawn again against the same depth.
-    [[nodiscard]] std::vector<BarePass> bare(const gl::Texture& depthStencil) const;
-
-    /// The same count of other volumes, those of the casters of `frame` for `light`, which are kept as long as what is
-    /// returned. The frame rendered last stays what it was.
-    [[nodiscard]] BarePass bareCount(const Frame& frame, const glm::dvec4& light, const gl::Texture& depthStencil);
-
 private:
     /// A mesh's vertices twice, at w = 1 and at w = 0, and its edges.
     struct VolumeMesh {
@@ -67,23 +60,14 @@ private:
         gl::VertexArray layout;
     };
 
-    /// The volume of one placement, as a range of `indices`: its caps, then its sides.
+    /// The volume of one placement, as a range of `corners_`: its caps, then its sides.
     struct Draw {
         const VolumeMesh* mesh;
-        const gl::Buffer* indices;
         std::size_t placement; // its number in the snapshot
         VolumeTest test;       // never PerCaster
         std::size_t first, caps, sides;
     };
     using Draws = std::span<const Draw>;
-
-    /// Those of a frame's casters.
-    struct Volumes {
-        std::vector<Draw> draws; // those of one test together
-        std::size_t culled = 0;  // volumes that are left out
-        std::vector<std::uint32_t> corners;
-        gl::Buffer indices; // the corners
-    };
 
     /// Where the pixels' rays run from the eye to the far plane, and to the near plane.
     struct View {
@@ -91,16 +75,13 @@ private:
     };
 
     const VolumeMesh& volumeMesh(const std::shared_ptr<const Mesh>& mesh, const gl::SceneBuffers& scene);
-    void buildVolumes(const Frame& frame, const glm::dvec4& light, Volumes& volumes);
-    void setView(const Frame& frame, const glm::dvec4& light);
+    void buildVolumes(const Frame& frame, const glm::dvec4& light);
     [[nodiscard]] std::optional<VolumeTest> testFor(const EdgeMesh& mesh, const VolumeBounds& volume,
                                                     const View& view) const;
-    static void appendVolume(const VolumeMesh& mesh, std::size_t placement, VolumeTest test, const glm::dvec4& objectLight,
-                             Volumes& volumes);
+    void appendVolume(const VolumeMesh& mesh, std::size_t placement, VolumeTest test, const glm::dvec4& objectLight);
     [[nodiscard]] static std::array<Draws, 2> byTest(Draws draws);
     void count(const Frame& frame, Draws draws) const;
     void drawCounting(Draws draws) const;
-    void countAgain(const Volumes& volumes, const gl::Texture& depthStencil) const;
     void drawVolumes(Draws draws) const;
     [[nodiscard]] std::uint64_t fragmentsPassing(unsigned depthFunction, Draws draws, const gl::Texture& depthStencil) const;
     void drawCaps(const Draw& draw) const;
@@ -111,7 +92,10 @@ private:
     FarPlane far_;
     gl::Program volume_, shadowed_;
     std::unordered_map<const Mesh*, std::unique_ptr<VolumeMesh>> meshes_;
-    Volumes volumes_; // of the frame rendered last
+    std::vector<Draw> draws_; // of the frame rendered last, those of one test together
+    std::size_t culled_ = 0;  // volumes that it left out
+    std::vector<std::uint32_t> corners_;
+    gl::Buffer indices_; // the corners
 };
 
 } // namespace shadowbench::techniques

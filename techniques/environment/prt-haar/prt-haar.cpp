@@ -40,10 +40,6 @@ public:
             shading_.points(), directions_.size());
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return PointShading::bare(frame, shading_.pointCount(), shading_.pointCount() * used_);
-    }
-
 private:
     void precompute(const Frame& frame) {
         const auto pass = frame.pass("precomputation");

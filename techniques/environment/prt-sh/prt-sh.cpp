@@ -48,13 +48,6 @@ public:
                                    shading_.points(), directions_.size());
     }
 
-    /// Of a compressed vector its cluster and its weights: the clusters' own dot products are the processor's.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const std::size_t points = shading_.pointCount(), patches = shading_.patchCount();
-        const std::size_t terms = compressed_ ? 1 + compressed_->components : coefficients_; // of a point
-        return PointShading::bare(frame, points + patches, points * terms + patches * coefficients_);
-    }
-
 private:
     void precompute(const Frame& frame) {
         const auto pass = frame.pass("precomputation");

@@ -62,10 +62,6 @@ public:
         resolve(frame, {&visibility}, resolve_);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return map_.bare(frame, "dissertation 2.2.1: m sine and m cosine textures", terms_ / 2);
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override { return map_.pointAt(world); }
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {

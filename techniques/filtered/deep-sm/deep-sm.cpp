@@ -44,15 +44,6 @@ public:
         resolve(frame, {&visibility}, resolve_);
     }
 
-    /// Without the functions, which the processor makes, and without their nodes: texels may have none.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes{
-            bareDepthMap("dissertation 2.2.1: samples on each texel's area", depths_.side(), light_.clipFromWorld)};
-        passes.push_back(bareLookup("resolve", "four functions between which a pixel interpolates", frame.size,
-                                    {{gl::Format::R32F, glm::ivec2(side_), Read::Nearest, 4}}));
-        return passes;
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(light_, world, glm::dvec2(side_));
     }

@@ -45,18 +45,6 @@ public:
         blur(frame, images_->alongRows, {0, 1}, visibility);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes = pcf_->bare(frame);
-        const Taps pairs{gl::Format::R32F, frame.size, Read::Linear, reach + 1}; // two points of the Gaussian each
-        const BarePass blur{.pass = "blur",
-                            .source = "Zápotocký 3.3, 5.2: a Gaussian of 15 points, horizontally and vertically",
-                            .size = frame.size,
-                            .targets = {gl::Format::R32F},
-                            .taps = {pairs}};
-        passes.insert(passes.end(), 2, blur);
-        return passes;
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return pcf_->mapPoint(world);
     }

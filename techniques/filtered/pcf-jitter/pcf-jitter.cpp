@@ -8,13 +8,11 @@
 // neither does the pixel.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
-#include "techniques/gl/counters.h"
 #include "techniques/shared/filters/jitter_table.h"
 #include "techniques/shared/maps/normal_offset.h"
 #include "techniques/shared/maps/single_map.h"
 #include "techniques/shared/maps/stored_depth.h"
 
-#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -41,28 +39,7 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         light_ = uniformView(frame);
         map_->draw(light_, frame);
-        bindTo(resolve_, frame);
-        resolve(frame, {&visibility}, resolve_);
-    }
-
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const auto taps = [&](int count) {
-            return std::vector<Taps>{{gl::Format::Depth32F, map_->texture().size(), Read::Compare, count},
-                                     {gl::Format::RGBA32F, table_.texture().size(), Read::Nearest, count / 2}};
-        };
-        std::vector<BarePass> passes = map_->bare(light_);
-        append(passes, bareLookup("resolve", "Zápotocký 3.4: the cheap tests, and the others where these disagree",
-                                  frame.size, taps(sectors), {undecided(frame), taps(grid_.taps() - sectors)}));
-        return passes;
-    }
-
-    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
-        return texelAt(light_, world, map_->texture().size());
-    }
-
-private:
-    void bindTo(gl::Program& program, const Frame& frame) const {
-        program.set("positions", frame.gbuffer.position())
+        resolve_.set("positions", frame.gbuffer.position())
             .set("normals", frame.gbuffer.normal())
             .set("mapFromWorld", mapFromWorld(light_))
             .set("depthMap", map_->texture())
@@ -70,21 +47,15 @@ private:
             .set("jitter", table_.texture())
             .set("jitterOrigin", JitterTable::origin(frame.seed))
             .set("radius", radius_);
-        setNormalOffset(program, frame, bias_, map_->texture().size());
+        setNormalOffset(resolve_, frame, bias_, map_->texture().size());
+        resolve(frame, {&visibility}, resolve_);
     }
 
-    /// Pixels of the frame rendered last that take all taps.
-    [[nodiscard]] std::uint64_t undecided(const Frame& frame) const {
-        const gl::Texture image(gl::Format::R8, frame.size);
-        gl::Defines defines = definesFor(grid_, bias_);
-        defines.emplace_back("UNDECIDED", "1");
-        gl::Program counted = gl::Program::screen("filtered/pcf-jitter/pcf-jitter.frag", defines);
-        bindTo(counted, frame);
-        gl::FragmentMeter meter;
-        resolve(frame, {&image}, counted);
-        return meter.finish();
+    [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
+        return texelAt(light_, world, map_->texture().size());
     }
 
+private:
     JitterGrid grid_;
     float radius_;
     bool followPlane_;

@@ -1,4 +1,3 @@
-// With UNDECIDED defined only the pixels are drawn whose first taps disagree, to be counted.
 #include "shared/filters/jitter_table.glsl"
 #include "shared/maps/tested_point.glsl"
 
@@ -22,10 +21,6 @@ float jitteredVisibility(MapPoint point, vec2 slope) {
         passed += testAt(point, slope, offsets.xy) + testAt(point, slope, offsets.zw);
     }
     bool decided = passed == 0.0 || passed == float(FIRST_TAPS);
-#ifdef UNDECIDED
-    if (decided) discard;
-    return passed;
-#endif
     int last = decided ? pair : TAPS / 2;
     for (; pair < last; ++pair) {
         vec4 offsets = jitteredPair(jitter, pair) * reach.xyxy;
@@ -38,10 +33,6 @@ void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
     MapPoint point = testedPoint(receiver);
     visibility = 1.0;
-#ifdef UNDECIDED
-    if (!receiver.seen || point.behind) discard;
-#else
     if (!receiver.seen || point.behind) return;
-#endif
     visibility = jitteredVisibility(point, followPlane * receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at));
 }

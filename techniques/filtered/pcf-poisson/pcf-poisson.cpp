@@ -5,7 +5,6 @@
 // tap is compared with the depth of the receiver's plane at the tap.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
-#include "techniques/shared/maps/bare_map.h"
 #include "techniques/shared/maps/normal_offset.h"
 #include "techniques/shared/maps/single_map.h"
 #include "techniques/shared/sampling/sampling.h"
@@ -41,11 +40,6 @@ public:
             .set("seed", static_cast<int>(frame.seed));
         setNormalOffset(resolve_, frame, bias_, map_.texture().size());
         resolve(frame, {&visibility}, resolve_);
-    }
-
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return bareMappedShadow(frame, light_, map_.side(),
-                                {Read::Compare, static_cast<int>(taps_.size()), "dissertation 2.2.1: a test for each tap"});
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {

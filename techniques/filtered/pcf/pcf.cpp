@@ -24,8 +24,7 @@ gl::Defines definesOf(const Parameters& p) {
 class Pcf final : public Technique {
 public:
     explicit Pcf(const Parameters& p)
-        : bilinear_(p.integer("kernel") == 2), taps_(bilinear_ ? 1 : p.integer("kernel") * p.integer("kernel")),
-          followPlane_(followsPlane(p)), bias_(biasFrom(p)),
+        : bilinear_(p.integer("kernel") == 2), followPlane_(followsPlane(p)), bias_(biasFrom(p)),
           map_(storedDepthMap(p, bilinear_ ? Lookup::CompareBilinear : Lookup::Compare)),
           resolve_(gl::Program::screen("filtered/pcf/pcf.frag", definesOf(p))) {}
 
@@ -41,22 +40,12 @@ public:
         resolve(frame, {&visibility}, resolve_);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const Read read = bilinear_ ? Read::CompareBilinear : Read::Compare;
-        std::vector<BarePass> passes = map_->bare(light_);
-        passes.push_back(bareLookup("resolve", "Zápotocký 3.2: kernel² tests", frame.size,
-                                    {{gl::Format::Depth32F, map_->texture().size(), read, taps_}}));
-        return passes;
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(light_, world, map_->texture().size());
     }
 
 private:
-    bool bilinear_;
-    int taps_;
-    bool followPlane_;
+    bool bilinear_, followPlane_;
     Bias bias_;
     LightView light_;
     std::unique_ptr<ShadowMap> map_;

@@ -21,7 +21,6 @@
 #include "techniques/shared/maps/tiles_on_planes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace shadowbench::techniques {
@@ -66,7 +65,7 @@ public:
         dropStalePages(frame.snapshot);
         const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
         const std::vector<Filling> fillings = cache_.place(pages_);
-        drawn_.clear();
+        drawn_ = 0;
         for (const Filling& filling : fillings) {
             draw(filling, frame, corners);
             test(filling, frame, visibility);
@@ -76,19 +75,9 @@ public:
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame& /*frame*/) const override {
         return {{"pages", static_cast<double>(pages_.size())},
-                {"drawn", static_cast<double>(drawn_.size())},
+                {"drawn", static_cast<double>(drawn_)},
                 {"fillings", static_cast<double>(fillings_)},
                 {"effective_resolution", tiles_.effectiveResolution()}};
-    }
-
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes = demands_.bare("dissertation 2.2.2: the texels that screen-space pixels need");
-        if (!drawn_.empty()) passes.push_back(barePages());
-        const glm::ivec2 table(cells_, cells_ * static_cast<int>(demands_.planes().size()));
-        passes.push_back(bareLookup(
-            "resolve", "dissertation 2.2.2: a pixel's page, and one test", frame.size,
-            {{gl::Format::R32F, table, Read::Nearest}, {gl::Format::Depth32F, maps_.texture().size(), Read::Compare}}));
-        return passes;
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
@@ -96,20 +85,6 @@ public:
     }
 
 private:
-    /// The pages drawn in the frame rendered last, side by side.
-    [[nodiscard]] BarePass barePages() const {
-        const int count = static_cast<int>(drawn_.size());
-        const int columns = static_cast<int>(std::ceil(std::sqrt(count))), rows = (count + columns - 1) / columns;
-        BarePass pages = bareDepthMap("dissertation 2.2.2: the quadtree's pages that are not kept", limits_.texels, {});
-        pages.size = limits_.texels * glm::ivec2(columns, rows);
-        pages.casters = drawn_;
-        for (int i = 0; i < count; ++i) {
-            pages.casters[static_cast<std::size_t>(i)].at = limits_.texels * glm::ivec2(i % columns, i / columns);
-            pages.casters[static_cast<std::size_t>(i)].size = glm::ivec2(limits_.texels);
-        }
-        return pages;
-    }
-
     void choosePages(const Frame& frame, const std::vector<Demand>& demands) {
         const auto pass = frame.pass("refinement");
         pages_ = refine(demands, limits_);
@@ -145,8 +120,8 @@ private:
         for (const HeldPage& held : filling) {
             if (held.kept) continue;
             const LightView view = tiles_.viewOf(tiles_.tiles()[held.number], demands_.planes());
-            drawn_.push_back({.clipFromWorld = view.clipFromWorld, .shown = castersIn(view, corners)});
-            maps_.draw(held.slot, view, frame.scene, drawn_.back().shown);
+            maps_.draw(held.slot, view, frame.scene, castersIn(view, corners));
+            ++drawn_;
         }
     }
 
@@ -174,9 +149,8 @@ private:
     gl::Buffer placeBuffer_;
     gl::Program test_;
 
-    std::vector<Page> pages_;    // of the frame last rendered, as are the next
-    std::vector<Casters> drawn_; // a page each
-    std::size_t fillings_ = 0;
+    std::vector<Page> pages_; // of the frame last rendered, as are the next
+    std::size_t drawn_ = 0, fillings_ = 0;
 };
 
 } // namespace

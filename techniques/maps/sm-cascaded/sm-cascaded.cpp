@@ -67,18 +67,6 @@ public:
         resolve(frame, {&visibility}, resolve_);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes{atlas_.bare("dissertation 2.2.2: a map for each slice")};
-        if (receivers_) { // what they find is too little to write
-            const BarePass bounds =
-                bareLookup("receiver bounds", "Lauritzen et al. 2011: where visible points lie", frame.size, {});
-            passes.insert(passes.end(), {bounds, bounds}); // their depths, then the box of each slice
-        }
-        passes.push_back(bareLookup("resolve", "dissertation 2.2.2: one test a pixel", frame.size,
-                                    {{gl::Format::Depth32F, atlas_.texture().size(), Read::Compare}}));
-        return passes;
-    }
-
     /// In the slice's own map where two are blended.
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return atlas_.pointAt(sliceOf(splits_, glm::dot(eyeDepthFromWorld_, glm::dvec4(world, 1))), world);

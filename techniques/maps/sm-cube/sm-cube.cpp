@@ -39,12 +39,6 @@ public:
         resolve(frame, {&visibility}, resolve_);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return {atlas_.bare("course, Extensions: a map for each side"),
-                bareLookup("resolve", "course, Extensions: one test a pixel", frame.size,
-                           {{gl::Format::Depth32F, atlas_.texture().size(), Read::Compare}})};
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return atlas_.pointAt(cubeSide(world - light_), world);
     }

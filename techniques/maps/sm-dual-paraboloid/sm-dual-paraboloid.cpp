@@ -56,24 +56,19 @@ public:
         const auto far = static_cast<float>(farthest * (1 + 1e-6));
         views_ = halfSpaces(light, frame.snapshot.bounds().centre());
 
-        for (std::size_t i = 0; i < views_.size(); ++i) casters_[i] = castersOf(views_[i], corners);
         draw_.set("far", far).set("constantBias", static_cast<float>(bias_.units * depthStep));
-        drawMaps(frame);
+        atlas_.drawTiles(frame, [&](std::size_t i) {
+            const CasterState state(bias_);
+            glEnable(GL_CLIP_DISTANCE0);
+            draw_.set("lightFromWorld", glm::mat4(views_[i])).use();
+            frame.scene.draw(castersOf(views_[i], corners));
+            glDisable(GL_CLIP_DISTANCE0);
+        });
         resolve_.set("positions", frame.gbuffer.position())
             .set("depthAtlas", atlas_.texture())
             .set("lightFromWorld", glm::mat4(views_[0]))
             .set("far", far);
         resolve(frame, {&visibility}, resolve_);
-    }
-
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return {{.pass = "depth map",
-                 .source = "course, Extensions: two parabolic maps",
-                 .size = atlas_.texture().size(),
-                 .targets = {},
-                 .own = [this, frame = frame.withoutListener()] { drawMaps(frame); }},
-                bareLookup("resolve", "course, Extensions: one test a pixel", frame.size,
-                           {{gl::Format::Depth32F, atlas_.texture().size(), Read::Compare}})};
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
@@ -85,16 +80,6 @@ public:
     }
 
 private:
-    void drawMaps(const Frame& frame) const {
-        atlas_.drawTiles(frame, [&](std::size_t i) {
-            const CasterState state(bias_);
-            glEnable(GL_CLIP_DISTANCE0);
-            draw_.set("lightFromWorld", glm::mat4(views_[i])).use();
-            frame.scene.draw(casters_[i]);
-            glDisable(GL_CLIP_DISTANCE0);
-        });
-    }
-
     /// Frames at the light with z towards the middle of the scene, and away from it.
     static std::array<glm::dmat4, 2> halfSpaces(const glm::dvec3& light, const glm::dvec3& middle) {
         const glm::dvec3 offset = middle - light;
@@ -106,11 +91,9 @@ private:
     }
 
     Bias bias_;
-    std::array<glm::dmat4, 2> views_{};        // of the frame last rendered
-    std::array<std::vector<bool>, 2> casters_; // in each
+    std::array<glm::dmat4, 2> views_{}; // of the frame last rendered
     DepthAtlas atlas_;
-    mutable gl::Program draw_; // `bare` draws again
-    gl::Program resolve_;
+    gl::Program draw_, resolve_;
 };
 
 } // namespace

@@ -7,7 +7,6 @@
 
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
-#include "techniques/shared/maps/bare_map.h"
 #include "techniques/shared/maps/normal_offset.h"
 #include "techniques/shared/maps/single_map.h"
 #include "techniques/shared/sampling/sampling.h"
@@ -77,15 +76,6 @@ public:
     [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
         const double pixels = static_cast<double>(frame.size.x) * frame.size.y;
         return {{"history_bytes", static_cast<double>(history_->read.bytes() + history_->write.bytes()) / pixels}};
-    }
-
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes =
-            bareMappedShadow(frame, light_, map_.side(),
-                             {Read::Compare, filtered_ ? 9 : 1, "EGSR paper, 3: test, history eq. 3.4", "temporal resolve"});
-        passes.back().taps.push_back({gl::Format::RG16F, frame.size, Read::Linear});
-        passes.back().targets.push_back(gl::Format::RG16F);
-        return passes;
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {

@@ -25,14 +25,6 @@ public:
         resolve(frame, {&visibility}, resolve_);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes = depths_.bare(light_);
-        const Taps one{gl::Format::Depth32F, depths_.first().size(), Read::Nearest};
-        passes.push_back(
-            bareLookup("resolve", "course, Bias: a point against the mean of both depths", frame.size, {one, one}));
-        return passes;
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(light_, world, depths_.first().size());
     }

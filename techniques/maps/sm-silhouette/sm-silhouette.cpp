@@ -70,21 +70,6 @@ public:
         return texelAt(light_, world, glm::dvec2(map_.side()));
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes = map_.bare(light_);
-        passes.push_back({.pass = "silhouette map",
-                          .source = "course, Create Silhouette Map: an edge's quad",
-                          .size = points_.size(),
-                          .targets = {},
-                          .own = [this] { drawOutlines(edge_); }});
-        const Branch points{static_cast<std::uint64_t>(pixels(frame, {{"BRANCH", "1"}})),
-                            {{gl::Format::RG16F, points_.size(), Read::Nearest, 5}}};
-        append(passes,
-               bareLookup("resolve", "course, Shadow Silhouette Maps: four depth tests, five points where they differ",
-                          frame.size, {{gl::Format::Depth32F, glm::ivec2(map_.side()), Read::Compare, 4}}, points));
-        return passes;
-    }
-
 private:
     /// Finds the outlines of all placements, in the map drawn last, for `drawOutlines`.
     void uploadOutlines(const Frame& frame) {
@@ -163,8 +148,7 @@ private:
     DepthMap map_;
     gl::Texture points_;
     gl::RenderTarget target_;
-    mutable gl::Program edge_; // `bare` draws again
-    gl::Program resolve_;
+    gl::Program edge_, resolve_;
     gl::Buffer buffer_;
     gl::VertexArray layout_;
     EdgeMeshes meshes_;

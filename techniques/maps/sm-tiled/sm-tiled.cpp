@@ -56,17 +56,6 @@ public:
                 {"effective_resolution", tiles_.effectiveResolution()}};
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes =
-            demands_.bare("dissertation 2.2.2: depth discontinuities, distances and other factors");
-        passes.push_back(atlas_.bare("dissertation 2.2.2: a map for each tile"));
-        const glm::ivec2 table(cells, cells * static_cast<int>(demands_.planes().size()));
-        passes.push_back(bareLookup(
-            "resolve", "dissertation 2.2.2: a pixel's tile, and one test", frame.size,
-            {{gl::Format::R32F, table, Read::Nearest}, {gl::Format::Depth32F, atlas_.texture().size(), Read::Compare}}));
-        return passes;
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return tiles_.pointAt(demands_.planes(), world);
     }

@@ -10,10 +10,6 @@ public:
         const auto pass = frame.pass("clear");
         gl::RenderTarget({&visibility}).clearColour(0, glm::vec4(1));
     }
-
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return {{.pass = "clear", .source = "Zápotocký 5.2", .size = frame.size, .targets = {gl::Format::R32F}}};
-    }
 };
 
 } // namespace

@@ -37,8 +37,7 @@ glm::dmat4 clipFromReceiver(const PlanarReceiver& receiver) {
 class PlanarFake final : public Technique {
 public:
     explicit PlanarFake(const Parameters& p)
-        : kernel_(p.integer("kernel")),
-          shadow_(gl::Format::R8, glm::ivec2(p.integer("map")), gl::Filter::Linear), shadowTarget_{&shadow_},
+        : shadow_(gl::Format::R8, glm::ivec2(p.integer("map")), gl::Filter::Linear), shadowTarget_{&shadow_},
           resolve_(gl::Program::screen("planar/planar-fake/planar-fake.frag", {{"KERNEL", p.text("kernel")}})) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
@@ -61,22 +60,6 @@ public:
         resolve(frame, {&visibility}, resolve_);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const auto receiver = planarReceiver(frame.snapshot);
-        if (!receiver) return {};
-        const glm::dmat4 flattened =
-            clipFromReceiver(*receiver) * projectionOnto(receiver->plane, frame.hardLight.homogeneous());
-        const glm::dvec4 above = receiver->plane - glm::dvec4(0, 0, 0, planeMargin(*receiver));
-        const int pairs = (kernel_ + 1) / 2; // a bilinear read has the mean of two texels along each axis
-        return {{.pass = "projected casters",
-                 .source = "Zápotocký 2.2",
-                 .size = shadow_.size(),
-                 .targets = {gl::Format::R8},
-                 .casters = {{.clipFromWorld = flattened, .plane = above}}},
-                bareLookup("resolve", "Zápotocký 5.2: the mean of kernel² texels", frame.size,
-                           {{gl::Format::R8, shadow_.size(), Read::Linear, pairs * pairs}})};
-    }
-
 private:
     void drawShadow(const Frame& frame, const PlanarReceiver& receiver, const glm::dmat4& clip) {
         const auto pass = frame.pass("projected casters");
@@ -85,7 +68,6 @@ private:
         casters_.draw(frame.scene, receiver, frame.hardLight.homogeneous(), clip, 0);
     }
 
-    int kernel_;
     gl::Texture shadow_;
     gl::RenderTarget shadowTarget_;
     ReceiverFinder finder_;

@@ -28,19 +28,6 @@ public:
         glDisable(GL_STENCIL_TEST);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const auto receiver = planarReceiver(frame.snapshot);
-        if (!receiver) return {};
-        const glm::dmat4 flattened = frame.clipFromWorld * projectionOnto(receiver->plane, frame.hardLight.homogeneous());
-        const glm::dvec4 above = receiver->plane - glm::dvec4(0, 0, 0, planeMargin(*receiver));
-        return {bareLookup("receiver stencil", "Zápotocký 2.2: the receiver's pixels", frame.size, {}),
-                {.pass = "projected casters",
-                 .source = "Zápotocký 2.2",
-                 .size = frame.size,
-                 .targets = {gl::Format::R32F},
-                 .casters = {{.clipFromWorld = flattened, .plane = above}}}};
-    }
-
 private:
     ReceiverFinder finder_;
     ProjectedCasters casters_;

@@ -34,23 +34,6 @@ public:
         resolve(frame, {&visibility}, mean_);
     }
 
-    /// Each projection over those before it; what it covers needs no sum of its own where it takes its share of the light.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const auto receiver = planarReceiver(frame.snapshot);
-        if (!receiver) return {};
-        const glm::dvec4 above = receiver->plane - glm::dvec4(0, 0, 0, planeMargin(*receiver));
-        BarePass projections{.pass = "projected casters",
-                             .source = "Zápotocký 2.2, B.3: the casters from each light sample",
-                             .size = frame.size,
-                             .targets = {gl::Format::R32F}};
-        for (const glm::dvec3& light : lightPoints(frame.snapshot.light, "hammersley", count_, frame.seed))
-            projections.casters.push_back(
-                {.clipFromWorld = frame.clipFromWorld * projectionOnto(receiver->plane, glm::dvec4(light, 1)),
-                 .plane = above});
-        return {bareLookup("receiver stencil", "Zápotocký 2.2: the receiver's pixels", frame.size, {}),
-                std::move(projections)};
-    }
-
 private:
     /// Takes one from the count of light points at each receiver pixel that the shadow from `light` covers, however often.
     void takeShadow(const Frame& frame, const PlanarReceiver& receiver, const glm::dvec3& light,

@@ -43,30 +43,10 @@ public:
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame&) const override { return wedges_.count().figures(); }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const Taps layers{layers_->format(), frame.size, Read::Pixel};
-        const Taps counters{gl::Format::R32F, frame.size, Read::Nearest, static_cast<int>(words())};
-        return {{.pass = "hard shadow quads",
-                 .source = "course, A Soft Shadow Volume Algorithm: a quad an edge",
-                 .size = frame.size,
-                 .targets = {},
-                 .own = [this, frame = frame.withoutListener()] { wedges_.countLayers(frame, *layers_); }},
-                {.pass = "penumbra wedges",
-                 .source = "dissertation 2.3.5: a wedge an edge, a counter a sample",
-                 .size = frame.size,
-                 .targets = {},
-                 .own = [this, frame = frame.withoutListener()] { countSamples(frame); }},
-                {.pass = "resolve",
-                 .source = "the samples whose depth complexity is 0",
-                 .size = frame.size,
-                 .targets = {gl::Format::R32F},
-                 .taps = {layers, counters}}};
-    }
-
 private:
     [[nodiscard]] gl::Defines samples() const { return {{"SAMPLES", std::to_string(count_)}}; }
 
-    void countSamples(const Frame& frame) const {
+    void countSamples(const Frame& frame) {
         const auto pass = frame.pass("penumbra wedges");
         const Light& light = frame.snapshot.light;
         const glm::dmat4 toLight = unitLightFromWorld(light);
@@ -95,10 +75,9 @@ private:
     int count_;
     std::string pattern_;
     PenumbraWedges wedges_{Silhouettes::OfLight};
-    mutable gl::Program wedge_; // `bare` counts again
-    gl::Program resolve_;
+    gl::Program wedge_, resolve_;
     std::optional<gl::Texture> layers_; // that hide the light's middle
-    mutable gl::Buffer counters_;
+    gl::Buffer counters_;
 };
 
 Parameter sampleCount() {

@@ -59,21 +59,6 @@ void AttenuationMap::warp(const Frame& frame, const std::vector<glm::dvec3>& poi
     }
 }
 
-std::vector<BarePass> AttenuationMap::bare(const Frame& frame, const std::vector<glm::dvec3>& points) const {
-    const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
-    std::vector<BarePass> passes;
-    for (const glm::dvec3& point : points) {
-        const LightView sample = fitFromSample(frame.snapshot.light, point, corners);
-        passes.push_back(bareDepthMap("dissertation 2.3.5: a map from each sample", map_.side(), sample.clipFromWorld));
-        passes.push_back({.pass = "warped layers",
-                          .source = "each of its texels into the layers",
-                          .size = glm::ivec2(map_.side()),
-                          .targets = {gl::Format::R32F},
-                          .taps = {{gl::Format::Depth32F, glm::ivec2(map_.side()), Read::Pixel}}});
-    }
-    return passes;
-}
-
 void AttenuationMap::bindTo(gl::Program& program) const {
     const double texel = std::max(view_.span.x, view_.span.y) / side_; // at unit depth
     heads_.bindStorage(3);                                             // layers.glsl

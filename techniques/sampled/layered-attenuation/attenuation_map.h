@@ -26,9 +26,6 @@ public:
     /// Sets what shaders that include sampled/layered-attenuation/layers.glsl read.
     void bindTo(gl::Program& program) const;
 
-    /// The least that `build` needs: a map from each point, each of whose texels is warped once.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame, const std::vector<glm::dvec3>& points) const;
-
     [[nodiscard]] const LightView& view() const { return view_; } // from the light's centre
     [[nodiscard]] int side() const { return side_; }
 

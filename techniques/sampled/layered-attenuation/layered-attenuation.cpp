@@ -15,7 +15,6 @@
 #include "techniques/shared/maps/light_receiver.h"
 #include "techniques/shared/sampling/light_points.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -52,7 +51,9 @@ public:
         rebuilt_ = builtFor_ != now;
         if (rebuilt_) map_.build(frame, lightPoints(frame.snapshot.light, pattern_, count_, frame.seed));
         builtFor_ = std::move(now);
-        bindTo(resolve_, frame);
+        map_.bindTo(resolve_);
+        setLightReceiver(resolve_, map_.view(), true);
+        resolve_.set("positions", frame.gbuffer.position()).set("normals", frame.gbuffer.normal());
         resolve(frame, {&visibility}, resolve_);
     }
 
@@ -69,34 +70,7 @@ public:
         return texelAt(map_.view(), world, glm::dvec2(map_.side()));
     }
 
-    /// As long as nothing has moved, a lookup alone.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes;
-        if (rebuilt_) passes = map_.bare(frame, lightPoints(frame.snapshot.light, pattern_, count_, frame.seed));
-        const glm::ivec2 size(map_.side());
-        passes.push_back(bareLookup("resolve", "dissertation 2.3.5: the attenuation of the layer at its depth", frame.size,
-                                    {{gl::Format::R32F, size, Read::Nearest},                        // the list
-                                     {gl::Format::RG32F, size, Read::Nearest, layersRead(frame)}})); // depth, attenuation
-        return passes;
-    }
-
 private:
-    void bindTo(gl::Program& program, const Frame& frame) const {
-        map_.bindTo(program);
-        program.set("positions", frame.gbuffer.position());
-        if (program.uses("normals")) program.set("normals", frame.gbuffer.normal());
-        setLightReceiver(program, map_.view(), true);
-    }
-
-    /// Layers of a pixel's list in the mean, rounded down; one at least.
-    [[nodiscard]] int layersRead(const Frame& frame) const {
-        gl::Defines defines = attenuationDefines(count_);
-        defines.emplace_back("COUNT_LAYERS", "1");
-        gl::Program counting = gl::Program::screen("sampled/layered-attenuation/layered-attenuation.frag", defines);
-        bindTo(counting, frame);
-        return std::max(static_cast<int>(sumOverPixels(frame, counting) / (frame.size.x * frame.size.y)), 1);
-    }
-
     int count_;
     std::string pattern_;
     AttenuationMap map_;

@@ -1,4 +1,4 @@
-// The share of the light samples that see the receiver's layer. With COUNT_LAYERS defined: how many layers its texel's list has.
+// The share of the light samples that see the receiver's layer.
 #include "gl/receiver.glsl"
 #include "sampled/layered-attenuation/layers.glsl"
 #include "shared/maps/light_receiver.glsl"
@@ -18,16 +18,11 @@ void main() {
     LightReceiver r = lightReceiver(receiver.position, texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);
     uint at = receiver.seen && !r.behind ? texelOf(r.at) : 0u;
     visibility = 1.0;
-#ifdef COUNT_LAYERS
-    visibility = 0.0;
-#endif
     if (at == 0u) return;
     ivec2 keys = keysOf(r);
-    float read = 0.0;
     uint bits[WORDS];
     for (int word = 0; word < WORDS; ++word) bits[word] = 0u;
     for (uint layer = heads[at - 1u]; layer != 0u; layer = layers[fieldsOf(layer)]) {
-        read += 1.0;
         uint fields = fieldsOf(layer);
         int key = int(layers[fields + 1u]);
         uint mask = key >= keys.x && key <= keys.y ? 0xFFFFFFFFu : 0u;
@@ -36,7 +31,4 @@ void main() {
     int seen = 0;
     for (int word = 0; word < WORDS; ++word) seen += bitCount(bits[word]);
     visibility = float(seen) / float(SAMPLES);
-#ifdef COUNT_LAYERS
-    visibility = read + 1e-30 * visibility;  // all uniforms stay in use
-#endif
 }

@@ -23,7 +23,9 @@ public:
         if (!sum_ || sum_->size() != frame.size) sum_.emplace(gl::Format::R32F, frame.size);
         const gl::RenderTarget sumTarget({&*sum_});
         sumTarget.clearColour(0, glm::vec4(0));
-        for (const LightView& light : views(frame)) {
+        const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
+        for (const glm::dvec3& point : lightPoints(frame.snapshot.light, pattern_, count_, frame.seed)) {
+            const LightView light = fitFromSample(frame.snapshot.light, point, corners);
             map_.draw(light, frame);
             addTest(frame, light, sumTarget);
         }
@@ -39,25 +41,7 @@ public:
         return {{"levels", static_cast<double>(levels.size())}};
     }
 
-    /// All maps, and one pass that tests against each: the least whatever is kept at once.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes;
-        for (const LightView& light : views(frame)) append(passes, map_.bare(light));
-        passes.push_back(bareLookup("resolve", "dissertation eq. 4.2: a test against each map", frame.size,
-                                    {{gl::Format::Depth32F, map_.texture().size(), Read::Compare, count_}}));
-        return passes;
-    }
-
 private:
-    /// Of the light's samples.
-    [[nodiscard]] std::vector<LightView> views(const Frame& frame) const {
-        const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
-        std::vector<LightView> all;
-        for (const glm::dvec3& point : lightPoints(frame.snapshot.light, pattern_, count_, frame.seed))
-            all.push_back(fitFromSample(frame.snapshot.light, point, corners));
-        return all;
-    }
-
     void addTest(const Frame& frame, const LightView& light, const gl::RenderTarget& sumTarget) {
         const auto pass = frame.pass("shadow test");
         test_.set("positions", frame.gbuffer.position())

@@ -51,19 +51,6 @@ public:
         return sums;
     }
 
-    /// All samples' images, and one pass that adds them up: the least whatever is kept at once.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes;
-        for (const glm::dvec3& point : points(frame))
-            passes.push_back(volumes_.bareCount(frame, glm::dvec4(point, 1), frame.gbuffer.depthStencil()));
-        passes.push_back({.pass = "mean",
-                          .source = "Zápotocký 5.4: the mean of the samples' images",
-                          .size = frame.size,
-                          .targets = {gl::Format::R32F},
-                          .taps = {{gl::Format::R8, frame.size, Read::Nearest, count_}}});
-        return passes;
-    }
-
 private:
     struct Images {
         explicit Images(glm::ivec2 size) : lit(gl::Format::R8, size), sum(gl::Format::R32F, size), sumTarget{&sum} {}

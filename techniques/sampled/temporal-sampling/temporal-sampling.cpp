@@ -23,24 +23,16 @@ public:
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         buffer_.begin(frame);
-        view_ = lightSampleView(frame);
-        map_.draw(view_, frame);
-        resolve_.set("mapFromWorld", mapFromWorld(view_)).set("depthMap", map_.texture());
+        const LightView view = lightSampleView(frame);
+        map_.draw(view, frame);
+        resolve_.set("mapFromWorld", mapFromWorld(view)).set("depthMap", map_.texture());
         buffer_.update(frame, resolve_, visibility);
     }
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame&) const override { return buffer_.figures(1); }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame&) const override {
-        std::vector<BarePass> passes = map_.bare(view_);
-        append(passes, buffer_.bare(map_.side(), Read::Compare,
-                                    "dissertation 4.1.2: where the point was, a test, and ρ, n and depth (eq. 4.4, 4.5)"));
-        return passes;
-    }
-
 private:
     ShadowBuffer buffer_;
-    LightView view_; // of the frame rendered last
     DepthMap map_;
     gl::Program resolve_;
 };

@@ -36,25 +36,16 @@ public:
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         buffer_.begin(frame);
-        view_ = lightSampleView(frame);
-        map_.draw(view_, frame);
-        movingCasters_.draw(view_, frame);
-        setPcss(resolve_, startTaps, frame.snapshot.light, view_, map_, followPlane_);
+        const LightView view = lightSampleView(frame);
+        map_.draw(view, frame);
+        movingCasters_.draw(view, frame);
+        setPcss(resolve_, startTaps, frame.snapshot.light, view, map_, followPlane_);
         setFilter(frame);
         buffer_.update(frame, resolve_, visibility);
     }
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame&) const override {
         return buffer_.figures(std::max(start_, 1));
-    }
-
-    /// What a pixel needs whose point was seen before and whose error is small. How many need PCSS and smoothing depends on
-    /// the frames before: they are not counted.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame&) const override {
-        std::vector<BarePass> passes{bareDepthMap("dissertation 4.2, pass 1", map_.side(), view_.clipFromWorld)};
-        append(passes, buffer_.bare(map_.side(), Read::Nearest,
-                                    "dissertation 4.2, pass 2: where the point was, a depth, and ρ, n, depth and blocker"));
-        return passes;
     }
 
 private:
@@ -82,7 +73,6 @@ private:
     float threshold_;
     bool followPlane_;
     ShadowBuffer buffer_;
-    LightView view_; // of the frame rendered last
     LinearisedMap map_;
     MovingCasters movingCasters_;
     gl::Program resolve_;

@@ -20,11 +20,11 @@ void setBackProjection(gl::Program& program, const Frame& frame, const LightView
     const glm::dvec2 halfSides = 0.5 * glm::dvec2(glm::length(light.u), glm::length(light.v));
     pyramid.bindTo(program);
     program.set("positions", frame.gbuffer.position())
+        .set("normals", frame.gbuffer.normal())
         .set("mapFromWorld", mapFromWorld(view))
         .set("depthFromWorld", glm::vec4(view.depthFromWorld))
+        .set("followPlane", followPlane ? 1.0F : 0.0F)
         .set("lightScale", glm::vec2(view.span / halfSides));
-    if (!program.uses("followPlane")) return; // counts what a search reaches, and tests nothing there
-    program.set("normals", frame.gbuffer.normal()).set("followPlane", followPlane ? 1.0F : 0.0F);
 }
 
 double meanOverReceivers(const Frame& frame, const gl::Program& program) {

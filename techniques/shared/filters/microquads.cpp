@@ -62,7 +62,7 @@ std::vector<std::uint32_t> Microquads::hiddenAtFirst(const Light& light) const {
 void Microquads::set(gl::Program& program, const Frame& frame, const LightView& view, const gl::Texture& depths,
                      const MinMaxPyramid& pyramid) const {
     setBackProjection(program, frame, view, pyramid, followPlane_);
-    if (program.uses("linearDepth")) program.set("linearDepth", depths);
+    program.set("linearDepth", depths);
     if (window_ == "all") program.set("flatness", flatness_);
     outside_.bindStorage(5); // shared/filters/microquads.frag
 }
@@ -80,22 +80,7 @@ void Microquads::resolve(const Frame& frame, const LightView& view, const gl::Te
 
 double Microquads::quadsOf(const Frame& frame, const LightView& view, const gl::Texture& depths,
                            const MinMaxPyramid& pyramid) const {
-    return meanOf("COUNT_QUADS", frame, view, depths, pyramid);
-}
-
-std::optional<BarePass> Microquads::bare(const Frame& frame, const LightView& view, const gl::Texture& depths,
-                                         const MinMaxPyramid& pyramid) const {
-    if (window_ == "all") return std::nullopt;
-    const Image<unsigned> ids = frame.gbuffer.readIds();
-    const auto background = static_cast<double>(std::ranges::count(ids, 0U)) / static_cast<double>(ids.size());
-    const double corners = (1 - background) * meanOf("COUNT_CORNERS", frame, view, depths, pyramid);
-    return bareLookup("resolve", "dissertation 2.3.4, Fig. 4.3: the corners in a pixel's search area", frame.size,
-                      {{gl::Format::R32F, depths.size(), Read::Nearest, static_cast<int>(corners)}});
-}
-
-double Microquads::meanOf(const std::string& count, const Frame& frame, const LightView& view, const gl::Texture& depths,
-                          const MinMaxPyramid& pyramid) const {
-    gl::Program counting = program({{count, "1"}});
+    gl::Program counting = program({{"COUNT_QUADS", "1"}});
     set(counting, frame, view, depths, pyramid);
     return meanOverReceivers(frame, counting);
 }

@@ -13,7 +13,7 @@ out float visibility;
 
 struct Field {
     uint bits[WORDS];
-    float quads;  // back-projected; with COUNT_CORNERS the corners that the search areas hold
+    float quads;  // back-projected
 };
 
 /// A texel, or a square of 2^level texels, that may be the corner of microquads.
@@ -89,11 +89,6 @@ int levelOf(SearchArea area) {
 void addOccluders(inout Field field, SearchArea area, int layer, LightReceiver r) {
     int level = levelOf(area);
     Cells cells = cellsOf(area, level);
-#ifdef COUNT_CORNERS
-    ivec2 corners = cells.high - cells.low + 1;
-    field.quads += min(corners.x, corners.y) > 1 ? float(corners.x * corners.y) : 0.0;
-    return;
-#endif
     for (int y = cells.low.y; y < cells.high.y; ++y) {
         Corner a = cornerAt(ivec2(cells.low.x, y), level, layer, r);
         Corner d = cornerAt(ivec2(cells.low.x, y + 1), level, layer, r);
@@ -145,7 +140,7 @@ void main() {
     field.quads = 0.0;
     for (int i = 0; i < WORDS; ++i) field.bits[i] = outside[i];
     for (int layer = 0; layer < LAYERS; ++layer) addOccluders(field, searchArea(layer, r), layer, r);
-#if defined(COUNT_QUADS) || defined(COUNT_CORNERS)
+#ifdef COUNT_QUADS
     visibility = field.quads;
 #else
     int open = 0;

@@ -39,14 +39,7 @@ public:
     [[nodiscard]] double quadsOf(const Frame& frame, const LightView& view, const gl::Texture& depths,
                                  const MinMaxPyramid& pyramid) const;
 
-    /// The least that the pass needs: the corners that are between the squares of a search area. Nothing for window=all,
-    /// where it depends on which of them the pyramid spares.
-    [[nodiscard]] std::optional<BarePass> bare(const Frame& frame, const LightView& view, const gl::Texture& depths,
-                                               const MinMaxPyramid& pyramid) const;
-
 private:
-    [[nodiscard]] double meanOf(const std::string& count, const Frame& frame, const LightView& view,
-                                const gl::Texture& depths, const MinMaxPyramid& pyramid) const;
     [[nodiscard]] gl::Program program(gl::Defines defines) const;
 
     /// A field of bits before any occluder: those that no sample of the light has are set.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <glm/geometric.hpp>
 #include <numbers>
 #include <utility>
 
@@ -57,35 +56,6 @@ void OccluderLayers::sum(const Frame& frame, int layers) {
     rows_.dispatch(side * count);
     columns_.set("side", bits_.size().x).set("layers", layers);
     columns_.dispatch(side * count);
-}
-
-std::vector<BarePass> OccluderLayers::bare(const LightView& light, const std::vector<bool>& shown, std::string_view name,
-                                           std::string source, int layers) const {
-    const glm::ivec2 size = bits_.size();
-    std::vector<BarePass> passes{{.pass = name,
-                                  .source = std::move(source),
-                                  .size = size,
-                                  .targets = {gl::Format::R32F},
-                                  .casters = {{.clipFromWorld = light.clipFromWorld, .shown = shown}}}};
-    const BarePass filter{.pass = "summed areas",
-                          .source = "dissertation 2.3.3: each image prefiltered",
-                          .size = size,
-                          .targets = {gl::Format::R32F},
-                          .taps = {{gl::Format::R32F, size, Read::Pixel}}};
-    passes.insert(passes.end(), static_cast<std::size_t>(layers), filter);
-    return passes;
-}
-
-int meanReads(const Frame& frame, const LightView& light, const std::function<int(double depth, unsigned id)>& reads) {
-    const Image<glm::vec4> positions = frame.gbuffer.readPositions();
-    const Image<unsigned> ids = frame.gbuffer.readIds();
-    std::size_t all = 0;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        if (positions[i].w < 0.5F) continue;
-        const double depth = glm::dot(light.depthFromWorld, glm::dvec4(glm::dvec3(positions[i]), 1));
-        if (depth > 0) all += static_cast<std::size_t>(reads(depth, ids[i]));
-    }
-    return static_cast<int>(all / positions.size());
 }
 
 void OccluderLayers::bindTo(gl::Program& resolve, const Light& light, const LightView& view) const {

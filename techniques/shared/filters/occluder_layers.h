@@ -9,8 +9,6 @@
 #include "techniques/gl/texture.h"
 #include "techniques/shared/light_views/light_view.h"
 
-#include <functional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,23 +36,11 @@ public:
     /// Sets the uniforms of shared/filters/occluder_layers.glsl. A disk counts as a rectangle of its area.
     void bindTo(gl::Program& resolve, const Light& light, const LightView& view) const;
 
-    /// The least of images of the placements `shown` as the pass `name`, which `source` asks for, and of their filter, which
-    /// reads and writes each texel of each of `layers` once.
-    [[nodiscard]] std::vector<BarePass> bare(const LightView& light, const std::vector<bool>& shown, std::string_view name,
-                                             std::string source, int layers) const;
-
-    /// R32UI, bit i of a texel: an occluder of layer i.
-    [[nodiscard]] const gl::Texture& bits() const { return bits_; }
-
 private:
-    gl::Texture bits_;
+    gl::Texture bits_; // R32UI, bit i of a texel: an occluder of layer i
     gl::Buffer areas_;
     int summed_ = 0; // layers that areas_ has room for
     gl::Program program_, rows_, columns_;
 };
-
-/// How many layers a pixel reads in the mean, rounded down, where one whose surface `id` lies at `depth` from the light
-/// reads `reads(depth, id)`.
-int meanReads(const Frame& frame, const LightView& light, const std::function<int(double depth, unsigned id)>& reads);
 
 } // namespace shadowbench::techniques

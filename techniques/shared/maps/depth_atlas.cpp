@@ -65,7 +65,6 @@ void DepthAtlas::draw(const std::vector<LightView>& views, const Frame& frame) {
         frame.scene.draw();
     });
     placeViews(views);
-    casters_.clear();
 }
 
 void DepthAtlas::draw(const std::vector<LightView>& views, const Frame& frame,
@@ -75,7 +74,6 @@ void DepthAtlas::draw(const std::vector<LightView>& views, const Frame& frame,
         frame.scene.draw(casters[i]);
     });
     placeViews(views);
-    casters_ = casters;
 }
 
 void DepthAtlas::placeViews(const std::vector<LightView>& views) {
@@ -94,17 +92,6 @@ std::optional<glm::dvec2> DepthAtlas::pointAt(std::size_t tile, const glm::dvec3
     std::optional<glm::dvec2> point = texelAt(views_[tile], world, tiles_[tile].size);
     if (point) *point += tiles_[tile].at;
     return point;
-}
-
-BarePass DepthAtlas::bare(std::string source) const {
-    BarePass pass = bareDepthMap(std::move(source), depth_.size().x, glm::dmat4(1));
-    pass.size = depth_.size();
-    pass.casters.clear();
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-        pass.casters.push_back({.clipFromWorld = views_[i].clipFromWorld, .at = tiles_[i].at, .size = tiles_[i].size});
-        if (!casters_.empty()) pass.casters.back().shown = casters_[i];
-    }
-    return pass;
 }
 
 void DepthAtlas::bindTo(gl::Program& program) const {

@@ -43,9 +43,6 @@ public:
     /// Clears the atlas and calls `drawTile` once for each tile, with drawing confined to that tile.
     void drawTiles(const Frame& frame, const std::function<void(std::size_t)>& drawTile) const;
 
-    /// The least that drawing the views drawn last needs.
-    [[nodiscard]] BarePass bare(std::string source) const;
-
     /// Sets the uniforms of shared/maps/depth_atlas.glsl for the views drawn last; TILES must be the number of tiles, or
     /// more.
     void bindTo(gl::Program& program) const;
@@ -65,8 +62,7 @@ private:
     gl::RenderTarget target_;
     gl::Program program_;
     Bias bias_;
-    std::vector<LightView> views_;           // drawn last
-    std::vector<std::vector<bool>> casters_; // that were drawn into each; empty: all
+    std::vector<LightView> views_; // drawn last
     std::vector<glm::mat4> atlasFromWorld_;
     std::vector<glm::vec4> inner_; // per tile: its outermost texel centres, low and high, in [0, 1] of the atlas
 };

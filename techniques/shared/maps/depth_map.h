@@ -57,11 +57,6 @@ public:
     /// Draws the frame's scene as seen from the light. Occluders between the light and the near plane are kept, at depth 0.
     virtual void draw(const LightView& light, const Frame& frame) = 0;
 
-    /// The least that drawing it needs.
-    [[nodiscard]] virtual std::vector<BarePass> bare(const LightView& light) const {
-        return {bareDepthMap("course, Shadow Mapping", texture().size().x, light.clipFromWorld)};
-    }
-
     [[nodiscard]] virtual const gl::Texture& texture() const = 0;
 };
 

@@ -11,7 +11,6 @@
 
 #include <glm/vec4.hpp>
 #include <memory>
-#include <vector>
 
 namespace shadowbench::techniques {
 
@@ -42,9 +41,6 @@ public:
 
     /// The same for unit depths.
     void bindUnitTo(gl::Program& program) const { bind(program, unit_); }
-
-    /// The least that drawing it needs.
-    [[nodiscard]] std::vector<BarePass> bare(const LightView& light) const { return depth_->bare(light); }
 
     [[nodiscard]] int side() const { return depth_->texture().size().x; }
 

@@ -54,14 +54,6 @@ void TwoDepths::drawFaces(const LightView& light, const Frame& frame) {
     drawNearest(gl::RenderTarget{&second_}, nearest_, Faces::Back, light, frame.scene);
 }
 
-std::vector<BarePass> TwoDepths::bare(const LightView& light) const {
-    const int side = first_.size().x;
-    std::vector<BarePass> passes(2, bareDepthMap("course, Shadow Mapping", side, light.clipFromWorld));
-    passes.back().pass = "second depth";
-    passes.back().source = "course, Bias: second surface";
-    return passes;
-}
-
 void TwoDepths::drawNearest(const gl::RenderTarget& target, gl::Program& program, Faces faces, const LightView& light,
                             const gl::SceneBuffers& scene) {
     target.clearDepth(1);

@@ -18,9 +18,6 @@ public:
 
     void draw(const LightView& light, const Frame& frame);
 
-    /// Both surfaces; the second's comparison with the first is left out.
-    [[nodiscard]] std::vector<BarePass> bare(const LightView& light) const;
-
     [[nodiscard]] const gl::Texture& first() const { return first_; }
     [[nodiscard]] const gl::Texture& second() const { return second_; }
 
@@ -45,8 +42,6 @@ public:
 
     /// Depth 1 where there is no second surface.
     void draw(const LightView& light, const Frame& frame) override;
-
-    [[nodiscard]] std::vector<BarePass> bare(const LightView& light) const override { return depths_.bare(light); }
 
     [[nodiscard]] const gl::Texture& texture() const override { return middle_; }
 

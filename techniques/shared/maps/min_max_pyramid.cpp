@@ -52,14 +52,6 @@ void MinMaxPyramid::drawLayer(const gl::Texture& depths, int layer) {
     }
 }
 
-BarePass barePyramid(int side) {
-    return {.pass = "min/max pyramid",
-            .source = "Guennebaud et al. 2006: a node of four",
-            .size = glm::ivec2(side) * glm::ivec2(3, 4) / 6, // ¼ + 1/16 + … of the texels
-            .targets = {gl::Format::RG32F},
-            .taps = {{gl::Format::RG32F, glm::ivec2(side), Read::Nearest, 4}}};
-}
-
 void MinMaxPyramid::bindTo(gl::Program& program) const {
     program.set("pyramid", atlas_).set("pyramidSide", side_).set("mapSide", mapSide_);
 }

@@ -40,7 +40,4 @@ private:
     gl::Program first_, next_;
 };
 
-/// The least of a pyramid over a map of `side`² depths: all its levels, each node from four.
-BarePass barePyramid(int side);
-
 } // namespace shadowbench::techniques

@@ -1,7 +1,6 @@
 #include "techniques/shared/maps/plane_demands.h"
 
 #include <cmath>
-#include <utility>
 
 namespace shadowbench::techniques {
 namespace {
@@ -55,18 +54,6 @@ const std::vector<Demand>& PlaneDemands::of(const Frame& frame, const gl::Textur
         demands_.push_back({static_cast<int>(plane), {d.x - plane, d.y}, {d.z, d.w}});
     }
     return demands_;
-}
-
-std::vector<BarePass> PlaneDemands::bare(std::string source) const {
-    std::vector<BarePass> passes;
-    std::vector<Taps> taps;
-    if (first_) { // a discontinuity is between a texel and its neighbours along x and y
-        passes.push_back(first_->bare("a first map, for its depth discontinuities"));
-        taps.push_back({gl::Format::Depth32F, first_->texture().size(), Read::Compare, 3});
-    }
-    passes.push_back(bareLookup("demands", std::move(source), texture_->size(), std::move(taps)));
-    passes.back().targets = {gl::Format::RG32F}; // where in the map, and how much
-    return passes;
 }
 
 void PlaneDemands::bindTo(gl::Program& program, const Frame& frame) const {

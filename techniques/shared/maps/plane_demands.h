@@ -8,7 +8,6 @@
 #include "techniques/shared/maps/tile_choice.h"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace shadowbench::techniques {
@@ -31,9 +30,6 @@ public:
 
     /// Views of the planes of the last frame: one, or six.
     [[nodiscard]] const std::vector<LightView>& planes() const { return planes_; }
-
-    /// The least that the demands of the last frame need.
-    [[nodiscard]] std::vector<BarePass> bare(std::string source) const;
 
     /// Sets the uniforms of shared/maps/tile_of_pixel.glsl that concern the pixels of the last frame.
     void bindTo(gl::Program& program, const Frame& frame) const;

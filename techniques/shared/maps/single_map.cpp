@@ -28,13 +28,6 @@ public:
         return report_ ? report_(frame) : std::map<std::string, double>{};
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes = map_->bare(light_);
-        passes.push_back(bareLookup("resolve", "course, Shadow Mapping: one test a pixel", frame.size,
-                                    {{gl::Format::Depth32F, map_->texture().size(), Read::Compare}}));
-        return passes;
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(light_, world, map_->texture().size());
     }

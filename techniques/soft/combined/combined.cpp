@@ -14,7 +14,6 @@
 #include "techniques/shared/filters/pcss_program.h"
 #include "techniques/shared/maps/stored_depth.h"
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,24 +40,13 @@ public:
     void render(const Frame& frame, const gl::Texture& visibility) override {
         view_ = fitToScene(frame.snapshot.light, frame.snapshot);
         map_.draw(view_, frame);
-        bindTo(resolve_, frame);
+        setBlockerSearch(resolve_, frame.snapshot.light, view_, map_, followPlane_);
+        resolve_.set("positions", frame.gbuffer.position())
+            .set("normals", frame.gbuffer.normal())
+            .set("searchJitter", search_.texture())
+            .set("filterJitter", filter_.texture())
+            .set("jitterOrigin", JitterTable::origin(frame.seed));
         resolve(frame, {&visibility}, resolve_);
-    }
-
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const auto taps = [&](const JitterTable& table, int count) {
-            return std::vector<Taps>{{gl::Format::Depth32F, glm::ivec2(map_.side()), Read::Nearest, count},
-                                     {gl::Format::RGBA32F, table.texture().size(), Read::Nearest, count / 2}};
-        };
-        std::vector<Taps> all = taps(search_, searchGrid.taps());
-        for (const Taps& first : taps(filter_, filterGrid.sectors)) all.push_back(first);
-        std::vector<BarePass> passes = map_.bare(view_);
-        append(passes,
-               bareLookup("resolve",
-                          "Zápotocký 4.4.3: blocker search, the taps that are tried first, and the others where these "
-                          "disagree; their places from a table",
-                          frame.size, all, {undecided(frame), taps(filter_, filterGrid.taps() - filterGrid.sectors)}));
-        return passes;
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
@@ -66,24 +54,6 @@ public:
     }
 
 private:
-    void bindTo(gl::Program& program, const Frame& frame) const {
-        setBlockerSearch(program, frame.snapshot.light, view_, map_, followPlane_);
-        program.set("positions", frame.gbuffer.position())
-            .set("normals", frame.gbuffer.normal())
-            .set("searchJitter", search_.texture())
-            .set("filterJitter", filter_.texture())
-            .set("jitterOrigin", JitterTable::origin(frame.seed));
-    }
-
-    /// Pixels of the frame rendered last that take all taps.
-    [[nodiscard]] std::uint64_t undecided(const Frame& frame) const {
-        gl::Defines defines = tapDefines();
-        defines.emplace_back("UNDECIDED", "1");
-        gl::Program counting = gl::Program::screen("soft/combined/combined.frag", defines);
-        bindTo(counting, frame);
-        return static_cast<std::uint64_t>(sumOverPixels(frame, counting));
-    }
-
     bool followPlane_;
     JitterTable filter_, search_;
     LightView view_;

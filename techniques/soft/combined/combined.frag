@@ -1,4 +1,3 @@
-// With UNDECIDED defined: 1 where the first taps disagree, to be counted.
 #include "gl/receiver.glsl"
 #include "shared/filters/jitter_table.glsl"
 #include "shared/filters/blocker_search.glsl"
@@ -41,9 +40,6 @@ float jitteredVisibility(LightReceiver r, float blockerDepth) {
         passed += testAt(r, offsets.xy) + testAt(r, offsets.zw);
     }
     bool decided = passed == 0.0 || passed == float(2 * first);
-#ifdef UNDECIDED
-    return decided ? 0.0 : 1.0;
-#endif
     int last = decided ? first : FILTER_TAPS / 2;
     for (; pair < last; ++pair) {
         vec4 offsets = jitteredPair(filterJitter, pair) * reach.xyxy;
@@ -55,9 +51,6 @@ float jitteredVisibility(LightReceiver r, float blockerDepth) {
 void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
     visibility = 1.0;
-#ifdef UNDECIDED
-    visibility = 0.0;
-#endif
     if (!receiver.seen) return;
     LightReceiver r = lightReceiver(receiver.position, normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz));
     if (r.behind) return;

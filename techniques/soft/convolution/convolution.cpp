@@ -43,17 +43,17 @@ public:
           resolve_(gl::Program::screen("soft/convolution/convolution.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        view_ = fitToScene(frame.snapshot.light, frame.snapshot);
+        const LightView view = fitToScene(frame.snapshot.light, frame.snapshot);
         const std::vector<bool> shown = blockers(frame.snapshot);
-        cluster(frame.snapshot, shown);
-        layers_.draw(view_, frame, shown, "blocker images");
+        cluster(frame.snapshot, view, shown);
+        layers_.draw(view, frame, shown, "blocker images");
         layers_.sum(frame, std::max(1, static_cast<int>(clusters_.size())));
 
-        layers_.bindTo(resolve_, frame.snapshot.light, view_);
+        layers_.bindTo(resolve_, frame.snapshot.light, view);
         gpuSurfaces_.bindStorage(surfacesBinding);
         resolve_.set("positions", frame.gbuffer.position())
-            .set("mapFromWorld", mapFromWorld(view_))
-            .set("depthFromWorld", glm::vec4(view_.depthFromWorld))
+            .set("mapFromWorld", mapFromWorld(view))
+            .set("depthFromWorld", glm::vec4(view.depthFromWorld))
             .set("ids", frame.gbuffer.id())
             .set("layers", static_cast<int>(clusters_.size()))
             .set("clusters", uniformClusters());
@@ -64,27 +64,7 @@ public:
         return {{"clusters", static_cast<double>(clusters_.size())}};
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes =
-            layers_.bare(view_, blockers(frame.snapshot), "blocker images", "dissertation 2.3.3: an image of each cluster",
-                         static_cast<int>(clusters_.size()));
-        const int reads = meanReads(frame, view_, [this](double depth, unsigned id) { return clustersBefore(depth, id); });
-        passes.push_back(bareLookup("convolution", "an image convolved with the light for each cluster before a pixel",
-                                    frame.size, {{gl::Format::R32F, layers_.bits().size(), Read::Linear, reads}}));
-        return passes;
-    }
-
 private:
-    /// Those that may hide light from a surface at this depth: none that holds a part of it.
-    [[nodiscard]] int clustersBefore(double depth, unsigned id) const {
-        int before = 0;
-        for (std::size_t layer = 0; layer < clusters_.size(); ++layer) {
-            const bool isOwn = (surfaces_.at(id).layers >> layer & 1U) != 0;
-            before += !isOwn && clusters_[layer].range.middle() < depth ? 1 : 0;
-        }
-        return before;
-    }
-
     /// Of each cluster: 1 / depth of its plane, and whether it is the last one of its group.
     [[nodiscard]] std::vector<glm::vec4> uniformClusters() const {
         std::vector<glm::vec4> result;
@@ -97,27 +77,27 @@ private:
     }
 
     /// Puts the blockers' polygons into clusters and uploads the layers of each surface and polygon.
-    void cluster(const Snapshot& snapshot, const std::vector<bool>& shown) {
-        const std::vector<BlockerPolygon> polygons = blockerPolygons(snapshot, view_, shown);
-        clusters_ = clustered(polygons, tolerance_ * (1 / view_.near - 1 / view_.far), most_);
+    void cluster(const Snapshot& snapshot, const LightView& view, const std::vector<bool>& shown) {
+        const std::vector<BlockerPolygon> polygons = blockerPolygons(snapshot, view, shown);
+        clusters_ = clustered(polygons, tolerance_ * (1 / view.near - 1 / view.far), most_);
 
-        surfaces_.clear();
+        std::vector<GpuSurface> surfaces; // by id
         std::uint32_t count = 0;
         std::size_t number = 0;
         for (const Batch& batch : snapshot.batches)
             for (const Placement& placed : batch.placements) {
-                if (placed.id >= surfaces_.size()) surfaces_.resize(placed.id + std::size_t{1});
-                surfaces_[placed.id].firstPolygon = count;
+                if (placed.id >= surfaces.size()) surfaces.resize(placed.id + std::size_t{1});
+                surfaces[placed.id].firstPolygon = count;
                 if (shown[number++]) count += static_cast<std::uint32_t>(batch.mesh->triangles.size());
             }
         std::vector<std::uint32_t> layersOf(std::max(count, 1U));
         for (std::size_t layer = 0; layer < clusters_.size(); ++layer)
             for (const std::size_t i : clusters_[layer].members) {
-                GpuSurface& surface = surfaces_[polygons[i].surface];
+                GpuSurface& surface = surfaces[polygons[i].surface];
                 layersOf[surface.firstPolygon + polygons[i].number] = 1U << layer;
                 surface.layers |= 1U << layer;
             }
-        gpuSurfaces_.upload(surfaces_.data(), surfaces_.size() * sizeof(GpuSurface));
+        gpuSurfaces_.upload(surfaces.data(), surfaces.size() * sizeof(GpuSurface));
         gpuPolygons_.upload(layersOf.data(), layersOf.size() * sizeof(std::uint32_t));
         gpuSurfaces_.bindStorage(surfacesBinding);
         gpuPolygons_.bindStorage(polygonsBinding);
@@ -125,9 +105,7 @@ private:
 
     std::size_t most_;
     double tolerance_;
-    LightView view_; // of the frame rendered last, as are the next two
-    std::vector<Cluster> clusters_;
-    std::vector<GpuSurface> surfaces_; // by id
+    std::vector<Cluster> clusters_; // of the frame rendered last
     OccluderLayers layers_;
     gl::Buffer gpuSurfaces_, gpuPolygons_;
     gl::Program resolve_;

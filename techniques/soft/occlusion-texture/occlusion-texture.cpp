@@ -14,8 +14,6 @@
 #include "techniques/shared/filters/occluder_layers.h"
 #include "techniques/shared/maps/linear_depth_map.h"
 
-#include <algorithm>
-
 namespace shadowbench::techniques {
 namespace {
 
@@ -27,45 +25,25 @@ public:
           resolve_(gl::Program::screen("soft/occlusion-texture/occlusion-texture.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        view_ = fitToScene(frame.snapshot.light, frame.snapshot);
-        layers_.program()
-            .set("inverseRange", inverseRange(view_))
-            .set("thickness", static_cast<float>(thickness()))
-            .set("slices", slices_);
-        layers_.draw(view_, frame, allShown(frame.snapshot), "slices");
+        const LightView view = fitToScene(frame.snapshot.light, frame.snapshot);
+        const auto thickness = static_cast<float>((1 / view.near - 1 / view.far) / slices_); // of a slice, in 1 / depth
+        layers_.program().set("inverseRange", inverseRange(view)).set("thickness", thickness).set("slices", slices_);
+        const std::vector<bool> all(boundingCorners(frame.snapshot).size() / 8, true);
+        layers_.draw(view, frame, all, "slices");
         layers_.sum(frame, slices_);
 
-        layers_.bindTo(resolve_, frame.snapshot.light, view_);
+        layers_.bindTo(resolve_, frame.snapshot.light, view);
         resolve_.set("positions", frame.gbuffer.position())
-            .set("mapFromWorld", mapFromWorld(view_))
-            .set("depthFromWorld", glm::vec4(view_.depthFromWorld))
-            .set("inverseNear", static_cast<float>(1 / view_.near))
-            .set("thickness", static_cast<float>(thickness()))
+            .set("mapFromWorld", mapFromWorld(view))
+            .set("depthFromWorld", glm::vec4(view.depthFromWorld))
+            .set("inverseNear", static_cast<float>(1 / view.near))
+            .set("thickness", thickness)
             .set("slices", slices_);
         resolve(frame, {&visibility}, resolve_);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        std::vector<BarePass> passes =
-            layers_.bare(view_, allShown(frame.snapshot), "slices", "dissertation 2.3.3: all slices in one pass", slices_);
-        const int reads = meanReads(frame, view_, [this](double depth, unsigned) {
-            return std::clamp(static_cast<int>((1 / view_.near - 1 / depth) / thickness()), 0, slices_);
-        });
-        passes.push_back(bareLookup("resolve", "the mean over the light in each slice before a pixel", frame.size,
-                                    {{gl::Format::R32F, layers_.bits().size(), Read::Linear, reads}}));
-        return passes;
-    }
-
 private:
-    static std::vector<bool> allShown(const Snapshot& snapshot) {
-        return std::vector<bool>(boundingCorners(snapshot).size() / 8, true);
-    }
-
-    /// Of a slice, in 1 / depth.
-    [[nodiscard]] double thickness() const { return (1 / view_.near - 1 / view_.far) / slices_; }
-
     int slices_;
-    LightView view_; // of the frame rendered last
     OccluderLayers layers_;
     gl::Program resolve_;
 };

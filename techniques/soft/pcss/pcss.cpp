@@ -7,7 +7,6 @@
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/shared/filters/pcss_program.h"
-#include "techniques/shared/maps/bare_map.h"
 #include "techniques/shared/maps/single_map.h"
 
 namespace shadowbench::techniques {
@@ -26,11 +25,6 @@ public:
         setPcss(resolve_, taps_, light, view_, map_, followPlane_);
         resolve_.set("positions", frame.gbuffer.position()).set("normals", frame.gbuffer.normal());
         resolve(frame, {&visibility}, resolve_);
-    }
-
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return bareMappedShadow(frame, view_, map_.side(),
-                                {Read::Nearest, taps_.search + taps_.filter, "Zápotocký 3.5: blocker search, then filter"});
     }
 
 private:

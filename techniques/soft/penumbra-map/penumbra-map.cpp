@@ -100,21 +100,12 @@ public:
                 {"penumbra_sheets", static_cast<double>(attached_.sheets)}};
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return bareOutlineMap(frame, view_, map_, penumbrae_.format(),
-                              {.pass = "penumbra map",
-                               .source = "dissertation 2.3.2: cones and sheets, eq. 2.2",
-                               .size = penumbrae_.size(),
-                               .targets = {},
-                               .own = [this, frame = frame.withoutListener()] { drawPenumbrae(frame); }});
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(view_, world, glm::dvec2(map_.side()));
     }
 
 private:
-    void drawPenumbrae(const Frame& frame) const {
+    void drawPenumbrae(const Frame& frame) {
         const auto pass = frame.pass("penumbra map");
         target_.clearColour(0, glm::vec4(1));
         target_.bind();
@@ -128,8 +119,7 @@ private:
     OutlineGeometry geometry_;
     gl::Texture penumbrae_; // least intensity on what the shadow map sees
     gl::RenderTarget target_;
-    mutable gl::Program draw_; // `bare` draws again
-    gl::Program resolve_;
+    gl::Program draw_, resolve_;
 };
 
 } // namespace

@@ -64,27 +64,6 @@ public:
                 {"occluders", static_cast<double>(std::ranges::count(shown, true))}};
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const glm::ivec2 size(map_.side());
-        const gl::Format format = widths_[0].format();
-        std::vector<BarePass> passes{
-            bareDepthMap("course, Shadow Mapping", map_.side(), view_.clipFromWorld),
-            {.pass = "occluder map",
-             .source = "dissertation 2.3.1: a binary occluder map",
-             .size = size,
-             .targets = {gl::Format::R8},
-             .casters = {{.clipFromWorld = view_.clipFromWorld, .shown = blockers(frame.snapshot)}}}};
-        for (const glm::ivec2& step : passes_.steps) // a texel and its neighbours along the axes that the pass goes
-            passes.push_back({.pass = "shadow width map",
-                              .source = "repeated smoothing of it",
-                              .size = size,
-                              .targets = {format},
-                              .taps = {{format, size, Read::Nearest, 1 + 2 * (step.x + step.y)}}});
-        passes.push_back(bareLookup("resolve", "a depth and the width", frame.size,
-                                    {{gl::Format::Depth32F, size, Read::Nearest}, {format, size, Read::Linear}}));
-        return passes;
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(view_, world, glm::dvec2(map_.side()));
     }

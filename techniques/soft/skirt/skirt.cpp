@@ -70,27 +70,6 @@ public:
         return {{"passes", static_cast<double>(count_)}};
     }
 
-    /// Without the disc search of pixels in hard shadow: how far that goes depends on what is there.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const glm::ivec2 size(map_.side());
-        const gl::Format format = skirts_[0].format();
-        std::vector<BarePass> passes{bareDepthMap("course, Shadow Mapping", map_.side(), view_.clipFromWorld),
-                                     {.pass = "edge filter",
-                                      .source = "dissertation 2.3.2: a texel against two neighbours",
-                                      .size = size,
-                                      .targets = {format},
-                                      .taps = {{gl::Format::Depth32F, size, Read::Nearest, 3}}}};
-        const BarePass smoothing{.pass = "skirt",
-                                 .source = "smoothing, and the least depth: a texel and its four neighbours",
-                                 .size = size,
-                                 .targets = {format},
-                                 .taps = {{format, size, Read::Nearest, 5}}};
-        passes.insert(passes.end(), static_cast<std::size_t>(count_), smoothing);
-        passes.push_back(bareLookup("resolve", "a depth and the skirt", frame.size,
-                                    {{gl::Format::Depth32F, size, Read::Nearest}, {format, size, Read::Nearest}}));
-        return passes;
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(view_, world, glm::dvec2(map_.side()));
     }

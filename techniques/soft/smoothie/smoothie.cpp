@@ -84,21 +84,12 @@ public:
                 {"smoothie_corners", static_cast<double>(smoothies_.corners)}};
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        return bareOutlineMap(frame, view_, map_, buffer_.format(),
-                              {.pass = "smoothies",
-                               .source = "course, Smoothie Algorithm: depth and alpha of smoothies",
-                               .size = buffer_.size(),
-                               .targets = {},
-                               .own = [this, frame = frame.withoutListener()] { drawBuffer(frame); }});
-    }
-
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
         return texelAt(view_, world, glm::dvec2(map_.side()));
     }
 
 private:
-    void drawBuffer(const Frame& frame) const {
+    void drawBuffer(const Frame& frame) {
         const auto pass = frame.pass("smoothies");
         target_.clearColour(0, glm::vec4(gl::nothingInTheWay, 1, 0, 0));
         target_.bind();
@@ -112,8 +103,7 @@ private:
     OutlineGeometry geometry_;
     gl::Texture buffer_; // depth of the nearest smoothie, least α'
     gl::RenderTarget target_;
-    mutable gl::Program draw_; // `bare` draws again
-    gl::Program resolve_;
+    gl::Program draw_, resolve_;
 };
 
 } // namespace

@@ -61,35 +61,6 @@ public:
 
     [[nodiscard]] std::map<std::string, double> figures(const Frame&) const override { return count_.figures(); }
 
-    /// All V-buffers, and one pass that adds up what they leave: the least whatever is kept at once.
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        const std::vector<Light> parts = partsOf(frame.snapshot.light, side_);
-        std::vector<BarePass> passes;
-        for (const Light& part : parts) {
-            const auto wedges = std::make_shared<PenumbraWedges>(Silhouettes::OfMiddle);
-            wedges->build(frame.withoutListener(), part);
-            passes.push_back(
-                {.pass = "hard shadow quads",
-                 .source = "course, A Soft Shadow Volume Algorithm: a quad an edge",
-                 .size = frame.size,
-                 .targets = {},
-                 .own = [this, wedges, frame = frame.withoutListener()] { wedges->countLayers(frame, images_->hidden); }});
-            passes.push_back(
-                {.pass = "penumbra wedges",
-                 .source = "a wedge an edge, its coverage in each pixel",
-                 .size = frame.size,
-                 .targets = {},
-                 .own = [this, wedges, part, frame = frame.withoutListener()] { addCoverage(frame, part, *wedges); }});
-        }
-        const Taps hidden{images_->hidden.format(), frame.size, Read::Nearest, static_cast<int>(parts.size())};
-        passes.push_back({.pass = "mean",
-                          .source = "what the V-buffer leaves of the light",
-                          .size = frame.size,
-                          .targets = {gl::Format::R32F},
-                          .taps = {hidden}});
-        return passes;
-    }
-
 private:
     struct Images {
         explicit Images(glm::ivec2 size) : hidden(gl::Format::R32F, size), sum(gl::Format::R32F, size), sumTarget{&sum} {}
@@ -102,16 +73,12 @@ private:
         wedges_.build(frame, part);
         count_ += wedges_.count();
         wedges_.countLayers(frame, images_->hidden);
-        addCoverage(frame, part, wedges_);
-    }
-
-    void addCoverage(const Frame& frame, const Light& part, const PenumbraWedges& wedges) const {
         const auto pass = frame.pass("penumbra wedges");
         coverage_.set("positions", frame.gbuffer.position())
             .set("unitLightFromWorld", glm::mat4(unitLightFromWorld(part)))
             .set("middle", glm::vec3(part.centre))
             .set("disk", part.kind == LightKind::Disk ? 1 : 0);
-        wedges.draw(frame, coverage_, gl::RenderTarget({&images_->hidden, &frame.gbuffer.depthStencil()}));
+        wedges_.draw(frame, coverage_, gl::RenderTarget({&images_->hidden, &frame.gbuffer.depthStencil()}));
     }
 
     void addVisible(const Frame& frame) {
@@ -126,8 +93,7 @@ private:
 
     int side_; // parts of the light along u, and along v
     PenumbraWedges wedges_{Silhouettes::OfMiddle};
-    mutable gl::Program coverage_; // `bare` draws again
-    gl::Program add_, mean_;
+    gl::Program coverage_, add_, mean_;
     std::optional<Images> images_;
     WedgeCount count_; // of all parts in the frame rendered last
 };

@@ -31,16 +31,6 @@ public:
         volumes_.render(frame, frame.hardLight.homogeneous(), depthStencil, visibility);
     }
 
-    [[nodiscard]] std::vector<BarePass> bare(const Frame& frame) const override {
-        if (far_ == FarPlane::OfCamera) return volumes_.bare(frame.gbuffer.depthStencil());
-        std::vector<BarePass> passes = volumes_.bare(*ownDepth_);
-        BarePass depth = bareDepthMap("course, 3.2.1: depth under P_inf", frame.size.x, clipFromWorld(frame, far_));
-        depth.pass = "depth prepass";
-        depth.size = frame.size;
-        passes.insert(passes.begin(), depth);
-        return passes;
-    }
-
     [[nodiscard]] std::map<std::string, double> figures(const Frame& frame) const override {
         return volumes_.figures(far_ == FarPlane::AtInfinity ? *ownDepth_ : frame.gbuffer.depthStencil());
     }

@@ -121,7 +121,6 @@ TEST(DeviceCost, IsWrittenIntoTheRecord) {
     EXPECT_EQ(record.values["cost.time.median"], times[0].cost.median) << "of the smaller image";
     EXPECT_EQ(record.values["cost.motion.time.median"], times[0].cost.motion);
     EXPECT_EQ(record.deviceCosts.size(), 2U);
-    EXPECT_FALSE(record.values["cost.time.bare"]);
 }
 
 } // namespace

@@ -164,6 +164,47 @@ TEST(Passes, CountWhatTheyDraw) {
     EXPECT_EQ(mean.work.draws, 1U);
 }
 
+/// What a method asks for, whoever programs it.
+struct Asked {
+    std::string variant;
+    std::uint64_t maps;    // into which all of the scene is drawn
+    std::uint64_t screens; // passes over all pixels of an image
+};
+
+TEST(Passes, DrawSceneAndImageAsOftenAsTheMethodAsks) {
+    const Scene scene = lampScene();
+    Stage stage(scene);
+    stage.show(0);
+    const std::uint64_t triangles = snapshot(scene, 0).triangles();
+    const std::vector<Asked> all{{"none", 0, 0},
+                                 {"planar-fake:map=128", 1, 1},
+                                 {"sm-uniform:map=128", 1, 1},
+                                 {"sm-focused:map=128", 1, 1},
+                                 {"sm-psm:map=128", 1, 1},
+                                 {"sm-lispsm:map=128", 1, 1},
+                                 {"sm-tsm:map=128", 1, 1},
+                                 {"sm-midpoint:map=128", 2, 1},
+                                 {"sm-history:map=128", 1, 1},
+                                 {"pcf:map=128", 1, 1},
+                                 {"pcf:kernel=7,map=128", 1, 1},
+                                 {"pcf-poisson:map=128", 1, 1},
+                                 {"pcf-jitter:map=128", 1, 1},
+                                 {"pcf-blur:map=128", 1, 3},
+                                 {"vsm:map=128", 1, 1},
+                                 {"lvsm:map=128", 1, 1},
+                                 {"esm:map=128", 1, 1},
+                                 {"csm-fourier:map=128", 1, 1},
+                                 {"pcss:map=128", 1, 1},
+                                 {"combined:map=128", 1, 1},
+                                 {"sampled-maps:map=128,n=4", 4, 5},
+                                 {"occlusion-texture:map=128", 1, 1}};
+    for (const auto& [variant, maps, screens] : all) {
+        const FramePasses frame = passesOf(stage, variant);
+        EXPECT_EQ(frame.frame().work.primitives, (1 + maps) * triangles + screens) << variant << ", with the G-buffer";
+        if (screens > 0) EXPECT_GE(frame.passes.back().work.fragments, 64U * 64) << variant;
+    }
+}
+
 TEST(LodPasses, AddUpToTheFrame) {
     const Scene scene = crossesScene(0.3);
     const std::map<std::string, std::vector<std::string>> expected{{"lod-full", {"opaque levels"}},
