@@ -120,10 +120,11 @@ FrameUses pipelinesOf(const Scene& scene, const techniques::Variant& variant, Co
     std::set<std::string>& files = gl::Context::current().shaderFiles();
     files.clear();
     FrameUses frame = variant.isLod() ? ofLevels(scene, variant) : ofShadow(scene, variant, counted);
-    if (frame.isCounted && !variant.isLod() && std::ranges::any_of(frame.uses, isSteadyDispatch)) {
+    if (frame.isCounted && counted == CountedFrame::Standing && !variant.isLod() &&
+        std::ranges::any_of(frame.uses, isSteadyDispatch)) {
         Scene large = scene;
         large.size *= largerBy;
-        frame.largerDispatches = ofShadow(large, variant, counted).uses;
+        frame.largerDispatches = ofShadow(large, variant, CountedFrame::Standing).uses;
         std::erase_if(frame.largerDispatches, std::not_fn(isSteadyDispatch));
     }
     frame.shaderFiles = files;

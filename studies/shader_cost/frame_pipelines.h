@@ -16,7 +16,7 @@ struct FrameUses {
     std::vector<gpu::Use> uses;
     std::vector<gpu::Move> moves;                // of the steady frame
     bool isCounted = false;                      // how often waves take its loops and branches: llvmpipe draws
-    std::vector<gpu::Use> largerDispatches = {}; // of the steady frame on a larger image (largerBy)
+    std::vector<gpu::Use> largerDispatches = {}; // of the standing frame on a larger image (largerBy)
     std::string frame = {};                      // hash of what the steady frame shows: camera, light and meshes
     std::set<std::string> shaderFiles = {};      // that were compiled for it, by their names
 

@@ -185,7 +185,7 @@ TEST_F(ReportFolder, HoldsThePageTheFiguresAndTheCharts) {
     EXPECT_EQ(written.page, folder() / "report.md");
     EXPECT_EQ(written.charts,
               (std::vector<std::filesystem::path>{
-                  folder() / "pareto-dueling-frusta.svg", folder() / "modelled-h200-1920x1080-dueling-frusta.svg",
+                  folder() / "modelled-h200-1920x1080-dueling-frusta.svg", folder() / "pareto-dueling-frusta.svg",
                   folder() / "convergence-dueling-frusta.svg", folder() / "passes-dueling-frusta.svg",
                   folder() / "pareto-overlapping-occluders.svg", folder() / "passes-overlapping-occluders.svg"}));
     for (const std::filesystem::path& chart : written.charts) EXPECT_TRUE(contains(readFile(chart), "</svg>")) << chart;

@@ -113,8 +113,8 @@ TEST_F(Site, SaysWhatACostBuysOnTheCardWhereThatIsModelled) {
         std::string table = page.substr(at, page.find("</table>", at) - at), names;
         for (const char* name : {"sm-uniform", "sm-lispsm", "sm-cascaded"}) {
             int times = 0;
-            for (std::size_t i = table.find(">" + std::string(name) + "<"); i != std::string::npos;
-                 i = table.find(">" + std::string(name) + "<", i + 1))
+            for (std::size_t i = table.find(">" + std::string(name) + " <small>"); i != std::string::npos;
+                 i = table.find(">" + std::string(name) + " <small>", i + 1))
                 ++times;
             names += fmt::format("{} {} ", name, times);
         }
