@@ -117,9 +117,10 @@ public:
 
     void refuseUnknown() const {
         std::vector<std::string> known(known_.begin(), known_.end());
-        for (const auto& [key, value] : object_.items())
-            if (!known_.contains(key) && std::ranges::find(retired, path_ + key) == std::end(retired))
-                refuse(path_ + key, "is unknown" + didYouMean(key, known));
+        for (const auto& [key, value] : object_.items()) {
+            if (std::ranges::find(retired, path_ + key) != std::end(retired)) continue;
+            if (!known_.contains(key)) refuse(path_ + key, "is unknown" + didYouMean(key, known));
+        }
     }
 
 private:

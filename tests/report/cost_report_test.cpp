@@ -45,7 +45,7 @@ TEST(PassTable, IsAbsentWithoutTimes) {
     EXPECT_EQ(report::passTable(untimed(), "dueling-frusta"), "");
     EXPECT_EQ(report::rasteriserNote(untimed(), "dueling-frusta"), "");
     EXPECT_FALSE(report::passChart(untimed(), "dueling-frusta"));
-    EXPECT_TRUE(contains(report::passCsv(untimed()), "sm-uniform,gate,256,256,standing,depth map,2,,,32768,70280,1,"))
+    EXPECT_TRUE(contains(report::passCsv(untimed()), "sm-uniform,gate,256,256,standing,depth map,2,,,32768,70280,1\n"))
         << "work is there";
 }
 

@@ -59,6 +59,14 @@ TEST_F(RecordSchema, RefusesATypoAtEveryLevel) {
     }
 }
 
+TEST_F(RecordSchema, HoldsForOlderRecordsWithBarePasses) {
+    Json record = Json::parse(toJson(hardRecord()));
+    record["cost"]["time"]["bare"] = 15.2;
+    record["cost"]["time"]["bare_ratio"] = 1.4;
+    record["cost"]["by_pass"][1]["bare"] = {{"source", "course, Shadow Mapping"}, {"fragments", 16384}};
+    EXPECT_TRUE(valid(record)) << why_;
+}
+
 TEST_F(RecordSchema, RefusesATypoInCostsOfAGraphicsProcessor) {
     for (const char* place : {"/cost/device/0", "/cost/device/1/by_pass/0"}) {
         Json record = Json::parse(toJson(deviceRecord()));
