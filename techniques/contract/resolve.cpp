@@ -1,5 +1,6 @@
 #include "techniques/contract/resolve.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 
 namespace shadowbench::techniques {
@@ -23,6 +24,11 @@ Image<float> numbersOf(const Frame& frame, const gl::Program& program) {
 double sumOverPixels(const Frame& frame, const gl::Program& program) {
     const Image<float> written = numbersOf(frame, program);
     return std::accumulate(written.begin(), written.end(), 0.0);
+}
+
+glm::dmat4 imageFromClip(glm::ivec2 size) {
+    const glm::dmat4 half = glm::scale(glm::dmat4(1), glm::dvec3(0.5 * glm::dvec2(size), 1));
+    return half * glm::translate(glm::dmat4(1), glm::dvec3(1, 1, 0));
 }
 
 } // namespace shadowbench::techniques

@@ -20,4 +20,7 @@ Image<float> numbersOf(const Frame& frame, const gl::Program& program);
 /// What a full-screen pass over the frame's pixels writes, added up: how many they are, or how often they read something.
 double sumOverPixels(const Frame& frame, const gl::Program& program);
 
+/// From clip space to pixels of an image of this size.
+glm::dmat4 imageFromClip(glm::ivec2 size);
+
 } // namespace shadowbench::techniques

@@ -98,8 +98,11 @@ public:
 
     [[nodiscard]] bool uses(const std::string& uniform) const { return uniforms_.contains(uniform); }
 
-    /// The uniforms in use with their types as GLSL has them; another type than those of `set` is "".
+    /// The uniforms in use with their types as GLSL has them, of an array "vec2[]"; another type than those of `set` is "".
     [[nodiscard]] std::map<std::string, std::string> uniformTypes() const;
+
+    /// The elements of an array that are in use; 1 of another uniform.
+    [[nodiscard]] int elements(const std::string& name) const { return uniform(name).elements; }
     void use() const;
 
     /// Runs the full-screen pass into the framebuffer that is bound for drawing.
@@ -125,6 +128,8 @@ private:
         int location;
         int unit;      // texture unit of a sampler, else −1
         unsigned type; // GL's
+        bool array;
+        int elements;
     };
     void activateUnit(const std::string& sampler) const;
     void drawTriangle() const;

@@ -12,6 +12,10 @@ glm::vec4 unitLinearisation(const LightView& light, double bias) {
     return {0, share, share, bias / (light.far - light.near)};
 }
 
+glm::dvec4 unitDepthFromWorld(const LightView& light) {
+    return (light.depthFromWorld - glm::dvec4(0, 0, 0, light.near)) / (light.far - light.near);
+}
+
 Bias drawnBias(Bias bias) {
     bias.units = 0;
     return bias;

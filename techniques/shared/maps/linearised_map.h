@@ -22,6 +22,9 @@ glm::vec4 linearisation(const LightView& light, double bias);
 /// The same for unit depth, which is 0 at the near and 1 at the far distance; `bias` is still in metres.
 glm::vec4 unitLinearisation(const LightView& light, double bias);
 
+/// Unit depth of a point of the world: dot(·, (p, 1)).
+glm::dvec4 unitDepthFromWorld(const LightView& light);
+
 /// The part of a bias that the depths are drawn with. The constant part is added where they are read: in metres it is the
 /// same at every depth.
 Bias drawnBias(Bias bias);

@@ -243,7 +243,7 @@ TEST_F(BrokenFolder, WhatContradictsItselfIsToldWithTheRemedy) {
         {changed("[\"moments\", \"depths\"]", "[\"moments\", \"moments\"]"), "is written twice"},
         {changed("[\"moments\", \"depths\"]", "[\"moments\", \"visibility\"]"), "visibility is written alone"},
         {changed("[\"moments\", \"depths\"]", "\"mean\""), "casters are drawn into a map"},
-        {changed("to = \"mean\"", "to = \"depths\""), "a pass over the screen writes no depths"},
+        {changed("to = \"mean\"", "to = [\"depths\", \"moments\"]"), "a pass over the screen writes depths alone"},
         {changed("to = \"mean\"", "to = \"mea\""), "there is no target \"mea\" (did you mean \"mean\"?)"},
         {changed("to = \"visibility\"", "to = \"mean\""), "the last pass writes the answer: to = \"visibility\""},
         {changed("fragment = \"mean.frag\"", "fragment = \"../mean.frag\""), "has no shader \"../mean.frag\""},

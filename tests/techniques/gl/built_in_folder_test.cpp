@@ -11,12 +11,16 @@
 namespace shadowbench {
 namespace {
 
-/// Every choice of every parameter of words, each with all else at its default, and the variants of a run.
+/// Every choice of every parameter of words, each with all else at its default where that may be, and the variants of a run.
 std::vector<std::string> variantsOf(const techniques::Entry& entry) {
     std::vector<std::string> variants = entry.variants;
     for (const techniques::Parameter& parameter : entry.parameters)
         if (const auto* words = std::get_if<techniques::OneOf>(&parameter.domain))
             for (const std::string& word : words->values) variants.push_back(parameter.name + "=" + word);
+    if (entry.contradiction)
+        std::erase_if(variants, [&](const std::string& variant) {
+            return entry.contradiction(techniques::parseParameters(variant, entry.parameters, entry.id)).has_value();
+        });
     return variants;
 }
 
