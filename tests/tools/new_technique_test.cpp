@@ -60,7 +60,7 @@ TEST_F(NewTechnique, RefusesWithASentenceAndWritesNothing) {
         {"filtered ''", "\"\" is no id"},
         {"filtered pcf", "there is a technique \"pcf\" already: techniques/filtered/pcf"},
         {"maps pcf", "there is a technique \"pcf\" already: techniques/filtered/pcf"},
-        {"maps sm-uniform", "the catalogue has a technique smUniform already"}, // whose folder was not copied
+        {"maps sm-psm", "the catalogue has a technique smPsm already"}, // whose folder was not copied
     };
     for (const auto& [arguments, sentence] : refused) {
         const Outcome outcome = start(arguments);

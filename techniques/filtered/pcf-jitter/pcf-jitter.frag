@@ -1,11 +1,11 @@
-// With UNDECIDED defined only the pixels are drawn whose first taps disagree, to be counted.
 #include "shared/filters/jitter_table.glsl"
 #include "shared/maps/tested_point.glsl"
 
 uniform sampler2DShadow depthMap;
 uniform sampler2D jitter;
 uniform float followPlane;  // 1: taps are compared with the receiver's plane, 0: with the receiver's depth
-uniform float radius;       // texels
+
+const int firstTaps = 8;  // the disk's outermost ring
 
 out float visibility;
 
@@ -14,18 +14,14 @@ float testAt(MapPoint point, vec2 slope, vec2 offset) {
 }
 
 float jitteredVisibility(MapPoint point, vec2 slope) {
-    vec2 reach = radius / vec2(textureSize(depthMap, 0));
+    vec2 reach = RADIUS / vec2(textureSize(depthMap, 0));
     float passed = 0.0;
     int pair = 0;
-    for (; pair < FIRST_TAPS / 2; ++pair) {
+    for (; pair < firstTaps / 2; ++pair) {
         vec4 offsets = jitteredPair(jitter, pair) * reach.xyxy;
         passed += testAt(point, slope, offsets.xy) + testAt(point, slope, offsets.zw);
     }
-    bool decided = passed == 0.0 || passed == float(FIRST_TAPS);
-#ifdef UNDECIDED
-    if (decided) discard;
-    return passed;
-#endif
+    bool decided = passed == 0.0 || passed == float(firstTaps);
     int last = decided ? pair : TAPS / 2;
     for (; pair < last; ++pair) {
         vec4 offsets = jitteredPair(jitter, pair) * reach.xyxy;
@@ -38,10 +34,6 @@ void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
     MapPoint point = testedPoint(receiver);
     visibility = 1.0;
-#ifdef UNDECIDED
-    if (!receiver.seen || point.behind) discard;
-#else
     if (!receiver.seen || point.behind) return;
-#endif
     visibility = jitteredVisibility(point, followPlane * receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at));
 }

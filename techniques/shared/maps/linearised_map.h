@@ -10,7 +10,6 @@
 #include "techniques/shared/maps/depth_map.h"
 
 #include <glm/vec4.hpp>
-#include <memory>
 #include <vector>
 
 namespace shadowbench::techniques {
@@ -34,9 +33,6 @@ public:
     /// Of nearest depths.
     LinearisedMap(int side, Bias bias);
 
-    /// Of another map of depths, whose lookup is `Lookup::Raw`; without a constant bias.
-    explicit LinearisedMap(std::unique_ptr<ShadowMap> depth) : depth_(std::move(depth)) {}
-
     /// As the pass "depth map".
     void draw(const LightView& light, const Frame& frame);
 
@@ -47,13 +43,13 @@ public:
     void bindUnitTo(gl::Program& program) const { bind(program, unit_); }
 
     /// The least that drawing it needs.
-    [[nodiscard]] std::vector<BarePass> bare(const LightView& light) const { return depth_->bare(light); }
+    [[nodiscard]] std::vector<BarePass> bare(const LightView& light) const { return depth_.bare(light); }
 
-    [[nodiscard]] int side() const { return depth_->texture().size().x; }
+    [[nodiscard]] int side() const { return depth_.side(); }
 
 private:
-    float units_ = 0; // of the constant bias
-    std::unique_ptr<ShadowMap> depth_;
+    float units_; // of the constant bias
+    DepthMap depth_;
     glm::vec4 metres_{0}, unit_{0};
 
     void bind(gl::Program& program, const glm::vec4& linearisation) const;

@@ -67,7 +67,7 @@ TEST(Bare, IsDeclaredByAllTechniquesButThese) {
         "linear-visibility"};
     std::set<std::string> without;
     for (const techniques::Entry& entry : techniques::catalog()) {
-        if (!entry.make) continue; // levels of detail are compared with lod-switch
+        if (!entry.make) continue;                              // levels of detail are compared with lod-switch
         if (!techniques::drawnWith(entry.id).empty()) continue; // folders declare none
         const bool mapped =
             std::ranges::find(entry.parameters, "map", &techniques::Parameter::name) != entry.parameters.end();
@@ -81,31 +81,19 @@ std::vector<std::string> declaringVariants() {
     return {"none",
             "planar-hard",
             "planar-fake:map=128",
-            "sm-uniform:map=128",
-            "sm-midpoint:map=128",
             "sm-psm:map=128",
-            "sm-lispsm:map=128",
             "sm-tsm:map=128",
-            "sm-cascaded:fit=view,map=128",
-            "sm-cube:map=128",
             "sm-history:map=128",
             "volume-zpass",
             "volume-zfail",
             "volume-zfail:far=infinity",
             "volume-xor",
-            "pcf:map=128",
-            "pcf:kernel=2,map=128",
-            "pcf-poisson:map=128",
-            "pcss:map=128",
-            "combined:map=128",
             "planar-soft:n=4",
             "sm-dual-paraboloid:map=128",
             "sm-silhouette:map=128",
             "sm-tiled:map=128",
             "sm-adaptive:map=1024",
             "sm-adaptive:cache=off,map=256",
-            "pcf-jitter:map=128",
-            "pcf-blur:map=128",
             "deep-sm:map=128",
             "sampled-maps:n=4,map=128",
             "sampled-volumes:n=4",
@@ -126,8 +114,7 @@ std::vector<std::string> declaringVariants() {
 
 /// Those that reduce or filter by compute shaders, which have neither fragments nor draws.
 std::vector<std::string> computingVariants() {
-    return {"sm-cascaded:map=128",
-            "vsm:map=128",
+    return {"vsm:map=128",
             "lvsm:map=128",
             "esm:map=128",
             "esm:kernel=32,map=128",
@@ -170,22 +157,7 @@ TEST_P(EveryBareBoundOfCompute, IsOfTheTechniquesPasses) { expectPassesOfTheTech
 
 INSTANTIATE_TEST_SUITE_P(Declaring, EveryBareBoundOfCompute, testing::ValuesIn(computingVariants()), nameOfText);
 
-TEST(Bare, OfAShadowMapIsTheCastersOnceAndATestForEachPixel) {
-    const ComparedPasses passes = counted("sm-uniform:map=128");
-    const std::vector<PassRecord> records = passes.records(false);
-    const PassRecord &map = passNamed(records, "depth map"), &lookup = passNamed(records, "resolve");
-    EXPECT_EQ(map.bare->vertices, 3 * snapshot(lampScene(), 0).triangles());
-    EXPECT_EQ(map.bare->fragments, map.fragments) << "the same triangles through the same view";
-    EXPECT_EQ(map.bare->taps, 0U);
-    EXPECT_EQ(lookup.bare->fragments, lookup.fragments);
-    EXPECT_EQ(lookup.bare->taps, 2 * pixels) << "the pixel's position, and the map";
-    EXPECT_FALSE(passNamed(records, "G-buffer").bare) << "is on both sides";
-}
-
 TEST(Bare, OfFiltersReadsTheMapAsOftenAsTheirKernelsHaveTaps) {
-    EXPECT_EQ(tapsOf(counted("pcf:kernel=7,map=128"), "resolve"), (1 + 49) * pixels);
-    EXPECT_EQ(tapsOf(counted("pcf:kernel=2,map=128"), "resolve"), (1 + 1) * pixels) << "bilinear hardware";
-    EXPECT_EQ(tapsOf(counted("pcss:taps=25+49,map=128"), "resolve"), (1 + 25 + 49) * pixels);
     EXPECT_EQ(tapsOf(counted("planar-fake:kernel=7,map=128"), "resolve"), (1 + 16) * pixels) << "4 × 4 bilinear reads";
 }
 
@@ -196,13 +168,6 @@ TEST(Bare, OfAPrefilteredMapReadsEachTexelOnceAPassWhateverTheKernel) {
     EXPECT_EQ(tapsOf(passes, "resolve"), (1 + 1) * pixels);
     EXPECT_EQ(tapsOf(counted("vsm:kernel=3,map=128"), "blur"), tapsOf(passes, "blur"));
     EXPECT_EQ(tapsOf(counted("csm-fourier:map=128,terms=16"), "resolve"), (1 + 8) * pixels) << "two terms a texture";
-}
-
-TEST(Bare, OfABranchHasTheTapsOfThePixelsThatTakeIt) {
-    constexpr std::uint64_t first = 8 + 4, all = 64 + 32; // tests, and texels of the jitter table with two offsets each
-    const std::uint64_t taps = tapsOf(counted("pcf-jitter:map=128,radius=8"), "resolve");
-    EXPECT_GT(taps, (1 + first) * pixels) << "some pixels lie in the penumbra";
-    EXPECT_LT(taps, (1 + all) * pixels / 2) << "most do not";
 }
 
 TEST(Bare, OfASampledLightHasAMapForEachSampleAndOnePassOverAll) {
@@ -267,7 +232,7 @@ TEST(Bare, IsAbsentWhereNoneIsDeclaredAndUntimedWhereNothingIs) {
     const Record without = recordOf("single-sample:map=128", true);
     EXPECT_FALSE(without.values["cost.time.bare"]);
     EXPECT_FALSE(without.values["cost.time.bare_ratio"]);
-    const Record untimed = recordOf("sm-uniform:map=128", false);
+    const Record untimed = recordOf("sm-psm:map=128", false);
     for (const PassRecord& pass : untimed.passes) {
         EXPECT_FALSE(pass.milliseconds);
         EXPECT_FALSE(pass.share);
