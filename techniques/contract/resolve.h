@@ -17,4 +17,7 @@ void resolve(const Frame& frame, std::initializer_list<const gl::Texture*> outpu
 /// What a full-screen pass over the frame's pixels writes, a number a pixel.
 Image<float> numbersOf(const Frame& frame, const gl::Program& program);
 
+/// From clip space to pixels of an image of this size.
+glm::dmat4 imageFromClip(glm::ivec2 size);
+
 } // namespace shadowbench::techniques

@@ -108,12 +108,6 @@ std::vector<gl::Texture> rowTextures(const Basis& basis, glm::ivec2 size) {
     return rows;
 }
 
-/// From clip space to pixels.
-glm::dmat4 imageFromClip(glm::ivec2 size) {
-    const glm::dmat4 half = glm::scale(glm::dmat4(1), glm::dvec3(0.5 * glm::dvec2(size), 1));
-    return half * glm::translate(glm::dmat4(1), glm::dvec3(1, 1, 0));
-}
-
 int sideAt(int level, int side) { return std::max(side >> level, 1); }
 
 } // namespace
@@ -129,10 +123,6 @@ double boxWeight(double width, int offset) { return std::clamp(0.5 * width + 0.5
 int freeRim(const BoxFilter& box) {
     // Half the box, the texel that its mean is interpolated from, and what rasterisation may add.
     return static_cast<int>(std::ceil(0.5 * box.width + 1)) * (1 << box.level) + 1;
-}
-
-glm::dvec4 unitDepthFromWorld(const LightView& light) {
-    return (light.depthFromWorld - glm::dvec4(0, 0, 0, light.near)) / (light.far - light.near);
 }
 
 std::vector<Parameter> prefilteredMapParameters() {

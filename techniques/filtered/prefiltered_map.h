@@ -29,9 +29,6 @@ double boxWeight(double width, int offset);
 /// Texels that a map leaves free beside the scene, so that no box at the scene's rim reaches over the map's.
 int freeRim(const BoxFilter& box);
 
-/// Depth along the light's axis, 0 at the view's near and 1 at its far distance: dot(·, (p, 1)).
-glm::dvec4 unitDepthFromWorld(const LightView& light);
-
 /// `map`, `kernel`, `bias`, `factor` and `units`: the parameters of every technique over a prefiltered map.
 std::vector<Parameter> prefilteredMapParameters();
 

@@ -7,6 +7,7 @@
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/keys.h"
 #include "techniques/folder/reading.h"
+#include "techniques/shared/maps/depth_map.h"
 
 #include <algorithm>
 #include <cctype>
@@ -18,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* description = "technique.toml";
+constexpr int mostPatterns = 8, mostTaps = 1024;
 constexpr int mostTargets = 32, mostParameters = 32, mostVariants = 32;
 constexpr std::size_t mostFiles = 64, mostBytes = 1 << 20; // of a file
 
@@ -50,6 +52,10 @@ public:
         readFacts(root);
         if (const auto parameters = root.find("parameter"))
             for (const TomlValue& value : members(*parameters, mostParameters)) readParameter(value);
+        if (const auto map = root.find("depth_map")) addMapParameters(*map);
+        readView(root, read_);
+        if (const auto patterns = root.find("pattern"))
+            for (const TomlValue& value : members(*patterns, mostPatterns)) readPattern(value);
         if (const auto targets = root.find("target"))
             for (const TomlValue& value : members(*targets, mostTargets)) readTarget(value);
         readPasses(root.get("pass"), read_);
@@ -68,16 +74,13 @@ private:
         entry.source = Source{Document::Other, root.find("source") ? words(root.get("source")) : std::string()};
         entry.answer = answers.named(root.get("answer").oneOf(answers.all()));
         entry.temporal = root.find("history") && root.get("history").boolean();
-        if (const auto view = root.find("view")) read_.view = views.named(view->oneOf(views.all()));
-        if (read_.view == FolderView::Sample && entry.answer != Answer::Soft)
-            root.get("view").fail("a light-sample is of a technique whose answer is soft");
         if (const auto lacks = root.find("lacks"))
             for (const TomlValue& value : lacks->list())
                 entry.lacks.insert(at(value, [name = value.text()] { return needNamed(name); }));
     }
 
     static std::vector<TomlValue> members(const TomlValue& table, std::size_t most) {
-        std::vector<TomlValue> all = table.members();
+        std::vector<TomlValue> all = table.membersAsWritten();
         if (all.size() > most) table.fail(fmt::format("has {} entries; {} are allowed", all.size(), most));
         return all;
     }
@@ -93,7 +96,7 @@ private:
             OneOf named;
             for (const TomlValue& word : choices->list()) {
                 if (std::ranges::count(named.values, word.text()) > 0) word.fail("is there twice");
-                named.values.push_back(identifier(word, word.text()));
+                named.values.push_back(choice(word));
             }
             if (named.values.empty()) choices->fail("names no word; of a number, say its range");
             value.get("default").oneOf(named.values);
@@ -101,10 +104,25 @@ private:
         } else {
             parameter.domain = rangeOf(value);
         }
+        add(std::move(parameter), value);
+    }
+
+    void addMapParameters(const TomlValue& value) {
+        read_.mapParameters = mapBiases.named(value.oneOf(mapBiases.all()));
+        std::vector<Parameter> parameters = depthMapParameters();
+        if (read_.mapParameters == MapParameters::AnyBias) parameters = withNormalOffset(std::move(parameters));
+        for (Parameter& parameter : parameters) add(std::move(parameter), value);
+    }
+
+    void add(Parameter parameter, const TomlValue& value) {
+        for (const std::string& macro : macrosOf(parameter))
+            if (macro == "TILES" || macro == "JITTER_BLOCK" || macro == "NORMAL_OFFSET")
+                value.fail(fmt::format("shaders have a macro {} already; choose another name", macro));
         for (const Parameter& other : read_.entry.parameters)
             for (const std::string& macro : macrosOf(parameter))
                 if (std::ranges::count(macrosOf(other), macro) > 0)
-                    value.fail(fmt::format("shaders would call it {}, as {}; rename one", macro, other.name));
+                    value.fail(fmt::format("shaders would call {} {}, as {}; rename one",
+                                           value.lastKey() == parameter.name ? "it" : parameter.name, macro, other.name));
         read_.entry.parameters.push_back(std::move(parameter));
     }
 
@@ -121,6 +139,44 @@ private:
         return IntegerRange{ends[0].integer(-most, most), ends[1].integer(-most, most)};
     }
 
+    void readPattern(const TomlValue& value) {
+        value.only(keysOf(KeyTable::Pattern));
+        FolderPattern pattern{.name = identifier(value, std::string(value.lastKey())),
+                              .kind = patternKinds.named(value.get("kind").oneOf(patternKinds.all()))};
+        requireFree(value, pattern.name);
+        for (const auto& [key, kind] : {std::pair("sigma", PatternKind::Gaussian), std::pair("taps", PatternKind::Jitter),
+                                        std::pair("sectors", PatternKind::Jitter)})
+            if (const auto said = value.find(key); said && pattern.kind != kind)
+                said->fail(fmt::format("is of a pattern of the kind {}", patternKinds.of(kind)));
+        if (pattern.kind == PatternKind::Gaussian)
+            pattern.sigma = amountWithin(value.get("sigma"), RealRange{0.01, 1000}, read_);
+        if (pattern.kind == PatternKind::Jitter) {
+            pattern.taps = tapsOf(value.get("taps"));
+            pattern.sectors = value.get("sectors").integer(1, mostTaps);
+        }
+        read_.patterns.push_back(std::move(pattern));
+    }
+
+    /// A number, or a parameter whose words are numbers.
+    [[nodiscard]] Amount tapsOf(const TomlValue& value) const {
+        const auto parameter =
+            std::ranges::find(read_.entry.parameters, value.isText() ? value.text() : "", &Parameter::name);
+        const auto* words = parameter == read_.entry.parameters.end() ? nullptr : std::get_if<OneOf>(&parameter->domain);
+        if (words == nullptr || !areNumbers(*words)) return amountWithin(value, IntegerRange{2, mostTaps}, read_);
+        for (const std::string& word : words->values)
+            if (std::stoi(word) < 2 || std::stoi(word) > mostTaps)
+                value.fail(fmt::format("{} must be a whole number within 2 and {}", parameter->name, mostTaps));
+        return value.text();
+    }
+
+    /// Of a uniform that shaders have by this name.
+    void requireFree(const TomlValue& value, const std::string& name) const {
+        if (name == visibilityTarget) value.fail("is the image of the answer, which is there already");
+        if (std::ranges::count(folderInputs(), name, &FolderInput::name) > 0 || name.starts_with(historyPrefix) ||
+            std::ranges::count(read_.patterns, name, &FolderPattern::name) > 0)
+            value.fail("is the name of a uniform that shaders have already; choose another");
+    }
+
     void readTarget(const TomlValue& value) {
         value.only(keysOf(KeyTable::Target));
         const auto flag = [&](const char* key) { return value.find(key) && value.get(key).boolean(); };
@@ -130,10 +186,9 @@ private:
                             .compare = flag("compare"),
                             .mipmaps = flag("mipmaps"),
                             .history = flag("history")};
-        if (target.name == visibilityTarget) value.fail("is the image of the answer, which is there already");
-        if (std::ranges::count(folderInputs(), target.name, &FolderInput::name) > 0 ||
-            target.name.starts_with(historyPrefix))
-            value.fail("is the name of a uniform that shaders have already; choose another");
+        requireFree(value, target.name);
+        if (const auto when = value.find("linear_when")) target.linearWhen = conditionOf(*when, read_);
+        if (target.linear && target.linearWhen) value.get("linear_when").fail("is said by filter = \"linear\" already");
         const TomlValue size = value.get("size");
         target.ofImage = size.isText() && size.text() == "image";
         if (!target.ofImage && !size.isText() && !size.isWhole())

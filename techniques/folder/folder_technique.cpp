@@ -3,10 +3,11 @@
 #include "base/error.h"
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/pass_program.h"
+#include "techniques/folder/patterns.h"
+#include "techniques/folder/views.h"
 #include "techniques/gl/api.h"
-#include "techniques/shared/light_views/focused_view.h"
 #include "techniques/shared/maps/depth_map.h"
-#include "techniques/shared/sampling/sampling.h"
+#include "techniques/shared/maps/linearised_map.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,11 +16,6 @@
 
 namespace shadowbench::techniques {
 namespace {
-
-double valueOf(const Amount& amount, const Parameters& values) {
-    if (const double* number = std::get_if<double>(&amount)) return *number;
-    return values.real(std::get<std::string>(amount));
-}
 
 /// As long as it lives; everything else draws without.
 class Blending {
@@ -53,11 +49,48 @@ public:
     Culling& operator=(const Culling&) = delete;
 };
 
+/// What lies behind the depths that are there, which stay, as long as it lives.
+class Peeling {
+public:
+    explicit Peeling(bool peels) {
+        if (!peels) return;
+        glDepthFunc(GL_GREATER);
+        glDepthMask(GL_FALSE);
+    }
+    ~Peeling() {
+        glDepthMask(GL_TRUE);
+        glDepthFunc(GL_LESS);
+    }
+    Peeling(const Peeling&) = delete;
+    Peeling& operator=(const Peeling&) = delete;
+};
+
+/// Confines drawing to one of several tiles, as long as it lives.
+class Tiling {
+public:
+    Tiling(const Tile& tile, std::size_t tiles) {
+        if (tiles == 1) return;
+        glViewport(tile.at.x, tile.at.y, tile.size.x, tile.size.y);
+        glScissor(tile.at.x, tile.at.y, tile.size.x, tile.size.y);
+        glEnable(GL_SCISSOR_TEST);
+    }
+    ~Tiling() { glDisable(GL_SCISSOR_TEST); }
+    Tiling(const Tiling&) = delete;
+    Tiling& operator=(const Tiling&) = delete;
+};
+
 class FolderTechnique final : public Technique {
 public:
     FolderTechnique(std::shared_ptr<const TechniqueFolder> folder, const Parameters& values)
-        : folder_(std::move(folder)), values_(values) {
-        for (const FolderPass& pass : folder_->passes) programs_.push_back(programOf(*folder_, pass, values_));
+        : folder_(std::move(folder)), values_(values), views_(*folder_, values_), patterns_(*folder_, values_) {
+        for (const FolderPass& pass : folder_->passes) {
+            if (!holds(pass.when, values_)) continue;
+            passes_.push_back(&pass);
+            programs_.push_back(programOf(*folder_, pass, values_, views_.count()));
+        }
+        if (folder_->mapParameters == MapParameters::None) return;
+        bias_ = biasFrom(values_);
+        followsPlane_ = followsPlane(values_);
     }
 
     void reset() override {
@@ -66,17 +99,17 @@ public:
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
-        view_ = fit(frame);
         if (imageSize_ != frame.size) reset();
         imageSize_ = frame.size;
         if (targets_.empty()) makeTargets();
-        for (std::size_t first = 0; first < folder_->passes.size();) {
+        views_.fit(frame, tiles_.empty() ? 0 : tiles_.front().size.x);
+        for (std::size_t first = 0; first < passes_.size();) {
             const std::size_t end = endOfGroup(first);
-            const int repetitions = static_cast<int>(valueOf(folder_->passes[first].repeat, values_));
+            const int repetitions = static_cast<int>(valueOf(passes_[first]->repeat, values_));
             for (repetition_ = 0; repetition_ < repetitions; ++repetition_)
                 for (std::size_t i = first; i < end; ++i) {
-                    const auto pass = frame.pass(folder_->passes[i].name);
-                    draw(folder_->passes[i], programs_[i], frame, visibility);
+                    const auto pass = frame.pass(passes_[i]->name);
+                    draw(*passes_[i], programs_[i], frame, visibility);
                 }
             first = end;
         }
@@ -86,9 +119,11 @@ public:
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
-        const auto casters = std::ranges::find(folder_->passes, true, &FolderPass::casters);
-        if (casters == folder_->passes.end() || targets_.empty()) return {};
-        return texelAt(view_, world, targets_.at(casters->to.front()).now.size());
+        if (tiles_.empty() || views_.views().empty()) return {};
+        const std::size_t view = views_.viewAt(world);
+        std::optional<glm::dvec2> point = texelAt(views_.views()[view], world, tiles_[view].size);
+        if (point) *point += tiles_[view].at;
+        return point;
     }
 
 private:
@@ -97,47 +132,59 @@ private:
         std::optional<gl::Texture> before = {}; // of a target with a history
     };
 
-    [[nodiscard]] std::size_t endOfGroup(std::size_t first) const {
-        const std::string& group = folder_->passes[first].group;
-        std::size_t end = first + 1;
-        while (!group.empty() && end < folder_->passes.size() && folder_->passes[end].group == group) ++end;
-        return end;
+    [[nodiscard]] Bias biasOf(const FolderPass& pass) const {
+        if (pass.bias == MapBias::Parameters) return bias_;
+        if (pass.bias == MapBias::Slope) return drawnBias(bias_);
+        return {.factor = static_cast<float>(valueOf(pass.slopeOffset, values_)),
+                .units = static_cast<float>(valueOf(pass.unitOffset, values_))};
     }
 
-    [[nodiscard]] LightView fit(const Frame& frame) const {
-        const bool soft = folder_->entry.answer == Answer::Soft;
-        const Light& light = soft ? frame.snapshot.light : frame.hardLight;
-        switch (folder_->view) {
-        case FolderView::Scene:
-            return fitToScene(light, frame.snapshot);
-        case FolderView::Focused:
-            return fitFocused(frame.hardLight, frame.snapshot, frame.snapshot.camera, frame.aspect());
-        case FolderView::Sample:
-            const glm::dvec2 at(haltonOf(frame.index, frame.seed, 2), haltonOf(frame.index, frame.seed, 3));
-            return fitFromSample(light, light.sample(at), boundingCorners(frame.snapshot));
-        }
-        throw InternalError("unknown view of a technique folder");
+    [[nodiscard]] std::size_t endOfGroup(std::size_t first) const {
+        const std::string& group = passes_[first]->group;
+        std::size_t end = first + 1;
+        while (!group.empty() && end < passes_.size() && passes_[end]->group == group) ++end;
+        return end;
     }
 
     void makeTargets() {
         for (const FolderTarget& target : folder_->targets) {
+            if (isLeftOut(target)) continue;
             const int side = static_cast<int>(valueOf(target.side, values_));
             if (!target.ofImage && (side < 1 || side > mostTexelsOfSide))
                 throw BadInput(fmt::format("{}: target {} would have {} texels a side; 1 to {} are allowed",
                                            folder_->path.string(), target.name, side, mostTexelsOfSide));
-            const glm::ivec2 size = target.ofImage ? imageSize_ : glm::ivec2(side);
-            Target made{textureOf(target, size)};
+            if (!target.ofImage && views_.tiles(side).front().size.x < 1)
+                throw BadInput(fmt::format("{}: target {} has too few texels for {} views: {} a side",
+                                           folder_->path.string(), target.name, views_.count(), side));
+            const glm::ivec2 size = target.ofImage ? imageSize_ : sizeOf(views_.tiles(side));
+            const bool linear = target.linear || (target.linearWhen && holds(target.linearWhen, values_));
+            Target made{textureOf(target, size, linear)};
             if (target.history) {
-                made.before = textureOf(target, size);
+                made.before = textureOf(target, size, linear);
                 clear(*made.before);
             }
             targets_.emplace(target.name, std::move(made));
         }
+        const auto casters = std::ranges::find_if(passes_, [](const FolderPass* pass) { return pass->casters; });
+        if (casters != passes_.end()) tiles_ = tilesOf((*casters)->to.front());
     }
 
-    static gl::Texture textureOf(const FolderTarget& target, glm::ivec2 size) {
+    /// Whether only passes write it that are left out with these parameters.
+    [[nodiscard]] bool isLeftOut(const FolderTarget& target) const {
+        const auto writes = [&](const FolderPass& pass) { return std::ranges::count(pass.to, target.name) > 0; };
+        return std::ranges::any_of(folder_->passes, writes) &&
+               std::ranges::none_of(passes_, [&](const FolderPass* pass) { return writes(*pass); });
+    }
+
+    /// Of a target that casters are drawn into.
+    [[nodiscard]] std::vector<Tile> tilesOf(const std::string& name) const {
+        const auto target = std::ranges::find(folder_->targets, name, &FolderTarget::name);
+        return views_.tiles(static_cast<int>(valueOf(target->side, values_)));
+    }
+
+    static gl::Texture textureOf(const FolderTarget& target, glm::ivec2 size, bool linear) {
         const bool depths = target.format == gl::Format::Depth32F;
-        gl::Texture texture(target.format, size, target.linear ? gl::Filter::Linear : gl::Filter::Nearest,
+        gl::Texture texture(target.format, size, linear ? gl::Filter::Linear : gl::Filter::Nearest,
                             depths ? gl::Wrap::BorderFar : gl::Wrap::ClampToEdge,
                             target.mipmaps ? gl::Levels::All : gl::Levels::One);
         if (target.compare) texture.compareDepth();
@@ -156,11 +203,12 @@ private:
         std::vector<const gl::Texture*> attachments;
         for (const std::string& name : pass.to)
             attachments.push_back(name == visibilityTarget ? &visibility : &targets_.at(name).now);
-        setInputs(program, frame);
-        if (pass.casters)
+        if (pass.casters) {
             drawCasters(pass, program, frame, attachments);
-        else
+        } else {
+            setInputs(program, frame, views_.views());
             drawScreen(pass, program, attachments);
+        }
         for (const std::string& name : pass.to)
             if (name != visibilityTarget && hasMipmaps(name)) targets_.at(name).now.makeMipmaps();
     }
@@ -169,11 +217,18 @@ private:
         return std::ranges::find(folder_->targets, name, &FolderTarget::name)->mipmaps;
     }
 
-    void setInputs(gl::Program& program, const Frame& frame) const {
-        const FolderState state{frame, view_, historyFrames_, repetition_};
+    [[nodiscard]] bool addsUnits() const {
+        return std::ranges::any_of(passes_, [](const FolderPass* pass) { return pass->bias == MapBias::Slope; });
+    }
+
+    /// `views`: those that the program draws into or reads.
+    void setInputs(gl::Program& program, const Frame& frame, std::span<const LightView> views) const {
+        const FolderState state{frame,          views,       tiles_, sizeOf(tiles_), views_.cascades(),
+                                historyFrames_, repetition_, bias_,  followsPlane_,  addsUnits()};
         for (const auto& [name, type] : program.uniformTypes()) {
             const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name);
             if (input != folderInputs().end()) input->set(program, name, state);
+            patterns_.set(program, name, frame.snapshot.light);
             if (const auto target = targets_.find(name); target != targets_.end()) program.set(name, target->second.now);
             if (name.starts_with(historyPrefix))
                 if (const auto target = targets_.find(name.substr(historyPrefix.size())); target != targets_.end())
@@ -188,7 +243,10 @@ private:
             for (std::size_t i = 0; i < attachments.size(); ++i) target.clearColour(static_cast<int>(i), *pass.clear);
         target.bind();
         const Blending blending(pass.blend);
-        program.drawScreen();
+        if (attachments.front()->format() == gl::Format::Depth32F)
+            program.drawScreenDepth();
+        else
+            program.drawScreen();
     }
 
     /// Where no depths are kept the nearest casters are found in a buffer of the program's own.
@@ -204,23 +262,39 @@ private:
         const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
         const auto colours = std::ranges::count_if(attachments, std::not_fn(isDepth));
         for (int i = 0; i < colours; ++i) target.clearColour(i, *pass.clear);
-        if (pass.depthTest) target.clearDepth(1);
-        target.bind();
-        const CasterPass casters(program, view_,
-                                 {.factor = static_cast<float>(valueOf(pass.slopeOffset, values_)),
-                                  .units = static_cast<float>(valueOf(pass.unitOffset, values_))});
+        if (pass.depthTest && !pass.peels) target.clearDepth(1);
+        const std::vector<Tile> tiles = tilesOf(pass.to.front());
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            target.bind();
+            const Tiling tiling(tiles[i], tiles.size());
+            setInputs(program, frame, views_.views().subspan(i, 1));
+            drawView(pass, program, frame, i);
+        }
+    }
+
+    void drawView(const FolderPass& pass, gl::Program& program, const Frame& frame, std::size_t view) const {
+        const CasterPass casters(program, views_.views()[view], biasOf(pass));
         const Blending blending(pass.blend);
         const Culling culling(pass.cull);
         if (!pass.depthTest) glDisable(GL_DEPTH_TEST); // until the next pass sets it
-        frame.scene.draw();
+        const Peeling peeling(pass.peels);
+        if (const std::vector<bool>* shown = views_.casters(view))
+            frame.scene.draw(*shown);
+        else
+            frame.scene.draw();
     }
 
     std::shared_ptr<const TechniqueFolder> folder_;
     Parameters values_;
-    std::vector<gl::Program> programs_; // a pass each
+    FolderViews views_;
+    FolderPatterns patterns_;
+    std::vector<const FolderPass*> passes_; // that are drawn with these parameters
+    std::vector<gl::Program> programs_;     // a pass each
+    std::vector<Tile> tiles_;               // of the first map; none where no casters are drawn
     std::unordered_map<std::string, Target> targets_;
     std::optional<gl::Texture> ownDepths_;
-    LightView view_;
+    Bias bias_{};
+    bool followsPlane_ = true;
     glm::ivec2 imageSize_{0};
     int historyFrames_ = 0, repetition_ = 0;
 };

@@ -34,19 +34,46 @@ constexpr std::array keys{
     FolderKey{Root, "history",
               "`true`: keeps texels from frame to frame, so frames are drawn in order and ghosts are looked for", "`false`",
               flag},
-    FolderKey{Root, "view",
-              "what the light's view holds: `scene`; `focused`, what the camera sees; or `light-sample`, the scene from "
-              "another point of an area light each frame",
-              "`scene`", oneOf<views>},
+    FolderKey{
+        Root, "view",
+        "what the light's view holds: `scene`; `focused`, what the camera sees; `lispsm`, the same, warped; "
+        "`light-sample`, the scene from another point of an area light each frame; or several views: `cube`, the scene "
+        "through the six sides of a cube, and `cascades`, slices of what the camera sees",
+        "`scene`", oneOf<views>},
+    FolderKey{Root, "cascades", "`[cascades]`, below: how they are fitted", "needed by `cascades` alone", tables},
+    FolderKey{Root, "depth_map",
+              "adds the parameters `map`, `bias`, `factor` and `units`, as the depth maps that are built in have them: with "
+              "`depth-bias` the bias is one of depths; with `any-bias` it may be `normal-offset` as well, for shaders over "
+              "shared/maps/tested_point.glsl",
+              "none", oneOf<mapBiases>},
     FolderKey{Root, "variants", "the rows of a run: texts as `\"map=512,kernel=3\"`; `\"\"` has all defaults", "`[\"\"]`",
               texts},
     FolderKey{Root, "lacks",
               "what it has no right answer for, as `list techniques` names it: `recommend` leaves such rows out", "none",
               texts},
     FolderKey{Root, "parameter", "`[parameter.NAME]`, below", "none", tables},
+    FolderKey{Root, "pattern", "`[pattern.NAME]`, points to sample with, below", "none", tables},
     FolderKey{Root, "target", "`[target.NAME]`, a texture, below", "none", tables},
     FolderKey{Root, "pass", "`[[pass]]`, below: what is drawn, in order; the last one writes `visibility`", "needed",
               [] { return std::string(R"("type": "array", "minItems": 1)"); }},
+
+    FolderKey{Cascades, "count", "how many slices, 1 to 8, or the parameter that says it", "needed",
+              [] { return std::string(R"("type": ["string", "integer"])"); }},
+    FolderKey{Cascades, "lambda",
+              "share of geometrical (1) against even (0) steps between slices, or the parameter that says it", "1", scalar},
+    FolderKey{Cascades, "blend",
+              "share of a slice, at its end, that the next slice's map holds, too, up to 0.5, or the parameter that says it",
+              "0", scalar},
+    FolderKey{Cascades, "fit",
+              "what slices are fitted to: `visible`, the points that the G-buffer shows; `view`, the frustum within the "
+              "scene's box; or the parameter that says which",
+              "`visible`", text},
+    FolderKey{Cascades, "warp", "`none`, `lispsm`, or the parameter that says which", "`none`", text},
+    FolderKey{
+        Cascades, "stable",
+        "`none`; `texels`: maps of a directional light as large as the slice's ball, moved by whole texels, which asks "
+        "for `fit = \"view\"`; or the parameter that says which",
+        "`none`", text},
 
     FolderKey{Parameter, "default", "the value without another", "needed", scalar},
     FolderKey{Parameter, "meaning", "one line for people, with the unit", "needed", text},
@@ -56,11 +83,26 @@ constexpr std::array keys{
     FolderKey{Parameter, "choices", "of a word: all that there are", "this or `range`", texts},
     FolderKey{Parameter, "source", "where the paper has it", "none", text},
 
+    FolderKey{Pattern, "kind",
+              "`poisson-disk`, points of the unit disk, well apart; `poisson-light`, the same over the light's own shape; "
+              "`grid`, cell centres of [−1, 1]²; `gaussian`, offset and weight of pairs of taps; or `jitter`, a table for "
+              "shared/filters/jitter_table.glsl",
+              "needed", oneOf<patternKinds>},
+    FolderKey{Pattern, "sigma", "of `gaussian`: the standard deviation in steps, or the parameter that says it",
+              "needed there", scalar},
+    FolderKey{Pattern, "taps", "of `jitter`: how many a pixel has, or the parameter that says it", "needed there",
+              [] { return std::string(R"("type": ["string", "integer"])"); }},
+    FolderKey{Pattern, "sectors", "of `jitter`: how many of them are of one ring of the disk", "needed there",
+              [] { return std::string(R"("type": "integer")"); }},
+
     FolderKey{Target, "format", "`R8`, `RGBA8`, `R32F`, `RG16F`, `RG32F`, `RGBA16F`, `RGBA32F` or `Depth32F`", "needed",
               oneOf<formats>},
-    FolderKey{Target, "size", "`\"image\"`, texels per side, or the parameter that has them", "needed",
-              [] { return std::string(R"("type": ["string", "integer"])"); }},
+    FolderKey{Target, "size",
+              "`\"image\"`, texels per side, or the parameter that has them; with several views they share as many texels",
+              "needed", [] { return std::string(R"("type": ["string", "integer"])"); }},
     FolderKey{Target, "filter", "`nearest` or `linear`", "`nearest`", oneOf<filters>},
+    FolderKey{Target, "linear_when", "the one choice of a parameter with which the filter is linear, as `\"kernel=2\"`",
+              "none", text},
     FolderKey{Target, "compare", "depths are read through `sampler2DShadow`", "`false`", flag},
     FolderKey{Target, "mipmaps", "made after each pass that writes the target", "`false`", flag},
     FolderKey{Target, "history", "its texels of the frame before can be read", "`false`", flag},
@@ -71,9 +113,11 @@ constexpr std::array keys{
               "needed", oneOf<draws>},
     FolderKey{Pass, "to", "the target that is written, or a list of them in the order of the shader's outputs", "needed",
               [] { return std::string(R"("type": ["string", "array"], "items": {"type": "string"}, "maxItems": 7)"); }},
-    FolderKey{Pass, "fragment", "a file of the folder; casters without one write depth alone", "of casters none", text},
+    FolderKey{Pass, "fragment", "a file of the folder or one of ours; casters without one write depth alone",
+              "of casters none", text},
     FolderKey{Pass, "define", "macros of this pass, as `{ DIRECTION = \"ivec2(1, 0)\" }`: one file may serve several passes",
               "none", tables},
+    FolderKey{Pass, "when", "the one choice of a parameter with which it is drawn, as `\"depth=midpoint\"`", "always", text},
     FolderKey{Pass, "repeat", "how often it is drawn, 1 to 64, or the parameter that says it; `repetition` counts", "1",
               [] { return std::string(R"("type": ["string", "integer"])"); }},
     FolderKey{Pass, "group",
@@ -86,12 +130,16 @@ constexpr std::array keys{
     FolderKey{
         Pass, "offset",
         "of casters, away from the light: `[of the slope, units]`, numbers or parameters, as glPolygonOffset has them; "
-        "units are 2⁻²⁴ of the depth range",
+        "units are 2⁻²⁴ of the depth range. Or `\"bias\"`: as the parameters of `depth_map` say; or "
+        "`\"bias-of-slope\"`, which leaves the constant part to `metreLinearisation`",
         "`[0, 0]`",
         [] {
-            return std::string(R"("type": "array", "minItems": 2, "maxItems": 2, "items": {"type": ["string", "number"]})");
+            return std::string(
+                R"("type": ["array", "string"], "minItems": 2, "maxItems": 2, "items": {"type": ["string", "number"]})");
         }},
     FolderKey{Pass, "cull", "of casters: triangles that are left out, `none`, `front` or `back`", "`none`", oneOf<culls>},
+    FolderKey{Pass, "peel", "of casters: only what lies behind its target of depths is drawn, which stays as it is",
+              "`false`", flag},
     FolderKey{Pass, "depth_test", "of casters without a target of depths: `false` draws all of them, not the nearest alone",
               "`true`", flag},
 };
@@ -111,7 +159,11 @@ std::string tableSchema(KeyTable table, const std::string& indent);
 std::string keySchema(const FolderKey& key, const std::string& indent) {
     const auto inner = [&](KeyTable of) { return fmt::format("{{{}\n{}}}", tableSchema(of, indent + "  "), indent); };
     std::string schema = fmt::format("{{\"description\": {}, {}", quoted(key.meaning), key.schema());
+    if (key.table == Root && key.name == "cascades")
+        return fmt::format("{{\"description\": {},{}\n{}}}", quoted(key.meaning), tableSchema(Cascades, indent + "  "),
+                           indent);
     if (key.table == Root && key.name == "parameter") schema += ", \"additionalProperties\": " + inner(Parameter);
+    if (key.table == Root && key.name == "pattern") schema += ", \"additionalProperties\": " + inner(Pattern);
     if (key.table == Root && key.name == "target") schema += ", \"additionalProperties\": " + inner(Target);
     if (key.table == Root && key.name == "pass") schema += ", \"items\": " + inner(Pass);
     return schema + "}";

@@ -23,15 +23,33 @@ inline constexpr Words<gl::Format, 8> formats{"format",
                                                 {gl::Format::Depth32F, "Depth32F"}}}};
 inline constexpr Words<Answer, 3> answers{
     "answer", {{{Answer::Hard, "hard"}, {Answer::Filtered, "filtered"}, {Answer::Soft, "soft"}}}};
-inline constexpr Words<FolderView, 3> views{
-    "view", {{{FolderView::Scene, "scene"}, {FolderView::Focused, "focused"}, {FolderView::Sample, "light-sample"}}}};
+inline constexpr Words<FolderView, 6> views{"view",
+                                            {{{FolderView::Scene, "scene"},
+                                              {FolderView::Focused, "focused"},
+                                              {FolderView::Lispsm, "lispsm"},
+                                              {FolderView::Sample, "light-sample"},
+                                              {FolderView::Cube, "cube"},
+                                              {FolderView::Cascades, "cascades"}}}};
+inline constexpr Words<bool, 2> cascadeFits{"fit", {{{true, "visible"}, {false, "view"}}}};
+inline constexpr Words<bool, 2> cascadeWarps{"warp", {{{true, "lispsm"}, {false, "none"}}}};
+inline constexpr Words<bool, 2> cascadeTexels{"stable", {{{true, "texels"}, {false, "none"}}}};
+inline constexpr Words<MapParameters, 2> mapBiases{
+    "depth_map", {{{MapParameters::DepthBias, "depth-bias"}, {MapParameters::AnyBias, "any-bias"}}}};
 inline constexpr Words<bool, 2> draws{"draw", {{{true, "casters"}, {false, "screen"}}}};
 inline constexpr Words<bool, 2> filters{"filter", {{{false, "nearest"}, {true, "linear"}}}}; // whether it is linear
 inline constexpr Words<Blend, 4> blends{
     "blend", {{{Blend::Add, "add"}, {Blend::Min, "min"}, {Blend::Max, "max"}, {Blend::Multiply, "multiply"}}}};
 inline constexpr Words<Cull, 3> culls{"cull", {{{Cull::None, "none"}, {Cull::Front, "front"}, {Cull::Back, "back"}}}};
 
-enum class KeyTable { Root, Parameter, Target, Pass };
+inline constexpr Words<PatternKind, 5> patternKinds{"kind",
+                                                    {{{PatternKind::PoissonDisk, "poisson-disk"},
+                                                      {PatternKind::PoissonLight, "poisson-light"},
+                                                      {PatternKind::Grid, "grid"},
+                                                      {PatternKind::Gaussian, "gaussian"},
+                                                      {PatternKind::Jitter, "jitter"}}}};
+inline constexpr Words<MapBias, 2> biases{"offset", {{{MapBias::Parameters, "bias"}, {MapBias::Slope, "bias-of-slope"}}}};
+
+enum class KeyTable { Root, Cascades, Parameter, Pattern, Target, Pass };
 
 struct FolderKey {
     KeyTable table;

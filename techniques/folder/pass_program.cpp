@@ -4,6 +4,9 @@
 #include "base/hash.h"
 #include "base/words.h"
 #include "techniques/folder/inputs.h"
+#include "techniques/folder/patterns.h"
+#include "techniques/folder/reading.h"
+#include "techniques/shared/maps/normal_offset.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,13 +17,16 @@ namespace shadowbench::techniques {
 namespace {
 
 /// A parameter is a macro by its name in capitals; a choice is one of name and word.
-gl::Defines definesOf(const Entry& entry, const Parameters& values) {
-    gl::Defines defines;
-    for (const Parameter& parameter : entry.parameters) {
+gl::Defines definesOf(const TechniqueFolder& folder, const Parameters& values) {
+    gl::Defines defines = JitterTable::defines();
+    if (folder.mapParameters == MapParameters::AnyBias)
+        for (auto& define : normalOffsetDefines(biasFrom(values))) defines.push_back(std::move(define));
+    for (const Parameter& parameter : folder.entry.parameters) {
         const std::string& value = values.text(parameter.name);
-        if (std::holds_alternative<OneOf>(parameter.domain))
+        if (const auto* words = std::get_if<OneOf>(&parameter.domain)) {
             defines.emplace_back(macroOf(parameter.name + "_" + value), "1");
-        else if (std::holds_alternative<RealRange>(parameter.domain))
+            if (areNumbers(*words)) defines.emplace_back(macroOf(parameter.name), value);
+        } else if (std::holds_alternative<RealRange>(parameter.domain))
             defines.emplace_back(macroOf(parameter.name), fmt::format("{:#.9g}", values.real(parameter.name)));
         else
             defines.emplace_back(macroOf(parameter.name), value);
@@ -45,7 +51,7 @@ public:
     }
 
 private:
-    [[nodiscard]] std::string file() const { return fmt::format("{}/{}", folder_.path.string(), pass_.fragment); }
+    [[nodiscard]] std::string file() const { return gl::placeOf({folder_.path.string(), folder_.shaders}, pass_.fragment); }
 
     /// The line of the compiler's log that is the first error, where warnings may come before; of the linker's, after the
     /// file.
@@ -66,7 +72,8 @@ private:
     /// Where a file of the folder declares a uniform: the pass's own first.
     [[nodiscard]] std::string placeOf(const std::string& uniform) const {
         const std::regex declaration("\\buniform\\b.*\\b" + uniform + "\\b");
-        std::vector<std::string> names{pass_.fragment};
+        std::vector<std::string> names;
+        if (folder_.shaders.contains(pass_.fragment)) names.push_back(pass_.fragment);
         for (const auto& [name, text] : folder_.shaders) names.push_back(name);
         for (const std::string& name : names) {
             std::istringstream lines(folder_.shaders.at(name));
@@ -86,7 +93,9 @@ private:
     void requireKnown(const std::string& name, const std::string& type) const {
         if (pass_.casters && (name == "clipFromWorld" || name == "lightPlane")) return;
         if (const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name); input != folderInputs().end())
-            return requireType(name, type, input->type);
+            return requireInput(name, type, *input);
+        const auto pattern = std::ranges::find(folder_.patterns, name, &FolderPattern::name);
+        if (pattern != folder_.patterns.end()) return requireType(name, type, typeOf(pattern->kind));
         const FolderTarget* target = targetOf(name);
         if (target == nullptr)
             fail(name, fmt::format("nothing sets the uniform \"{}\"{}; parameters are macros in capitals", name,
@@ -94,6 +103,17 @@ private:
         requireType(name, type, target->compare ? "sampler2DShadow" : "sampler2D");
         if (std::ranges::find(pass_.to, name) != pass_.to.end())
             fail(name, fmt::format("the pass \"{}\" reads {}, which it writes; write another target", pass_.name, name));
+    }
+
+    /// Casters are drawn into one view at a time; other passes read all.
+    void requireInput(const std::string& name, const std::string& type, const FolderInput& input) const {
+        if (name == "sliceEnds" && folder_.view != FolderView::Cascades)
+            fail(name, "is of cascades: say view = \"cascades\"");
+        if (pass_.casters && input.type.ends_with("[]"))
+            fail(name, fmt::format("\"{}\" is of passes over the screen; casters are drawn into one view at a time", name));
+        const bool several = folder_.view == FolderView::Cube || folder_.view == FolderView::Cascades;
+        const std::string each = std::string(input.type) + (input.ofEachView && several && !pass_.casters ? "[]" : "");
+        requireType(name, type, each);
     }
 
     void requireType(const std::string& name, const std::string& type, std::string_view right) const {
@@ -112,6 +132,7 @@ private:
     [[nodiscard]] std::vector<std::string> knownNames() const {
         std::vector<std::string> known;
         for (const FolderInput& input : folderInputs()) known.emplace_back(input.name);
+        for (const FolderPattern& pattern : folder_.patterns) known.push_back(pattern.name);
         for (const FolderTarget& target : folder_.targets) {
             known.push_back(target.name);
             if (target.history) known.push_back(std::string(historyPrefix) + target.name);
@@ -133,20 +154,29 @@ std::string shaderText(const TechniqueFolder& folder, const FolderPass& pass) {
     try {
         return gl::loadShader({"", folder.shaders}, pass.fragment, pass.defines).text;
     } catch (const InternalError&) {
-        return folder.shaders.at(pass.fragment);
+        const auto own = folder.shaders.find(pass.fragment);
+        return own == folder.shaders.end() ? pass.fragment : own->second;
     }
 }
 
 std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
     const glm::vec4 clear = pass.clear.value_or(glm::vec4(-1));
-    std::string state = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", pass.casters, text(pass.slopeOffset),
-                                    text(pass.unitOffset), pass.clear.has_value(), clear.x, clear.y, clear.z, clear.w,
-                                    pass.blend ? static_cast<int>(*pass.blend) : -1, static_cast<int>(pass.cull),
-                                    pass.depthTest, text(pass.repeat));
+    std::string state = fmt::format(
+        "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", pass.casters, static_cast<int>(pass.bias), pass.peels,
+        pass.when ? pass.when->parameter + "=" + pass.when->word : "", text(pass.slopeOffset), text(pass.unitOffset),
+        pass.clear.has_value(), clear.x, clear.y, clear.z, clear.w, pass.blend ? static_cast<int>(*pass.blend) : -1,
+        static_cast<int>(pass.cull), pass.depthTest, text(pass.repeat));
+    if (pass.casters) {
+        const FolderCascades& cascades = folder.cascades;
+        state +=
+            fmt::format("\n{} {} {} {} {} {} {}", static_cast<int>(folder.view), text(cascades.count), text(cascades.lambda),
+                        text(cascades.blend), cascades.fit.text, cascades.warp.text, cascades.stable.text);
+    }
     for (const FolderTarget& target : folder.targets)
         if (std::ranges::count(pass.to, target.name) > 0)
-            state += fmt::format("\n{} {} {} {} {} {} {}", target.name, static_cast<int>(target.format), target.ofImage,
-                                 text(target.side), target.linear, target.compare, target.mipmaps);
+            state += fmt::format("\n{} {} {} {} {} {} {} {}", target.linearWhen ? target.linearWhen->word : "", target.name,
+                                 static_cast<int>(target.format), target.ofImage, text(target.side), target.linear,
+                                 target.compare, target.mipmaps);
     return state;
 }
 
@@ -160,9 +190,10 @@ std::map<std::string, std::string> passHashes(const TechniqueFolder& folder) {
     return hashes;
 }
 
-gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values) {
+gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values, int views) {
     if (pass.fragment.empty()) return {"shared/maps/depth_map.vert", "gl/depth_only.frag"};
-    gl::Defines defines = definesOf(folder.entry, values);
+    gl::Defines defines = definesOf(folder, values);
+    defines.emplace_back("TILES", std::to_string(views));
     defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
     return PassProgram(folder, pass).made(defines);
 }

@@ -10,10 +10,10 @@
 
 namespace shadowbench::techniques {
 
-/// Compiled for these parameters. Throws BadInput, one line that begins with the file and the line where there is one: for
-/// what does not compile or link, a uniform that nothing sets or of another type, and a target that is read while it is
-/// written.
-gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values);
+/// Compiled for these parameters, of which the light has as many `views`. Throws BadInput, one line that begins with the
+/// file and the line where there is one: for what does not compile or link, a uniform that nothing sets or of another type,
+/// and a target that is read while it is written.
+gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values, int views);
 
 /// Hashes of all that passes draw with but parameters: their shaders with what these include, and their state; by their
 /// names.

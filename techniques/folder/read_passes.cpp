@@ -22,6 +22,8 @@ public:
         pass_.casters = draws.named(value_.get("draw").oneOf(draws.all()));
         readTargets(value_.get("to"));
         readShader();
+        if (const auto when = value_.find("when")) pass_.when = conditionOf(*when, read_);
+        if (const auto peel = value_.find("peel")) pass_.peels = peel->boolean();
         if (const auto blend = value_.find("blend")) pass_.blend = blends.named(blend->oneOf(blends.all()));
         if (const auto clear = value_.find("clear")) readClear(*clear);
         requireSomethingBelow();
@@ -69,7 +71,7 @@ private:
     void readShader() {
         if (const auto fragment = value_.find("fragment")) {
             pass_.fragment = fragment->text();
-            if (!read_.shaders.contains(pass_.fragment)) fragment->fail(noShader());
+            if (!read_.shaders.contains(pass_.fragment) && !gl::isEmbedded(pass_.fragment)) fragment->fail(noShader());
         } else if (!pass_.casters) {
             value_.fail("a pass over the screen needs a fragment shader: fragment = \"resolve.frag\"");
         }
@@ -121,6 +123,8 @@ private:
         if (pass_.to.front() == visibilityTarget || targetNamed(pass_.to.front())->ofImage)
             value_.fail("casters are drawn into a map, which has a size of its own");
         if (pass_.fragment.empty() && std::ssize(pass_.to) > depths()) value_.fail("colours need a fragment shader");
+        if (pass_.peels && (depths() == 0 || pass_.fragment.empty()))
+            value_.get("peel").fail("needs a target of depths, behind which it draws, and another with a fragment shader");
         if (!pass_.clear) pass_.clear = glm::vec4(0);
         if (const auto cull = value_.find("cull")) pass_.cull = culls.named(cull->oneOf(culls.all()));
         if (const auto test = value_.find("depth_test")) {
@@ -128,17 +132,26 @@ private:
             if (!pass_.depthTest && depths() > 0)
                 test->fail("a target of depths keeps the nearest: leave one of the two out");
         }
-        if (const auto offset = value_.find("offset")) {
-            const std::vector<TomlValue> both = offset->list();
-            if (both.size() != 2) offset->fail("expected [of the slope, units], numbers or parameters");
-            pass_.slopeOffset = amountOf(both[0], read_);
-            pass_.unitOffset = amountOf(both[1], read_);
+        if (const auto offset = value_.find("offset")) readOffset(*offset);
+    }
+
+    void readOffset(const TomlValue& offset) {
+        if (offset.isText()) {
+            pass_.bias = biases.named(offset.oneOf(biases.all()));
+            if (read_.mapParameters == MapParameters::None)
+                offset.fail("is that of the parameters of a depth map: say depth_map = \"depth-bias\" above");
+            return;
         }
+        const std::vector<TomlValue> both = offset.list();
+        if (both.size() != 2) offset.fail("expected [of the slope, units], numbers or parameters, or \"bias\"");
+        pass_.slopeOffset = amountOf(both[0], read_);
+        pass_.unitOffset = amountOf(both[1], read_);
     }
 
     void requireScreen() const {
-        if (depths() > 0) value_.fail("a pass over the screen writes no depths");
-        for (const char* key : {"offset", "cull", "depth_test"})
+        if (depths() > 0 && (pass_.to.size() > 1 || pass_.blend))
+            value_.fail("a pass over the screen writes depths alone, by gl_FragDepth");
+        for (const char* key : {"offset", "cull", "depth_test", "peel"})
             if (const auto said = value_.find(key)) said->fail("is of casters");
     }
 
@@ -151,17 +164,8 @@ private:
                 group->fail("has passes above; those of a group come one after the other");
             if (follows && value_.find("repeat")) value_.get("repeat").fail("is said by the first pass of the group");
         }
-        if (const auto repeat = value_.find("repeat")) pass_.repeat = repetitions(*repeat);
-    }
-
-    [[nodiscard]] Amount repetitions(const TomlValue& repeat) const {
-        if (!repeat.isText()) return static_cast<double>(repeat.integer(1, mostRepetitions));
-        const Amount named = amountOf(repeat, read_);
-        const auto parameter = std::ranges::find(read_.entry.parameters, repeat.text(), &Parameter::name);
-        const auto* range = std::get_if<IntegerRange>(&parameter->domain);
-        if (range == nullptr || range->low < 1 || range->high > mostRepetitions)
-            repeat.fail(fmt::format("{} must be a whole number within 1 and {}", parameter->name, mostRepetitions));
-        return named;
+        if (const auto repeat = value_.find("repeat"))
+            pass_.repeat = amountWithin(*repeat, IntegerRange{1, mostRepetitions}, read_);
     }
 
     const TomlValue& value_;

@@ -108,8 +108,9 @@ void Program::findUniforms() {
         GLenum type = 0;
         glGetActiveUniform(id_, static_cast<GLuint>(i), sizeof buffer, nullptr, &size, &type, buffer);
         std::string name(buffer);
-        if (name.ends_with("[0]")) name.resize(name.size() - 3);
-        uniforms_[name] = {glGetUniformLocation(id_, buffer), isSampler(type) ? unit++ : -1, type};
+        const bool array = name.ends_with("[0]");
+        if (array) name.resize(name.size() - 3);
+        uniforms_[name] = {glGetUniformLocation(id_, buffer), isSampler(type) ? unit++ : -1, type, array, size};
     }
 }
 
@@ -126,7 +127,7 @@ std::map<std::string, std::string> Program::uniformTypes() const {
     std::map<std::string, std::string> types;
     for (const auto& [name, uniform] : uniforms_) {
         const auto word = words.find(uniform.type);
-        types[name] = word == words.end() ? "" : word->second;
+        types[name] = word == words.end() ? "" : word->second + (uniform.array ? "[]" : "");
     }
     return types;
 }
@@ -143,7 +144,7 @@ Program Program::screenFromText(const std::string& name, const std::string& frag
 Program Program::ofFolder(const std::string& vertexFile, const ShaderFolder& folder, const std::string& fragmentFile,
                           const Defines& defines) {
     return Program({{GL_VERTEX_SHADER, vertexFile, loadShader(vertexFile, {})},
-                    {GL_FRAGMENT_SHADER, folder.path + "/" + fragmentFile, loadShader(folder, fragmentFile, defines)}});
+                    {GL_FRAGMENT_SHADER, placeOf(folder, fragmentFile), loadShader(folder, fragmentFile, defines)}});
 }
 
 Program Program::compute(const std::string& file, const Defines& defines) {

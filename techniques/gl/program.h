@@ -47,7 +47,16 @@ struct ShaderFolder {
     const ShaderFiles& files;
 };
 
-/// The same of one of a folder's files.
+/// Whether the program carries a shader of this name.
+bool isEmbedded(const std::string& file);
+
+/// The embedded shaders of `folder` ("filtered/pcf"), by their names in it.
+ShaderFiles embeddedShaders(const std::string& folder);
+
+/// What messages call a folder's file, or an embedded one.
+std::string placeOf(const ShaderFolder& folder, const std::string& file);
+
+/// The same of one of a folder's files, or an embedded one.
 ShaderSource loadShader(const ShaderFolder& folder, const std::string& file, const Defines& defines);
 
 class Program {
@@ -60,7 +69,7 @@ public:
     /// The same of a source that is no file: for shaders that are put together where they are used.
     static Program screenFromText(const std::string& name, const std::string& fragmentText, const Defines& defines = {});
 
-    /// An embedded vertex shader and a fragment shader of a folder.
+    /// An embedded vertex shader, and a fragment shader of a folder or an embedded one.
     static Program ofFolder(const std::string& vertexFile, const ShaderFolder& folder, const std::string& fragmentFile,
                             const Defines& defines);
 
@@ -89,8 +98,11 @@ public:
 
     [[nodiscard]] bool uses(const std::string& uniform) const { return uniforms_.contains(uniform); }
 
-    /// The uniforms in use with their types as GLSL has them; another type than those of `set` is "".
+    /// The uniforms in use with their types as GLSL has them, of an array "vec2[]"; another type than those of `set` is "".
     [[nodiscard]] std::map<std::string, std::string> uniformTypes() const;
+
+    /// The elements of an array that are in use; 1 of another uniform.
+    [[nodiscard]] int elements(const std::string& name) const { return uniform(name).elements; }
     void use() const;
 
     /// Runs the full-screen pass into the framebuffer that is bound for drawing.
@@ -116,6 +128,8 @@ private:
         int location;
         int unit;      // texture unit of a sampler, else −1
         unsigned type; // GL's
+        bool array;
+        int elements;
     };
     void activateUnit(const std::string& sampler) const;
     void drawTriangle() const;

@@ -4,7 +4,8 @@
 uniform sampler2DShadow depthMap;
 uniform sampler2D jitter;
 uniform float followPlane;  // 1: taps are compared with the receiver's plane, 0: with the receiver's depth
-uniform float radius;       // texels
+
+const int firstTaps = 8;  // the disk's outermost ring
 
 out float visibility;
 
@@ -13,14 +14,14 @@ float testAt(MapPoint point, vec2 slope, vec2 offset) {
 }
 
 float jitteredVisibility(MapPoint point, vec2 slope) {
-    vec2 reach = radius / vec2(textureSize(depthMap, 0));
+    vec2 reach = RADIUS / vec2(textureSize(depthMap, 0));
     float passed = 0.0;
     int pair = 0;
-    for (; pair < FIRST_TAPS / 2; ++pair) {
+    for (; pair < firstTaps / 2; ++pair) {
         vec4 offsets = jitteredPair(jitter, pair) * reach.xyxy;
         passed += testAt(point, slope, offsets.xy) + testAt(point, slope, offsets.zw);
     }
-    bool decided = passed == 0.0 || passed == float(FIRST_TAPS);
+    bool decided = passed == 0.0 || passed == float(firstTaps);
     int last = decided ? pair : TAPS / 2;
     for (; pair < last; ++pair) {
         vec4 offsets = jitteredPair(jitter, pair) * reach.xyxy;

@@ -3,8 +3,6 @@
 uniform sampler2DShadow depthMap;
 uniform float followPlane;  // 1: taps are compared with the receiver's plane, 0: with the receiver's depth
 uniform vec2 disk[TAPS];    // in the unit disk
-uniform float radius;       // texels
-uniform int turned;
 uniform int seed;
 
 out float visibility;
@@ -17,7 +15,7 @@ float angleOf(uvec2 pixel) {
 }
 
 float diskVisibility(MapPoint point, vec2 slope, mat2 turn) {
-    vec2 texel = radius / vec2(textureSize(depthMap, 0));
+    vec2 texel = RADIUS / vec2(textureSize(depthMap, 0));
     float passed = 0.0;
     for (int i = 0; i < TAPS; ++i) {
         vec2 offset = turn * disk[i] * texel;
@@ -32,6 +30,10 @@ void main() {
     visibility = 1.0;
     if (!receiver.seen || point.behind) return;
     vec2 slope = followPlane * receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at);
-    float angle = turned != 0 ? angleOf(uvec2(gl_FragCoord.xy)) : 0.0;
+#ifdef ROTATE_PIXEL
+    float angle = angleOf(uvec2(gl_FragCoord.xy));
+#else
+    float angle = 0.0;
+#endif
     visibility = diskVisibility(point, slope, mat2(cos(angle), sin(angle), -sin(angle), cos(angle)));
 }

@@ -13,8 +13,6 @@ void main() {
     float depth = dot(eyeDepthFromWorld, vec4(receiver.position, 1.0));
     int slice = sliceOf(depth);
     visibility = atlasTest(slice, receiver.position);
-#ifdef BLEND
-    float weight = nextWeight(slice, depth);
+    float weight = BLEND > 0.0 ? nextWeight(slice, depth) : 0.0;
     if (weight > 0.0) visibility = mix(visibility, atlasTest(slice + 1, receiver.position), weight);
-#endif
 }

@@ -4,7 +4,12 @@
 #include "shared/maps/midpoint.glsl"
 
 uniform sampler2D firstDepth;
+#ifdef SECOND_SURFACE
 uniform sampler2D secondDepth;
+#else
+uniform sampler2D backDepth;
+#define secondDepth backDepth
+#endif
 
 out float visibility;
 
@@ -13,6 +18,7 @@ void main() {
     MapPoint point = mapPoint(receiver.position);
     visibility = 1.0;
     if (!receiver.seen || point.behind) return;
-    float middle = midpoint(texture(firstDepth, point.at.xy).r, texture(secondDepth, point.at.xy).r);
-    if (point.at.z > middle) visibility = 0.0;
+    float first = texture(firstDepth, point.at.xy).r;
+    float middle = midpoint(first, texture(secondDepth, point.at.xy).r);
+    if (first < 1.0 && point.at.z > middle) visibility = 0.0; // beside the map, where the first is 1, the second is its rim's
 }

@@ -5,23 +5,12 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
-#include <tuple>
-#include <utility>
 
 namespace shadowbench::techniques {
 namespace {
 
-using TapsOf = std::tuple<int, bool, Region>; // how many, on a grid, over what
-
-/// Finding Poisson taps takes longer than drawing a small map: they are kept.
-const std::vector<glm::vec2>& tapsOf(int count, bool grid, Region region) {
-    thread_local std::map<TapsOf, std::vector<glm::vec2>> kept;
-    const auto known = kept.find({count, grid, region});
-    if (known != kept.end()) return known->second;
-    std::vector<glm::vec2> taps =
-        grid ? gridTaps(static_cast<int>(std::lround(std::sqrt(count)))) : poissonTaps(count, region);
-    return kept.emplace(TapsOf{count, grid, region}, std::move(taps)).first->second;
+std::vector<glm::vec2> tapsOf(int count, bool grid, Region region) {
+    return grid ? gridTaps(static_cast<int>(std::lround(std::sqrt(count)))) : keptPoissonTaps(count, region);
 }
 
 } // namespace

@@ -7,7 +7,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace shadowbench::techniques {
-namespace {
 
 glm::ivec2 sizeOf(const std::vector<Tile>& tiles) {
     glm::ivec2 size(0);
@@ -15,7 +14,17 @@ glm::ivec2 sizeOf(const std::vector<Tile>& tiles) {
     return size;
 }
 
-} // namespace
+glm::mat4 atlasFromWorld(const LightView& view, const Tile& tile, glm::ivec2 size) {
+    const glm::dvec2 share = glm::dvec2(tile.size) / glm::dvec2(size), offset = glm::dvec2(tile.at) / glm::dvec2(size);
+    const glm::dmat4 place =
+        glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(offset, 0)), glm::dvec3(share, 1)) * mapFromClip();
+    return glm::mat4(place * view.clipFromWorld);
+}
+
+glm::vec4 innerTile(const Tile& tile, glm::ivec2 size) {
+    const glm::vec2 low(tile.at), high(tile.at + tile.size);
+    return glm::vec4(low + 0.5F, high - 0.5F) / glm::vec4(size, size);
+}
 
 std::vector<Tile> squareTiles(int side, int count) {
     const int each = static_cast<int>(side / std::sqrt(count));
@@ -38,11 +47,7 @@ DepthAtlas::DepthAtlas(int side, Bias bias) : DepthAtlas(glm::ivec2(side), bias)
 void DepthAtlas::setTiles(std::vector<Tile> tiles) {
     tiles_ = std::move(tiles);
     inner_.clear();
-    const glm::vec4 size(depth_.size(), depth_.size());
-    for (const Tile& tile : tiles_) {
-        const glm::vec2 low(tile.at), high(tile.at + tile.size);
-        inner_.push_back(glm::vec4(low + 0.5F, high - 0.5F) / size);
-    }
+    for (const Tile& tile : tiles_) inner_.push_back(innerTile(tile, depth_.size()));
 }
 
 void DepthAtlas::drawTiles(const Frame& frame, const std::function<void(std::size_t)>& drawTile) const {
@@ -79,13 +84,8 @@ void DepthAtlas::draw(const std::vector<LightView>& views, const Frame& frame,
 void DepthAtlas::placeViews(const std::vector<LightView>& views) {
     views_ = views;
     atlasFromWorld_.clear();
-    for (std::size_t i = 0; i < tiles_.size(); ++i) {
-        const glm::dvec2 share = glm::dvec2(tiles_[i].size) / glm::dvec2(depth_.size());
-        const glm::dvec2 offset = glm::dvec2(tiles_[i].at) / glm::dvec2(depth_.size());
-        const glm::dmat4 place =
-            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(offset, 0)), glm::dvec3(share, 1)) * mapFromClip();
-        atlasFromWorld_.emplace_back(place * views[i].clipFromWorld);
-    }
+    for (std::size_t i = 0; i < tiles_.size(); ++i)
+        atlasFromWorld_.push_back(techniques::atlasFromWorld(views[i], tiles_[i], depth_.size()));
 }
 
 std::optional<glm::dvec2> DepthAtlas::pointAt(std::size_t tile, const glm::dvec3& world) const {

@@ -24,6 +24,13 @@ struct Tile {
 /// `count` square tiles that together have at most side² texels.
 std::vector<Tile> squareTiles(int side, int count);
 
+/// Of an atlas that holds the tiles, in texels.
+glm::ivec2 sizeOf(const std::vector<Tile>& tiles);
+
+// What shared/maps/depth_atlas.glsl reads of a tile of an atlas of `size` texels.
+glm::mat4 atlasFromWorld(const LightView& view, const Tile& tile, glm::ivec2 size);
+glm::vec4 innerTile(const Tile& tile, glm::ivec2 size); // its outermost texel centres, low and high, in [0, 1] of the atlas
+
 class DepthAtlas {
 public:
     DepthAtlas(std::vector<Tile> tiles, Bias bias);
@@ -64,7 +71,7 @@ private:
     Bias bias_;
     std::vector<LightView> views_; // drawn last
     std::vector<glm::mat4> atlasFromWorld_;
-    std::vector<glm::vec4> inner_; // per tile: its outermost texel centres, low and high, in [0, 1] of the atlas
+    std::vector<glm::vec4> inner_; // per tile
 };
 
 } // namespace shadowbench::techniques

@@ -10,7 +10,6 @@
 #include "techniques/shared/maps/depth_map.h"
 
 #include <glm/vec4.hpp>
-#include <memory>
 
 namespace shadowbench::techniques {
 
@@ -21,6 +20,9 @@ glm::vec4 linearisation(const LightView& light, double bias);
 /// The same for unit depth, which is 0 at the near and 1 at the far distance; `bias` is still in metres.
 glm::vec4 unitLinearisation(const LightView& light, double bias);
 
+/// Unit depth of a point of the world: dot(·, (p, 1)).
+glm::dvec4 unitDepthFromWorld(const LightView& light);
+
 /// The part of a bias that the depths are drawn with. The constant part is added where they are read: in metres it is the
 /// same at every depth.
 Bias drawnBias(Bias bias);
@@ -29,9 +31,6 @@ class LinearisedMap {
 public:
     /// Of nearest depths.
     LinearisedMap(int side, Bias bias);
-
-    /// Of another map of depths, whose lookup is `Lookup::Raw`; without a constant bias.
-    explicit LinearisedMap(std::unique_ptr<ShadowMap> depth) : depth_(std::move(depth)) {}
 
     /// As the pass "depth map".
     void draw(const LightView& light, const Frame& frame);
@@ -42,11 +41,11 @@ public:
     /// The same for unit depths.
     void bindUnitTo(gl::Program& program) const { bind(program, unit_); }
 
-    [[nodiscard]] int side() const { return depth_->texture().size().x; }
+    [[nodiscard]] int side() const { return depth_.side(); }
 
 private:
-    float units_ = 0; // of the constant bias
-    std::unique_ptr<ShadowMap> depth_;
+    float units_; // of the constant bias
+    DepthMap depth_;
     glm::vec4 metres_{0}, unit_{0};
 
     void bind(gl::Program& program, const glm::vec4& linearisation) const;

@@ -47,8 +47,6 @@ std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView
     return std::make_unique<SingleMap>(std::move(map), std::move(fit), bias, std::move(figures));
 }
 
-std::vector<Parameter> singleMapParameters() { return withNormalOffset(depthMapParameters()); }
-
 std::unique_ptr<Technique> makeSingleMap(const Parameters& parameters, FitView fit) {
     const Bias bias = biasFrom(parameters);
     return makeSingleMap(std::make_unique<DepthMap>(parameters.integer("map"), bias, Lookup::Compare), std::move(fit), bias);

@@ -22,9 +22,6 @@ using ReportFigures = std::function<std::map<std::string, double>(const Frame&)>
 std::unique_ptr<Technique> makeSingleMap(std::unique_ptr<ShadowMap> map, FitView fit, Bias bias = {},
                                          ReportFigures figures = {});
 
-/// `depthMapParameters` of such a technique.
-std::vector<Parameter> singleMapParameters();
-
 /// The same over a depth map with these parameters.
 std::unique_ptr<Technique> makeSingleMap(const Parameters& parameters, FitView fit);
 

@@ -2,8 +2,11 @@
 
 #include "base/random.h"
 
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <map>
+#include <utility>
 
 namespace shadowbench::techniques {
 
@@ -62,6 +65,22 @@ std::vector<glm::vec2> gridTaps(int side) {
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) taps.emplace_back(centre(x), centre(y));
     return taps;
+}
+
+const std::vector<glm::vec2>& keptPoissonTaps(int count, Region region) {
+    thread_local std::map<std::pair<int, Region>, std::vector<glm::vec2>> kept;
+    std::vector<glm::vec2>& taps = kept[{count, region}];
+    if (taps.empty()) taps = poissonTaps(count, region);
+    return taps;
+}
+
+std::vector<glm::vec2> gaussianPairs(int count, double sigma) {
+    const auto gaussian = [&](double x) { return std::exp(-0.5 * x * x / (sigma * sigma)); };
+    double sum = gaussian(0);
+    for (int x = 1; x <= count; ++x) sum += 2 * gaussian(x);
+    std::vector<glm::vec2> pairs;
+    for (int x = 1; x <= count; ++x) pairs.emplace_back(x, gaussian(x) / sum);
+    return pairs;
 }
 
 } // namespace shadowbench::techniques

@@ -24,4 +24,11 @@ std::vector<glm::vec2> poissonTaps(int count, Region region);
 /// side × side cell centres of the square [−1, 1]².
 std::vector<glm::vec2> gridTaps(int side);
 
+/// The same as `poissonTaps`, which take longer to find than a small map to draw: kept by the thread.
+const std::vector<glm::vec2>& keptPoissonTaps(int count, Region region);
+
+/// Offset in steps and weight of the pairs of taps beside the middle one of a Gaussian whose deviation is `sigma` steps; the
+/// middle one's weight is what is left of 1.
+std::vector<glm::vec2> gaussianPairs(int count, double sigma);
+
 } // namespace shadowbench::techniques

@@ -1,3 +1,4 @@
+#define linearisation metreLinearisation
 #include "gl/receiver.glsl"
 #include "shared/filters/jitter_table.glsl"
 #include "shared/filters/blocker_search.glsl"
@@ -5,6 +6,9 @@
 uniform sampler2D normals;
 uniform sampler2D searchJitter;
 uniform sampler2D filterJitter;
+
+const int searchTaps = 16, filterTaps = 32;
+const int firstTaps = 8;  // of the filter's outermost ring
 
 out float visibility;
 
@@ -18,7 +22,7 @@ vec2 blockerAt(LightReceiver r, vec2 offset) {
 float meanBlockerDepth(LightReceiver r) {
     vec2 window = searchWindow(r);
     vec2 sum = vec2(0.0);
-    for (int pair = 0; pair < SEARCH_TAPS / 2; ++pair) {
+    for (int pair = 0; pair < searchTaps / 2; ++pair) {
         vec4 offsets = jitteredPair(searchJitter, pair) * window.xyxy;
         sum += blockerAt(r, offsets.xy) + blockerAt(r, offsets.zw);
     }
@@ -33,14 +37,14 @@ float testAt(LightReceiver r, vec2 offset) {
 float jitteredVisibility(LightReceiver r, float blockerDepth) {
     vec2 reach = halfPenumbra(r, blockerDepth);
     float passed = 0.0;
-    int first = blockerDepth < 0.0 ? 0 : FIRST_TAPS / 2;
+    int first = blockerDepth < 0.0 ? 0 : firstTaps / 2;
     int pair = 0;
     for (; pair < first; ++pair) {
         vec4 offsets = jitteredPair(filterJitter, pair) * reach.xyxy;
         passed += testAt(r, offsets.xy) + testAt(r, offsets.zw);
     }
     bool decided = passed == 0.0 || passed == float(2 * first);
-    int last = decided ? first : FILTER_TAPS / 2;
+    int last = decided ? first : filterTaps / 2;
     for (; pair < last; ++pair) {
         vec4 offsets = jitteredPair(filterJitter, pair) * reach.xyxy;
         passed += testAt(r, offsets.xy) + testAt(r, offsets.zw);

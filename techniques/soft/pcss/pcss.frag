@@ -1,3 +1,16 @@
+#if defined TAPS_25_49
+#define SEARCH_TAPS 25
+#define FILTER_TAPS 49
+#define searchTaps searchGrid
+#define filterTaps filterGrid
+#elif defined TAPS_32_32
+#define SEARCH_TAPS 32
+#define FILTER_TAPS 32
+#else
+#define SEARCH_TAPS 16
+#define FILTER_TAPS 16
+#endif
+#define linearisation metreLinearisation
 #include "gl/receiver.glsl"
 #include "shared/filters/pcss.glsl"
 

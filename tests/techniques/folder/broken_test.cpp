@@ -228,7 +228,7 @@ TEST_F(BrokenFolder, APassWritesNoMoreTargetsThanGlHas) {
 TEST_F(BrokenFolder, WhatContradictsItselfIsToldWithTheRemedy) {
     const auto changed = [&](const std::string& from, const std::string& to) { return said(replaced(fullToml, from, to)); };
     const std::vector<std::pair<std::string, std::string>> cases{
-        {changed("[parameter.radius]", "[parameter.Map]"), "shaders would call it MAP, as Map; rename one"},
+        {changed("[parameter.radius]", "[parameter.Map]"), "shaders would call it MAP, as map; rename one"},
         {changed("[parameter.radius]", "[parameter.kind_wide]"), "shaders would call it KIND_WIDE"},
         {changed("SOURCE =", "RADIUS ="), "is the parameter radius already; choose another name"},
         {changed("SOURCE = \"moments\"", "SOURCE = \"a\\nb\""), "a macro is one line"},
@@ -243,7 +243,7 @@ TEST_F(BrokenFolder, WhatContradictsItselfIsToldWithTheRemedy) {
         {changed("[\"moments\", \"depths\"]", "[\"moments\", \"moments\"]"), "is written twice"},
         {changed("[\"moments\", \"depths\"]", "[\"moments\", \"visibility\"]"), "visibility is written alone"},
         {changed("[\"moments\", \"depths\"]", "\"mean\""), "casters are drawn into a map"},
-        {changed("to = \"mean\"", "to = \"depths\""), "a pass over the screen writes no depths"},
+        {changed("to = \"mean\"", "to = [\"depths\", \"moments\"]"), "a pass over the screen writes depths alone"},
         {changed("to = \"mean\"", "to = \"mea\""), "there is no target \"mea\" (did you mean \"mean\"?)"},
         {changed("to = \"visibility\"", "to = \"mean\""), "the last pass writes the answer: to = \"visibility\""},
         {changed("fragment = \"mean.frag\"", "fragment = \"../mean.frag\""), "has no shader \"../mean.frag\""},

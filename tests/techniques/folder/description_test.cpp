@@ -35,9 +35,24 @@ TEST(TechniqueFolder, NumbersAreWholeWhereNoneHasADecimalPoint) {
     const std::string parameter = "[parameter.radius]\ndefault = 2.5\nrange = [1, 8]\nmeaning = \"m\"\n";
     const std::string choice = "[parameter.kind]\ndefault = \"soft\"\nchoices = [\"hard\", \"soft\"]\nmeaning = \"m\"\n";
     const techniques::Entry entry = WrittenTechnique(replaced(mapToml, "[target", parameter + choice + "[target")).entry();
-    ASSERT_EQ(entry.parameters.size(), 3U); // by their names
-    EXPECT_EQ(std::get<OneOf>(entry.parameters[0].domain).values, (std::vector<std::string>{"hard", "soft"}));
-    EXPECT_EQ(std::get<RealRange>(entry.parameters[2].domain).low, 1);
+    ASSERT_EQ(entry.parameters.size(), 3U); // as they are written
+    EXPECT_EQ(std::get<RealRange>(entry.parameters[1].domain).low, 1);
+    EXPECT_EQ(std::get<OneOf>(entry.parameters[2].domain).values, (std::vector<std::string>{"hard", "soft"}));
+}
+
+TEST(TechniqueFolder, HasTheParametersOfADepthMapAfterItsOwn) {
+    const auto named = [](const std::string& bias) {
+        const std::string map =
+            "[parameter.map]\ndefault = 1024\nrange = [16, 8192]\nmeaning = \"texels per side of the map\"\n";
+        const std::string toml = replaced(mapToml, map, "[parameter.taps]\ndefault = 2\nrange = [1, 8]\nmeaning = \"m\"\n");
+        return WrittenTechnique(replaced(toml, "answer", "depth_map = \"" + bias + "\"\nanswer")).entry().parameters;
+    };
+    const std::vector<techniques::Parameter> any = named("any-bias"), depth = named("depth-bias");
+    ASSERT_EQ(any.size(), 5U);
+    EXPECT_EQ(any[0].name, "taps");
+    EXPECT_EQ(any[1].name, "map");
+    EXPECT_EQ(techniques::describe(any[2].domain), "none|constant|slope|normal-offset");
+    EXPECT_EQ(techniques::describe(depth.at(2).domain), "none|constant|slope");
 }
 
 TEST(TechniqueFolder, AnyChangeOfAFileIsAnotherDigest) {
@@ -75,8 +90,6 @@ TEST(TechniqueFolder, WhatIsWrongIsOneLineWithItsPlace) {
     EXPECT_NE(
         with("\"resolve.frag\"", "\"resolv.frag\"").find("has no shader \"resolv.frag\" (did you mean \"resolve.frag\"?)"),
         std::string::npos);
-    EXPECT_NE(with("to = \"visibility\"", "to = \"depths\"").find("a pass over the screen writes no depths"),
-              std::string::npos);
     EXPECT_NE(errorOf(mapToml + "[[pass]]\nname = \"more\"\ndraw = \"casters\"\nto = \"depths\"\n")
                   .find("the last pass writes the answer: to = \"visibility\""),
               std::string::npos);
@@ -87,6 +100,40 @@ TEST(TechniqueFolder, WhatIsWrongIsOneLineWithItsPlace) {
                   .find("casters are drawn into a map"),
               std::string::npos);
     EXPECT_NE(with("size = \"map\"", "size = 9000").find("target.depths.size"), std::string::npos);
+    EXPECT_EQ(with("answer", "depth_map = \"any-bias\"\nanswer"),
+              ":3: depth_map: shaders would call map MAP, as map; rename one");
+    EXPECT_EQ(with("[2, 64]", "\"bias\""),
+              ":19: pass[1].offset: is that of the parameters of a depth map: say depth_map = \"depth-bias\" above");
+    EXPECT_EQ(with("[2, 64]", "\"slope\""), ":19: pass[1].offset: expected one of bias, bias-of-slope, got \"slope\"");
+    EXPECT_EQ(with("answer", "view = \"cascades\"\nanswer"),
+              ":3: view: view = \"cascades\" and [cascades] are said together");
+    EXPECT_EQ(with("answer", "cascades = { count = 4 }\nanswer"),
+              ":3: cascades: view = \"cascades\" and [cascades] are said together");
+    const auto pattern = [&](const std::string& keys) {
+        return with("answer", "pattern.points = { " + keys + " }\nanswer");
+    };
+    EXPECT_EQ(pattern("kind = \"grid\", sigma = 2"), ":3: pattern.points.sigma: is of a pattern of the kind gaussian");
+    EXPECT_EQ(pattern("kind = \"gaussian\""), ":3: pattern.points.sigma: missing");
+    EXPECT_EQ(pattern("kind = \"jitter\", taps = 1, sectors = 1"),
+              ":3: pattern.points.taps: expected a whole number from 2 to 1024, got 1");
+    EXPECT_EQ(with("offset", "when = \"map=512\"\noffset"),
+              ":19: pass[1].when: \"map=512\" is no word of a parameter with choices, as \"depth=midpoint\"");
+    EXPECT_EQ(with("offset", "peel = true\noffset"),
+              ":19: pass[1].peel: needs a target of depths, behind which it draws, and another with a fragment shader");
+    EXPECT_EQ(with("[parameter.map]", "[parameter.tiles]\ndefault = 1\nrange = [1, 2]\nmeaning = \"m\"\n\n[parameter.map]"),
+              ":5: parameter.tiles: shaders have a macro TILES already; choose another name");
+    const auto cascades = [&](const std::string& keys) {
+        return with("answer", "view = \"cascades\"\ncascades = { " + keys + " }\nanswer");
+    };
+    EXPECT_EQ(cascades("count = 9"), ":4: cascades.count: expected a whole number from 1 to 8, got 9");
+    EXPECT_EQ(cascades("count = \"map\""), ":4: cascades.count: map must be a whole number within 1 and 8");
+    EXPECT_EQ(cascades("count = 4, blend = 0.7"), ":4: cascades.blend: is not within 0 and 0.5");
+    EXPECT_EQ(cascades("count = 4, fit = \"map\""),
+              ":4: cascades.fit: map must be a parameter with choices among visible, view");
+    EXPECT_EQ(cascades("count = 4, warp = \"lispms\""),
+              ":4: cascades.warp: expected one of lispsm, none, got \"lispms\" (did you mean \"lispsm\"?)");
+    EXPECT_NE(cascades("count = 4, stable = \"texels\"").find("stable=texels goes with fit=view and warp=none"),
+              std::string::npos);
     EXPECT_NE(with("[parameter.map]", "[parameter.__map]").find("is no name in GLSL"), std::string::npos);
 }
 

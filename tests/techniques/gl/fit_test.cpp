@@ -1,10 +1,8 @@
 // Depth maps that differ in what they store or in how they are fitted, on scenes whose shadow is a known polygon.
-#include "techniques/shared/maps/midpoint_map.h"
-#include "techniques/shared/maps/single_map.h"
 #include "tests/support/ground_score.h"
+#include "tests/support/technique_folders.h"
 
 #include <gtest/gtest.h>
-#include <memory>
 #include <vector>
 
 namespace shadowbench {
@@ -39,8 +37,20 @@ TEST(SmMidpoint, AveragesAtTheLookupToWhatAMapOfMeansHolds) {
     const Scene scene = slantedScene();
     Stage stage(scene);
     stage.show(0);
-    using namespace techniques;
-    const auto means = makeSingleMap(std::make_unique<MidpointMap>(256, Lookup::Compare), uniformView);
+    const std::string toml = R"(id = "means"
+title = "A map of means"
+answer = "hard"
+target.firstDepth = { format = "Depth32F", size = 256 }
+target.secondDepth = { format = "R32F", size = 256 }
+target.depthMap = { format = "Depth32F", size = 256, compare = true }
+pass = [
+    { name = "first", draw = "casters", to = "firstDepth" },
+    { name = "second", draw = "casters", to = ["secondDepth", "firstDepth"], peel = true, blend = "min", clear = [1, 1, 1, 1], fragment = "shared/maps/midpoint_peel.frag" },
+    { name = "means", draw = "screen", fragment = "shared/maps/midpoint_mean.frag", to = "depthMap" },
+    { name = "resolve", draw = "screen", fragment = "shared/maps/single_map.frag", to = "visibility" },
+]
+)";
+    const auto means = WrittenTechnique(toml).made();
     stage.render(*means, 0, 1);
     const Image<float> expected = stage.visibility();
     EXPECT_EQ(differing(rendered(stage, "sm-midpoint:map=256"), expected), 0U);

@@ -1,5 +1,8 @@
 // What technique folders draw: the same bits as the technique that is built in, and means over frames in closed form.
 #include "techniques/folder/inputs.h"
+#include "techniques/gl/context.h"
+#include "techniques/shared/light_views/cascades.h"
+#include "techniques/shared/sampling/sampling.h"
 #include "tests/support/message_of.h"
 #include "tests/support/soft_scenes.h"
 #include "tests/support/technique_folders.h"
@@ -230,23 +233,89 @@ TEST(FolderTechnique, APassThatReadsWhatItWritesIsRefused) {
 }
 
 TEST(FolderTechnique, EveryInputCanBeDeclaredAsItsType) {
-    std::string declared, used = "0.0";
-    for (const techniques::FolderInput& input : techniques::folderInputs()) {
-        declared += fmt::format("uniform {} {};\n", input.type, input.name);
-        const std::string name(input.name);
-        if (input.type == "int") used += " + float(" + name + ")";
-        if (input.type.starts_with("vec")) used += " + " + name + ".x";
-        if (input.type == "mat4") used += " + " + name + "[0].x";
-        if (input.type == "sampler2D") used += " + texture(" + name + ", vec2(0.5)).x";
-        if (input.type == "usampler2D") used += " + float(texture(" + name + ", vec2(0.5)).x)";
+    for (const bool several : {false, true}) {
+        std::string declared, used = "0.0";
+        for (const techniques::FolderInput& input : techniques::folderInputs()) {
+            if (!several && input.name == "sliceEnds") continue; // of cascades
+            const bool array = input.type.ends_with("[]") || (several && input.ofEachView);
+            const std::string type(input.type.substr(0, input.type.find('['))), name(input.name);
+            const std::string value = array ? name + "[0]" : name;
+            declared += fmt::format("uniform {} {}{};\n", type, name, array ? "[1]" : "");
+            if (type == "int" || type == "float") used += " + float(" + value + ")";
+            if (type.starts_with("vec")) used += " + " + value + ".x";
+            if (type == "mat4") used += " + " + value + "[0].x";
+            if (type == "sampler2D") used += " + texture(" + value + ", vec2(0.5)).x";
+            if (type == "usampler2D") used += " + float(texture(" + value + ", vec2(0.5)).x)";
+        }
+        const std::string view = several ? "view = \"cascades\"\ncascades = { count = 1 }\nanswer" : "answer";
+        const WrittenTechnique folder(replaced(mapToml, "answer", view),
+                                      declared + "out float visibility;\nvoid main() { visibility = " + used + "; }\n");
+        const Scene scene = halfPlaneScene(32);
+        Stage stage(scene);
+        stage.show(0);
+        const auto technique = folder.made();
+        drawn(stage, *technique);
+        EXPECT_TRUE(std::isfinite(stage.visibility()(1, 1)));
     }
-    const WrittenTechnique folder(mapToml, declared + "out float visibility;\nvoid main() { visibility = " + used + "; }\n");
-    const Scene scene = halfPlaneScene(32);
+}
+
+/// A folder whose answer is one number, which the shader makes of `uniforms`.
+float shown(const std::string& keys, const std::string& uniforms, const std::string& number,
+            const std::string& parameters = "") {
+    const WrittenTechnique folder(replaced(mapToml, "answer", keys + "\nanswer"),
+                                  uniforms + "out float visibility;\nvoid main() { visibility = " + number + "; }\n");
+    const Scene scene = halfPlaneScene(16);
     Stage stage(scene);
     stage.show(0);
-    const auto technique = folder.made();
-    drawn(stage, *technique);
-    EXPECT_TRUE(std::isfinite(stage.visibility()(1, 1)));
+    return drawn(stage, *folder.made(parameters))(8, 8);
+}
+
+TEST(FolderTechnique, SamplesWithThePatternsThatItNames) {
+    const auto fourth = [](const std::string& keys) {
+        return shown("pattern.points = { " + keys + " }", "uniform vec2 points[4];\n",
+                     "0.5 + 0.5 * points[3].x + 0.0 * points[2].x");
+    };
+    const auto x = [](const std::vector<glm::vec2>& points) { return 0.5F + 0.5F * points[3].x; };
+    EXPECT_FLOAT_EQ(fourth("kind = \"poisson-disk\""), x(techniques::poissonTaps(4, techniques::Region::Disk)));
+    EXPECT_FLOAT_EQ(fourth("kind = \"poisson-light\""), x(techniques::poissonTaps(4, techniques::Region::Square)));
+    EXPECT_FLOAT_EQ(fourth("kind = \"grid\""), x(techniques::gridTaps(2)));
+    EXPECT_FLOAT_EQ(shown("pattern.points = { kind = \"gaussian\", sigma = 2 }", "uniform vec2 points[4];\n", "points[3].y"),
+                    techniques::gaussianPairs(4, 2)[3].y);
+}
+
+TEST(FolderTechnique, HasAnElementOfEachUniformForEachOfSeveralViews) {
+    EXPECT_FLOAT_EQ(
+        shown("view = \"cube\"", "uniform vec2 nearAndFar[TILES];\n", "nearAndFar[TILES - 1].x / nearAndFar[TILES - 1].y"),
+        0.01F);
+    const std::string error =
+        test::messageOf<BadInput>([] { shown("view = \"cube\"", "uniform vec2 nearAndFar;\n", "nearAndFar.x"); });
+    EXPECT_TRUE(error.ends_with("resolve.frag:1: the uniform \"nearAndFar\" is vec2[], not vec2")) << error;
+    const std::string cascades = "view = \"cascades\"\ncascades = { count = 3, fit = \"view\", lambda = 0 }";
+    const float second = shown(cascades, "uniform vec4 sliceEnds[TILES];\n", "sliceEnds[1].x / sliceEnds[2].x");
+    const Scene scene = halfPlaneScene(16);
+    const techniques::DepthRange depths = techniques::visibleDepths(snapshot(scene, 0).bounds(), scene.camera, 1);
+    EXPECT_NEAR(second, (depths.near + 2 * (depths.far - depths.near) / 3) / depths.far, 1e-5);
+}
+
+TEST(FolderTechnique, HasThePassesAndTargetsOfItsChoiceAlone) {
+    std::string toml = replaced(
+        mapToml, "[target", "[parameter.kind]\ndefault = \"one\"\nchoices = [\"one\", \"two\"]\nmeaning = \"m\"\n[target");
+    toml = replaced(toml, "[[pass]]", "[target.more]\nformat = \"RGBA32F\"\nsize = \"map\"\n\n[[pass]]");
+    toml = replaced(toml, "[[pass]]\nname = \"resolve\"",
+                    "[[pass]]\nname = \"more\"\ndraw = \"screen\"\nfragment = \"more.frag\"\nto = \"more\"\nwhen = "
+                    "\"kind=two\"\n\n[[pass]]\nname = \"resolve\"");
+    const WrittenTechnique folder(toml);
+    folder.write("more.frag", "out vec4 colour;\nvoid main() { colour = vec4(1.0); }\n");
+    const Scene scene = boxScene(16);
+    Stage stage(scene);
+    stage.show(0);
+    const auto bytes = [&](const std::string& parameters) {
+        const std::size_t before = gl::Context::current().tally().bytes;
+        const auto technique = folder.made(parameters);
+        drawn(stage, *technique);
+        return gl::Context::current().tally().bytes - before;
+    };
+    EXPECT_EQ(bytes("kind=two,map=64") - bytes("map=64"), 64U * 64 * 16);
 }
 
 } // namespace
