@@ -26,8 +26,9 @@ using Amount = std::variant<double, std::string>;
 
 struct FolderTarget {
     std::string name;
-    gl::Format format;
-    bool ofImage = true; // as large as the image; else a square of `side` texels
+    gl::Format format;       // where a parameter says it, that of its default
+    std::string chosen = {}; // the parameter that says it, if one does
+    bool ofImage = true;     // as large as the image; else a square of `side` texels
     Amount side = 0.0;
     bool linear = false, compare = false, mipmaps = false;
     bool history = false; // its texels of the frame before can be read
@@ -62,6 +63,9 @@ struct TechniqueFolder {
     std::vector<FolderPass> passes;
     gl::ShaderFiles shaders;
 };
+
+/// Of a target as a row has it.
+gl::Format formatOf(const FolderTarget& target, const Parameters& values);
 
 /// Texels per side of a target that is no image.
 inline constexpr int mostTexelsOfSide = 8192;
