@@ -28,11 +28,12 @@ float depthOf(Plane plane, vec2 offset) {
     return unitDepth(plane.at.z + dot(plane.slope, offset));
 }
 
-/// Of a part of the kernel whose mean is not before the receiver: four texels, compared one by one.
+/// Of a part of the kernel whose mean is not before the receiver: four texels, compared one by one with the plane at their middles.
 Shares compared(Plane plane, vec2 middle, vec2 reach) {
     Shares shares = Shares(0.0, 0.0);
     for (int i = 0; i < 4; ++i) {
-        vec2 offset = middle + (vec2(i & 1, i >> 1) - 0.5) * reach;
+        vec2 place = plane.at.xy + middle + (vec2(i & 1, i >> 1) - 0.5) * reach;
+        vec2 offset = (floor(place * float(MAP)) + 0.5) / float(MAP) - plane.at.xy;
         float depth = unitDepth(textureLod(windowDepths, plane.at.xy + offset, 0.0).r);
         bool lit = depth >= depthOf(plane, offset) - sqrt(VARIANCE);
         shares.lit += lit ? 0.25 : 0.0;
@@ -55,16 +56,18 @@ Shares sharesOf(Plane plane, vec2 reach) {
     float depth = depthOf(plane, vec2(0.0));
     if (depth > moments.x) return bounded(moments.x, moments.y, depth);
     Shares all = Shares(0.0, 0.0);
-    vec2 part = reach / float(PARTS);
-    for (int i = 0; i < PARTS * PARTS; ++i) {
-        vec2 offset = (vec2(i % PARTS, i / PARTS) * 2.0 + 1.0) * part - reach;
+    ivec2 parts = clamp(ivec2(2.0 * reach * size), ivec2(1), ivec2(PARTS));  // of a texel at least
+    vec2 part = reach / vec2(parts);
+    for (int i = 0; i < parts.x * parts.y; ++i) {
+        vec2 offset = (vec2(i % parts.x, i / parts.x) * 2.0 + 1.0) * part - reach;
         vec2 own = meanMoments(sums, middle + (offset - part) * size, middle + (offset + part) * size);
         float there = depthOf(plane, offset);
         Shares shares = there > own.x ? bounded(own.x, own.y, there) : compared(plane, offset, part);
         all.lit += shares.lit;
         all.blockers += shares.blockers;
     }
-    return Shares(all.lit / float(PARTS * PARTS), all.blockers / float(PARTS * PARTS));
+    float count = float(parts.x * parts.y);
+    return Shares(all.lit / count, all.blockers / count);
 }
 
 /// How far a kernel reaches at least: a texel has room in it.
