@@ -27,9 +27,9 @@ vec4 dequantised(vec4 numbers) {
     return dequantisation * (numbers - quantisedZero);
 }
 
-/// The share of depths < `depth`, at least, of a distribution with these moments (the paper's algorithm 3). It holds for the three depths
-/// of which one is `depth` and the others are the roots of a polynomial that the moments' Hankel matrix gives. Moments are first moved by
-/// `bias` towards those of an even choice of 0 and 1, so that rounding leaves the matrix positive.
+/// The share of depths < `depth`, at least, of a distribution with these moments (the paper's algorithm 3): that of the three depths of
+/// which one is `depth`, and the others are roots of a polynomial that the moments' Hankel matrix gives. Moments are first moved by `bias`
+/// towards those of an even choice of 0 and 1, so that rounding leaves the matrix positive.
 float shadowedShare(vec4 moments, float depth, float bias) {
     vec4 b = mix(moments, vec4(0.5), bias);
 

@@ -1,6 +1,6 @@
-// Summed areas of depth and its square in whole numbers (Lauritzen 2007, GPU Gems 3, sections 8.5.1 and 8.5.2). Sums may pass 2³²: differences
-// of them are right as long as what they are of, a block of texels, has no more. Blocks have 32 texels a side at most, which leaves 22 bits
-// for a depth; sums of 32-bit floats would have lost most of those by the far corner of the map.
+// Summed areas of depth and its square in whole numbers (Lauritzen 2007, GPU Gems 3, sections 8.5.1 and 8.5.2). Sums may pass 2³²:
+// differences of them are right as long as what they are of, a block of texels, has no more. Blocks have 32 texels a side at most, which
+// leaves 22 bits for a depth; sums of 32-bit floats would have lost most of those by the far corner of the map.
 const int mostOfBlock = 32;
 const float unit = 4194303.0;  // 2²² − 1
 
