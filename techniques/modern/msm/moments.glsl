@@ -51,8 +51,8 @@ float shadowedShare(vec4 moments, float depth, float bias) {
     return 1.0 - (near * far - b.x * (near + far) + b.y) / ((depth - near) * (depth - far));
 }
 
-/// How far before a plane's own depth the bound still says that it is lit. `spread`: the change of its depth over half the kernel along x
-/// and y, so that the kernel holds the sum of two even distributions; of such, moments give two depths beside the middle one, this far away.
+/// How far before a plane's own depth the bound still says that it is lit. `spread`: the change of its depth over half the kernel along
+/// x and y. The kernel holds the sum of two even distributions; moments give of such two depths beside the middle one, this far away.
 float reachOfPlane(vec2 spread) {
     vec2 squares = spread * spread;
     float second = (squares.x + squares.y) / 3.0, fourth = dot(squares, squares) / 5.0 + 2.0 / 3.0 * squares.x * squares.y;
