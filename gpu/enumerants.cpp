@@ -22,14 +22,16 @@ Vulkan counterpart(const Pairs<Vulkan, count>& pairs, unsigned enumerant, const 
         fmt::format("OpenGL's {} {:#x} has no counterpart of Vulkan in gpu/enumerants.cpp; add it", what, enumerant));
 }
 
-constexpr Pairs<VkFormat, 13> formats{{{GL_R8, VK_FORMAT_R8_UNORM},
+constexpr Pairs<VkFormat, 15> formats{{{GL_R8, VK_FORMAT_R8_UNORM},
                                        {GL_RGBA8, VK_FORMAT_R8G8B8A8_UNORM},
                                        {GL_R32F, VK_FORMAT_R32_SFLOAT},
                                        {GL_RG16F, VK_FORMAT_R16G16_SFLOAT},
                                        {GL_RG32F, VK_FORMAT_R32G32_SFLOAT},
+                                       {GL_RGBA16, VK_FORMAT_R16G16B16A16_UNORM},
                                        {GL_RGBA16F, VK_FORMAT_R16G16B16A16_SFLOAT},
                                        {GL_RGBA32F, VK_FORMAT_R32G32B32A32_SFLOAT},
                                        {GL_R32UI, VK_FORMAT_R32_UINT},
+                                       {GL_RG32UI, VK_FORMAT_R32G32_UINT},
                                        {GL_RGBA32UI, VK_FORMAT_R32G32B32A32_UINT},
                                        {GL_RGBA32I, VK_FORMAT_R32G32B32A32_SINT},
                                        {GL_DEPTH_COMPONENT32F, VK_FORMAT_D32_SFLOAT},

@@ -16,14 +16,16 @@ struct NamedFormat {
     int bytes;
 };
 
-constexpr std::array<NamedFormat, 12> formats{{{GL_R8, "R8", 1},
+constexpr std::array<NamedFormat, 14> formats{{{GL_R8, "R8", 1},
                                                {GL_RGBA8, "RGBA8", 4},
                                                {GL_R32F, "R32F", 4},
                                                {GL_RG16F, "RG16F", 4},
                                                {GL_RG32F, "RG32F", 8},
+                                               {GL_RGBA16, "RGBA16", 8},
                                                {GL_RGBA16F, "RGBA16F", 8},
                                                {GL_RGBA32F, "RGBA32F", 16},
                                                {GL_R32UI, "R32UI", 4},
+                                               {GL_RG32UI, "RG32UI", 8},
                                                {GL_RGBA32UI, "RGBA32UI", 16},
                                                {GL_RGBA32I, "RGBA32I", 16},
                                                {GL_DEPTH_COMPONENT32F, "Depth32F", 4},

@@ -181,11 +181,12 @@ private:
         value.only(keysOf(KeyTable::Target));
         const auto flag = [&](const char* key) { return value.find(key) && value.get(key).boolean(); };
         FolderTarget target{.name = identifier(value, std::string(value.lastKey())),
-                            .format = formats.named(value.get("format").oneOf(formats.all())),
+                            .format = gl::Format::R8,
                             .linear = value.find("filter") && filters.named(value.get("filter").oneOf(filters.all())),
                             .compare = flag("compare"),
                             .mipmaps = flag("mipmaps"),
                             .history = flag("history")};
+        readFormat(value.get("format"), target);
         requireFree(value, target.name);
         if (const auto when = value.find("linear_when")) target.linearWhen = conditionOf(*when, read_);
         if (target.linear && target.linearWhen) value.get("linear_when").fail("is said by filter = \"linear\" already");
@@ -199,9 +200,28 @@ private:
         if (target.compare && target.format != gl::Format::Depth32F)
             value.fail("only depths compare: format = \"Depth32F\"");
         if (target.mipmaps && target.format == gl::Format::Depth32F) value.fail("depths have no mipmaps");
+        if ((target.mipmaps || target.linear) && target.format == gl::Format::RG32UI)
+            value.fail("whole numbers are not interpolated: leave filter and mipmaps out");
         if (target.history && !read_.entry.temporal)
             value.fail("keeps texels of the frame before: say history = true above");
         read_.targets.push_back(std::move(target));
+    }
+
+    /// A word of `formats`, or a parameter whose choices are such.
+    void readFormat(const TomlValue& format, FolderTarget& target) const {
+        const auto parameter = std::ranges::find(read_.entry.parameters, format.text(), &Parameter::name);
+        if (parameter == read_.entry.parameters.end()) {
+            target.format = formats.named(format.oneOf(formats.all()));
+            return;
+        }
+        const auto* choices = std::get_if<OneOf>(&parameter->domain);
+        if (choices == nullptr) format.fail(fmt::format("{} is a number; its choices would be formats", parameter->name));
+        for (const std::string& word : choices->values)
+            if (const gl::Format each = at(format, [&] { return formats.named(word); });
+                each == gl::Format::Depth32F || each == gl::Format::RG32UI)
+                format.fail(fmt::format("{} is none to choose: shaders read it in another way", word));
+        target.format = formats.named(parameter->defaultValue);
+        target.chosen = parameter->name;
     }
 
     void readVariants(const TomlValue& root) {
@@ -252,6 +272,10 @@ gl::ShaderFiles shadersIn(const fs::path& folder) {
 bool isFolderId(std::string_view id) {
     const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
     return !id.empty() && id.size() <= 40 && std::ranges::all_of(id, allowed);
+}
+
+gl::Format formatOf(const FolderTarget& target, const Parameters& values) {
+    return target.chosen.empty() ? target.format : formats.named(values.text(target.chosen));
 }
 
 TechniqueFolder parseTechniqueFolder(const std::string& toml, const fs::path& folder, gl::ShaderFiles shaders) {

@@ -71,9 +71,10 @@ struct FolderPattern {
 
 struct FolderTarget {
     std::string name;
-    gl::Format format;
-    bool ofImage = true; // as large as the image; else a square of `side` texels
-    Amount side = 0.0;   // of several views: they share as many texels
+    gl::Format format;       // where a parameter says it, that of its default
+    std::string chosen = {}; // the parameter that says it, if one does
+    bool ofImage = true;     // as large as the image; else a square of `side` texels
+    Amount side = 0.0;       // of several views: they share as many texels
     bool linear = false, compare = false, mipmaps = false;
     std::optional<FolderCondition> linearWhen = {}; // else not linear
     bool history = false;                           // its texels of the frame before can be read
@@ -121,6 +122,9 @@ struct TechniqueFolder {
     std::vector<FolderPass> passes;
     gl::ShaderFiles shaders;
 };
+
+/// Of a target as a row has it.
+gl::Format formatOf(const FolderTarget& target, const Parameters& values);
 
 /// Texels per side of a target that is no image.
 inline constexpr int mostTexelsOfSide = 8192;

@@ -182,9 +182,9 @@ private:
         return views_.tiles(static_cast<int>(valueOf(target->side, values_)));
     }
 
-    static gl::Texture textureOf(const FolderTarget& target, glm::ivec2 size, bool linear) {
+    [[nodiscard]] gl::Texture textureOf(const FolderTarget& target, glm::ivec2 size, bool linear) const {
         const bool depths = target.format == gl::Format::Depth32F;
-        gl::Texture texture(target.format, size, linear ? gl::Filter::Linear : gl::Filter::Nearest,
+        gl::Texture texture(formatOf(target, values_), size, linear ? gl::Filter::Linear : gl::Filter::Nearest,
                             depths ? gl::Wrap::BorderFar : gl::Wrap::ClampToEdge,
                             target.mipmaps ? gl::Levels::All : gl::Levels::One);
         if (target.compare) texture.compareDepth();
@@ -195,6 +195,8 @@ private:
         const gl::RenderTarget target({&texture});
         if (texture.format() == gl::Format::Depth32F)
             target.clearDepth(1);
+        else if (texture.format() == gl::Format::RG32UI)
+            target.clearColour(0, 0U);
         else
             target.clearColour(0, glm::vec4(0));
     }

@@ -14,6 +14,7 @@ std::string oneOf() {
     return fmt::format(R"("enum": ["{}"])", fmt::join(words.all(), R"(", ")"));
 }
 std::string text() { return R"("type": "string", "minLength": 1)"; }
+std::string formatOrParameter() { return fmt::format(R"("anyOf": [{{{}}}, {{{}}}])", oneOf<formats>(), text()); }
 std::string flag() { return R"("type": "boolean")"; }
 std::string texts() { return R"("type": "array", "items": {"type": "string"})"; }
 std::string tables() { return R"("type": "object")"; } // of further names
@@ -95,8 +96,10 @@ constexpr std::array keys{
     FolderKey{Pattern, "sectors", "of `jitter`: how many of them are of one ring of the disk", "needed there",
               [] { return std::string(R"("type": "integer")"); }},
 
-    FolderKey{Target, "format", "`R8`, `RGBA8`, `R32F`, `RG16F`, `RG32F`, `RGBA16F`, `RGBA32F` or `Depth32F`", "needed",
-              oneOf<formats>},
+    FolderKey{Target, "format",
+              "`R8`, `RGBA8`, `R32F`, `RG16F`, `RG32F`, `RGBA16`, `RGBA16F`, `RGBA32F`, `RG32UI` or `Depth32F`, or the "
+              "parameter whose choices are some of them, without the last two",
+              "needed", formatOrParameter},
     FolderKey{Target, "size",
               "`\"image\"`, texels per side, or the parameter that has them; with several views they share as many texels",
               "needed", [] { return std::string(R"("type": ["string", "integer"])"); }},

@@ -12,15 +12,17 @@
 
 namespace shadowbench::techniques {
 
-inline constexpr Words<gl::Format, 8> formats{"format",
-                                              {{{gl::Format::R8, "R8"},
-                                                {gl::Format::RGBA8, "RGBA8"},
-                                                {gl::Format::R32F, "R32F"},
-                                                {gl::Format::RG16F, "RG16F"},
-                                                {gl::Format::RG32F, "RG32F"},
-                                                {gl::Format::RGBA16F, "RGBA16F"},
-                                                {gl::Format::RGBA32F, "RGBA32F"},
-                                                {gl::Format::Depth32F, "Depth32F"}}}};
+inline constexpr Words<gl::Format, 10> formats{"format",
+                                               {{{gl::Format::R8, "R8"},
+                                                 {gl::Format::RGBA8, "RGBA8"},
+                                                 {gl::Format::R32F, "R32F"},
+                                                 {gl::Format::RG16F, "RG16F"},
+                                                 {gl::Format::RG32F, "RG32F"},
+                                                 {gl::Format::RGBA16, "RGBA16"},
+                                                 {gl::Format::RGBA16F, "RGBA16F"},
+                                                 {gl::Format::RGBA32F, "RGBA32F"},
+                                                 {gl::Format::RG32UI, "RG32UI"},
+                                                 {gl::Format::Depth32F, "Depth32F"}}}};
 inline constexpr Words<Answer, 3> answers{
     "answer", {{{Answer::Hard, "hard"}, {Answer::Filtered, "filtered"}, {Answer::Soft, "soft"}}}};
 inline constexpr Words<FolderView, 6> views{"view",

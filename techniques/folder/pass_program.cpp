@@ -100,7 +100,10 @@ private:
         if (target == nullptr)
             fail(name, fmt::format("nothing sets the uniform \"{}\"{}; parameters are macros in capitals", name,
                                    didYouMean(name, knownNames())));
-        requireType(name, type, target->compare ? "sampler2DShadow" : "sampler2D");
+        requireType(name, type,
+                    target->compare                        ? "sampler2DShadow"
+                    : target->format == gl::Format::RG32UI ? "usampler2D"
+                                                           : "sampler2D");
         if (std::ranges::find(pass_.to, name) != pass_.to.end())
             fail(name, fmt::format("the pass \"{}\" reads {}, which it writes; write another target", pass_.name, name));
     }
@@ -174,9 +177,9 @@ std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
     }
     for (const FolderTarget& target : folder.targets)
         if (std::ranges::count(pass.to, target.name) > 0)
-            state += fmt::format("\n{} {} {} {} {} {} {} {}", target.linearWhen ? target.linearWhen->word : "", target.name,
+            state += fmt::format("\n{} {} {} {} {} {} {} {}{}", target.linearWhen ? target.linearWhen->word : "", target.name,
                                  static_cast<int>(target.format), target.ofImage, text(target.side), target.linear,
-                                 target.compare, target.mipmaps);
+                                 target.compare, target.mipmaps, target.chosen.empty() ? "" : " " + target.chosen);
     return state;
 }
 

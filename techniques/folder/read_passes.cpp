@@ -31,6 +31,7 @@ public:
             readCasters();
         else
             requireScreen();
+        requireFloats();
         readRepetition();
         read_.passes.push_back(std::move(pass_));
     }
@@ -146,6 +147,14 @@ private:
         if (both.size() != 2) offset.fail("expected [of the slope, units], numbers or parameters, or \"bias\"");
         pass_.slopeOffset = amountOf(both[0], read_);
         pass_.unitOffset = amountOf(both[1], read_);
+    }
+
+    /// What clears and blends: whole numbers are written texel by texel.
+    void requireFloats() const {
+        for (const std::string& name : pass_.to)
+            if (const FolderTarget* target = targetNamed(name); target != nullptr && target->format == gl::Format::RG32UI)
+                if (pass_.casters || pass_.blend)
+                    value_.fail(fmt::format("{} holds whole numbers, which are drawn over the screen without blend", name));
     }
 
     void requireScreen() const {

@@ -41,6 +41,10 @@ FormatFacts facts(Format format) {
         return {GL_DEPTH_COMPONENT32F, 4};
     case Format::Depth32FStencil8:
         return {GL_DEPTH32F_STENCIL8, 8};
+    case Format::RGBA16:
+        return {GL_RGBA16, 8};
+    case Format::RG32UI:
+        return {GL_RG32UI, 8};
     }
     throw InternalError("unknown texture format");
 }

@@ -13,7 +13,7 @@
 
 namespace shadowbench::gl {
 
-enum class Format { R8, RGBA8, R32F, RG16F, RG32F, RGBA16F, RGBA32F, R32UI, Depth32F, Depth32FStencil8 };
+enum class Format { R8, RGBA8, R32F, RG16F, RG32F, RGBA16F, RGBA32F, R32UI, Depth32F, Depth32FStencil8, RGBA16, RG32UI };
 
 /// How a sampler reads between texels and outside [0, 1]².
 enum class Filter { Nearest, Linear };

@@ -10,14 +10,6 @@ uniform float tolerance;       // of the exponential test above 1
 uniform int level;             // of the box's texels: 2^level of the map's
 uniform float width;           // of the box in those
 
-/// Change of unit depth along the receiver's plane per unit of map x and y; zero where the plane is seen edge-on.
-vec2 planeSlope(vec3 world, vec3 normal) {
-    Tangents t = tangentsOf(normal);
-    mat2 tangents = projectedTangents(mapFromWorld, world, t.u, t.v);
-    if (abs(determinant(tangents)) < 1e-12) return vec2(0.0);
-    return vec2(dot(unitDepthFromWorld.xyz, t.u), dot(unitDepthFromWorld.xyz, t.v)) * inverse(tangents);
-}
-
 /// The share of the box's texels that are not before the receiver's plane.
 float percentageCloser(FilteredReceiver r) {
     vec3 normal = normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);

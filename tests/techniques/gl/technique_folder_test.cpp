@@ -200,6 +200,41 @@ TEST(FolderTechnique, PassesAreRepeatedAloneOrInTurns) {
     EXPECT_EQ(valueAfter("", "blend = \"add\"\nclear = [0, 0, 0, 0]\nrepeat = 4\n"), 2.25F);  // cleared each time
 }
 
+/// What `drawn.frag`, which writes a target of `format`, leaves for `resolve.frag` to read at a pixel.
+float readBack(const std::string& format, const std::string& write, const std::string& read,
+               const std::string& parameters = "") {
+    const WrittenTechnique folder(
+        "id = \"two\"\ntitle = \"t\"\nanswer = \"hard\"\n[parameter.bits]\ndefault = \"R32F\"\nchoices = [\"R8\", "
+        "\"R32F\"]\nmeaning = \"m\"\n[target.a]\nformat = \"" +
+            format +
+            "\"\nsize = \"image\"\n[[pass]]\nname = \"draw\"\ndraw = \"screen\"\nfragment = \"drawn.frag\"\nto = \"a\"\n"
+            "[[pass]]\nname = \"resolve\"\ndraw = \"screen\"\nfragment = \"resolve.frag\"\nto = \"visibility\"\n",
+        read);
+    folder.write("drawn.frag", write);
+    const Scene scene = boxScene(32);
+    Stage stage(scene);
+    stage.show(0);
+    const auto technique = folder.made(parameters);
+    return drawn(stage, *technique)(5, 5);
+}
+
+TEST(FolderTechnique, ATargetTakesItsFormatFromAParameter) {
+    const std::string written = "out float v;\nvoid main() { v = 0.301; }\n";
+    const std::string read =
+        "uniform sampler2D a;\nout float visibility;\nvoid main() { visibility = texelFetch(a, ivec2(0), 0).r; }\n";
+    EXPECT_EQ(readBack("bits", written, read), 0.301F);
+    EXPECT_EQ(readBack("bits", written, read, "bits=R8"), 77 / 255.0F);
+    EXPECT_EQ(readBack("R8", written, read, "bits=R32F"), 77 / 255.0F);
+}
+
+TEST(FolderTechnique, WholeNumbersWrapAround) {
+    EXPECT_EQ(
+        readBack("RG32UI", "out uvec2 v;\nvoid main() { v = uvec2(4294967295u, 7u); }\n",
+                 "uniform usampler2D a;\nout float visibility;\nvoid main() { uvec2 v = texelFetch(a, ivec2(0), 0).rg; "
+                 "visibility = float(v.r + v.g) / 8.0; }\n"),
+        0.75F);
+}
+
 TEST(FolderTechnique, AShaderThatDoesNotCompileIsOneLineWithItsOwnPlace) {
     const auto errorOf = [](const std::string& shader) {
         const WrittenTechnique folder(mapToml, shader);

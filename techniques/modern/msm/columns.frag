@@ -1,0 +1,14 @@
+// Means along columns of those along rows.
+#include "filtered/box_mean.glsl"
+
+uniform sampler2D rows;
+
+out vec4 mean;
+
+vec4 stored(ivec2 texel) {
+    return texelFetch(rows, texel, 0);
+}
+
+void main() {
+    mean = boxMean(textureSize(rows, 0), ivec2(0, 1));
+}

@@ -1,0 +1,1 @@
+#include "modern/sat-vsm/add.frag"
