@@ -32,12 +32,15 @@ bool meetsTriangle(uint number, vec3 from, vec3 segment) {
     return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < 1.0;
 }
 
+/// No node is followed by the first. Of a block that is drawn in part llvmpipe runs the other pixels, too, and has them read zeros: they
+/// would begin again and again.
 bool segmentIsBlocked(vec3 from, vec3 to) {
     vec3 segment = to - from;
     vec3 inverse = 1.0 / mix(segment, vec3(1e-20), equal(segment, vec3(0.0)));
     uint end = uint(nodes.length());
     for (uint i = 0u; i < end;) {
         TreeNode node = nodes[i];
+        if (node.after == 0u) break;
         bool met = meetsBox(node, from, inverse);
         if (met && node.triangle != 0u && meetsTriangle(node.triangle - 1u, from, segment)) return true;
         i = met ? i + 1u : node.after;

@@ -4,6 +4,7 @@
 #include "techniques/folder/folder_technique.h"
 #include "tests/support/stages.h"
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -12,8 +13,8 @@ namespace shadowbench {
 /// A row by its variant, such as "pcss-vogel:taps=16", as it stands in the tree.
 inline std::unique_ptr<techniques::Technique> modernRow(const std::string& variant) {
     const std::string id = variant.substr(0, variant.find(':'));
-    const techniques::Entry entry =
-        techniques::folderEntry(techniques::readTechniqueFolder(std::string(SOURCE_FOLDER) + "/techniques/modern/" + id));
+    const std::filesystem::path folder = std::filesystem::path(SOURCE_FOLDER) / "techniques/modern" / id;
+    const techniques::Entry entry = techniques::folderEntry(techniques::readTechniqueFolder(folder));
     const std::string chosen = variant.size() > id.size() ? variant.substr(id.size() + 1) : "";
     return entry.make(techniques::parseParameters(chosen, entry.parameters, entry.id));
 }

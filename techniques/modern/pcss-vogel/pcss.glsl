@@ -38,12 +38,18 @@ vec2 searchReach(SoftReceiver r) {
     return tangent * max(r.depth - nearAndFar.x, 0.0) / (nearAndFar.x * mapSpan);
 }
 
+/// A tap of the search. An exponent above 1 has taps where a disk of few has none: within its first radius, √(½ / n).
+vec2 searchTap(int i, float turn) {
+    vec2 tap = vogelTap(i, BLOCKERS, turn);
+    return pow(length(tap), float(CROWDING) - 1.0) * tap;
+}
+
 /// Mean depth of the blockers that are found, metres; negative without one.
 float meanBlockerDepth(SoftReceiver r, float turn) {
     vec2 reach = searchReach(r);
     float sum = 0.0, stored, found = 0.0;
     for (int i = 0; i < BLOCKERS; ++i)
-        if (blocksAt(r, reach * vogelTap(i, BLOCKERS, turn), stored)) {
+        if (blocksAt(r, reach * searchTap(i, turn), stored)) {
             sum += mix(nearAndFar.x, nearAndFar.y, unitDepth(stored));
             ++found;
         }
