@@ -1,3 +1,4 @@
+// The share of a pixel's rays to random points of the light that are free (techniques/modern/traced_rays.h).
 #include "gl/normal.glsl"
 #include "gl/receiver.glsl"
 #include "modern/triangle_tree.glsl"
