@@ -138,6 +138,16 @@ std::vector<TomlValue> TomlValue::members() const {
     return values;
 }
 
+std::vector<TomlValue> TomlValue::membersAsWritten() const {
+    std::vector<TomlValue> values = members();
+    const auto place = [](const TomlValue& value) {
+        const toml::source_position begin = value.node_->source().begin;
+        return std::pair(begin.line, begin.column);
+    };
+    std::ranges::stable_sort(values, {}, place);
+    return values;
+}
+
 std::optional<TomlValue> TomlValue::find(std::string_view name) const {
     const toml::node* node = table().get(name);
     if (node == nullptr) return std::nullopt;

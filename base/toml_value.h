@@ -47,7 +47,8 @@ public:
 
     /// Fails on a key of this table that is not among `known`, with near matches.
     const TomlValue& only(const std::vector<std::string>& known) const;
-    [[nodiscard]] std::vector<TomlValue> members() const; // of a table, sorted by key
+    [[nodiscard]] std::vector<TomlValue> members() const;          // of a table, sorted by key
+    [[nodiscard]] std::vector<TomlValue> membersAsWritten() const; // the same in the order of the file
     [[nodiscard]] std::optional<TomlValue> find(std::string_view name) const;
     TomlValue get(std::string_view name) const; // fails when missing
     [[nodiscard]] std::string_view lastKey() const;

@@ -1,6 +1,7 @@
 #include "techniques/catalog.h"
 
 #include "base/error.h"
+#include "techniques/folder/built_in.h"
 #include "techniques/folder/folder_technique.h"
 #include "techniques/folder/pass_program.h"
 #include "techniques/folder_passes.h"
@@ -16,7 +17,9 @@
 namespace shadowbench::techniques {
 
 #define TECHNIQUE(name) Entry name();
+#define FOLDER(place)
 #include "techniques/catalog.inc"
+#undef FOLDER
 #undef TECHNIQUE
 
 namespace {
@@ -33,12 +36,14 @@ std::vector<std::string> chosenFolders() {
 }
 
 struct Catalogue {
+    std::map<std::string, std::map<std::string, std::string>, std::less<>> passes; // of folders, by their rows
     std::vector<Entry> entries{
 #define TECHNIQUE(name) name(),
+#define FOLDER(place) entryOf(builtInFolder(place)),
 #include "techniques/catalog.inc"
+#undef FOLDER
 #undef TECHNIQUE
     };
-    std::map<std::string, std::map<std::string, std::string>, std::less<>> passes; // of folders, by their rows
 
     Catalogue() {
         for (const std::string& place : chosenFolders()) {
@@ -46,9 +51,13 @@ struct Catalogue {
             const std::string id = folder.entry.id;
             if (std::ranges::find(entries, id, &Entry::id) != entries.end())
                 throw BadInput(fmt::format("two technique folders have the id \"{}\"", id.substr(folderPrefix.size())));
-            passes.emplace(id, passHashes(folder));
-            entries.push_back(folderEntry(std::move(folder)));
+            entries.push_back(entryOf(std::move(folder)));
         }
+    }
+
+    Entry entryOf(TechniqueFolder folder) {
+        passes.emplace(folder.entry.id, passHashes(folder));
+        return folderEntry(std::move(folder));
     }
 };
 

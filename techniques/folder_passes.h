@@ -7,7 +7,7 @@
 
 namespace shadowbench::techniques {
 
-/// Hashes of shaders and state by the names of the passes, of a technique folder; of a technique that is built in none.
+/// Hashes of shaders and state by the names of the passes, of a technique that is a folder; of one in C++ none.
 const std::map<std::string, std::string>& drawnWith(std::string_view id);
 
 } // namespace shadowbench::techniques

@@ -7,6 +7,7 @@
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/keys.h"
 #include "techniques/folder/reading.h"
+#include "techniques/shared/maps/depth_map.h"
 
 #include <algorithm>
 #include <cctype>
@@ -50,6 +51,7 @@ public:
         readFacts(root);
         if (const auto parameters = root.find("parameter"))
             for (const TomlValue& value : members(*parameters, mostParameters)) readParameter(value);
+        if (const auto map = root.find("depth_map")) addMapParameters(*map);
         if (const auto targets = root.find("target"))
             for (const TomlValue& value : members(*targets, mostTargets)) readTarget(value);
         readPasses(root.get("pass"), read_);
@@ -77,7 +79,7 @@ private:
     }
 
     static std::vector<TomlValue> members(const TomlValue& table, std::size_t most) {
-        std::vector<TomlValue> all = table.members();
+        std::vector<TomlValue> all = table.membersAsWritten();
         if (all.size() > most) table.fail(fmt::format("has {} entries; {} are allowed", all.size(), most));
         return all;
     }
@@ -101,10 +103,22 @@ private:
         } else {
             parameter.domain = rangeOf(value);
         }
+        add(std::move(parameter), value);
+    }
+
+    void addMapParameters(const TomlValue& value) {
+        read_.mapParameters = mapBiases.named(value.oneOf(mapBiases.all()));
+        std::vector<Parameter> parameters = depthMapParameters();
+        if (read_.mapParameters == MapParameters::AnyBias) parameters = withNormalOffset(std::move(parameters));
+        for (Parameter& parameter : parameters) add(std::move(parameter), value);
+    }
+
+    void add(Parameter parameter, const TomlValue& value) {
         for (const Parameter& other : read_.entry.parameters)
             for (const std::string& macro : macrosOf(parameter))
                 if (std::ranges::count(macrosOf(other), macro) > 0)
-                    value.fail(fmt::format("shaders would call it {}, as {}; rename one", macro, other.name));
+                    value.fail(fmt::format("shaders would call {} {}, as {}; rename one",
+                                           value.lastKey() == parameter.name ? "it" : parameter.name, macro, other.name));
         read_.entry.parameters.push_back(std::move(parameter));
     }
 

@@ -24,6 +24,13 @@ enum class FolderView {
 /// A number, or the name of the parameter that has it.
 using Amount = std::variant<double, std::string>;
 
+/// Parameters of a depth map of ours (shared/maps/depth_map.h), which the folder has after its own.
+enum class MapParameters {
+    None,
+    DepthBias, // `map`, `bias`, `factor` and `units`
+    AnyBias    // the same, and the bias may be an offset of receivers along their normals
+};
+
 struct FolderTarget {
     std::string name;
     gl::Format format;
@@ -42,10 +49,11 @@ enum class Cull { None, Front, Back };
 struct FolderPass {
     std::string name;
     bool casters = false;        // draws them into the map; else one triangle over the screen
-    std::string fragment;        // file of the folder; empty: depth alone
+    std::string fragment;        // file of the folder, or an embedded one; empty: depth alone
     std::vector<std::string> to; // targets, one of depth at most, or `visibility` alone
     gl::Defines defines;
     Amount slopeOffset = 0.0, unitOffset = 0.0; // of casters (shared/maps/depth_map.h, Bias)
+    bool biased = false;                        // they are those of the parameters of a depth map
     std::optional<glm::vec4> clear;             // of colours, before anything is drawn; of casters always
     std::optional<Blend> blend;
     Cull cull = Cull::None;
@@ -58,6 +66,7 @@ struct TechniqueFolder {
     std::filesystem::path path;
     Entry entry; // all but `make`
     FolderView view = FolderView::Scene;
+    MapParameters mapParameters = MapParameters::None;
     std::vector<FolderTarget> targets;
     std::vector<FolderPass> passes;
     gl::ShaderFiles shaders;
@@ -75,7 +84,7 @@ inline constexpr std::string_view historyPrefix = "previous_";
 /// The rows of folders are `my:ID`.
 inline constexpr std::string_view folderPrefix = "my:";
 
-/// What shaders call a parameter: its name in capitals; a choice is one of `name_word`.
+/// What shaders call a parameter: its name in capitals; a choice is one of `name_word`. What is no letter or digit is _.
 std::string macroOf(std::string name);
 
 /// Lower-case letters, digits and -, 40 at most.

@@ -58,6 +58,9 @@ public:
     FolderTechnique(std::shared_ptr<const TechniqueFolder> folder, const Parameters& values)
         : folder_(std::move(folder)), values_(values) {
         for (const FolderPass& pass : folder_->passes) programs_.push_back(programOf(*folder_, pass, values_));
+        if (folder_->mapParameters == MapParameters::None) return;
+        bias_ = biasFrom(values_);
+        followsPlane_ = followsPlane(values_);
     }
 
     void reset() override {
@@ -86,9 +89,8 @@ public:
     }
 
     [[nodiscard]] std::optional<glm::dvec2> mapPoint(const glm::dvec3& world) const override {
-        const auto casters = std::ranges::find(folder_->passes, true, &FolderPass::casters);
-        if (casters == folder_->passes.end() || targets_.empty()) return {};
-        return texelAt(view_, world, targets_.at(casters->to.front()).now.size());
+        const glm::ivec2 size = mapSize();
+        return size.x > 0 ? texelAt(view_, world, size) : std::nullopt;
     }
 
 private:
@@ -96,6 +98,19 @@ private:
         gl::Texture now;
         std::optional<gl::Texture> before = {}; // of a target with a history
     };
+
+    /// Of the first target that casters are drawn into; 0 where there is none.
+    [[nodiscard]] glm::ivec2 mapSize() const {
+        const auto casters = std::ranges::find(folder_->passes, true, &FolderPass::casters);
+        if (casters == folder_->passes.end() || targets_.empty()) return glm::ivec2(0);
+        return targets_.at(casters->to.front()).now.size();
+    }
+
+    [[nodiscard]] Bias biasOf(const FolderPass& pass) const {
+        if (pass.biased) return bias_;
+        return {.factor = static_cast<float>(valueOf(pass.slopeOffset, values_)),
+                .units = static_cast<float>(valueOf(pass.unitOffset, values_))};
+    }
 
     [[nodiscard]] std::size_t endOfGroup(std::size_t first) const {
         const std::string& group = folder_->passes[first].group;
@@ -170,7 +185,7 @@ private:
     }
 
     void setInputs(gl::Program& program, const Frame& frame) const {
-        const FolderState state{frame, view_, historyFrames_, repetition_};
+        const FolderState state{frame, view_, historyFrames_, repetition_, bias_, followsPlane_, mapSize()};
         for (const auto& [name, type] : program.uniformTypes()) {
             const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name);
             if (input != folderInputs().end()) input->set(program, name, state);
@@ -206,9 +221,7 @@ private:
         for (int i = 0; i < colours; ++i) target.clearColour(i, *pass.clear);
         if (pass.depthTest) target.clearDepth(1);
         target.bind();
-        const CasterPass casters(program, view_,
-                                 {.factor = static_cast<float>(valueOf(pass.slopeOffset, values_)),
-                                  .units = static_cast<float>(valueOf(pass.unitOffset, values_))});
+        const CasterPass casters(program, view_, biasOf(pass));
         const Blending blending(pass.blend);
         const Culling culling(pass.cull);
         if (!pass.depthTest) glDisable(GL_DEPTH_TEST); // until the next pass sets it
@@ -220,6 +233,8 @@ private:
     std::vector<gl::Program> programs_; // a pass each
     std::unordered_map<std::string, Target> targets_;
     std::optional<gl::Texture> ownDepths_;
+    Bias bias_{};
+    bool followsPlane_ = true;
     LightView view_;
     glm::ivec2 imageSize_{0};
     int historyFrames_ = 0, repetition_ = 0;

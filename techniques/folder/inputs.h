@@ -4,6 +4,7 @@
 #include "techniques/contract/technique.h"
 #include "techniques/gl/program.h"
 #include "techniques/shared/light_views/light_view.h"
+#include "techniques/shared/maps/depth_map.h"
 
 #include <functional>
 #include <span>
@@ -17,6 +18,9 @@ struct FolderState {
     const LightView& view;
     int historyFrames; // drawn since the history was forgotten
     int repetition;    // of the pass or its group, from 0
+    Bias bias;         // of the parameters of a depth map
+    bool followsPlane; // techniques/shared/maps/depth_map.h
+    glm::ivec2 mapSize;
 };
 
 struct FolderInput {

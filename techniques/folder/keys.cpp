@@ -38,6 +38,11 @@ constexpr std::array keys{
               "what the light's view holds: `scene`; `focused`, what the camera sees; or `light-sample`, the scene from "
               "another point of an area light each frame",
               "`scene`", oneOf<views>},
+    FolderKey{Root, "depth_map",
+              "adds the parameters `map`, `bias`, `factor` and `units`, as the depth maps that are built in have them: with "
+              "`depth-bias` the bias is one of depths; with `any-bias` it may be `normal-offset` as well, for shaders over "
+              "shared/maps/tested_point.glsl",
+              "none", oneOf<mapBiases>},
     FolderKey{Root, "variants", "the rows of a run: texts as `\"map=512,kernel=3\"`; `\"\"` has all defaults", "`[\"\"]`",
               texts},
     FolderKey{Root, "lacks",
@@ -71,7 +76,8 @@ constexpr std::array keys{
               "needed", oneOf<draws>},
     FolderKey{Pass, "to", "the target that is written, or a list of them in the order of the shader's outputs", "needed",
               [] { return std::string(R"("type": ["string", "array"], "items": {"type": "string"}, "maxItems": 7)"); }},
-    FolderKey{Pass, "fragment", "a file of the folder; casters without one write depth alone", "of casters none", text},
+    FolderKey{Pass, "fragment", "a file of the folder or one of ours; casters without one write depth alone",
+              "of casters none", text},
     FolderKey{Pass, "define", "macros of this pass, as `{ DIRECTION = \"ivec2(1, 0)\" }`: one file may serve several passes",
               "none", tables},
     FolderKey{Pass, "repeat", "how often it is drawn, 1 to 64, or the parameter that says it; `repetition` counts", "1",
@@ -86,10 +92,11 @@ constexpr std::array keys{
     FolderKey{
         Pass, "offset",
         "of casters, away from the light: `[of the slope, units]`, numbers or parameters, as glPolygonOffset has them; "
-        "units are 2⁻²⁴ of the depth range",
+        "units are 2⁻²⁴ of the depth range. Or `\"bias\"`: as the parameters of `depth_map` say",
         "`[0, 0]`",
         [] {
-            return std::string(R"("type": "array", "minItems": 2, "maxItems": 2, "items": {"type": ["string", "number"]})");
+            return std::string(
+                R"("type": ["array", "string"], "minItems": 2, "maxItems": 2, "items": {"type": ["string", "number"]})");
         }},
     FolderKey{Pass, "cull", "of casters: triangles that are left out, `none`, `front` or `back`", "`none`", oneOf<culls>},
     FolderKey{Pass, "depth_test", "of casters without a target of depths: `false` draws all of them, not the nearest alone",

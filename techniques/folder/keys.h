@@ -25,6 +25,8 @@ inline constexpr Words<Answer, 3> answers{
     "answer", {{{Answer::Hard, "hard"}, {Answer::Filtered, "filtered"}, {Answer::Soft, "soft"}}}};
 inline constexpr Words<FolderView, 3> views{
     "view", {{{FolderView::Scene, "scene"}, {FolderView::Focused, "focused"}, {FolderView::Sample, "light-sample"}}}};
+inline constexpr Words<MapParameters, 2> mapBiases{
+    "depth_map", {{{MapParameters::DepthBias, "depth-bias"}, {MapParameters::AnyBias, "any-bias"}}}};
 inline constexpr Words<bool, 2> draws{"draw", {{{true, "casters"}, {false, "screen"}}}};
 inline constexpr Words<bool, 2> filters{"filter", {{{false, "nearest"}, {true, "linear"}}}}; // whether it is linear
 inline constexpr Words<Blend, 4> blends{

@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "base/words.h"
 #include "techniques/folder/inputs.h"
+#include "techniques/shared/maps/normal_offset.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,9 +15,10 @@ namespace shadowbench::techniques {
 namespace {
 
 /// A parameter is a macro by its name in capitals; a choice is one of name and word.
-gl::Defines definesOf(const Entry& entry, const Parameters& values) {
+gl::Defines definesOf(const TechniqueFolder& folder, const Parameters& values) {
     gl::Defines defines;
-    for (const Parameter& parameter : entry.parameters) {
+    if (folder.mapParameters == MapParameters::AnyBias) defines = normalOffsetDefines(biasFrom(values));
+    for (const Parameter& parameter : folder.entry.parameters) {
         const std::string& value = values.text(parameter.name);
         if (std::holds_alternative<OneOf>(parameter.domain))
             defines.emplace_back(macroOf(parameter.name + "_" + value), "1");
@@ -45,7 +47,7 @@ public:
     }
 
 private:
-    [[nodiscard]] std::string file() const { return fmt::format("{}/{}", folder_.path.string(), pass_.fragment); }
+    [[nodiscard]] std::string file() const { return gl::placeOf({folder_.path.string(), folder_.shaders}, pass_.fragment); }
 
     /// The line of the compiler's log that is the first error, where warnings may come before; of the linker's, after the
     /// file.
@@ -66,7 +68,8 @@ private:
     /// Where a file of the folder declares a uniform: the pass's own first.
     [[nodiscard]] std::string placeOf(const std::string& uniform) const {
         const std::regex declaration("\\buniform\\b.*\\b" + uniform + "\\b");
-        std::vector<std::string> names{pass_.fragment};
+        std::vector<std::string> names;
+        if (folder_.shaders.contains(pass_.fragment)) names.push_back(pass_.fragment);
         for (const auto& [name, text] : folder_.shaders) names.push_back(name);
         for (const std::string& name : names) {
             std::istringstream lines(folder_.shaders.at(name));
@@ -133,16 +136,17 @@ std::string shaderText(const TechniqueFolder& folder, const FolderPass& pass) {
     try {
         return gl::loadShader({"", folder.shaders}, pass.fragment, pass.defines).text;
     } catch (const InternalError&) {
-        return folder.shaders.at(pass.fragment);
+        const auto own = folder.shaders.find(pass.fragment);
+        return own == folder.shaders.end() ? pass.fragment : own->second;
     }
 }
 
 std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
     const glm::vec4 clear = pass.clear.value_or(glm::vec4(-1));
-    std::string state = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", pass.casters, text(pass.slopeOffset),
-                                    text(pass.unitOffset), pass.clear.has_value(), clear.x, clear.y, clear.z, clear.w,
-                                    pass.blend ? static_cast<int>(*pass.blend) : -1, static_cast<int>(pass.cull),
-                                    pass.depthTest, text(pass.repeat));
+    std::string state = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", pass.casters, pass.biased,
+                                    text(pass.slopeOffset), text(pass.unitOffset), pass.clear.has_value(), clear.x, clear.y,
+                                    clear.z, clear.w, pass.blend ? static_cast<int>(*pass.blend) : -1,
+                                    static_cast<int>(pass.cull), pass.depthTest, text(pass.repeat));
     for (const FolderTarget& target : folder.targets)
         if (std::ranges::count(pass.to, target.name) > 0)
             state += fmt::format("\n{} {} {} {} {} {} {}", target.name, static_cast<int>(target.format), target.ofImage,
@@ -162,7 +166,7 @@ std::map<std::string, std::string> passHashes(const TechniqueFolder& folder) {
 
 gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values) {
     if (pass.fragment.empty()) return {"shared/maps/depth_map.vert", "gl/depth_only.frag"};
-    gl::Defines defines = definesOf(folder.entry, values);
+    gl::Defines defines = definesOf(folder, values);
     defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
     return PassProgram(folder, pass).made(defines);
 }

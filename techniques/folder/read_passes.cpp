@@ -69,7 +69,7 @@ private:
     void readShader() {
         if (const auto fragment = value_.find("fragment")) {
             pass_.fragment = fragment->text();
-            if (!read_.shaders.contains(pass_.fragment)) fragment->fail(noShader());
+            if (!read_.shaders.contains(pass_.fragment) && !gl::isEmbedded(pass_.fragment)) fragment->fail(noShader());
         } else if (!pass_.casters) {
             value_.fail("a pass over the screen needs a fragment shader: fragment = \"resolve.frag\"");
         }
@@ -128,12 +128,18 @@ private:
             if (!pass_.depthTest && depths() > 0)
                 test->fail("a target of depths keeps the nearest: leave one of the two out");
         }
-        if (const auto offset = value_.find("offset")) {
-            const std::vector<TomlValue> both = offset->list();
-            if (both.size() != 2) offset->fail("expected [of the slope, units], numbers or parameters");
-            pass_.slopeOffset = amountOf(both[0], read_);
-            pass_.unitOffset = amountOf(both[1], read_);
-        }
+        if (const auto offset = value_.find("offset")) readOffset(*offset);
+    }
+
+    void readOffset(const TomlValue& offset) {
+        pass_.biased = offset.isText() && offset.text() == "bias";
+        if (pass_.biased && read_.mapParameters == MapParameters::None)
+            offset.fail("is that of the parameters of a depth map: say depth_map = \"depth-bias\" above");
+        if (pass_.biased) return;
+        const std::vector<TomlValue> both = offset.isList() ? offset.list() : std::vector<TomlValue>();
+        if (both.size() != 2) offset.fail("expected [of the slope, units], numbers or parameters, or \"bias\"");
+        pass_.slopeOffset = amountOf(both[0], read_);
+        pass_.unitOffset = amountOf(both[1], read_);
     }
 
     void requireScreen() const {

@@ -25,7 +25,10 @@ std::string words(const TomlValue& value) {
 }
 
 std::string macroOf(std::string name) {
-    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    for (char& c : name) {
+        const auto letter = static_cast<unsigned char>(c);
+        c = std::isalnum(letter) != 0 ? static_cast<char>(std::toupper(letter)) : '_';
+    }
     return name;
 }
 

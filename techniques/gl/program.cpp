@@ -143,7 +143,7 @@ Program Program::screenFromText(const std::string& name, const std::string& frag
 Program Program::ofFolder(const std::string& vertexFile, const ShaderFolder& folder, const std::string& fragmentFile,
                           const Defines& defines) {
     return Program({{GL_VERTEX_SHADER, vertexFile, loadShader(vertexFile, {})},
-                    {GL_FRAGMENT_SHADER, folder.path + "/" + fragmentFile, loadShader(folder, fragmentFile, defines)}});
+                    {GL_FRAGMENT_SHADER, placeOf(folder, fragmentFile), loadShader(folder, fragmentFile, defines)}});
 }
 
 Program Program::compute(const std::string& file, const Defines& defines) {

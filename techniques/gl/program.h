@@ -47,7 +47,16 @@ struct ShaderFolder {
     const ShaderFiles& files;
 };
 
-/// The same of one of a folder's files.
+/// Whether the program carries a shader of this name.
+bool isEmbedded(const std::string& file);
+
+/// The embedded shaders of `folder` ("filtered/pcf"), by their names in it.
+ShaderFiles embeddedShaders(const std::string& folder);
+
+/// What messages call a folder's file, or an embedded one.
+std::string placeOf(const ShaderFolder& folder, const std::string& file);
+
+/// The same of one of a folder's files, or an embedded one.
 ShaderSource loadShader(const ShaderFolder& folder, const std::string& file, const Defines& defines);
 
 class Program {
@@ -60,7 +69,7 @@ public:
     /// The same of a source that is no file: for shaders that are put together where they are used.
     static Program screenFromText(const std::string& name, const std::string& fragmentText, const Defines& defines = {});
 
-    /// An embedded vertex shader and a fragment shader of a folder.
+    /// An embedded vertex shader, and a fragment shader of a folder or an embedded one.
     static Program ofFolder(const std::string& vertexFile, const ShaderFolder& folder, const std::string& fragmentFile,
                             const Defines& defines);
 

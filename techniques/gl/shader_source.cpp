@@ -11,10 +11,6 @@
 namespace shadowbench::gl {
 namespace {
 
-bool isEmbedded(const std::string& file) {
-    return std::ranges::any_of(embedded::shaders(), [&](const auto& f) { return f.path == file; });
-}
-
 std::string_view embeddedText(const std::string& file, const std::string& includedFrom) {
     const auto files = embedded::shaders();
     const auto found = std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.path == file; });
@@ -93,6 +89,18 @@ private:
 
 } // namespace
 
+bool isEmbedded(const std::string& file) {
+    return std::ranges::any_of(embedded::shaders(), [&](const auto& f) { return f.path == file; });
+}
+
+ShaderFiles embeddedShaders(const std::string& folder) {
+    ShaderFiles shaders;
+    for (const embedded::File& file : embedded::shaders())
+        if (const std::size_t name = file.path.rfind('/') + 1; file.path.substr(0, name) == folder + "/")
+            shaders.emplace(file.path.substr(name), file.text);
+    return shaders;
+}
+
 ShaderSource loadShader(const std::string& file, const Defines& defines) {
     Assembly assembly(file, defines);
     assembly.appendFile(file, "");
@@ -105,8 +113,12 @@ ShaderSource shaderFromText(const std::string& name, const std::string& text, co
     return assembly.take();
 }
 
+std::string placeOf(const ShaderFolder& folder, const std::string& file) {
+    return folder.files.contains(file) ? folder.path + "/" + file : file;
+}
+
 ShaderSource loadShader(const ShaderFolder& folder, const std::string& file, const Defines& defines) {
-    Assembly assembly(folder.path + "/" + file, defines, &folder);
+    Assembly assembly(placeOf(folder, file), defines, &folder);
     assembly.appendFile(file, "");
     return assembly.take();
 }

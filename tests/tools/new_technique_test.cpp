@@ -35,7 +35,8 @@ TEST_F(NewTechnique, WritesAFolderALineAndATest) {
     EXPECT_EQ(text("techniques/catalog.inc"), before + "TECHNIQUE(my2ndFilter)\n");
     const auto techniques = [](const std::string& catalogue) {
         std::size_t lines = 0;
-        for (std::size_t at = 0; (at = catalogue.find("TECHNIQUE(", at)) != std::string::npos; ++at) ++lines;
+        for (const char* line : {"\nTECHNIQUE(", "\nFOLDER("})
+            for (std::size_t at = 0; (at = catalogue.find(line, at)) != std::string::npos; ++at) ++lines;
         return lines;
     };
     EXPECT_NE(text("README.md").find(fmt::format("runs {} shadow", techniques(before) + 1)), std::string::npos);

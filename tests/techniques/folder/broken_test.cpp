@@ -228,7 +228,7 @@ TEST_F(BrokenFolder, APassWritesNoMoreTargetsThanGlHas) {
 TEST_F(BrokenFolder, WhatContradictsItselfIsToldWithTheRemedy) {
     const auto changed = [&](const std::string& from, const std::string& to) { return said(replaced(fullToml, from, to)); };
     const std::vector<std::pair<std::string, std::string>> cases{
-        {changed("[parameter.radius]", "[parameter.Map]"), "shaders would call it MAP, as Map; rename one"},
+        {changed("[parameter.radius]", "[parameter.Map]"), "shaders would call it MAP, as map; rename one"},
         {changed("[parameter.radius]", "[parameter.kind_wide]"), "shaders would call it KIND_WIDE"},
         {changed("SOURCE =", "RADIUS ="), "is the parameter radius already; choose another name"},
         {changed("SOURCE = \"moments\"", "SOURCE = \"a\\nb\""), "a macro is one line"},

@@ -35,9 +35,24 @@ TEST(TechniqueFolder, NumbersAreWholeWhereNoneHasADecimalPoint) {
     const std::string parameter = "[parameter.radius]\ndefault = 2.5\nrange = [1, 8]\nmeaning = \"m\"\n";
     const std::string choice = "[parameter.kind]\ndefault = \"soft\"\nchoices = [\"hard\", \"soft\"]\nmeaning = \"m\"\n";
     const techniques::Entry entry = WrittenTechnique(replaced(mapToml, "[target", parameter + choice + "[target")).entry();
-    ASSERT_EQ(entry.parameters.size(), 3U); // by their names
-    EXPECT_EQ(std::get<OneOf>(entry.parameters[0].domain).values, (std::vector<std::string>{"hard", "soft"}));
-    EXPECT_EQ(std::get<RealRange>(entry.parameters[2].domain).low, 1);
+    ASSERT_EQ(entry.parameters.size(), 3U); // as they are written
+    EXPECT_EQ(std::get<RealRange>(entry.parameters[1].domain).low, 1);
+    EXPECT_EQ(std::get<OneOf>(entry.parameters[2].domain).values, (std::vector<std::string>{"hard", "soft"}));
+}
+
+TEST(TechniqueFolder, HasTheParametersOfADepthMapAfterItsOwn) {
+    const auto named = [](const std::string& bias) {
+        const std::string map =
+            "[parameter.map]\ndefault = 1024\nrange = [16, 8192]\nmeaning = \"texels per side of the map\"\n";
+        const std::string toml = replaced(mapToml, map, "[parameter.taps]\ndefault = 2\nrange = [1, 8]\nmeaning = \"m\"\n");
+        return WrittenTechnique(replaced(toml, "answer", "depth_map = \"" + bias + "\"\nanswer")).entry().parameters;
+    };
+    const std::vector<techniques::Parameter> any = named("any-bias"), depth = named("depth-bias");
+    ASSERT_EQ(any.size(), 5U);
+    EXPECT_EQ(any[0].name, "taps");
+    EXPECT_EQ(any[1].name, "map");
+    EXPECT_EQ(techniques::describe(any[2].domain), "none|constant|slope|normal-offset");
+    EXPECT_EQ(techniques::describe(depth.at(2).domain), "none|constant|slope");
 }
 
 TEST(TechniqueFolder, AnyChangeOfAFileIsAnotherDigest) {
@@ -87,6 +102,12 @@ TEST(TechniqueFolder, WhatIsWrongIsOneLineWithItsPlace) {
                   .find("casters are drawn into a map"),
               std::string::npos);
     EXPECT_NE(with("size = \"map\"", "size = 9000").find("target.depths.size"), std::string::npos);
+    EXPECT_EQ(with("answer", "depth_map = \"any-bias\"\nanswer"),
+              ":3: depth_map: shaders would call map MAP, as map; rename one");
+    EXPECT_EQ(with("[2, 64]", "\"bias\""),
+              ":19: pass[1].offset: is that of the parameters of a depth map: say depth_map = \"depth-bias\" above");
+    EXPECT_EQ(with("[2, 64]", "\"slope\""),
+              ":19: pass[1].offset: expected [of the slope, units], numbers or parameters, or \"bias\"");
     EXPECT_NE(with("[parameter.map]", "[parameter.__map]").find("is no name in GLSL"), std::string::npos);
 }
 
