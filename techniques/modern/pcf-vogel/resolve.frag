@@ -1,9 +1,8 @@
-#include "gl/normal.glsl"
-#include "gl/receiver.glsl"
-#include "shared/maps/light_space.glsl"
+#include "shared/maps/tested_point.glsl"
 #include "shared/sampling/vogel.glsl"
 
 uniform sampler2DShadow depths;
+uniform float followPlane;
 uniform int frame;
 uniform int seed;
 
@@ -11,10 +10,10 @@ out float visibility;
 
 void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
-    MapPoint point = mapPoint(receiver.position);
+    MapPoint point = testedPoint(receiver);
     visibility = 1.0;
     if (!receiver.seen || point.behind) return;
-    vec2 slope = receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at);
+    vec2 slope = followPlane * receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at);
     vec2 reach = RADIUS / vec2(textureSize(depths, 0));
     float turn = turnOf(gl_FragCoord.xy, frame, seed);
     float passed = 0.0;

@@ -5,6 +5,7 @@
 #include "shared/sampling/vogel.glsl"
 
 uniform sampler2D depths;  // window depths
+uniform float followPlane;
 uniform vec4 depthFromWorld;
 uniform vec2 nearAndFar;
 uniform vec2 mapSpan;
@@ -18,7 +19,7 @@ struct SoftReceiver {
 
 SoftReceiver softReceiver(vec3 world, vec3 normal) {
     vec3 at = mapPoint(world).at;
-    return SoftReceiver(at, receiverPlaneSlope(world, normal, at), dot(depthFromWorld, vec4(world, 1.0)));
+    return SoftReceiver(at, followPlane * receiverPlaneSlope(world, normal, at), dot(depthFromWorld, vec4(world, 1.0)));
 }
 
 /// Half the light's sides, along map x and y.

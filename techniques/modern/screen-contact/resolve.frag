@@ -1,6 +1,4 @@
-#include "gl/normal.glsl"
-#include "gl/receiver.glsl"
-#include "shared/maps/light_space.glsl"
+#include "shared/maps/tested_point.glsl"
 #include "shared/sampling/vogel.glsl"
 
 uniform sampler2DShadow depths;
@@ -42,6 +40,6 @@ void main() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
     visibility = 1.0;
     if (!receiver.seen) return;
-    visibility = shadowTest(depths, mapPoint(receiver.position));
+    visibility = shadowTest(depths, testedPoint(receiver));
     if (visibility > 0.0 && blockedOnScreen(receiver.position, gradientNoise(gl_FragCoord.xy, 0, seed))) visibility = 0.0;
 }

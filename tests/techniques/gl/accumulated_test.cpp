@@ -1,5 +1,5 @@
 // Soft shadows under temporal antialiasing: what an exponential mean leaves of noise, and what a clamp lets go.
-#include "tests/support/modern_rows.h"
+#include "tests/support/rows_over_frames.h"
 #include "tests/support/soft_scenes.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ TEST(Accumulated, WithoutAClampItIsTheExponentialMeanOfTheFrames) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
     stage.show(0);
-    const auto plain = modernRow("pcss-vogel");
+    const auto plain = rowOf("pcss-vogel");
     Image<float> expected = imageAfter(stage, *plain, 1);
     for (int frame = 1; frame < 12; ++frame) {
         stage.render(*plain, frame, 1);
@@ -34,7 +34,7 @@ TEST(Accumulated, LeavesAFractionOfOneFramesNoise) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
     stage.show(0);
-    const Image<float> many = meanOver(stage, *modernRow("pcss-vogel"), 64);
+    const Image<float> many = meanOver(stage, *rowOf("pcss-vogel"), 64);
     const double one = rmsDifference(imageAfter(stage, "pcss-vogel", 1), many);
     // √(share / (2 − share)) = 0.23 of the noise of independent frames; those of the noise's sequence are spread more
     // evenly.
@@ -49,7 +49,7 @@ double trail(const std::string& variant) {
     scene.timeline = {20, 2};
     scene.objects[1].motion.shift.keys = {{0, {0, 0, 0}}, {1, {1.2, 0, 0}}, {2, {1.2, 0, 0}}};
     Stage stage(scene);
-    const auto row = modernRow(variant);
+    const auto row = rowOf(variant);
     for (int frame = 0; frame < 22; ++frame) {
         stage.show(frame);
         stage.render(*row, frame, 1);

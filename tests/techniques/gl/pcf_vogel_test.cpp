@@ -1,6 +1,6 @@
 // The Vogel disk and interleaved gradient noise against their formulas, and PCF over them against the ramp of a disk.
 #include "tests/support/bands.h"
-#include "tests/support/modern_rows.h"
+#include "tests/support/rows_over_frames.h"
 #include "tests/support/shader_function.h"
 
 #include <algorithm>
@@ -92,7 +92,7 @@ TEST(PcfVogel, FramesAverageToTheDisksRamp) {
     const Scene scene = edgeScene(2);
     Stage stage(scene);
     stage.show(0);
-    const auto row = modernRow("pcf-vogel:radius=6,map=128");
+    const auto row = rowOf("pcf-vogel:radius=6,map=128");
     const BandsAndNoise one = measured(scene, stage, imageAfter(stage, *row, 1), 6);
     const BandsAndNoise many = measured(scene, stage, meanOver(stage, *row, 64), 6);
     EXPECT_LT(many.worstMean, 0.02);
@@ -115,7 +115,7 @@ TEST(PcfVogel, OnlyFramesTurnWhatStandsStill) {
     Stage stage(scene);
     stage.show(0);
     const auto changed = [&](const std::string& variant) {
-        const auto row = modernRow(variant);
+        const auto row = rowOf(variant);
         const Image<float> first = imageAfter(stage, *row, 1);
         return rmsDifference(first, imageAfter(stage, *row, 2));
     };

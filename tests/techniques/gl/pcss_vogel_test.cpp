@@ -1,7 +1,7 @@
 // Percentage-closer soft shadows over Vogel disks: the penumbra of a parallel occluder is that of similar triangles, over
 // the ramp of a disk, and what engines limit is limited.
 #include "tests/support/filtered_scenes.h"
-#include "tests/support/modern_rows.h"
+#include "tests/support/rows_over_frames.h"
 #include "tests/support/soft_scenes.h"
 
 #include <cmath>
@@ -30,7 +30,7 @@ double fromDiskRamp(const Plate& plate, const std::string& variant, double half)
     const Scene scene = plate.scene();
     Stage stage(scene);
     stage.show(0);
-    const auto row = modernRow(variant);
+    const auto row = rowOf(variant);
     const Image<float> mean = meanOver(stage, *row, 16);
     std::vector<double> sums(20), counts(20);
     for (const SlabPoint& point : slabPoints(stage, mean)) {
@@ -64,7 +64,7 @@ TEST(PcssVogel, ASearchThatIsNarrowerThanTheLightCutsTheOuterPenumbraOff) {
     Stage stage(scene);
     stage.show(0);
     const auto rim = [&](const std::string& variant) { // a tenth of the light is hidden there
-        const Image<float> image = meanOver(stage, *modernRow(variant), 16);
+        const Image<float> image = meanOver(stage, *rowOf(variant), 16);
         return visibilityAt(slabPoints(stage, image), plate.middle() - 0.65 * plate.half());
     };
     EXPECT_NEAR(rim("pcss-vogel:blockers=32,taps=32"), diskShare(0.65), 0.03);
@@ -77,7 +77,7 @@ TEST(PcssVogel, TheFilterIsNoNarrowerThanItsLeast) {
     Stage stage(scene);
     stage.show(0);
     const auto width = [&](const std::string& variant) {
-        return widthBetween(slabPoints(stage, meanOver(stage, *modernRow(variant), 16)), 0.02, 0.98);
+        return widthBetween(slabPoints(stage, meanOver(stage, *rowOf(variant), 16)), 0.02, 0.98);
     };
     EXPECT_GT(width("pcss-vogel:map=128,narrowest=4"), 2 * width("pcss-vogel:map=128"));
 }
@@ -86,8 +86,8 @@ TEST(PcssVogel, FewTapsTurnedFrameByFrameAverageToMany) {
     const Scene scene = Plate{2}.scene();
     Stage stage(scene);
     stage.show(0);
-    const Image<float> many = meanOver(stage, *modernRow("pcss-vogel:blockers=64,taps=64"), 16);
-    const auto row = modernRow("pcss-vogel:blockers=32");
+    const Image<float> many = meanOver(stage, *rowOf("pcss-vogel:blockers=64,taps=64"), 16);
+    const auto row = rowOf("pcss-vogel:blockers=32");
     const double one = rmsDifference(imageAfter(stage, *row, 1), many);
     EXPECT_LT(rmsDifference(meanOver(stage, *row, 16), many), 0.5 * one);
 }
@@ -99,7 +99,7 @@ TEST(PcssVogel, BlockersThatAreNotTurnedLeaveBands) { // bevy#22272: "ghost" sha
     const auto edge =
         [&](const std::string& variant) { // how far from a blocker found to none: where the mean first leaves 1
             double first = 1e30;
-            for (const SlabPoint& point : slabPoints(stage, meanOver(stage, *modernRow(variant), 16)))
+            for (const SlabPoint& point : slabPoints(stage, meanOver(stage, *rowOf(variant), 16)))
                 if (point.visibility < 0.99) first = std::min(first, point.at.x);
             return first;
         };

@@ -1,7 +1,7 @@
 // Rays to random points of a light: their tree holds all triangles, the share is unbiased, and its variance is V (1 − V) /
 // n.
 #include "techniques/modern/triangle_tree.h"
-#include "tests/support/modern_rows.h"
+#include "tests/support/rows_over_frames.h"
 #include "tests/support/soft_scenes.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Screen-space contact shadows: how far they reach, what they take for blocked, and what they cannot see.
 #include "tests/support/filtered_scenes.h"
-#include "tests/support/modern_rows.h"
+#include "tests/support/rows_over_frames.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,22 +1,17 @@
-// Rows of techniques/modern that are technique folders, over frames of a still scene.
+// Rows whose images change from frame to frame, over frames of a still scene.
 #pragma once
 
-#include "techniques/folder/folder_technique.h"
 #include "tests/support/stages.h"
 
-#include <filesystem>
 #include <functional>
 #include <string>
 
 namespace shadowbench {
 
-/// A row by its variant, such as "pcss-vogel:taps=16", as it stands in the tree.
-inline std::unique_ptr<techniques::Technique> modernRow(const std::string& variant) {
-    const std::string id = variant.substr(0, variant.find(':'));
-    const std::filesystem::path folder = std::filesystem::path(SOURCE_FOLDER) / "techniques/modern" / id;
-    const techniques::Entry entry = techniques::folderEntry(techniques::readTechniqueFolder(folder));
-    const std::string chosen = variant.size() > id.size() ? variant.substr(id.size() + 1) : "";
-    return entry.make(techniques::parseParameters(chosen, entry.parameters, entry.id));
+/// A row by its variant.
+inline std::unique_ptr<techniques::Technique> rowOf(const std::string& variant) {
+    const techniques::Variant parsed = techniques::parseVariant(variant);
+    return parsed.entry->make(parsed.parameters);
 }
 
 /// The image after `frames` frames, from the first on.
@@ -26,7 +21,7 @@ inline Image<float> imageAfter(Stage& stage, techniques::Technique& row, int fra
 }
 
 inline Image<float> imageAfter(Stage& stage, const std::string& variant, int frames, std::uint32_t seed = 1) {
-    return imageAfter(stage, *modernRow(variant), frames, seed);
+    return imageAfter(stage, *rowOf(variant), frames, seed);
 }
 
 /// The mean of the images of as many frames.
