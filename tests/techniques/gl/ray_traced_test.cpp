@@ -57,6 +57,24 @@ TEST(RayTraced, FramesAverageToTheExactShare) {
     EXPECT_NEAR(penumbraRmsError(points), std::sqrt(1.0 / 6 / 256), 0.002);
 }
 
+TEST(RayTraced, ThePointThatASmallLightIsCastsTheExactShadowOfABox) {
+    Scene scene = boxScene();
+    scene.light = {LightKind::Rectangle, scene.light.centre, {0, -1, 0}, {1e-5, 0, 0}, {0, 0, 1e-5}};
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> image = imageAfter(stage, "ray-traced", 1);
+    const metrics::Drawn drawn = stage.drawn();
+    int wrong = 0, shadowed = 0;
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        if (drawn.id[i] != 1 || drawn.position[i].y < -0.001) continue;
+        const bool blocked = meetsBox(drawn.position[i], scene.light.centre);
+        shadowed += blocked ? 1 : 0;
+        wrong += image[i] == (blocked ? 0.0F : 1.0F) ? 0 : 1;
+    }
+    EXPECT_GT(shadowed, 300);
+    EXPECT_LE(wrong, 2); // where rounding decides
+}
+
 TEST(RayTraced, TheErrorFallsAsTheRootOfTheRays) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
