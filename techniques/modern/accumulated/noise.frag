@@ -1,0 +1,7 @@
+#include "modern/pcss-vogel/soft_pixel.glsl"
+
+out float noisy;
+
+void main() {
+    noisy = softPixel();
+}
