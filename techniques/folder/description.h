@@ -50,6 +50,7 @@ struct FolderCascades {
 /// That a parameter of words has this one.
 struct FolderCondition {
     std::string parameter, word;
+    friend bool operator==(const FolderCondition&, const FolderCondition&) = default;
 };
 
 /// Points that shaders sample with.
@@ -143,6 +144,9 @@ double valueOf(const Amount& amount, const Parameters& values);
 
 /// Whether it holds with these parameters; where there is no condition, it does.
 bool holds(const std::optional<FolderCondition>& condition, const Parameters& values);
+
+/// Whether only passes write the target that are left out with these parameters.
+bool isLeftOut(const TechniqueFolder& folder, const FolderTarget& target, const Parameters& values);
 
 /// How the cascades are fitted with these parameters.
 CascadeRule cascadeRule(const FolderCascades& cascades, const Parameters& values);

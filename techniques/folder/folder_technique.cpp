@@ -148,7 +148,7 @@ private:
 
     void makeTargets() {
         for (const FolderTarget& target : folder_->targets) {
-            if (isLeftOut(target)) continue;
+            if (isLeftOut(*folder_, target, values_)) continue;
             const int side = static_cast<int>(valueOf(target.side, values_));
             if (!target.ofImage && (side < 1 || side > mostTexelsOfSide))
                 throw BadInput(fmt::format("{}: target {} would have {} texels a side; 1 to {} are allowed",
@@ -167,13 +167,6 @@ private:
         }
         const auto casters = std::ranges::find_if(passes_, [](const FolderPass* pass) { return pass->casters; });
         if (casters != passes_.end()) tiles_ = tilesOf((*casters)->to.front());
-    }
-
-    /// Whether only passes write it that are left out with these parameters.
-    [[nodiscard]] bool isLeftOut(const FolderTarget& target) const {
-        const auto writes = [&](const FolderPass& pass) { return std::ranges::count(pass.to, target.name) > 0; };
-        return std::ranges::any_of(folder_->passes, writes) &&
-               std::ranges::none_of(passes_, [&](const FolderPass* pass) { return writes(*pass); });
     }
 
     /// Of a target that casters are drawn into.

@@ -36,7 +36,8 @@ gl::Defines definesOf(const TechniqueFolder& folder, const Parameters& values) {
 
 class PassProgram {
 public:
-    PassProgram(const TechniqueFolder& folder, const FolderPass& pass) : folder_(folder), pass_(pass) {}
+    PassProgram(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values)
+        : folder_(folder), pass_(pass), values_(values) {}
 
     [[nodiscard]] gl::Program made(const gl::Defines& defines) const {
         const std::string vertex = pass_.casters ? "folder/casters.vert" : "gl/screen.vert";
@@ -104,6 +105,9 @@ private:
                     target->compare                        ? "sampler2DShadow"
                     : target->format == gl::Format::RG32UI ? "usampler2D"
                                                            : "sampler2D");
+        if (isLeftOut(folder_, *target, values_))
+            fail(name,
+                 fmt::format("the pass \"{}\" reads {}, which no pass writes with these parameters", pass_.name, name));
         if (std::ranges::find(pass_.to, name) != pass_.to.end())
             fail(name, fmt::format("the pass \"{}\" reads {}, which it writes; write another target", pass_.name, name));
     }
@@ -145,6 +149,7 @@ private:
 
     const TechniqueFolder& folder_;
     const FolderPass& pass_;
+    const Parameters& values_;
 };
 
 std::string text(const Amount& amount) {
@@ -198,7 +203,7 @@ gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, con
     gl::Defines defines = definesOf(folder, values);
     defines.emplace_back("TILES", std::to_string(views));
     defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
-    return PassProgram(folder, pass).made(defines);
+    return PassProgram(folder, pass, values).made(defines);
 }
 
 } // namespace shadowbench::techniques

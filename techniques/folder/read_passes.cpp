@@ -107,8 +107,11 @@ private:
     /// Casters are drawn over cleared colours; over the screen blending takes what an earlier pass has drawn.
     void requireSomethingBelow() const {
         if (!pass_.blend || pass_.casters || pass_.clear) return;
+        const auto draws = [&](const FolderPass& before, const std::string& name) {
+            return std::ranges::count(before.to, name) > 0 && (!before.when || before.when == pass_.when);
+        };
         for (const std::string& name : pass_.to)
-            if (std::ranges::none_of(read_.passes, [&](const FolderPass& p) { return std::ranges::count(p.to, name) > 0; }))
+            if (std::ranges::none_of(read_.passes, [&](const FolderPass& before) { return draws(before, name); }))
                 value_.get("blend").fail(fmt::format("no pass before has drawn {}: say clear = [0, 0, 0, 0]", name));
     }
 
@@ -171,6 +174,7 @@ private:
             const bool follows = before != nullptr && before->group == pass_.group;
             if (!follows && std::ranges::count(read_.passes, pass_.group, &FolderPass::group) > 0)
                 group->fail("has passes above; those of a group come one after the other");
+            if (follows && before->when != pass_.when) group->fail("has passes above that are drawn with another choice");
             if (follows && value_.find("repeat")) value_.get("repeat").fail("is said by the first pass of the group");
         }
         if (const auto repeat = value_.find("repeat"))

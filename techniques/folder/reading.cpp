@@ -58,6 +58,12 @@ bool holds(const std::optional<FolderCondition>& condition, const Parameters& va
     return !condition || values.text(condition->parameter) == condition->word;
 }
 
+bool isLeftOut(const TechniqueFolder& folder, const FolderTarget& target, const Parameters& values) {
+    const auto writes = [&](const FolderPass& pass) { return std::ranges::count(pass.to, target.name) > 0; };
+    const auto draws = [&](const FolderPass& pass) { return writes(pass) && holds(pass.when, values); };
+    return std::ranges::any_of(folder.passes, writes) && std::ranges::none_of(folder.passes, draws);
+}
+
 std::string macroOf(std::string name) {
     for (char& c : name) {
         const auto letter = static_cast<unsigned char>(c);

@@ -43,6 +43,7 @@ public:
 
     void appendFile(const std::string& file, const std::string& includedFrom) {
         if (!included_.insert(file).second) return;
+        source_.files.insert(own_ != nullptr ? placeOf(*own_, file) : file);
         if (own_ != nullptr && own_->files.contains(file))
             appendText(own_->path + "/" + file, own_->files.at(file));
         else if (own_ != nullptr && !isEmbedded(file))
@@ -64,10 +65,7 @@ public:
         }
     }
 
-    ShaderSource take() {
-        source_.files = std::move(included_);
-        return std::move(source_);
-    }
+    ShaderSource take() { return std::move(source_); }
 
 private:
     void add(const std::string& line, const std::string& origin) {
@@ -88,6 +86,10 @@ private:
 };
 
 } // namespace
+
+std::string placeOf(const ShaderFolder& folder, const std::string& file) {
+    return folder.files.contains(file) ? folder.path + "/" + file : file;
+}
 
 bool isEmbedded(const std::string& file) {
     return std::ranges::any_of(embedded::shaders(), [&](const auto& f) { return f.path == file; });
@@ -111,10 +113,6 @@ ShaderSource shaderFromText(const std::string& name, const std::string& text, co
     Assembly assembly(name, defines);
     assembly.appendText(name, text);
     return assembly.take();
-}
-
-std::string placeOf(const ShaderFolder& folder, const std::string& file) {
-    return folder.files.contains(file) ? folder.path + "/" + file : file;
 }
 
 ShaderSource loadShader(const ShaderFolder& folder, const std::string& file, const Defines& defines) {

@@ -31,7 +31,7 @@ public:
     /// dot(·, (p, 1)): distance along the view axis.
     [[nodiscard]] const glm::dvec4& eyeDepthFromWorld() const { return eyeDepthFromWorld_; }
 
-    /// `sliceEnds` of shared/maps/slice.glsl.
+    /// `sliceEnds` of maps/sm-cascaded/slice.glsl.
     [[nodiscard]] std::vector<glm::vec4> ends() const;
 
     /// The slice of a point, without regard to blending.

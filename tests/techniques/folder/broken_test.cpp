@@ -254,6 +254,8 @@ TEST_F(BrokenFolder, WhatContradictsItselfIsToldWithTheRemedy) {
          "is said by the first pass of the group"},
         {changed("name = \"moments\"", "group = \"there and back\"\nname = \"moments\""),
          "has passes above; those of a group come one after the other"},
+        {changed("name = \"resolve\"", "group = \"there and back\"\nwhen = \"kind=wide\"\nname = \"resolve\""),
+         "has passes above that are drawn with another choice"},
         {changed("repeat = 2", "blend = \"min\""), "no pass before has drawn mean: say clear = [0, 0, 0, 0]"},
         {changed("repeat = 2", "clear = [0, 0, 0, 0]"), "is of casters, or with blend"},
         {changed("repeat = 2", "cull = \"back\""), "cull: is of casters"},

@@ -351,6 +351,13 @@ TEST(FolderTechnique, HasThePassesAndTargetsOfItsChoiceAlone) {
         return gl::Context::current().tally().bytes - before;
     };
     EXPECT_EQ(bytes("kind=two,map=64") - bytes("map=64"), 64U * 64 * 16);
+    folder.write("resolve.frag", "uniform sampler2D more;\nout float visibility;\nvoid main() { visibility = texture(more, "
+                                 "vec2(0.5)).r; }\n");
+    EXPECT_EQ(drawn(stage, *folder.made("kind=two"))(8, 8), 1.0F);
+    EXPECT_NE(test::messageOf<BadInput>([&] {
+                  folder.made();
+              }).find("resolve.frag:1: the pass \"resolve\" reads more, which no pass writes with these parameters"),
+              std::string::npos);
 }
 
 } // namespace
