@@ -36,8 +36,11 @@ public:
     /// Sets the uniforms of shared/filters/occluder_layers.glsl. A disk counts as a rectangle of its area.
     void bindTo(gl::Program& resolve, const Light& light, const LightView& view) const;
 
+    /// R32UI, bit i of a texel: an occluder of layer i.
+    [[nodiscard]] const gl::Texture& bits() const { return bits_; }
+
 private:
-    gl::Texture bits_; // R32UI, bit i of a texel: an occluder of layer i
+    gl::Texture bits_;
     gl::Buffer areas_;
     int summed_ = 0; // layers that areas_ has room for
     gl::Program program_, rows_, columns_;
