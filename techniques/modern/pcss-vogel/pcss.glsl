@@ -1,7 +1,7 @@
 // Percentage-closer soft shadows (Fernando 2005) with few taps of a Vogel disk: 1. blocker search  2. penumbra width from similar
 // triangles  3. filter. Taps are those of a disk that fits into the light's sides: engines know no other shape.
-#include "filtered/unit_depth.glsl"
 #include "shared/maps/light_space.glsl"
+#include "shared/maps/linearised_map.glsl"
 #include "shared/sampling/vogel.glsl"
 
 uniform sampler2D depths;  // window depths
@@ -51,7 +51,7 @@ float meanBlockerDepth(SoftReceiver r, float turn) {
     float sum = 0.0, stored, found = 0.0;
     for (int i = 0; i < BLOCKERS; ++i)
         if (blocksAt(r, reach * searchTap(i, turn), stored)) {
-            sum += mix(nearAndFar.x, nearAndFar.y, unitDepth(stored));
+            sum += mix(nearAndFar.x, nearAndFar.y, linearised(stored));
             ++found;
         }
     return found > 0.0 ? sum / found : -1.0;
