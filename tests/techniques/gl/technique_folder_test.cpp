@@ -200,7 +200,7 @@ TEST(FolderTechnique, PassesAreRepeatedAloneOrInTurns) {
     EXPECT_EQ(valueAfter("", "blend = \"add\"\nclear = [0, 0, 0, 0]\nrepeat = 4\n"), 2.25F);  // cleared each time
 }
 
-/// What `drawn.frag`, which writes a target of `format`, leaves for `resolve.frag` to read at a pixel.
+/// What one shader writes into a target of `format`, as another one reads it at a pixel.
 float readBack(const std::string& format, const std::string& write, const std::string& read,
                const std::string& parameters = "") {
     const WrittenTechnique folder(
