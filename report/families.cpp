@@ -11,11 +11,17 @@ namespace {
 
 // Told apart by every kind of colour vision, on white and, in the page's other set, on black.
 constexpr Family all[] = {
-    {"planar", "planar shadows", "#75924D"},         {"maps", "shadow maps", "#CD7919"},
-    {"filtered", "filtered maps", "#523ACB"},        {"soft", "soft, from a map", "#1D9C77"},
-    {"volumes", "shadow volumes", "#631483"},        {"sampled", "light samples", "#755400"},
-    {"environment", "environment light", "#154219"}, {"lod", "levels of detail", "#C960E0"},
-    {"external", "other renderers", "#525252"},      {"other", "others", "#9E73A4"},
+    {"planar", "planar shadows", "#75924D"},
+    {"maps", "shadow maps", "#CD7919"},
+    {"filtered", "filtered maps", "#523ACB"},
+    {"soft", "soft, from a map", "#1D9C77"},
+    {"volumes", "shadow volumes", "#631483"},
+    {"sampled", "light samples", "#755400"},
+    {"modern", "what engines ship", "#12001B"},
+    {"environment", "environment light", "#154219"},
+    {"lod", "levels of detail", "#C960E0"},
+    {"external", "other renderers", "#525252"},
+    {"other", "others", "#9E73A4"},
 };
 
 /// The folder under techniques/ that holds the technique's own; the build lists all as "family/id", semicolons between.
