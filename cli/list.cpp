@@ -48,8 +48,9 @@ std::string idsOf(const std::string& what, bool standard) {
 /// Where the published records are, in a clone.
 std::vector<std::filesystem::path> publishedRecords() {
     std::vector<std::filesystem::path> files;
-    for (const char* file : {"results/published/results.jsonl", "results/failures/results.jsonl"})
-        if (std::filesystem::exists(file)) files.emplace_back(file);
+    for (const char* set : {"published", "failures", "modern", "modern-soft"})
+        if (const auto file = std::filesystem::path("results") / set / "results.jsonl"; std::filesystem::exists(file))
+            files.push_back(file);
     return files;
 }
 
@@ -108,9 +109,9 @@ void addList(CLI::App& app, Action& action) {
                      "Of techniques: writes a page of each into this folder, with the scenes of the records on which it is "
                      "good and on which it breaks")
         ->excludes(table);
-    verb->add_option(
-        "--records", options->records,
-        "Record files that the figures are read from (default: those of results/published and results/failures)");
+    verb->add_option("--records", options->records,
+                     "Record files that the figures are read from (default: those of results/published, failures, modern "
+                     "and modern-soft)");
     verb->callback([&action, options] {
         action = [options] {
             fmt::print("{}", listing(*options));

@@ -20,8 +20,9 @@ using techniques::Answer;
 using techniques::Entry;
 
 constexpr const char* ruleOfShadows =
-    "*By the error: of the scenes of the [published](../../results/published/report.md) and the "
-    "[failure](../../results/failures/report.md) set those on which the error with all defaults has the least and the "
+    "*By the error: of the scenes of the [published](../../results/published/report.md), the "
+    "[failure](../../results/failures/report.md) and the [modern](../../results/README.md) sets those on which the error "
+    "with all defaults has the least and the "
     "greatest ratio to that of `none` ([the rule](../techniques.md#pages-of-techniques)). A picture has visibility on its "
     "left, and on its right the error, too dark in red and too bright in blue.*\n";
 
