@@ -182,9 +182,10 @@ std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
     }
     for (const FolderTarget& target : folder.targets)
         if (std::ranges::count(pass.to, target.name) > 0)
-            state += fmt::format("\n{} {} {} {} {} {} {} {}{}", target.linearWhen ? target.linearWhen->word : "", target.name,
-                                 static_cast<int>(target.format), target.ofImage, text(target.side), target.linear,
-                                 target.compare, target.mipmaps, target.chosen.empty() ? "" : " " + target.chosen);
+            state +=
+                fmt::format("\n{} {} {} {} {} {} {} {}{}", target.linearWhen ? target.linearWhen->word : "", target.name,
+                            static_cast<int>(target.format), target.ofImage, text(target.side), target.linear,
+                            target.compare, target.mipmaps, target.chosen.empty() ? "" : " " + target.chosen);
     return state;
 }
 
