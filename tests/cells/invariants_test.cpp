@@ -192,6 +192,13 @@ INSTANTIATE_TEST_SUITE_P(TechniquesTimesScenes, EveryCell, testing::ValuesIn(eve
 
 class EveryVariant : public testing::TestWithParam<std::string> {};
 
+/// The least visibility where all is lit. Bounds over moments without a bias are as near to 1 as depths are rounded, whose
+/// least variance is of that size: no picture of 8 bits shows it.
+float leastOfLit(std::string_view variant) {
+    const std::string_view id = variant.substr(0, variant.find(':'));
+    return id == "evsm" || id == "msm" || id == "sat-vsm" ? 1 - 0.5F / 255 : 1;
+}
+
 TEST_P(EveryVariant, LeavesAFullyLitSceneLit) {
     testContext();
     Scene scene;
@@ -215,7 +222,8 @@ TEST_P(EveryVariant, LeavesAFullyLitSceneLit) {
         for (std::size_t i = 0; i < image.size(); ++i) {
             if (drawn.id[i] == 0 || drawn.position[i].y < 0.0999F) continue;
             ++top;
-            ASSERT_EQ(image[i], 1.0F) << "pixel " << i;
+            ASSERT_GE(image[i], leastOfLit(GetParam())) << "pixel " << i;
+            ASSERT_LE(image[i], 1.0F) << "pixel " << i;
         }
     EXPECT_GT(top, 2000U);
 }
