@@ -10,6 +10,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <string_view>
 #include <tuple>
 
 namespace shadowbench {
