@@ -7,6 +7,9 @@
 namespace shadowbench::gate {
 namespace {
 
+/// Shell: `start` counts the calls from 1 on, of which several may be at once.
+const std::string countStarts = "start=1\nwhile ! mkdir \"$here/start-$start\" 2>/dev/null; do start=$((start + 1)); done\n";
+
 class TimeOfStandIns : public GateOfStandIns {
 protected:
     TimeOfStandIns() { options_.time = true; }
@@ -42,8 +45,7 @@ TEST_F(TimeOfStandIns, AHeadThatWaitsIsWorseByItsWallTime) {
 TEST_F(TimeOfStandIns, WhatStaysUncertainIsUnclear) {
     base_.takes("10000", "10000");
     head_.takes("10120 + (start % 2 ? 1 : -1) * (50 + 10 * (start / 2 % 48))", "10000");
-    head_.does("time-frames", "echo >>\"$here/starts\"\nstart=$(($(wc -l <\"$here/starts\") + 1))\n" +
-                                  readFile(head_.program().parent_path() / "time-frames.sh"));
+    head_.does("time-frames", countStarts + readFile(head_.program().parent_path() / "time-frames.sh"));
     const auto [direction, sentence] = judged();
     EXPECT_EQ(direction, Direction::Unclear) << sentence;
     EXPECT_NE(sentence.find("which 1920 rounds leave uncertain"), std::string::npos) << sentence;
@@ -53,8 +55,7 @@ TEST_F(TimeOfStandIns, WhatStaysUncertainIsUnclear) {
 TEST_F(TimeOfStandIns, WhatStaysUncertainAndCouldNotBeToldIsNotJudged) {
     base_.takes("10000", "10000");
     head_.takes("10130 + d * d / 20000 + (start % 2 ? 1 : -1) * d", "10000");
-    head_.does("time-frames", "echo >>\"$here/starts\"\nstart=$(($(wc -l <\"$here/starts\") + 1))\n" +
-                                  std::string("d=$((500 + 20 * (start / 2 % 48)))\n") +
+    head_.does("time-frames", countStarts + "d=$((500 + 20 * (start / 2 % 48)))\n" +
                                   readFile(head_.program().parent_path() / "time-frames.sh"));
     const auto [direction, sentence] = judged();
     EXPECT_EQ(direction, Direction::NotCompared) << sentence;
@@ -63,8 +64,8 @@ TEST_F(TimeOfStandIns, WhatStaysUncertainAndCouldNotBeToldIsNotJudged) {
 
 TEST_F(TimeOfStandIns, OnAMachineThatIsNotSteadyNothingIsJudged) {
     base_.takes("100 + 30 * odd", "100"); // the base, and once more as the control
-    base_.does("time-frames", "echo >>\"$here/starts\"\nodd=$(($(wc -l <\"$here/starts\") % 2))\n" +
-                                  readFile(base_.program().parent_path() / "time-frames.sh"));
+    base_.does("time-frames",
+               countStarts + "odd=$((start % 2))\n" + readFile(base_.program().parent_path() / "time-frames.sh"));
     head_.takes("100", "100");
     const auto [direction, sentence] = judged();
     EXPECT_EQ(direction, Direction::NotCompared) << sentence;
