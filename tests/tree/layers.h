@@ -96,7 +96,8 @@ inline bool isShader(const std::filesystem::path& file) {
     return ending == ".glsl" || ending == ".vert" || ending == ".frag" || ending == ".comp";
 }
 
-/// Shaders are named relative to techniques/, in their own includes and in the C++ that loads them.
+/// Shaders are named relative to techniques/, in their own includes and in the C++ that loads them; in a technique's folder
+/// also by the names that they have there.
 inline void addIncludes(const std::filesystem::path& root, const std::string& file, std::vector<Include>& includes) {
     static const std::regex directive(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
     static const std::regex loaded(R"re("([\w/.-]+\.(vert|frag|comp))")re");
@@ -107,8 +108,10 @@ inline void addIncludes(const std::filesystem::path& root, const std::string& fi
         std::smatch match;
         if (line.find("include") != std::string::npos && std::regex_match(line, match, directive)) {
             if (match[2].str().starts_with("embedded_")) continue; // made by the build from the module's own files
+            const std::string name = match[2].str(), beside = (std::filesystem::path(file).parent_path() / name).string();
+            const bool isBeside = isShader(file) && std::filesystem::exists(root / beside);
             const std::string folder = isShader(file) ? "techniques/" : "";
-            includes.push_back({file, number, folder + match[2].str(), match[1] == "<"});
+            includes.push_back({file, number, isBeside ? beside : folder + name, match[1] == "<"});
         } else if (line.find('"') != std::string::npos && std::regex_search(line, match, loaded)) {
             includes.push_back({file, number, "techniques/" + match[1].str(), false});
         }
