@@ -3,6 +3,7 @@
 #include "base/folder_lock.h"
 #include "base/progress_line.h"
 #include "base/words.h"
+#include "base/worker_processes.h"
 #include "groundtruth/store/cache.h"
 #include "harness/metrics/table.h"
 #include "harness/records/comparability.h"
@@ -106,7 +107,8 @@ private:
         cells.resume = true;
         cells.quiet = options_.quiet;
         const OutputLock alone(cells.out);
-        RunResult result = run(cells);
+        if (cells.measure.timed()) checkInOwnProcess([&] { (void)run(cells); }); // times make a context, and more runs fork
+        RunResult result = run(cells);                                           // of cells that are kept
         if (code_ == ExitCode::Pass) code_ = result.code;
         return std::move(result.records);
     }

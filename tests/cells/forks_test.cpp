@@ -1,5 +1,7 @@
 // What starts processes has made no context before: a driver of a graphics processor does not outlive a fork, and one of
 // software would not show it.
+#include "base/temporary_folder.h"
+#include "studies/recommend/recommendation.h"
 #include "studies/sweep/sweep.h"
 #include "techniques/gl/contexts_made.h"
 #include "tests/support/cell_stage.h"
@@ -39,6 +41,22 @@ TEST(Forks, OfASweepComeBeforeAnyContextOfItsProcess) {
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::BadInput) << error.what();
     }
+    EXPECT_EQ(mostContexts, 0);
+}
+
+TEST(Forks, OfARecommendationComeBeforeAnyContextOfItsProcess) {
+    ASSERT_EQ(gl::contextsMade(), 0);
+    recommend::RecommendOptions options;
+    options.scenes = {"stacked-plates"};
+    options.questions = {recommend::Question::Technique, recommend::Question::Map}; // the first takes times
+    options.techniques = {"sm-uniform", "none"};
+    const TemporaryFolder out;
+    options.out = out.path();
+    options.cache = testCache().folder();
+    options.quiet = true;
+    forks = 0;
+    EXPECT_EQ(recommend::recommend(options).scenes.size(), 1U);
+    EXPECT_GE(forks, 3);
     EXPECT_EQ(mostContexts, 0);
 }
 
