@@ -41,7 +41,12 @@ std::set<Need> lackedOf(const Record& record, const std::set<Need>& needs) {
 
 Advice adviceFor(const std::vector<Record>& records, const std::string& scene, const std::set<Need>& needs) {
     const std::vector<Tolerance> limits = tolerances(records, scene);
-    const CostOf costOf = shownCosting(records, scene).of;
+    const Costing costing = shownCosting(records, scene);
+    const auto placeOf = [&](std::size_t i) {
+        std::optional<Place> found = place(records[i], costing.of);
+        if (found) found->costSpread = std::max(found->costSpread, costing.spread);
+        return found;
+    };
     Advice advice;
     for (const std::size_t i : ofScene(records, scene)) {
         const Record& record = records[i];
@@ -51,15 +56,15 @@ Advice adviceFor(const std::vector<Record>& records, const std::string& scene, c
         else
             (lackedOf(record, needs).empty() ? advice.within : advice.unsuited).push_back(i);
     }
-    std::ranges::stable_sort(advice.within, {}, [&](std::size_t i) { return rank(records[i], costOf); });
+    std::ranges::stable_sort(advice.within, {}, [&](std::size_t i) { return rank(records[i], costing.of); });
     for (const std::size_t i : advice.within) {
-        const std::optional<Place> here = place(records[i], costOf);
+        const std::optional<Place> here = placeOf(i);
         if (!here) continue;
         if (isUncertain(*here))
             advice.uncertain.push_back(i);
         else if (!advice.take)
             advice.take = i;
-        else if (overlap(*here, *place(records[*advice.take], costOf)))
+        else if (overlap(*here, *placeOf(*advice.take)))
             advice.asCheap.push_back(i);
     }
     return advice;

@@ -9,8 +9,7 @@
 namespace shadowbench::report {
 namespace {
 
-/// By as much the model is off, for half of the frames that were measured (docs/gpu-cost.md): rows that are nearer to each
-/// other cannot be told apart.
+/// By as much the model is off, for half of the frames that were measured (docs/gpu-cost.md).
 constexpr double modelSpread = 0.05;
 
 const ModelledCost* costOn(const std::string& name, const Record& record) {
@@ -28,15 +27,15 @@ Costing modelledOn(const std::string& name) {
     const auto dearer = [name](const Record& record) -> std::optional<FrameCost> {
         const ModelledCost* cost = costOn(name, record);
         if (cost == nullptr) return {};
-        return FrameCost{std::max(cost->milliseconds, cost->motion.value_or(0)), modelSpread};
+        return FrameCost{std::max(cost->milliseconds, cost->motion.value_or(0))};
     };
     const auto standing = [name](const Record& record) -> std::optional<FrameCost> {
         const ModelledCost* cost = costOn(name, record);
         if (cost == nullptr) return {};
-        return FrameCost{cost->milliseconds, modelSpread};
+        return FrameCost{cost->milliseconds};
     };
     return {dearer, standing, fmt::format("ms on {}, modelled: the dearer of standing and in motion", cardAndSize(name)),
-            "ms", name};
+            "ms",   name,     modelSpread};
 }
 
 std::vector<std::string> modelledNames(const std::vector<Record>& records, const std::string& scene) {

@@ -13,8 +13,9 @@ struct Costing {
     CostOf of;       // the dearer of the standing frame and the one in motion
     CostOf standing; // the standing frame alone
     std::string meaning;
-    std::string unit; // behind a number: "×", "ms"
-    std::string card; // as records name card and size (Record::modelled); "" where costs are measured here
+    std::string unit;  // behind a number: "×", "ms"
+    std::string card;  // as records name card and size (Record::modelled); "" where costs are measured here
+    double spread = 0; // of what is modelled, as FrameCost::spread: advice names rows that are as cheap within it
 };
 
 /// Frames of sm-uniform.

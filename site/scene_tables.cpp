@@ -79,14 +79,12 @@ std::vector<std::pair<std::string, std::string>> marksOf(const std::vector<Recor
     const Record& record = records[index];
     const TechniqueFacts facts = factsOf(record.technique);
     const std::vector<Tolerance> limits = report::tolerances(records, record.scene);
-    const report::CostOf modelled = report::shownCosting(records, record.scene).of;
     return {{"family", facts.family},
             {"answer", facts.answer},
             {"lacks", facts.lacks},
             {"within", report::isWithin(record, limits) ? "yes" : "no"},
             {"baseline", report::isBaseline(record) ? "yes" : "no"},
-            {"spread", fmt::format("{}", report::frameCost(record).value_or(report::FrameCost{}).spread)},
-            {"modelled-spread", fmt::format("{}", modelled(record).value_or(report::FrameCost{}).spread)}};
+            {"spread", fmt::format("{}", report::frameCost(record).value_or(report::FrameCost{}).spread)}};
 }
 
 Column modelledColumn(const report::Costing& costing) {

@@ -209,7 +209,7 @@
     function draw() {
       const x = columns[across.value], y = columns[up.value];
       const all = shownRows(entry).map((row) => ({ row, x: valueOf(row.cells[x.column]), y: valueOf(row.cells[y.column]),
-        spread: Number({ cost: row.dataset.spread, modelled: row.dataset.modelledSpread }[x.key]) || 0 })).filter((p) => !Number.isNaN(p.y));
+        spread: x.key === "cost" ? Number(row.dataset.spread) || 0 : 0 })).filter((p) => !Number.isNaN(p.y));
       const points = all.filter((p) => !Number.isNaN(p.x));
       // Other renderers have no cost of ours: they stand beside the plot, at their errors, and are on no front.
       const beside = x.key.startsWith("cost") || x.key === "modelled" ? all.filter((p) => Number.isNaN(p.x) && p.row.dataset.family === "external") : [];
