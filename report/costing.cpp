@@ -9,7 +9,7 @@
 namespace shadowbench::report {
 namespace {
 
-/// By as much the model is off, for half of the frames that were measured (docs/gpu-cost.md).
+/// Of the size of the model's median error against what was measured (docs/gpu-cost.md).
 constexpr double modelSpread = 0.05;
 
 const ModelledCost* costOn(const std::string& name, const Record& record) {

@@ -24,15 +24,19 @@ std::optional<std::size_t> least(const std::vector<Record>& records, const std::
 
 } // namespace
 
-Choice choiceFor(const std::vector<Record>& records, const std::string& scene) {
-    const std::vector<Tolerance> limits = report::tolerances(records, scene);
-    const report::Advice advice = report::adviceFor(records, scene);
+std::vector<std::size_t> suitedOn(const std::vector<Record>& records, const std::string& scene) {
     std::vector<std::size_t> suited = report::scoredOf(records, scene);
     std::erase_if(suited, [&](std::size_t i) {
         return report::isBaseline(records[i]) || isExternal(records[i]) ||
                !report::lackedOf(records[i], techniques::usualNeeds()).empty();
     });
+    return suited;
+}
 
+Choice choiceFor(const std::vector<Record>& records, const std::string& scene) {
+    const std::vector<Tolerance> limits = report::tolerances(records, scene);
+    const report::Advice advice = report::adviceFor(records, scene);
+    const std::vector<std::size_t> suited = suitedOn(records, scene);
     Choice choice{.take = advice.take, .adequate = !advice.within.empty(), .why = {}, .others = advice.within, .notes = {}};
     if (choice.take)
         choice.why = fmt::format("cheapest of {} within tolerance", advice.within.size());

@@ -17,6 +17,10 @@ struct Choice {
     std::vector<std::string> notes;  // report::notesOn
 };
 
+/// Indices of the scene's scored records that may be taken: not `none`, other renderers and techniques that lack what is
+/// usually needed.
+std::vector<std::size_t> suitedOn(const std::vector<Record>& records, const std::string& scene);
+
 /// The cheapest technique within all tolerances of the scene; where none was timed, the one that errs least of those within;
 /// where none is within, the one that comes nearest. `none`, other renderers
 /// and techniques that lack what is usually needed (techniques/contract/need.h) do not count.

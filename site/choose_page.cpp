@@ -1,5 +1,4 @@
 // Which technique to take on which scene, and every technique on every scene.
-#include "report/advice.h"
 #include "report/costing.h"
 #include "report/summary.h"
 #include "site/choice.h"
@@ -75,16 +74,6 @@ Table answers(const std::vector<Record>& records, const std::filesystem::path& i
     return table;
 }
 
-/// Indices of the scene's rows that do what is usually needed, by error.
-std::vector<std::size_t> suitedByError(const std::vector<Record>& records, const std::string& scene) {
-    std::vector<std::size_t> rows = report::scoredOf(records, scene);
-    std::erase_if(rows, [&](std::size_t i) {
-        return report::isBaseline(records[i]) || !report::lackedOf(records[i], techniques::usualNeeds()).empty();
-    });
-    std::ranges::stable_sort(rows, {}, [&](std::size_t i) { return headline(records[i])->value; });
-    return rows;
-}
-
 /// The row of least error at each cost, in frames of sm-uniform; without rows where no scene has such a frame's cost.
 Table budgets(const std::vector<Record>& records, const std::filesystem::path& images) {
     static constexpr double factors[] = {1, 1.25, 1.5, 2, 4, 8};
@@ -96,7 +85,8 @@ Table budgets(const std::vector<Record>& records, const std::filesystem::path& i
     for (const double factor : factors) table.columns.push_back({.title = fmt::format("{:g} ×", factor), .number = false});
     for (const std::string& scene : report::scenes(records)) {
         const report::CostOf costOf = report::shownCosting(records, scene).of;
-        const std::vector<std::size_t> rows = suitedByError(records, scene);
+        std::vector<std::size_t> rows = suitedOn(records, scene);
+        std::ranges::stable_sort(rows, {}, [&](std::size_t i) { return headline(records[i])->value; });
         const auto base = std::ranges::find(rows, "sm-uniform", [&](std::size_t i) { return records[i].variant; });
         const auto unit = base == rows.end() ? std::nullopt : costOf(records[*base]);
         if (!unit) continue;

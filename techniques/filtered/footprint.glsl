@@ -1,10 +1,10 @@
 // Where a receiver lies in a prefiltered map, and the pixel's footprint there. The footprint is that of the receiver's
 // plane, so that it does not jump where another surface begins in the image; long ones are read at several places along
 // their longer axis, as anisotropic hardware filters do.
+#include "gl/normal.glsl"
 #include "gl/receiver.glsl"
 #include "shared/maps/light_space.glsl"
 
-uniform sampler2D normals;
 uniform mat4 imageFromWorld;      // pixels
 uniform vec4 unitDepthFromWorld;  // 0 at the map's near and 1 at its far distance
 
@@ -53,7 +53,7 @@ FilteredReceiver filteredReceiver(float texels) {
     r.known = r.known && all(greaterThanEqual(r.at, vec2(0.0))) && all(lessThanEqual(r.at, vec2(1.0)));
     if (!r.known) return r;
 
-    vec3 normal = normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);
+    vec3 normal = normalAt(gl_FragCoord.xy);
     mat2 perPixel = footprint(receiver.position, normal);
     float along = texels * max(length(perPixel[0]), length(perPixel[1]));
     if (along <= 1.0) return r;  // magnified

@@ -2,6 +2,7 @@
 #include "gl/normal.glsl"
 #include "gl/receiver.glsl"
 #include "modern/triangle_tree.glsl"
+#include "shared/sampling/pcg.glsl"
 
 uniform vec3 lightCentre, lightU, lightV;
 uniform int disk;    // 1: u and v are diameters
@@ -10,13 +11,6 @@ uniform int frame;
 uniform int seed;
 
 out float visibility;
-
-/// PCG (Jarzynski and Olano 2020).
-uint hashed(uint value) {
-    uint state = value * 747796405u + 2891336453u;
-    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
 
 float chance(uint value) {
     return float(hashed(value) >> 8) / 16777216.0;

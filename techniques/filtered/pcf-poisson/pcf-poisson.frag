@@ -1,4 +1,5 @@
 #include "shared/maps/tested_point.glsl"
+#include "shared/sampling/pcg.glsl"
 
 uniform sampler2DShadow depthMap;
 uniform float followPlane;  // 1: taps are compared with the receiver's plane, 0: with the receiver's depth
@@ -7,11 +8,9 @@ uniform int seed;
 
 out float visibility;
 
-/// An even spread over [0, 2π) that neighbouring pixels do not share (PCG hash, Jarzynski and Olano 2020).
+/// An even spread over [0, 2π) that neighbouring pixels do not share.
 float angleOf(uvec2 pixel) {
-    uint state = (pixel.x + 65536u * pixel.y + 2654435769u * uint(seed)) * 747796405u + 2891336453u;
-    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return float((word >> 22u) ^ word) * (6.28318530718 / 4294967296.0);
+    return float(hashed(pixel.x + 65536u * pixel.y + 2654435769u * uint(seed))) * (6.28318530718 / 4294967296.0);
 }
 
 float diskVisibility(MapPoint point, vec2 slope, mat2 turn) {

@@ -7,7 +7,7 @@ out float visibility;
 
 /// By which the receiver is moved to the light, so that its own plane does not shade it.
 float reachOfReceiver() {
-    vec3 position = receiverAt(gl_FragCoord.xy).position, normal = normalize(texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz);
+    vec3 position = receiverAt(gl_FragCoord.xy).position, normal = normalAt(gl_FragCoord.xy);
     mat2 perPixel = footprint(position, normal);
     vec2 halfKernel = 0.5 * (vec2(KERNEL) / float(MAP) + abs(perPixel[0]) + abs(perPixel[1]));
     return reachOfPlane(planeSlope(position, normal) * halfKernel);
