@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <fmt/format.h>
+#include <set>
 
 namespace shadowbench::report {
 namespace {
@@ -22,6 +23,9 @@ concept Text = requires(const T& value) {
 /// Visits every number and text of a record, there or not, in schema order: collects its column's title and its cell.
 class Flattener {
 public:
+    /// `names`: those of all records that have values under names of their own.
+    explicit Flattener(const std::set<std::string>& names) : names_(names) {}
+
     template <typename T>
     void operator()(const char* key, const T& value) {
         optional(key, &value);
@@ -40,7 +44,14 @@ public:
     template <typename T>
     void objects(const char*, const std::vector<T>&) {}
     template <typename T>
-    void named(const char*, const std::map<std::string, T>&) {}
+    void named(const char* key, const std::map<std::string, T>& values) {
+        inside(key, true, [&] {
+            for (const std::string& name : names_) {
+                const auto found = values.find(name);
+                optional(name.c_str(), found == values.end() ? nullptr : &found->second);
+            }
+        });
+    }
 
     template <typename Inner>
     void group(const char* key, bool has, const Inner& inner) {
@@ -93,6 +104,7 @@ private:
         cells_.push_back(present_ ? cell : "");
     }
 
+    const std::set<std::string>& names_;
     std::string path_;
     bool present_ = true;
     std::vector<std::string> titles_, cells_;
@@ -101,12 +113,15 @@ private:
 } // namespace
 
 std::string csv(const std::vector<Record>& records) {
-    Flattener header;
+    std::set<std::string> names;
+    for (const Record& record : records)
+        for (const auto& [name, cost] : record.modelled) names.insert(name);
+    Flattener header(names);
     const Record blank;
     records::fields(header, blank);
     std::string text = header.titles();
     for (const Record& record : records) {
-        Flattener row;
+        Flattener row(names);
         records::fields(row, record);
         text += row.cells();
     }

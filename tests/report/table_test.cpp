@@ -218,6 +218,17 @@ TEST(Csv, NamesColumnsByTheirPathAndQuotesWhatNeedsIt) {
     EXPECT_NE(text.find("\"llvmpipe (LLVM 15.0.6, 256 bits)\""), std::string::npos);
 }
 
+TEST(Csv, HasModelledFramesOfEveryCardInColumnsOfTheirOwn) {
+    Record one = hardRecord(), other = hardRecord();
+    one.modelled["gtx-1080@1920x1080"] = {0.75, 0.5, 1.5, false, {}, {}};
+    other.modelled["rx-6800-xt@1920x1080"] = {0.25, 0.125, 0.375, true, {}, 2.5};
+    const std::string text = report::csv({one, other});
+    EXPECT_NE(text.find(",cost.gpu.gtx-1080@1920x1080.milliseconds,cost.gpu.gtx-1080@1920x1080.least,"), std::string::npos);
+    EXPECT_NE(text.find(",cost.gpu.rx-6800-xt@1920x1080.motion"), std::string::npos);
+    EXPECT_NE(text.find(",0.75,0.5,1.5,"), std::string::npos) << text;
+    EXPECT_NE(text.find(",0.25,0.125,0.375,"), std::string::npos) << text;
+}
+
 TEST(Csv, LeavesAbsentMetricsEmpty) {
     Record record = hardRecord();
     clear(record, "accuracy");
