@@ -83,9 +83,11 @@ double orderSquare(LodScene& lodScene, LodTechnique& technique, bool temporal) {
     return metrics::meanSquare(ordered, pictureAt(lodScene.reversedStage(), technique, temporal, frame));
 }
 
-/// Of the frame that is shown.
-std::vector<PassRecord> passesOf(LodStage& stage, LodTechnique& technique, bool timed) {
+/// The passes of `frame` when it is shown again, from an empty history on: of techniques that draw levels in turn always the
+/// same turn.
+std::vector<PassRecord> passesOf(LodStage& stage, LodTechnique& technique, bool temporal, std::size_t frame, bool timed) {
     constexpr int rounds = 5;
+    (void)pictureAt(stage, technique, temporal, static_cast<int>(frame));
     const auto render = [&](techniques::PassListener& listener) { stage.render(technique, &listener); };
     timing::FramePasses passes = timing::countPasses(render);
     if (timed) timing::timePasses(passes, render, rounds);
@@ -188,8 +190,7 @@ void scoreLodCell(LodScene& lodScene, const techniques::Variant& variant, Record
     record.values.list("lod.by_frame.pop") = walk.standingChange;
     record.values.list("lod.by_frame.walk_pop") = walk.change;
     record.values.list("lod.by_frame.primitives") = walk.primitives;
-    stage.show(static_cast<int>(reference.busiest));
-    record.passes = passesOf(stage, *technique, false);
+    record.passes = passesOf(stage, *technique, variant.entry->temporal, reference.busiest, false);
     record.images = shown.digest().text();
     setWork(record, WorkOf::StandingFrame, busiest);
     setMemory(record, {bytesOf(std::move(technique))});
@@ -202,10 +203,16 @@ void timeLodCell(LodScene& lodScene, const techniques::Variant& variant, Record&
     LodStage& stage = lodScene.stage();
     const std::unique_ptr<LodTechnique> technique = make(variant);
     const LodCost cost = measureLodCost(stage, *technique, lodScene.scene().lod->frames);
-    stage.show(static_cast<int>(lodScene.reference().busiest));
-    record.passes = passesOf(stage, *technique, true);
+    record.passes = passesOf(stage, *technique, variant.entry->temporal, lodScene.reference().busiest, true);
     setTime(record, cost.time);
     record.values.list("lod.by_frame.milliseconds") = cost.milliseconds;
+}
+
+OtherScreen measureOtherScreen(LodScene& lodScene, const techniques::Variant& variant) {
+    const glm::ivec2 size = timing::otherScreen(lodScene.scene());
+    LodStage stage(lodScene.scene(), size);
+    const std::unique_ptr<LodTechnique> technique = make(variant);
+    return {size.x, size.y, passesOf(stage, *technique, variant.entry->temporal, lodScene.reference().busiest, true)};
 }
 
 } // namespace shadowbench::lod

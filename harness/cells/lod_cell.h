@@ -42,4 +42,7 @@ void scoreLodCell(LodScene& lodScene, const techniques::Variant& variant, Record
 /// Fills in the times of a scored record.
 void timeLodCell(LodScene& lodScene, const techniques::Variant& variant, Record& record);
 
+/// The frame with most transitions on an image of another size (timing::otherScreen).
+OtherScreen measureOtherScreen(LodScene& lodScene, const techniques::Variant& variant);
+
 } // namespace shadowbench::lod

@@ -179,6 +179,7 @@ void SceneCells::time(const techniques::Variant& variant, Record& record) {
     if (isExternal(variant)) return;
     if (variant.isLod()) {
         if (options_.time) timeLod(variant, record);
+        if (options_.otherScreen) record.otherScreen = lod::measureOtherScreen(lodScene_, variant);
         return;
     }
     if (options_.time && timing::hasDeviceClock())

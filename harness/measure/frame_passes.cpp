@@ -58,11 +58,15 @@ void timePasses(FramePasses& counted, Stage& stage, Sequence& frames) {
     timePasses(counted, framesOf(stage, frames), passRounds, budgetMilliseconds);
 }
 
-OtherScreen measureOtherScreen(const Scene& scene, const techniques::Variant& variant, int frame, std::uint32_t seed) {
+glm::ivec2 otherScreen(const Scene& scene) {
     constexpr int large = 1024, small = 256;
     const int longer = std::max(scene.size.x, scene.size.y);
+    return glm::max(scene.size * (longer < large ? large : small) / longer, glm::ivec2(1));
+}
+
+OtherScreen measureOtherScreen(const Scene& scene, const techniques::Variant& variant, int frame, std::uint32_t seed) {
     Scene other = scene;
-    other.size = glm::max(scene.size * (longer < large ? large : small) / longer, glm::ivec2(1));
+    other.size = otherScreen(scene);
     Stage stage(other);
     stage.show(frame);
     const auto technique = variant.entry->make(variant.parameters);

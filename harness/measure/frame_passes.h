@@ -31,8 +31,10 @@ std::vector<PassRecord> passRecords(const FramePasses& passes, bool timed);
 /// differ, as of a map that is turned from frame to frame.
 void addTimes(const std::vector<PassRecord>& timed, std::vector<PassRecord>& passes);
 
-/// The variant's frame, still and warm, on an image of another size than the scene's: 1024 pixels on its longer side, 256
-/// where the scene's own has as many.
+/// The size of another image of a scene: 1024 pixels on its longer side, 256 where the scene's own has as many.
+glm::ivec2 otherScreen(const Scene& scene);
+
+/// The variant's frame, still and warm, on that image.
 OtherScreen measureOtherScreen(const Scene& scene, const techniques::Variant& variant, int frame, std::uint32_t seed);
 
 } // namespace shadowbench::timing

@@ -91,7 +91,7 @@ std::vector<std::string> costsOf(const RunOptions& options) {
 bool hasCost(const Record& record, std::string_view kind) {
     if (!wasScored(record.status) || isExternal(record)) return true;
     if (kind == "time") return record.values["cost.time.median"] || record.values["lod.time.median"];
-    if (kind == "screen") return record.otherScreen || isLevelOfDetail(record);
+    if (kind == "screen") return record.otherScreen.has_value();
     return record.values["cost.instructions"].has_value();
 }
 

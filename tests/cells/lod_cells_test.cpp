@@ -26,17 +26,23 @@ public:
         return records_.emplace(variant, std::move(record)).first->second;
     }
 
+    OtherScreen otherScreen(const std::string& variant) {
+        return lod::measureOtherScreen(cells_, techniques::parseVariant(variant));
+    }
+
 private:
     Scene scene_;
     lod::LodScene cells_; // with the reference that they are compared with
     std::map<std::string, Record> records_;
 };
 
-const Record& lodCell(const std::string& scene, const std::string& variant) {
+Walk& walkIn(const std::string& scene) {
     testContext(); // outlives the walks
     static std::map<std::string, Walk> walks;
-    return walks.try_emplace(scene, scene).first->second.scored(variant);
+    return walks.try_emplace(scene, scene).first->second;
 }
+
+const Record& lodCell(const std::string& scene, const std::string& variant) { return walkIn(scene).scored(variant); }
 
 const metrics::Values& scores(const std::string& scene, const std::string& variant) {
     return lodCell(scene, variant).values;
@@ -61,6 +67,23 @@ TEST_P(LodScenes, RecordsNameTheWalkThatTheyAreComparedWith) {
     EXPECT_EQ(other.reference->key, full.reference->key);
     EXPECT_EQ(other.reference->content.size(), 32U);
     EXPECT_EQ(other.reference->content, full.reference->content);
+}
+
+/// All passes of these techniques draw the screen. Fragments are counted in blocks of 4 × 4, of which fewer are cut by edges
+/// on a larger image.
+TEST_P(LodScenes, PassesGrowWithTheImage) {
+    const Record& record = lodCell(GetParam(), "lod-frame-sequential");
+    const OtherScreen other = walkIn(GetParam()).otherScreen("lod-frame-sequential");
+    EXPECT_EQ(other.width, 1024);
+    ASSERT_EQ(other.passes.size(), record.passes.size());
+    EXPECT_EQ(other.passes[0].vertices, record.passes[0].vertices) << "another turn of the levels that are drawn in turn";
+    for (std::size_t i = 0; i < other.passes.size(); ++i) {
+        const PassRecord &small = record.passes[i], &large = other.passes[i];
+        EXPECT_EQ(large.name, small.name);
+        EXPECT_EQ(large.draws, small.draws) << small.name;
+        EXPECT_LE(large.fragments, 16 * small.fragments) << small.name;
+        EXPECT_GE(large.fragments, 8 * small.fragments) << small.name;
+    }
 }
 
 /// K19, replayed without drawing: triangles of the levels that instances show, those in transition at one of their two
