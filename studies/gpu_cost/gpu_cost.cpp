@@ -82,6 +82,8 @@ ModelledFrame modelled(const Cell& cell, const DrawnFrames& drawn, const gpu::Ca
     return frame;
 }
 
+glm::ivec2 sizeOf(const DeviceCost& cost) { return {cost.width, cost.height}; }
+
 ModelledFrame beside(ModelledFrame frame, const DeviceCost& cost) {
     frame.measured = cost.median;
     for (ModelledPass& pass : frame.passes)
@@ -94,11 +96,14 @@ std::vector<ModelledFrame> framesOf(const Cell& cell, const DrawnFrames& drawn, 
                                     const std::vector<glm::ivec2>& sizes) {
     std::vector<ModelledFrame> frames;
     for (const gpu::Card& card : cards) {
-        for (const glm::ivec2& size : sizes) frames.push_back(modelled(cell, drawn, card, size));
+        std::vector<const DeviceCost*> measured;
         for (const Record* record : cell)
             if (wasMeasuredOn(*record, card))
-                for (const DeviceCost& cost : record->deviceCosts)
-                    frames.push_back(beside(modelled(cell, drawn, card, {cost.width, cost.height}), cost));
+                for (const DeviceCost& cost : record->deviceCosts) measured.push_back(&cost);
+        for (const glm::ivec2& size : sizes)
+            if (std::ranges::none_of(measured, [&](const DeviceCost* cost) { return size == sizeOf(*cost); }))
+                frames.push_back(modelled(cell, drawn, card, size));
+        for (const DeviceCost* cost : measured) frames.push_back(beside(modelled(cell, drawn, card, sizeOf(*cost)), *cost));
     }
     return frames;
 }

@@ -1,6 +1,7 @@
 #include "report/text_table.h"
 #include "studies/gpu_cost/gpu_cost.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -17,27 +18,33 @@ std::string titleOf(const ModelledFrame& frame) {
                        gpu::cardNamed(frame.card).name);
 }
 
+report::TextTable tableOf(const std::vector<const ModelledFrame*>& frames) {
+    report::TextTable table{{"technique", "modelled ms", "from", "to", "limited by"}, {}};
+    const bool anyMeasured =
+        std::ranges::any_of(frames, [](const ModelledFrame* frame) { return frame->measured.has_value(); });
+    if (anyMeasured) table.titles.emplace_back("measured ms");
+    for (const ModelledFrame* frame : frames) {
+        std::vector<std::string> row{frame->variant, fmt::format("{:.3f}", 1e3 * frame->time.seconds),
+                                     fmt::format("{:.3f}", 1e3 * frame->time.least),
+                                     fmt::format("{:.3f}", 1e3 * frame->time.most), limitOf(*frame)};
+        if (anyMeasured) row.push_back(frame->measured ? fmt::format("{:.3f}", *frame->measured) : "–");
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
 } // namespace
 
 std::string tables(const std::vector<ModelledFrame>& frames) {
-    std::vector<std::pair<std::string, report::TextTable>> all; // in the order of first frames
+    std::vector<std::pair<std::string, std::vector<const ModelledFrame*>>> all; // in the order of first frames
     for (const ModelledFrame& frame : frames) {
         const std::string title = titleOf(frame);
-        auto found = all.begin();
-        while (found != all.end() && found->first != title) ++found;
-        if (found == all.end()) {
-            report::TextTable table{{"technique", "modelled ms", "from", "to", "limited by"}, {}};
-            if (frame.measured) table.titles.emplace_back("measured ms");
-            found = all.insert(found, {title, table});
-        }
-        std::vector<std::string> row{frame.variant, fmt::format("{:.3f}", 1e3 * frame.time.seconds),
-                                     fmt::format("{:.3f}", 1e3 * frame.time.least),
-                                     fmt::format("{:.3f}", 1e3 * frame.time.most), limitOf(frame)};
-        if (frame.measured) row.push_back(fmt::format("{:.3f}", *frame.measured));
-        found->second.rows.push_back(std::move(row));
+        auto found = std::ranges::find(all, title, &decltype(all)::value_type::first);
+        if (found == all.end()) found = all.insert(found, {title, {}});
+        found->second.push_back(&frame);
     }
     std::string text;
-    for (const auto& [title, table] : all) text += title + "\n" + report::aligned(table) + "\n";
+    for (const auto& [title, ofTitle] : all) text += title + "\n" + report::aligned(tableOf(ofTitle)) + "\n";
     return text;
 }
 

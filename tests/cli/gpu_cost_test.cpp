@@ -76,6 +76,16 @@ TEST_F(GpuCostVerb, ModelsAFrameOnACardNearWhatWasMeasuredThere) {
     }
 }
 
+TEST_F(GpuCostVerb, ASizeThatWasMeasuredIsModelledOnce) {
+    const Outcome outcome =
+        asked(folder_.write("results.jsonl", recordOf("sm-uniform")) + " --card h200 --size 1024x1024 --size 2048x2048");
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_EQ(modelled(), (std::vector<std::string>{"h200@1024x1024", "h200@2048x2048"}));
+    const std::string title = "simple at 1024×1024 on NVIDIA H200, modelled";
+    ASSERT_NE(outcome.output.find(title), std::string::npos) << outcome.output;
+    EXPECT_EQ(outcome.output.find(title), outcome.output.rfind(title)) << outcome.output;
+}
+
 TEST_F(GpuCostVerb, RecordsMayTakeTheirOwnPlace) {
     ASSERT_EQ(asked(folder_.write("results.jsonl", recordOf("sm-uniform")) + " --card gtx-1080").code, 0);
     ASSERT_EQ(asked(folder_ / "out" + " --card h200 --size 1280x720 --size 640x360").code, 0);

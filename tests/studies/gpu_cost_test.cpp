@@ -242,6 +242,13 @@ TEST(GpuCostText, NamesWhatLimitsAndCallsItModelled) {
     EXPECT_EQ(comparison({frame("pcf", 0.002, {})}), "");
 }
 
+TEST(GpuCostText, HasWhatWasMeasuredBesideWhatWasNot) {
+    const std::string text = tables({frame("pcf", 0.002, {}), frame("vsm", 0.003, 3.5)});
+    EXPECT_TRUE(std::regex_search(text, std::regex("limited by +measured ms"))) << text;
+    EXPECT_TRUE(std::regex_search(text, std::regex("pcf .* –\n"))) << text;
+    EXPECT_TRUE(std::regex_search(text, std::regex("vsm .* 3\\.500\n"))) << text;
+}
+
 TEST(GpuCostText, ComparesWhatDoesNotWait) {
     const std::string text =
         comparison({frame("a", 0.001, 2), frame("b", 0.002, 4), frame("c", 0.003, 6), frame("w", 0.001, 500, true)});
