@@ -135,6 +135,17 @@ TEST_F(ShaderCostVerb, ABaseOfMoreTechniquesIsComparedInThoseThatAreChosen) {
     EXPECT_TRUE(outcome.output.starts_with("no change in 6 shaders\n")) << outcome.output;
 }
 
+TEST_F(ShaderCostVerb, WhatIsExecutedIsTheSameWhicheverPlatformDrawsInSoftware) {
+    for (const std::string gl : {"osmesa", "egl"}) {
+        const Outcome outcome =
+            shell("LIBGL_ALWAYS_SOFTWARE=1 shadowbench shader-cost --quiet --technique pcss --arch navi21 --gl " + gl +
+                  " --cache " + folder_ / ("cache-" + gl) + " --out " + folder_ / gl);
+        ASSERT_EQ(outcome.code, 0) << outcome.output;
+    }
+    EXPECT_NE(text("egl").find("\"executed\""), std::string::npos);
+    EXPECT_EQ(text("egl"), text("osmesa"));
+}
+
 TEST_F(ShaderCostVerb, WhatIsNoShaderIsRefusedWithARemedy) {
     const Outcome broken = asked(changed("colour = sharp;"));
     EXPECT_EQ(broken.code, 2);
