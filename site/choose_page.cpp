@@ -6,6 +6,7 @@
 #include "site/names.h"
 #include "site/pages.h"
 #include "site/scene_tables.h"
+#include "site/ship.h"
 #include "site/technique_facts.h"
 
 #include <algorithm>
@@ -109,6 +110,8 @@ Table budgets(const std::vector<Record>& records, const std::filesystem::path& i
 void addChoosePage(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site) {
     Data data;
     data.set("empty", records.empty());
+    data.set("ship", site.table(chooseAddress, shipTable(records, images)));
+    data.set("hasship", !data.get("ship")->string_value().empty());
     data.set("answers", site.table(chooseAddress, answers(records, images)));
     data.set("budgets", site.table(chooseAddress, budgets(records, images)));
     data.set("hasbudgets", !data.get("budgets")->string_value().empty());

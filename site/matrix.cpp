@@ -1,19 +1,17 @@
 // Every variant on every scene, in one table.
 #include "site/matrix.h"
 
-#include "report/costing.h"
 #include "report/run_report.h"
 #include "report/summary.h"
 #include "site/choice.h"
+#include "site/multiples.h"
 #include "site/names.h"
 #include "site/scene_tables.h"
 #include "site/technique_facts.h"
 #include "site/viewer/cells.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <map>
 
 namespace shadowbench::site {
 namespace {
@@ -34,52 +32,21 @@ Cell matrixCell(const std::vector<Record>& records, std::size_t index, const std
     return cell;
 }
 
-/// What a row costs on a scene as a multiple of sm-uniform there: modelled on a card where any scene's records are, else
-/// measured here.
-class Multiples {
-public:
-    Multiples(const std::vector<Record>& records, const std::vector<std::string>& scenes) {
-        for (const std::string& scene : scenes)
-            if (costing_ = report::shownCosting(records, scene); !costing_.card.empty()) break;
-        for (const Record& record : records)
-            if (record.variant == "sm-uniform")
-                if (const auto cost = costing_.of(record)) uniform_.try_emplace(record.scene, cost->ratio);
-    }
-
-    [[nodiscard]] std::optional<double> of(const Record& record) const {
-        const auto cost = costing_.of ? costing_.of(record) : std::nullopt;
-        if (!cost || cost->ratio <= 0) return {};
-        if (costing_.card.empty()) return cost->ratio; // of sm-uniform's frames, which were timed beside
-        const auto uniform = uniform_.find(record.scene);
-        if (uniform == uniform_.end()) return {};
-        return cost->ratio / uniform->second;
-    }
-
-    [[nodiscard]] std::string hint() const {
-        const std::string where =
-            costing_.card.empty() ? "measured here" : "modelled on " + report::cardAndSize(costing_.card);
-        return fmt::format("Frame time as a multiple of sm-uniform's, the dearer of standing and in motion, {}: geometric "
-                           "mean over the scenes that have one",
-                           where);
-    }
-
-private:
-    report::Costing costing_;
-    std::map<std::string, double> uniform_; // by scene
-};
-
 /// Rows of the table of all techniques on all scenes.
 class Matrix {
 public:
     Matrix(const std::vector<Record>& records, const std::filesystem::path& images, std::string caption)
         : records_(records), images_(images), caption_(std::move(caption)), scenes_(report::scenes(records)),
-          costs_(records, scenes_) {}
+          costs_(records) {}
 
     [[nodiscard]] Table table() const {
         Table table{.id = "all", .caption = caption_, .columns = {}, .rows = {}, .filtered = true, .headed = false};
         table.columns = {{.title = "technique", .number = false},
                          {.title = "within", .hint = "Number of scenes on which it is within tolerance", .key = "within"},
-                         {.title = "cost", .hint = costs_.hint(), .key = "cost"}};
+                         {.title = "cost",
+                          .hint = "Frame time as a multiple of sm-uniform's, the dearer of standing and in motion, " +
+                                  costs_.where() + ": geometric mean over the scenes that have one",
+                          .key = "cost"}};
         for (const std::string& scene : scenes_)
             table.columns.push_back({.title = truncate(scene),
                                      .hint = "Error; sorted by its multiple of the tolerance",
@@ -114,8 +81,7 @@ private:
 
     [[nodiscard]] Row rowOf(const std::string& variant) const {
         Row row;
-        int within = 0, timed = 0;
-        double logCost = 0;
+        int within = 0;
         bool scored = false;
         std::vector<Cell> cells;
         const Record* first = nullptr;
@@ -126,17 +92,13 @@ private:
             if (first == nullptr) first = &record;
             scored = scored || headline(record);
             within += report::isWithin(record, report::tolerances(records_, record.scene)) ? 1 : 0;
-            if (const std::optional<double> cost = costs_.of(record)) {
-                logCost += std::log(*cost);
-                ++timed;
-            }
         }
         if (!scored) return row;
         const TechniqueFacts facts = factsOf(first->technique);
-        const double cost = timed > 0 ? std::exp(logCost / timed) : 0;
+        const std::optional<double> cost = costs_.mean(variant, scenes_);
         row.cells = {Cell{.text = variant, .name = report::nameForPeople(*first), .note = techniqueCell(*first, {}).note},
                      Cell{std::to_string(within), static_cast<double>(within)},
-                     timed > 0 ? Cell{fmt::format("{:.2f}", cost), cost} : Cell{"–"}};
+                     cost ? Cell{fmt::format("{:.2f}", *cost), *cost} : Cell{"–"}};
         row.cells.insert(row.cells.end(), cells.begin(), cells.end());
         row.marks = {{"family", facts.family},
                      {"answer", facts.answer},

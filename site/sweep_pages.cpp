@@ -27,7 +27,7 @@ bool isLogarithmic(const std::string& axis) {
     return found != axes().end() && found->logarithmic;
 }
 
-std::vector<double> valuesOf(const Sweep& sweep) {
+std::vector<double> axisValues(const Sweep& sweep) {
     std::vector<double> values;
     for (const Record& record : sweep.records)
         if (std::ranges::find(values, record.sweep->value) == values.end()) values.push_back(record.sweep->value);
@@ -57,7 +57,7 @@ Cell breakCell(const Row& row, const Record& record) {
 }
 
 Table curveTable(const Sweep& sweep) {
-    const std::vector<double> values = valuesOf(sweep);
+    const std::vector<double> values = axisValues(sweep);
     const std::string metric = metricOf(sweep);
     const bool lod = isLevelOfDetail(sweep.records.front());
     Table table{.id = "curves",
