@@ -118,6 +118,7 @@ struct Scene {
     std::vector<BreakExpectation> breaks;    // where techniques break as one of its quantities moves
     int referenceSamples = 1024;             // of an area light's or an environment's reference on the scored frame …
     int movingReferenceSamples = 256;        // … and on the moving frames
+    glm::dvec3 moved{0};                     // what was added to all places of the file: moveToOrigin()
 };
 
 /// World from object of an instance after `frames` frames of its object's motion.

@@ -29,6 +29,7 @@ Inspection inspect(const Scene& scene) {
     Inspection result{.scene = scene.id,
                       .title = scene.title,
                       .profile = scene.profile,
+                      .moved = scene.moved,
                       .camera = frame.camera,
                       .light = frame.light,
                       .box = frame.bounds(),

@@ -44,6 +44,7 @@ struct Warning {
 struct Inspection {
     std::string scene, title;
     Profile profile = Profile::Gate;
+    glm::dvec3 moved{0}; // Scene::moved
     Camera camera;
     Light light;
     Bounds box;         // of all that is there at the frame

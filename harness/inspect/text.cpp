@@ -110,6 +110,10 @@ std::string textOf(const Inspection& i, const std::string& picture) {
     const glm::dvec3 size = i.box.high - i.box.low;
     std::string text = fmt::format("{} ({}): {}\n", i.scene, name(i.profile), i.title);
     if (!picture.empty()) text += line("picture", picture);
+    if (i.moved != glm::dvec3(0))
+        text +=
+            line("moved", fmt::format("by ({:.12g}, {:.12g}, {:.12g}), to the origin; what follows is of the moved scene",
+                                      i.moved.x, i.moved.y, i.moved.z));
     text += line("size", fmt::format("{}, {:.4g} m across, from {} to {}", lengths(size), glm::length(size),
                                      point(i.box.low), point(i.box.high)));
     text += line("camera",
@@ -131,6 +135,7 @@ std::string textOf(const Inspection& i, const std::string& picture) {
 std::string jsonOf(const Inspection& i, const std::string& picture) {
     ordered_json json{{"scene", i.scene}, {"title", i.title}, {"profile", name(i.profile)}};
     if (!picture.empty()) json["picture"] = picture;
+    json["moved"] = listOf(i.moved);
     json["box"] = {{"low", listOf(i.box.low)}, {"high", listOf(i.box.high)}};
     json["camera"] = {{"eye", listOf(i.camera.eye)}, {"target", listOf(i.camera.target)},
                       {"up", listOf(i.camera.up)},   {"to_scene", i.toScene},

@@ -56,13 +56,19 @@ double metresOfPixel(const Evidence& e, double distance) {
 void judgePrecision(const Evidence& e, Warnings& warnings) {
     constexpr double step = 0x1p-23, mostShift = 0.1; // of a single-precision number; of a pixel
     const Camera& camera = e.snapshot.camera;
-    const double view = glm::distance(camera.eye, camera.target), far = glm::length(camera.eye);
-    if (step * far > mostShift * metresOfPixel(e, view))
-        warnings.push_back(
-            {fmt::format("the camera is {:.3g} m from the origin, where positions in single precision lie {:.2g} "
-                         "m apart",
-                         far, step * far),
-             "move the scene and the camera to the origin"});
+    const double view = glm::distance(camera.eye, camera.target);
+    for (const Batch& batch : e.snapshot.batches) {
+        const Bounds own = batch.mesh->bounds();
+        const Placement& placement = batch.placements.front();
+        const glm::dmat3 axes(placement.world);
+        const double far = glm::length(axes[0]) * glm::length(glm::max(glm::abs(own.low), glm::abs(own.high)));
+        if (step * far > mostShift * metresOfPixel(e, view))
+            warnings.push_back(
+                {fmt::format("vertices of {} are up to {:.3g} m from its own origin, where positions in single "
+                             "precision lie {:.2g} m apart",
+                             nameOf(e, placement.id), far, step * far),
+                 "move them to the origin and give the mesh a place, or cut it into parts that have theirs"});
+    }
     const double leastNear = view * step / 1e-3; // two depths at the target are a thousandth of the way apart
     if (camera.near < leastNear)
         warnings.push_back(

@@ -213,6 +213,7 @@ Scene sceneOf(toml::table& table, const std::string& shows, const fs::path& file
     }
     requireMemory(root, scene);
     requireNoProblem(root, scene);
+    moveToOrigin(scene);
     return scene;
 }
 

@@ -81,4 +81,9 @@ struct Problem {
 };
 std::optional<Problem> findProblem(const Scene& scene);
 
+/// Moves a scene whose camera is far from the origin to it, the eye to within a view distance: what draws keeps positions in
+/// the world in single precision, whose steps would be seen. Nothing else changes, to the rounding of one addition in double
+/// precision.
+void moveToOrigin(Scene& scene);
+
 } // namespace shadowbench

@@ -43,7 +43,7 @@ struct FolderWord {
 
 /// Of `FolderView::Cascades`.
 struct FolderCascades {
-    Amount count = 4.0, lambda = 1.0, blend = 0.0;
+    Amount count = 4.0, lambda = 1.0, blend = 0.0, latency = 0.0;
     FolderWord fit{"visible"}, warp{"none"}, stable{"none"};
 };
 

@@ -96,6 +96,7 @@ public:
     void reset() override {
         historyFrames_ = 0;
         targets_.clear();
+        views_.reset();
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {

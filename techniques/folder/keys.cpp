@@ -75,6 +75,11 @@ constexpr std::array keys{
         "`none`; `texels`: maps of a directional light as large as the slice's ball, moved by whole texels, which asks "
         "for `fit = \"view\"`; or the parameter that says which",
         "`none`", text},
+    FolderKey{
+        Cascades, "latency",
+        "how many frames old the points are that slices are fitted to, 0 or 1, or the parameter that says it; 1 asks for "
+        "`fit = \"visible\"` and `history = true`, and fits the first frame to its frustum",
+        "0", [] { return std::string(R"("type": ["string", "integer"])"); }},
 
     FolderKey{Parameter, "default", "the value without another", "needed", scalar},
     FolderKey{Parameter, "meaning", "one line for people, with the unit", "needed", text},

@@ -31,16 +31,23 @@ FolderCascades cascadesOf(const TomlValue& value, const TechniqueFolder& read) {
     FolderCascades cascades{.count = amountWithin(value.get("count"), IntegerRange{1, mostCascades}, read)};
     if (const auto lambda = value.find("lambda")) cascades.lambda = amountWithin(*lambda, RealRange{0, 1}, read);
     if (const auto blend = value.find("blend")) cascades.blend = amountWithin(*blend, RealRange{0, 0.5}, read);
+    if (const auto latency = value.find("latency")) {
+        cascades.latency = amountWithin(*latency, IntegerRange{0, 1}, read);
+        if (cascades.latency != Amount(0.0) && !read.entry.temporal)
+            latency->fail("fits slices to what the frame before showed: say history = true above");
+    }
     if (const auto fit = value.find("fit")) cascades.fit = wordOf(*fit, cascadeFits, read);
     if (const auto warp = value.find("warp")) cascades.warp = wordOf(*warp, cascadeWarps, read);
     if (const auto stable = value.find("stable")) cascades.stable = wordOf(*stable, cascadeTexels, read);
     return cascades;
 }
 
-std::optional<std::string> unstableFit(const CascadeRule& rule) {
-    if (!rule.stable || (!rule.visible && !rule.warped)) return std::nullopt;
-    return "texels that stay in place need a map that neither what is seen nor a warp changes: stable=texels goes with "
-           "fit=view and warp=none";
+std::optional<std::string> contradictoryFit(const CascadeRule& rule) {
+    if (rule.stable && (rule.visible || rule.warped))
+        return "texels that stay in place need a map that neither what is seen nor a warp changes: stable=texels goes with "
+               "fit=view and warp=none";
+    if (rule.late && !rule.visible) return "only what is seen is known a frame late: latency=1 goes with fit=visible";
+    return std::nullopt;
 }
 
 } // namespace
@@ -56,7 +63,7 @@ void readView(const TomlValue& root, TechniqueFolder& read) {
     if (!cascades) return;
     read.cascades = cascadesOf(*cascades, read);
     read.entry.contradiction = [rule = read.cascades](const Parameters& values) {
-        return unstableFit(cascadeRule(rule, values));
+        return contradictoryFit(cascadeRule(rule, values));
     };
     const Parameters defaults = parseParameters("", read.entry.parameters, read.entry.id);
     if (const auto why = read.entry.contradiction(defaults)) cascades->fail(*why);
@@ -69,7 +76,8 @@ CascadeRule cascadeRule(const FolderCascades& cascades, const Parameters& values
             .blend = valueOf(cascades.blend, values),
             .visible = cascadeFits.named(word(cascades.fit)),
             .warped = cascadeWarps.named(word(cascades.warp)),
-            .stable = cascadeTexels.named(word(cascades.stable))};
+            .stable = cascadeTexels.named(word(cascades.stable)),
+            .late = valueOf(cascades.latency, values) > 0};
 }
 
 } // namespace shadowbench::techniques

@@ -34,6 +34,10 @@ FolderViews::FolderViews(const TechniqueFolder& folder, const Parameters& values
 
 std::vector<Tile> FolderViews::tiles(int side) const { return squareTiles(side, count_); }
 
+void FolderViews::reset() {
+    if (cascades_) cascades_->reset();
+}
+
 void FolderViews::fit(const Frame& frame, int tile) {
     if (kind_ == FolderView::Cube) return fitCube(frame);
     if (!cascades_) {

@@ -19,6 +19,9 @@ public:
     /// Fits them to the frame; `tile` is the side of one in the first map, in texels.
     void fit(const Frame& frame, int tile);
 
+    /// Forgets the frame before.
+    void reset();
+
     /// How many there are.
     [[nodiscard]] int count() const { return count_; }
 

@@ -71,15 +71,17 @@ TEST_F(InspectVerb, ARunSaysTheSameBeforeItMeasures) {
 }
 
 TEST_F(InspectVerb, WhatARunCannotScoreForItsSceneIsSentHere) {
+    // Ten thousand kilometres from its own origin, and turned back to the world's.
+    folder_.write("far.obj", "v 9999996 0 -4\nv 10000004 0 -4\nv 10000004 0 4\nv 9999996 0 4\nf 1 4 3\nf 1 3 2\n");
     const Outcome far = ran(folder_.write(
         "far.toml", "title = \"Far\"\nsize = 32\nlight = { kind = \"directional\", direction = [0.3, -1, 0.2] }\n"
-                    "camera = { eye = [1000002, 6, 7], target = [1000000, 0, 0], near = 0.5, far = 40, fovy = 45 }\n"
-                    "timeline = { still = 1, moving = 0 }\n[[object]]\nmesh = { box = { size = [8, 0.3, 8] } }\n"
-                    "place = [{ at = [1000000, 0, 0] }]\n"));
+                    "camera = { eye = [2, 6, 7], target = [0, 0, 0], near = 0.5, far = 40, fovy = 45 }\n"
+                    "timeline = { still = 1, moving = 0 }\n[[object]]\nmesh = { file = \"far.obj\" }\n"
+                    "place = [{ at = [-8660254.038, 0, 5000000], turn = 30 }]\n"));
     EXPECT_EQ(far.code, 1) << far.output;
     EXPECT_NE(far.output.find("disagree on the primary hit"), std::string::npos) << far.output;
     EXPECT_NE(far.output.find("(shadowbench inspect SCENE says why)"), std::string::npos) << far.output;
-    EXPECT_NE(far.output.find("far: warning: the camera is 1e+06 m from the origin"), std::string::npos) << far.output;
+    EXPECT_NE(far.output.find("are up to 1e+07 m from its own origin"), std::string::npos) << far.output;
 }
 
 } // namespace

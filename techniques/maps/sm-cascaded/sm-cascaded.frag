@@ -1,5 +1,5 @@
 #include "gl/receiver.glsl"
-#include "maps/sm-cascaded/slice.glsl"
+#include "shared/maps/slice.glsl"
 #include "shared/maps/depth_atlas.glsl"
 
 uniform vec4 eyeDepthFromWorld;  // dot with (p, 1): distance along the view axis

@@ -14,7 +14,7 @@ namespace shadowbench::techniques {
 std::vector<double> practicalSplits(double near, double far, int count, double lambda);
 
 /// The slice of `splits` (two depths or more) that holds an eye depth; the first and the last also hold what lies beyond
-/// them. The same as sliceOf() of maps/sm-cascaded/slice.glsl (compared in tests/techniques/gl/map_point_test.cpp).
+/// them. The same as sliceOf() of shared/maps/slice.glsl (compared in tests/techniques/gl/map_point_test.cpp).
 std::size_t sliceOf(const std::vector<double>& splits, double depth);
 
 /// Least and greatest eye depth.

@@ -7,6 +7,7 @@
 #include "techniques/shared/light_views/visible_part.h"
 
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace shadowbench::techniques {
 namespace {
@@ -15,6 +16,11 @@ namespace {
 /// on its near plane, to which nearer casters are clamped. Of the scene's map, from −1 to 1.
 constexpr double leastHalf = 1e-5;
 
+glm::dvec4 eyeDepthOf(const Camera& camera) {
+    const glm::dvec3 forward = camera.basis().forward;
+    return glm::dvec4(forward, -glm::dot(forward, camera.eye));
+}
+
 } // namespace
 
 CascadeFit::CascadeFit(const CascadeRule& rule) : rule_(rule) {
@@ -22,63 +28,78 @@ CascadeFit::CascadeFit(const CascadeRule& rule) : rule_(rule) {
 }
 
 void CascadeFit::fit(const Frame& frame, int texels) {
-    const Camera& camera = frame.snapshot.camera;
-    const glm::dvec3 forward = camera.basis().forward;
-    eyeDepthFromWorld_ = glm::dvec4(forward, -glm::dot(forward, camera.eye));
-    const DepthRange depths = splitDepths(frame);
-    splits_ = practicalSplits(depths.near, depths.far, rule_.slices, rule_.lambda);
-    fitSlices(frame, sliceRanges(splits_, rule_.blend), texels);
+    if (!receivers_) {
+        region_ = viewed(frame);
+    } else if (!rule_.late) {
+        region_ = seen(frame);
+    } else {
+        region_ = before_ ? std::move(*before_) : viewed(frame);
+        before_ = seen(frame);
+    }
+    fitSlices(frame, texels);
 }
 
 std::vector<glm::vec4> CascadeFit::ends() const {
+    const std::vector<double>& splits = region_.splits;
     std::vector<glm::vec4> ends;
-    for (std::size_t i = 0; i + 1 < splits_.size(); ++i)
-        ends.emplace_back(splits_[i + 1], splits_[i + 1] - rule_.blend * (splits_[i + 1] - splits_[i]), 0, 0);
+    for (std::size_t i = 0; i + 1 < splits.size(); ++i)
+        ends.emplace_back(splits[i + 1], splits[i + 1] - rule_.blend * (splits[i + 1] - splits[i]), 0, 0);
     return ends;
 }
 
 std::size_t CascadeFit::sliceAt(const glm::dvec3& world) const {
-    return sliceOf(splits_, glm::dot(eyeDepthFromWorld_, glm::dvec4(world, 1)));
+    return sliceOf(region_.splits, glm::dot(region_.eyeDepthFromWorld, glm::dvec4(world, 1)));
 }
 
-DepthRange CascadeFit::splitDepths(const Frame& frame) {
+CascadeFit::Region CascadeFit::viewed(const Frame& frame) const {
     const Camera& camera = frame.snapshot.camera;
-    const DepthRange planes{camera.near, camera.far};
-    if (receivers_) return receivers_->depths(frame, eyeDepthFromWorld_).value_or(planes);
-    return rule_.stable ? planes : visibleDepths(frame.snapshot.bounds(), camera, frame.aspect());
+    Region region{.camera = camera, .eyeDepthFromWorld = eyeDepthOf(camera)};
+    divide(region, rule_.stable ? DepthRange{camera.near, camera.far}
+                                : visibleDepths(frame.snapshot.bounds(), camera, frame.aspect()));
+    return region;
 }
 
-void CascadeFit::fitSlices(const Frame& frame, const std::vector<DepthRange>& ranges, int texels) {
-    const LightView whole = fitToScene(frame.hardLight, frame.snapshot);
-    std::vector<std::optional<Bounds>> boxes(ranges.size());
-    if (receivers_) boxes = receivers_->boxes(frame, eyeDepthFromWorld_, ranges, whole.clipFromWorld);
+CascadeFit::Region CascadeFit::seen(const Frame& frame) {
+    const Camera& camera = frame.snapshot.camera;
+    Region region{.camera = camera, .eyeDepthFromWorld = eyeDepthOf(camera), .ofPoints = true};
+    const auto depths = receivers_->depths(frame, region.eyeDepthFromWorld);
+    divide(region, depths.value_or(DepthRange{camera.near, camera.far}));
+    region.clipFromWorld = fitToScene(frame.hardLight, frame.snapshot).clipFromWorld;
+    region.boxes = receivers_->boxes(frame, region.eyeDepthFromWorld, region.ranges, region.clipFromWorld);
+    return region;
+}
+
+void CascadeFit::divide(Region& region, const DepthRange& depths) const {
+    region.splits = practicalSplits(depths.near, depths.far, rule_.slices, rule_.lambda);
+    region.ranges = sliceRanges(region.splits, rule_.blend);
+}
+
+void CascadeFit::fitSlices(const Frame& frame, int texels) {
     const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
     views_.clear();
     casters_.clear();
-    for (std::size_t i = 0; i < ranges.size(); ++i) {
-        const bool empty = receivers_ && !boxes[i];
-        views_.push_back(empty ? whole : sliceView(frame, ranges[i], whole, boxes[i], texels));
+    for (std::size_t i = 0; i < region_.ranges.size(); ++i) {
+        const bool empty = region_.ofPoints && !region_.boxes[i];
+        views_.push_back(empty ? fitToScene(frame.hardLight, frame.snapshot) : sliceView(frame, i, texels));
         casters_.push_back(empty ? std::vector<bool>(corners.size() / 8, false) : castersIn(views_[i], corners));
     }
 }
 
-/// `receivers`: their box in the clip space of `whole`.
-LightView CascadeFit::sliceView(const Frame& frame, const DepthRange& range, const LightView& whole,
-                                const std::optional<Bounds>& receivers, int texels) const {
-    Camera slice = frame.snapshot.camera;
-    slice.near = range.near;
-    slice.far = range.far;
+LightView CascadeFit::sliceView(const Frame& frame, std::size_t slice, int texels) const {
+    Camera part = region_.camera;
+    part.near = region_.ranges[slice].near;
+    part.far = region_.ranges[slice].far;
     const Light& light = frame.hardLight;
     if (rule_.stable && light.kind == LightKind::Directional)
-        return fitStable(light, frame.snapshot, slice, frame.aspect(), texels);
+        return fitStable(light, frame.snapshot, part, frame.aspect(), texels);
     std::vector<glm::dvec4> within;
-    if (receivers) {
-        Bounds box = *receivers;
+    if (region_.ofPoints) {
+        Bounds box = *region_.boxes[slice];
         box.low -= leastHalf;
         box.high += leastHalf;
-        for (const glm::dvec4& plane : frustumPlanes(fitMatrix(box, 0) * whole.clipFromWorld)) within.push_back(plane);
+        for (const glm::dvec4& plane : frustumPlanes(fitMatrix(box, 0) * region_.clipFromWorld)) within.push_back(plane);
     }
-    return (rule_.warped ? fitLispsm : fitFocused)(light, frame.snapshot, slice, frame.aspect(), within);
+    return (rule_.warped ? fitLispsm : fitFocused)(light, frame.snapshot, part, frame.aspect(), within);
 }
 
 } // namespace shadowbench::techniques

@@ -132,6 +132,12 @@ TEST(TechniqueFolder, WhatIsWrongIsOneLineWithItsPlace) {
               ":4: cascades.fit: map must be a parameter with choices among visible, view");
     EXPECT_EQ(cascades("count = 4, warp = \"lispms\""),
               ":4: cascades.warp: expected one of lispsm, none, got \"lispms\" (did you mean \"lispsm\"?)");
+    EXPECT_EQ(cascades("count = 4, latency = 1"),
+              ":4: cascades.latency: fits slices to what the frame before showed: say history = true above");
+    EXPECT_NE(
+        with("answer", "history = true\nview = \"cascades\"\ncascades = { count = 4, latency = 1, fit = \"view\" }\nanswer")
+            .find("latency=1 goes with fit=visible"),
+        std::string::npos);
     EXPECT_NE(cascades("count = 4, stable = \"texels\"").find("stable=texels goes with fit=view and warp=none"),
               std::string::npos);
     EXPECT_NE(with("[parameter.map]", "[parameter.__map]").find("is no name in GLSL"), std::string::npos);

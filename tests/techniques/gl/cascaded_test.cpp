@@ -77,7 +77,7 @@ TEST(SmCascaded, BlendedSlicesMeetWithoutASeam) {
     std::vector<glm::vec4> depths;
     for (float depth = 1; depth <= 15; depth += step) depths.emplace_back(depth, 0, 0, 0);
     // The number of the map that is read, between two where both are.
-    const auto maps = evaluated("maps/sm-cascaded/slice.glsl", "float(sliceOf(x.x)) + nextWeight(sliceOf(x.x), x.x)", depths,
+    const auto maps = evaluated("shared/maps/slice.glsl", "float(sliceOf(x.x)) + nextWeight(sliceOf(x.x), x.x)", depths,
                                 {{"TILES", "3"}}, [&](gl::Program& program) { program.set("sliceEnds", ends); });
     for (std::size_t i = 1; i < depths.size(); ++i) {
         EXPECT_GE(maps[i].x, maps[i - 1].x) << depths[i].x;

@@ -122,7 +122,7 @@ TEST(SliceOf, IsTheShaders) {
     for (float depth = 0.3F; depth < 20; depth += 0.17F) depths.emplace_back(depth, 0, 0, 0);
     std::vector<glm::vec4> ends;
     for (std::size_t i = 1; i < splits.size(); ++i) ends.emplace_back(splits[i], 0, 0, 0);
-    const auto slices = evaluated("maps/sm-cascaded/slice.glsl", "float(sliceOf(x.x))", depths, {{"TILES", "3"}},
+    const auto slices = evaluated("shared/maps/slice.glsl", "float(sliceOf(x.x))", depths, {{"TILES", "3"}},
                                   [&](gl::Program& program) { program.set("sliceEnds", ends); });
     for (std::size_t i = 0; i < depths.size(); ++i)
         EXPECT_EQ(slices[i].x, static_cast<float>(sliceOf(splits, depths[i].x))) << depths[i].x;
