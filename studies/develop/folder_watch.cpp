@@ -15,7 +15,7 @@ std::int64_t nanoseconds(const timespec& time) { return std::int64_t{time.tv_sec
 /// Editors leave files of their own beside those that they edit.
 bool isDrawnWith(const fs::path& file) {
     const std::string ending = file.extension().string();
-    return ending == ".glsl" || ending == ".frag" || file.filename() == "technique.toml";
+    return ending == ".glsl" || ending == ".frag" || ending == ".comp" || file.filename() == "technique.toml";
 }
 
 } // namespace

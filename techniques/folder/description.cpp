@@ -260,7 +260,8 @@ gl::ShaderFiles shadersIn(const fs::path& folder) {
     gl::ShaderFiles shaders;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const std::string ending = entry.path().extension().string();
-        if (ending == ".glsl" || ending == ".frag") shaders[entry.path().filename().string()] = textOf(entry);
+        if (ending == ".glsl" || ending == ".frag" || ending == ".comp")
+            shaders[entry.path().filename().string()] = textOf(entry);
         if (shaders.size() > mostFiles)
             throw BadInput(fmt::format("{} has more than {} shaders", folder.string(), mostFiles));
     }

@@ -5,6 +5,7 @@
 #include "techniques/gl/program.h"
 #include "techniques/shared/maps/cascade_rule.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec4.hpp>
 #include <optional>
@@ -87,6 +88,16 @@ enum class Blend { Add, Min, Max, Multiply };
 /// Which triangles of casters are left out.
 enum class Cull { None, Front, Back };
 
+/// What a pass runs.
+enum class PassKind {
+    Casters, // draws them into the map
+    Screen,  // draws one triangle over the screen
+    Compute
+};
+
+/// Work groups of a compute pass along one axis: as many, or a target whose texels along the axis these are.
+using GroupCount = std::variant<int, std::string>;
+
 /// Of the parameters of a depth map.
 enum class MapBias {
     Own,
@@ -96,8 +107,8 @@ enum class MapBias {
 
 struct FolderPass {
     std::string name;
-    bool casters = false;        // draws them into the map; else one triangle over the screen
-    std::string fragment;        // file of the folder, or an embedded one; empty: depth alone
+    PassKind kind = PassKind::Screen;
+    std::string shader;          // file of the folder, or an embedded one; empty: depth alone
     std::vector<std::string> to; // targets, one of depth at most, or `visibility` alone
     gl::Defines defines;
     Amount slopeOffset = 0.0, unitOffset = 0.0; // of casters (shared/maps/depth_map.h, Bias)
@@ -109,6 +120,7 @@ struct FolderPass {
     bool peels = false;                       // only casters behind the target of depths, which stays as it is
     std::optional<FolderCondition> when = {}; // else it is left out
     Amount repeat = 1.0;                      // how often; said by the first pass of a group
+    std::vector<GroupCount> groups = {};      // of Compute, three; empty: each texel of the first target has an invocation
     std::string group;                        // passes in a row with this name are repeated in turns; "": alone
 };
 
@@ -129,6 +141,9 @@ gl::Format formatOf(const FolderTarget& target, const Parameters& values);
 
 /// Texels per side of a target that is no image.
 inline constexpr int mostTexelsOfSide = 8192;
+
+/// Work groups of a pass: an invocation each for the texels of the largest target.
+inline constexpr std::int64_t mostGroups = std::int64_t{mostTexelsOfSide} * mostTexelsOfSide;
 
 /// What a pass writes that is the technique's answer.
 inline constexpr const char* visibilityTarget = "visibility";

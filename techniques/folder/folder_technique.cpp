@@ -165,7 +165,8 @@ private:
             }
             targets_.emplace(target.name, std::move(made));
         }
-        const auto casters = std::ranges::find_if(passes_, [](const FolderPass* pass) { return pass->casters; });
+        const auto casters =
+            std::ranges::find_if(passes_, [](const FolderPass* pass) { return pass->kind == PassKind::Casters; });
         if (casters != passes_.end()) tiles_ = tilesOf((*casters)->to.front());
     }
 
@@ -198,11 +199,14 @@ private:
         std::vector<const gl::Texture*> attachments;
         for (const std::string& name : pass.to)
             attachments.push_back(name == visibilityTarget ? &visibility : &targets_.at(name).now);
-        if (pass.casters) {
+        if (pass.kind == PassKind::Casters) {
             drawCasters(pass, program, frame, attachments);
         } else {
             setInputs(program, frame, views_.views());
-            drawScreen(pass, program, attachments);
+            if (pass.kind == PassKind::Compute)
+                compute(pass, program, attachments);
+            else
+                drawScreen(pass, program, attachments);
         }
         for (const std::string& name : pass.to)
             if (name != visibilityTarget && hasMipmaps(name)) targets_.at(name).now.makeMipmaps();
@@ -221,6 +225,7 @@ private:
         const FolderState state{frame,          views,       tiles_, sizeOf(tiles_), views_.cascades(),
                                 historyFrames_, repetition_, bias_,  followsPlane_,  addsUnits()};
         for (const auto& [name, type] : program.uniformTypes()) {
+            if (isImage(type)) continue;
             const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name);
             if (input != folderInputs().end()) input->set(program, name, state);
             patterns_.set(program, name, frame.snapshot.light);
@@ -229,6 +234,23 @@ private:
                 if (const auto target = targets_.find(name.substr(historyPrefix.size())); target != targets_.end())
                     program.set(name, *target->second.before);
         }
+    }
+
+    void compute(const FolderPass& pass, gl::Program& program, const std::vector<const gl::Texture*>& stored) const {
+        for (std::size_t i = 0; i < stored.size(); ++i) program.setImage(pass.to[i], *stored[i]);
+        const glm::uvec3 size = program.groupSize(), texels(stored.front()->size(), 1);
+        glm::uvec3 groups = (texels + size - 1U) / size;
+        for (int axis = 0; axis < std::ssize(pass.groups); ++axis) {
+            const GroupCount& count = pass.groups[static_cast<std::size_t>(axis)];
+            const int* number = std::get_if<int>(&count);
+            groups[axis] = static_cast<unsigned>(
+                number != nullptr ? *number : targets_.at(std::get<std::string>(count)).now.size()[axis]);
+        }
+        const std::int64_t all = std::int64_t{groups.x} * groups.y * groups.z;
+        if (all > mostGroups)
+            throw BadInput(fmt::format("{}: the pass \"{}\" would run {} work groups; {} are allowed",
+                                       folder_->path.string(), pass.name, all, mostGroups));
+        program.dispatchGroups(groups);
     }
 
     static void drawScreen(const FolderPass& pass, const gl::Program& program,

@@ -113,7 +113,18 @@ constexpr std::array keys{
     FolderKey{Pass, "name", "for costs and profilers; the field's word, such as \"depth map\", \"blur\", \"resolve\"",
               "needed", text},
     FolderKey{Pass, "draw", "`casters`: the scene, as the light's view sees it; `screen`: each texel of the target once",
-              "needed", oneOf<draws>},
+              "this or `compute`", oneOf<draws>},
+    FolderKey{
+        Pass, "compute",
+        "in place of `draw` and `fragment`: a compute shader of the folder or one of ours, which stores into the targets",
+        "this or `draw`", text},
+    FolderKey{Pass, "work_groups",
+              "of `compute`: how many along x, y and z, each a number or the target whose texels along that axis it is",
+              "an invocation for each texel of the first target",
+              [] {
+                  return std::string(
+                      R"("type": "array", "minItems": 3, "maxItems": 3, "items": {"type": ["string", "integer"]})");
+              }},
     FolderKey{Pass, "to", "the target that is written, or a list of them in the order of the shader's outputs", "needed",
               [] { return std::string(R"("type": ["string", "array"], "items": {"type": "string"}, "maxItems": 7)"); }},
     FolderKey{Pass, "fragment", "a file of the folder or one of ours; casters without one write depth alone",

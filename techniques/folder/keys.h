@@ -37,7 +37,7 @@ inline constexpr Words<bool, 2> cascadeWarps{"warp", {{{true, "lispsm"}, {false,
 inline constexpr Words<bool, 2> cascadeTexels{"stable", {{{true, "texels"}, {false, "none"}}}};
 inline constexpr Words<MapParameters, 2> mapBiases{
     "depth_map", {{{MapParameters::DepthBias, "depth-bias"}, {MapParameters::AnyBias, "any-bias"}}}};
-inline constexpr Words<bool, 2> draws{"draw", {{{true, "casters"}, {false, "screen"}}}};
+inline constexpr Words<PassKind, 2> draws{"draw", {{{PassKind::Casters, "casters"}, {PassKind::Screen, "screen"}}}};
 inline constexpr Words<bool, 2> filters{"filter", {{{false, "nearest"}, {true, "linear"}}}}; // whether it is linear
 inline constexpr Words<Blend, 4> blends{
     "blend", {{{Blend::Add, "add"}, {Blend::Min, "min"}, {Blend::Max, "max"}, {Blend::Multiply, "multiply"}}}};

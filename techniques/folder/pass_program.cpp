@@ -34,17 +34,22 @@ gl::Defines definesOf(const TechniqueFolder& folder, const Parameters& values) {
     return defines;
 }
 
+/// Of `target`; null: of visibility.
+std::string imageType(const FolderTarget* target) {
+    return target != nullptr && target->format == gl::Format::RG32UI ? "uimage2D" : "image2D";
+}
+
 class PassProgram {
 public:
     PassProgram(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values)
         : folder_(folder), pass_(pass), values_(values) {}
 
     [[nodiscard]] gl::Program made(const gl::Defines& defines) const {
-        const std::string vertex = pass_.casters ? "folder/casters.vert" : "gl/screen.vert";
         try {
-            gl::Program program =
-                gl::Program::ofFolder(vertex, {folder_.path.string(), folder_.shaders}, pass_.fragment, defines);
-            for (const auto& [name, type] : program.uniformTypes()) requireKnown(name, type);
+            gl::Program program = linked(defines);
+            const auto types = program.uniformTypes();
+            for (const auto& [name, type] : types) requireKnown(name, type);
+            if (pass_.kind == PassKind::Compute) requireStores(types);
             return program;
         } catch (const InternalError& error) {
             throw BadInput(firstErrorIn(error.what()));
@@ -52,7 +57,31 @@ public:
     }
 
 private:
-    [[nodiscard]] std::string file() const { return gl::placeOf({folder_.path.string(), folder_.shaders}, pass_.fragment); }
+    [[nodiscard]] gl::Program linked(const gl::Defines& defines) const {
+        const gl::ShaderFolder folder{folder_.path.string(), folder_.shaders};
+        if (pass_.kind == PassKind::Compute) return gl::Program::computeOfFolder(folder, pass_.shader, defines);
+        const char* vertex = pass_.kind == PassKind::Casters ? "folder/casters.vert" : "gl/screen.vert";
+        return gl::Program::ofFolder(vertex, folder, pass_.shader, defines);
+    }
+
+    /// Of a compute pass: that it can store into all targets, and has the targets that its groups are counted by.
+    void requireStores(const std::map<std::string, std::string>& types) const {
+        for (const std::string& name : pass_.to)
+            if (!types.contains(name))
+                throw BadInput(
+                    fmt::format("{}: the pass \"{}\" writes {}, but its shader stores into no such image: declare "
+                                "writeonly uniform {} {};",
+                                file(), pass_.name, name, imageType(targetOf(name)), name));
+        for (const GroupCount& count : pass_.groups)
+            if (const auto* name = std::get_if<std::string>(&count);
+                name != nullptr && isLeftOut(folder_, *targetOf(*name), values_))
+                throw BadInput(
+                    fmt::format("{}: the pass \"{}\" has a work group for each texel of {}, which no pass writes with "
+                                "these parameters: say another target or a number",
+                                (folder_.path / "technique.toml").string(), pass_.name, *name));
+    }
+
+    [[nodiscard]] std::string file() const { return gl::placeOf({folder_.path.string(), folder_.shaders}, pass_.shader); }
 
     /// The line of the compiler's log that is the first error, where warnings may come before; of the linker's, after the
     /// file.
@@ -70,29 +99,35 @@ private:
         return first;
     }
 
+    struct Declaration {
+        std::string place; // file and line
+        std::string line;  // empty where none was found
+    };
+
     /// Where a file of the folder declares a uniform: the pass's own first.
-    [[nodiscard]] std::string placeOf(const std::string& uniform) const {
+    [[nodiscard]] Declaration declarationOf(const std::string& uniform) const {
         const std::regex declaration("\\buniform\\b.*\\b" + uniform + "\\b");
         std::vector<std::string> names;
-        if (folder_.shaders.contains(pass_.fragment)) names.push_back(pass_.fragment);
+        if (folder_.shaders.contains(pass_.shader)) names.push_back(pass_.shader);
         for (const auto& [name, text] : folder_.shaders) names.push_back(name);
         for (const std::string& name : names) {
             std::istringstream lines(folder_.shaders.at(name));
             std::string line;
             for (int number = 1; std::getline(lines, line); ++number)
                 if (line.size() < 1000 && std::regex_search(line, declaration)) // regex recurses by the character
-                    return fmt::format("{}/{}:{}", folder_.path.string(), name, number);
+                    return {fmt::format("{}/{}:{}", folder_.path.string(), name, number), line};
         }
-        return file();
+        return {file(), ""};
     }
 
     [[noreturn]] void fail(const std::string& uniform, const std::string& sentence) const {
-        throw BadInput(fmt::format("{}: {}", placeOf(uniform), sentence));
+        throw BadInput(fmt::format("{}: {}", declarationOf(uniform).place, sentence));
     }
 
     /// All but what the program sets by itself for casters.
     void requireKnown(const std::string& name, const std::string& type) const {
-        if (pass_.casters && (name == "clipFromWorld" || name == "lightPlane")) return;
+        if (isImage(type)) return requireImage(name, type);
+        if (pass_.kind == PassKind::Casters && (name == "clipFromWorld" || name == "lightPlane")) return;
         if (const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name); input != folderInputs().end())
             return requireInput(name, type, *input);
         const auto pattern = std::ranges::find(folder_.patterns, name, &FolderPattern::name);
@@ -112,14 +147,28 @@ private:
             fail(name, fmt::format("the pass \"{}\" reads {}, which it writes; write another target", pass_.name, name));
     }
 
+    /// Those that a pass stores into are all the images that there are. What they were is not read: their format is the
+    /// target's, which the shader need not say then.
+    void requireImage(const std::string& name, const std::string& type) const {
+        if (pass_.kind != PassKind::Compute) fail(name, "images are stored into by compute passes alone: declare a sampler");
+        if (std::ranges::count(pass_.to, name) == 0)
+            fail(name, fmt::format("the pass \"{}\" does not write {}{}: name it in `to`", pass_.name, name,
+                                   didYouMean(name, pass_.to)));
+        requireType(name, type, imageType(targetOf(name)));
+        const std::string line = declarationOf(name).line;
+        if (!line.empty() && line.find("writeonly") == std::string::npos)
+            fail(name, fmt::format("images are written alone: declare writeonly uniform {} {};", type, name));
+    }
+
     /// Casters are drawn into one view at a time; other passes read all.
     void requireInput(const std::string& name, const std::string& type, const FolderInput& input) const {
         if (name == "sliceEnds" && folder_.view != FolderView::Cascades)
             fail(name, "is of cascades: say view = \"cascades\"");
-        if (pass_.casters && input.type.ends_with("[]"))
+        if (pass_.kind == PassKind::Casters && input.type.ends_with("[]"))
             fail(name, fmt::format("\"{}\" is of passes over the screen; casters are drawn into one view at a time", name));
         const bool several = folder_.view == FolderView::Cube || folder_.view == FolderView::Cascades;
-        const std::string each = std::string(input.type) + (input.ofEachView && several && !pass_.casters ? "[]" : "");
+        const std::string each =
+            std::string(input.type) + (input.ofEachView && several && pass_.kind != PassKind::Casters ? "[]" : "");
         requireType(name, type, each);
     }
 
@@ -158,23 +207,25 @@ std::string text(const Amount& amount) {
 
 /// One that includes what is not there has no other text than its own.
 std::string shaderText(const TechniqueFolder& folder, const FolderPass& pass) {
-    if (pass.fragment.empty()) return "";
+    if (pass.shader.empty()) return "";
     try {
-        return gl::loadShader({"", folder.shaders}, pass.fragment, pass.defines).text;
+        return gl::loadShader({"", folder.shaders}, pass.shader, pass.defines).text;
     } catch (const InternalError&) {
-        const auto own = folder.shaders.find(pass.fragment);
-        return own == folder.shaders.end() ? pass.fragment : own->second;
+        const auto own = folder.shaders.find(pass.shader);
+        return own == folder.shaders.end() ? pass.shader : own->second;
     }
 }
 
 std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
     const glm::vec4 clear = pass.clear.value_or(glm::vec4(-1));
     std::string state = fmt::format(
-        "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", pass.casters, static_cast<int>(pass.bias), pass.peels,
-        pass.when ? pass.when->parameter + "=" + pass.when->word : "", text(pass.slopeOffset), text(pass.unitOffset),
-        pass.clear.has_value(), clear.x, clear.y, clear.z, clear.w, pass.blend ? static_cast<int>(*pass.blend) : -1,
-        static_cast<int>(pass.cull), pass.depthTest, text(pass.repeat));
-    if (pass.casters) {
+        "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", pass.kind == PassKind::Casters, static_cast<int>(pass.bias),
+        pass.peels, pass.when ? pass.when->parameter + "=" + pass.when->word : "", text(pass.slopeOffset),
+        text(pass.unitOffset), pass.clear.has_value(), clear.x, clear.y, clear.z, clear.w,
+        pass.blend ? static_cast<int>(*pass.blend) : -1, static_cast<int>(pass.cull), pass.depthTest, text(pass.repeat));
+    for (const GroupCount& count : pass.groups)
+        state += std::visit([](const auto& value) { return fmt::format(" {}", value); }, count);
+    if (pass.kind == PassKind::Casters) {
         const FolderCascades& cascades = folder.cascades;
         state +=
             fmt::format("\n{} {} {} {} {} {} {}", static_cast<int>(folder.view), text(cascades.count), text(cascades.lambda),
@@ -191,6 +242,8 @@ std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
 
 } // namespace
 
+bool isImage(std::string_view type) { return type.starts_with("image2D") || type.starts_with("uimage2D"); }
+
 std::map<std::string, std::string> passHashes(const TechniqueFolder& folder) {
     std::map<std::string, std::string> texts, hashes;
     for (const FolderPass& pass : folder.passes)
@@ -200,7 +253,7 @@ std::map<std::string, std::string> passHashes(const TechniqueFolder& folder) {
 }
 
 gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values, int views) {
-    if (pass.fragment.empty()) return {"shared/maps/depth_map.vert", "gl/depth_only.frag"};
+    if (pass.shader.empty()) return {"shared/maps/depth_map.vert", "gl/depth_only.frag"};
     gl::Defines defines = definesOf(folder, values);
     defines.emplace_back("TILES", std::to_string(views));
     defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());

@@ -10,6 +10,7 @@ namespace shadowbench::techniques {
 namespace {
 
 constexpr int mostPasses = 64, mostRepetitions = 64;
+constexpr int mostGroupsOfAxis = 65535;   // the least that GL promises
 constexpr std::ptrdiff_t mostWritten = 7; // GL promises 8 of colour; casters may need depths beside them
 
 class PassReader {
@@ -19,7 +20,7 @@ public:
     void add() {
         value_.only(keysOf(KeyTable::Pass));
         pass_.name = words(value_.get("name"));
-        pass_.casters = draws.named(value_.get("draw").oneOf(draws.all()));
+        readKind();
         readTargets(value_.get("to"));
         readShader();
         if (const auto when = value_.find("when")) pass_.when = conditionOf(*when, read_);
@@ -27,10 +28,9 @@ public:
         if (const auto blend = value_.find("blend")) pass_.blend = blends.named(blend->oneOf(blends.all()));
         if (const auto clear = value_.find("clear")) readClear(*clear);
         requireSomethingBelow();
-        if (pass_.casters)
-            readCasters();
-        else
-            requireScreen();
+        if (pass_.kind == PassKind::Casters) readCasters();
+        if (pass_.kind == PassKind::Screen) requireScreen();
+        if (pass_.kind == PassKind::Compute) readGroups();
         requireFloats();
         readRepetition();
         read_.passes.push_back(std::move(pass_));
@@ -42,6 +42,18 @@ private:
         return found == read_.targets.end() ? nullptr : &*found;
     }
 
+    void readKind() {
+        if (!value_.find("compute")) {
+            if (const auto groups = value_.find("work_groups"))
+                groups->fail("is of a compute pass: say compute = \"FILE.comp\"");
+            pass_.kind = draws.named(value_.get("draw").oneOf(draws.all()));
+            return;
+        }
+        pass_.kind = PassKind::Compute;
+        for (const char* key : {"draw", "fragment", "blend", "clear", "offset", "cull", "depth_test", "peel"})
+            if (const auto said = value_.find(key)) said->fail("is of a pass that draws; this one computes");
+    }
+
     void readTargets(const TomlValue& to) {
         if (to.isList())
             for (const TomlValue& name : to.list()) addTarget(name);
@@ -51,14 +63,16 @@ private:
         if (std::ssize(pass_.to) > mostWritten) to.fail(fmt::format("a pass writes {} targets at most", mostWritten));
     }
 
+    /// `others`: names that might have stood there, too.
+    [[nodiscard]] std::string noTarget(const std::string& name, std::vector<std::string> others) const {
+        for (const FolderTarget& known : read_.targets) others.push_back(known.name);
+        return fmt::format("there is no target \"{}\"{}", name, didYouMean(name, others));
+    }
+
     void addTarget(const TomlValue& value) {
         const std::string name = value.text();
         const FolderTarget* target = targetNamed(name);
-        if (target == nullptr && name != visibilityTarget) {
-            std::vector<std::string> names{visibilityTarget};
-            for (const FolderTarget& known : read_.targets) names.push_back(known.name);
-            value.fail(fmt::format("there is no target \"{}\"{}", name, didYouMean(name, names)));
-        }
+        if (target == nullptr && name != visibilityTarget) value.fail(noTarget(name, {visibilityTarget}));
         if (std::ranges::find(pass_.to, name) != pass_.to.end()) value.fail("is written twice");
         if (!pass_.to.empty()) {
             const FolderTarget* first = targetNamed(pass_.to.front());
@@ -70,10 +84,10 @@ private:
     }
 
     void readShader() {
-        if (const auto fragment = value_.find("fragment")) {
-            pass_.fragment = fragment->text();
-            if (!read_.shaders.contains(pass_.fragment) && !gl::isEmbedded(pass_.fragment)) fragment->fail(noShader());
-        } else if (!pass_.casters) {
+        if (const auto shader = value_.find(pass_.kind == PassKind::Compute ? "compute" : "fragment")) {
+            pass_.shader = shader->text();
+            if (!read_.shaders.contains(pass_.shader) && !gl::isEmbedded(pass_.shader)) shader->fail(noShader());
+        } else if (pass_.kind == PassKind::Screen) {
             value_.fail("a pass over the screen needs a fragment shader: fragment = \"resolve.frag\"");
         }
         if (const auto defines = value_.find("define"))
@@ -83,8 +97,7 @@ private:
     [[nodiscard]] std::string noShader() const {
         std::vector<std::string> names;
         for (const auto& [file, text] : read_.shaders) names.push_back(file);
-        return fmt::format("{} has no shader \"{}\"{}", read_.path.string(), pass_.fragment,
-                           didYouMean(pass_.fragment, names));
+        return fmt::format("{} has no shader \"{}\"{}", read_.path.string(), pass_.shader, didYouMean(pass_.shader, names));
     }
 
     void addDefine(const TomlValue& value) {
@@ -97,7 +110,8 @@ private:
     }
 
     void readClear(const TomlValue& clear) {
-        if (!pass_.casters && !pass_.blend) clear.fail("is of casters, or with blend: all else is drawn over");
+        if (pass_.kind != PassKind::Casters && !pass_.blend)
+            clear.fail("is of casters, or with blend: all else is drawn over");
         const std::vector<TomlValue> four = clear.list();
         if (four.size() != 4) clear.fail("expected four numbers");
         pass_.clear.emplace();
@@ -106,7 +120,7 @@ private:
 
     /// Casters are drawn over cleared colours; over the screen blending takes what an earlier pass has drawn.
     void requireSomethingBelow() const {
-        if (!pass_.blend || pass_.casters || pass_.clear) return;
+        if (!pass_.blend || pass_.kind == PassKind::Casters || pass_.clear) return;
         const auto draws = [&](const FolderPass& before, const std::string& name) {
             return std::ranges::count(before.to, name) > 0 && (!before.when || before.when == pass_.when);
         };
@@ -126,8 +140,8 @@ private:
         if (depths() > 1) value_.fail("one target of depths is all that a pass has");
         if (pass_.to.front() == visibilityTarget || targetNamed(pass_.to.front())->ofImage)
             value_.fail("casters are drawn into a map, which has a size of its own");
-        if (pass_.fragment.empty() && std::ssize(pass_.to) > depths()) value_.fail("colours need a fragment shader");
-        if (pass_.peels && (depths() == 0 || pass_.fragment.empty()))
+        if (pass_.shader.empty() && std::ssize(pass_.to) > depths()) value_.fail("colours need a fragment shader");
+        if (pass_.peels && (depths() == 0 || pass_.shader.empty()))
             value_.get("peel").fail("needs a target of depths, behind which it draws, and another with a fragment shader");
         if (!pass_.clear) pass_.clear = glm::vec4(0);
         if (const auto cull = value_.find("cull")) pass_.cull = culls.named(cull->oneOf(culls.all()));
@@ -156,7 +170,7 @@ private:
     void requireFloats() const {
         for (const std::string& name : pass_.to)
             if (const FolderTarget* target = targetNamed(name); target != nullptr && target->format == gl::Format::RG32UI)
-                if (pass_.casters || pass_.blend)
+                if (pass_.kind == PassKind::Casters || pass_.blend)
                     value_.fail(fmt::format("{} holds whole numbers, which are drawn over the screen without blend", name));
     }
 
@@ -165,6 +179,23 @@ private:
             value_.fail("a pass over the screen writes depths alone, by gl_FragDepth");
         for (const char* key : {"offset", "cull", "depth_test", "peel"})
             if (const auto said = value_.find(key)) said->fail("is of casters");
+    }
+
+    void readGroups() {
+        if (depths() > 0) value_.get("to").fail("no image has depths: a pass over the screen writes them, by gl_FragDepth");
+        const auto groups = value_.find("work_groups");
+        if (!groups) return;
+        const std::vector<TomlValue> three = groups->list();
+        if (three.size() != 3) groups->fail("expected three: along x, y and z");
+        for (const TomlValue& count : three) {
+            if (!count.isText()) {
+                pass_.groups.emplace_back(count.integer(1, mostGroupsOfAxis));
+                continue;
+            }
+            if (targetNamed(count.text()) == nullptr) count.fail(noTarget(count.text(), {}));
+            if (&count == &three.back()) count.fail("a target has no third side; say a number");
+            pass_.groups.emplace_back(count.text());
+        }
     }
 
     void readRepetition() {
