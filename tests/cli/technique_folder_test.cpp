@@ -109,5 +109,26 @@ TEST_F(TechniqueFolderRun, AShaderThatHangsIsOneLineAndTheOtherRowsGoOn) {
     EXPECT_EQ(records()[1].status, Status::Scored);
 }
 
+TEST_F(TechniqueFolderRun, AShaderThatHangsAtSomeValuesOfASweepIsALineForEachAndTheOthersAreScored) {
+    mine_.write("resolve.frag", replaced(replaced(hangingShader, "#define SIN sum", "#if MAP == 512\n#define SIN sum"),
+                                         "#define SIN8", "#else\n#define SIN\n#endif\n#define SIN8"));
+    const Outcome outcome =
+        shell("SHADOWBENCH_MAX_CELL_SECONDS=2 shadowbench sweep --quiet --scene " + out_ / "tiny.toml" +
+              " --technique my:mine --technique sm-uniform --axis map --values 256,512 --technique-folder " +
+              mine_.path().string() + " --cache " + out_ / "cache" + " --out " + (out_ / "out"));
+    EXPECT_EQ(outcome.code, 1) << outcome.output;
+    const std::vector<Record> swept = readRecords(out_ / "out/sweep.jsonl");
+    ASSERT_EQ(swept.size(), 4U);
+    EXPECT_EQ(swept[0].status, Status::Scored);
+    EXPECT_EQ(swept[1].status, Status::Error);
+    EXPECT_EQ(swept[1].variant, "my:mine:map=512");
+    EXPECT_EQ(swept[1].sweep->value, 512);
+    EXPECT_EQ(swept[1].reason,
+              "the process that rendered it took longer than 2 s and was ended: shorten its shaders' loops, or "
+              "raise SHADOWBENCH_MAX_CELL_SECONDS");
+    EXPECT_EQ(swept[2].status, Status::Scored);
+    EXPECT_EQ(swept[3].status, Status::Scored);
+}
+
 } // namespace
 } // namespace shadowbench
