@@ -22,6 +22,7 @@ constexpr const char* description = "technique.toml";
 constexpr int mostPatterns = 8, mostTaps = 1024;
 constexpr int mostTargets = 32, mostParameters = 32, mostVariants = 32;
 constexpr std::size_t mostFiles = 64, mostBytes = 1 << 20; // of a file
+constexpr std::size_t mostBytesTogether = 4 << 20;         // which one pass may include
 
 /// Calls `read`; BadInput of it, which knows no place, is of `value`.
 template <class Read>
@@ -258,12 +259,16 @@ std::string textOf(const fs::directory_entry& entry) {
 /// Of the folder alone, none of those that it links to; what is no shader is left alone.
 gl::ShaderFiles shadersIn(const fs::path& folder) {
     gl::ShaderFiles shaders;
+    std::size_t bytes = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const std::string ending = entry.path().extension().string();
         if (ending == ".glsl" || ending == ".frag" || ending == ".comp")
-            shaders[entry.path().filename().string()] = textOf(entry);
+            bytes += (shaders[entry.path().filename().string()] = textOf(entry)).size();
         if (shaders.size() > mostFiles)
             throw BadInput(fmt::format("{} has more than {} shaders", folder.string(), mostFiles));
+        if (bytes > mostBytesTogether)
+            throw BadInput(
+                fmt::format("the shaders of {} are larger than 4 MiB together, which is the most", folder.string()));
     }
     return shaders;
 }

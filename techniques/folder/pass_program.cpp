@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/memory.h"
+#include "base/memory_bound.h"
 #include "base/words.h"
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/patterns.h"
@@ -9,12 +11,18 @@
 #include "techniques/shared/maps/normal_offset.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <fmt/format.h>
+#include <new>
 #include <regex>
 #include <sstream>
 
 namespace shadowbench::techniques {
 namespace {
+
+/// Of Mesa's compiler, for one program: a hundred times what the largest of ours needs. Macros and functions that call each
+/// other twice would take what there is.
+constexpr std::uint64_t compilersMemory = std::uint64_t{1} << 30;
 
 /// A parameter is a macro by its name in capitals; a choice is one of name and word.
 gl::Defines definesOf(const TechniqueFolder& folder, const Parameters& values) {
@@ -46,6 +54,7 @@ public:
 
     [[nodiscard]] gl::Program made(const gl::Defines& defines) const {
         try {
+            const MemoryBound bound(compilersMemory, tooLarge());
             gl::Program program = linked(defines);
             const auto types = program.uniformTypes();
             for (const auto& [name, type] : types) requireKnown(name, type);
@@ -53,6 +62,8 @@ public:
             return program;
         } catch (const InternalError& error) {
             throw BadInput(firstErrorIn(error.what()));
+        } catch (const std::bad_alloc&) {
+            throw BadInput(tooLarge());
         }
     }
 
@@ -62,6 +73,13 @@ private:
         if (pass_.kind == PassKind::Compute) return gl::Program::computeOfFolder(folder, pass_.shader, defines);
         const char* vertex = pass_.kind == PassKind::Casters ? "folder/casters.vert" : "gl/screen.vert";
         return gl::Program::ofFolder(vertex, folder, pass_.shader, defines);
+    }
+
+    [[nodiscard]] std::string tooLarge() const {
+        return fmt::format(
+            "{}: compiling it takes more than {} of memory, or nests deeper than its stack: let its macros and "
+            "functions expand to less",
+            file(), inBytes(compilersMemory));
     }
 
     /// Of a compute pass: that it can store into all targets, and has the targets that its groups are counted by.

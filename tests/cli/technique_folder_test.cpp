@@ -4,7 +4,10 @@
 #include "tests/support/program.h"
 #include "tests/support/technique_folders.h"
 
+#include <algorithm>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace shadowbench {
 namespace {
@@ -128,6 +131,32 @@ TEST_F(TechniqueFolderRun, AShaderThatHangsAtSomeValuesOfASweepIsALineForEachAnd
               "raise SHADOWBENCH_MAX_CELL_SECONDS");
     EXPECT_EQ(swept[2].status, Status::Scored);
     EXPECT_EQ(swept[3].status, Status::Scored);
+}
+
+/// `first` and 40 more, each of which expands to the one before twice.
+std::string doubled(const std::string& first, const std::string& next) {
+    std::string text = first;
+    for (int i = 1; i <= 40; ++i) text += fmt::format(fmt::runtime(next), i, i - 1);
+    return text;
+}
+
+TEST_F(TechniqueFolderRun, AShaderThatExpandsWithoutEndIsOneLineAndTakesNoMoreMemoryThanItMay) {
+    const std::string main = "out float visibility;\nvoid main() { visibility = ";
+    for (const std::string& shader :
+         {doubled("#define A0 + sin(1.0)\n", "#define A{0} A{1} A{1}\n") + main + "0.0 A40; }\n",
+          doubled("float a0(float x) { return sin(x); }\n", "float a{0}(float x) {{ return a{1}(a{1}(x)); }}\n") + main +
+              "a40(gl_FragCoord.x); }\n",
+          main + std::string(200'000, '-') + "1.0; }\n"}) {
+        mine_.write("resolve.frag", shader);
+        const Outcome outcome = shell("shadowbench check " + mine_.path().string());
+        EXPECT_EQ(outcome.code, 2) << outcome.output;
+        EXPECT_TRUE(outcome.output.starts_with("shadowbench: " + (mine_.path() / "resolve.frag").string() + ":"))
+            << outcome.output;
+        EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    }
+    rusage used{};
+    getrusage(RUSAGE_CHILDREN, &used);
+    EXPECT_LT(used.ru_maxrss, 2 << 20); // KiB
 }
 
 } // namespace
