@@ -198,9 +198,8 @@ private:
         if (!target.ofImage) target.side = amountOf(size, read_);
         if (const double* texels = std::get_if<double>(&target.side); !target.ofImage && texels != nullptr)
             target.side = static_cast<double>(size.integer(1, mostTexelsOfSide));
-        if (target.compare && target.format != gl::Format::Depth32F)
-            value.fail("only depths compare: format = \"Depth32F\"");
-        if (target.mipmaps && target.format == gl::Format::Depth32F) value.fail("depths have no mipmaps");
+        if (target.compare && !isDepth(target.format)) value.fail("only depths compare: format = \"Depth32F\"");
+        if (target.mipmaps && isDepth(target.format)) value.fail("depths have no mipmaps");
         if ((target.mipmaps || target.linear) && target.format == gl::Format::RG32UI)
             value.fail("whole numbers are not interpolated: leave filter and mipmaps out");
         if (target.history && !read_.entry.temporal)
@@ -219,7 +218,7 @@ private:
         if (choices == nullptr) format.fail(fmt::format("{} is a number; its choices would be formats", parameter->name));
         for (const std::string& word : choices->values)
             if (const gl::Format each = at(format, [&] { return formats.named(word); });
-                each == gl::Format::Depth32F || each == gl::Format::RG32UI)
+                isDepth(each) || each == gl::Format::RG32UI)
                 format.fail(fmt::format("{} is none to choose: shaders read it in another way", word));
         target.format = formats.named(parameter->defaultValue);
         target.chosen = parameter->name;

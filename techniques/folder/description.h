@@ -88,6 +88,19 @@ enum class Blend { Add, Min, Max, Multiply };
 /// Which triangles of casters are left out.
 enum class Cull { None, Front, Back };
 
+/// When a pass draws a pixel, by the stencil that is there.
+enum class StencilTest { Always, Equal, NotEqual };
+
+/// What becomes of it; whole numbers of 8 bits wrap around.
+enum class StencilOperation { Keep, Replace, Increment, Decrement, Invert };
+
+/// Of a pass with a target of depths and stencil.
+struct FolderStencil {
+    StencilTest test = StencilTest::Always;
+    int reference = 0; // that is tested against, and replaces
+    StencilOperation pass = StencilOperation::Keep, depthFail = StencilOperation::Keep, fail = StencilOperation::Keep;
+};
+
 /// What a pass runs.
 enum class PassKind {
     Casters, // draws them into the map
@@ -117,6 +130,7 @@ struct FolderPass {
     std::optional<Blend> blend;
     Cull cull = Cull::None;
     bool depthTest = true;
+    std::optional<FolderStencil> stencil = {};
     bool peels = false;                       // only casters behind the target of depths, which stays as it is
     std::optional<FolderCondition> when = {}; // else it is left out
     Amount repeat = 1.0;                      // how often; said by the first pass of a group
@@ -138,6 +152,11 @@ struct TechniqueFolder {
 
 /// Of a target as a row has it.
 gl::Format formatOf(const FolderTarget& target, const Parameters& values);
+
+/// Whether it is one of depths, with a stencil or without.
+constexpr bool isDepth(gl::Format format) {
+    return format == gl::Format::Depth32F || format == gl::Format::Depth32FStencil8;
+}
 
 /// Texels per side of a target that is no image.
 inline constexpr int mostTexelsOfSide = 8192;

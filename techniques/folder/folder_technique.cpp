@@ -1,6 +1,7 @@
 #include "techniques/folder/folder_technique.h"
 
 #include "base/error.h"
+#include "techniques/folder/draw_state.h"
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/pass_program.h"
 #include "techniques/folder/patterns.h"
@@ -17,54 +18,6 @@
 namespace shadowbench::techniques {
 namespace {
 
-/// As long as it lives; everything else draws without.
-class Blending {
-public:
-    explicit Blending(std::optional<Blend> blend) {
-        if (!blend) return;
-        glEnable(GL_BLEND);
-        glBlendFunc(blend == Blend::Multiply ? GL_DST_COLOR : GL_ONE, blend == Blend::Multiply ? GL_ZERO : GL_ONE);
-        glBlendEquation(blend == Blend::Min ? GL_MIN : blend == Blend::Max ? GL_MAX : GL_FUNC_ADD);
-    }
-    ~Blending() {
-        glBlendEquation(GL_FUNC_ADD);
-        glDisable(GL_BLEND);
-    }
-    Blending(const Blending&) = delete;
-    Blending& operator=(const Blending&) = delete;
-};
-
-class Culling {
-public:
-    explicit Culling(Cull cull) {
-        if (cull == Cull::None) return;
-        glEnable(GL_CULL_FACE);
-        glCullFace(cull == Cull::Front ? GL_FRONT : GL_BACK);
-    }
-    ~Culling() {
-        glCullFace(GL_BACK);
-        glDisable(GL_CULL_FACE);
-    }
-    Culling(const Culling&) = delete;
-    Culling& operator=(const Culling&) = delete;
-};
-
-/// What lies behind the depths that are there, which stay, as long as it lives.
-class Peeling {
-public:
-    explicit Peeling(bool peels) {
-        if (!peels) return;
-        glDepthFunc(GL_GREATER);
-        glDepthMask(GL_FALSE);
-    }
-    ~Peeling() {
-        glDepthMask(GL_TRUE);
-        glDepthFunc(GL_LESS);
-    }
-    Peeling(const Peeling&) = delete;
-    Peeling& operator=(const Peeling&) = delete;
-};
-
 /// Confines drawing to one of several tiles, as long as it lives.
 class Tiling {
 public:
@@ -78,6 +31,8 @@ public:
     Tiling(const Tiling&) = delete;
     Tiling& operator=(const Tiling&) = delete;
 };
+
+bool hasDepths(const gl::Texture* texture) { return isDepth(texture->format()); }
 
 class FolderTechnique final : public Technique {
 public:
@@ -102,6 +57,7 @@ public:
         if (imageSize_ != frame.size) reset();
         imageSize_ = frame.size;
         if (targets_.empty()) makeTargets();
+        clearStencils();
         views_.fit(frame, tiles_.empty() ? 0 : tiles_.front().size.x);
         for (std::size_t first = 0; first < passes_.size();) {
             const std::size_t end = endOfGroup(first);
@@ -177,7 +133,7 @@ private:
     }
 
     [[nodiscard]] gl::Texture textureOf(const FolderTarget& target, glm::ivec2 size, bool linear) const {
-        const bool depths = target.format == gl::Format::Depth32F;
+        const bool depths = isDepth(target.format);
         gl::Texture texture(formatOf(target, values_), size, linear ? gl::Filter::Linear : gl::Filter::Nearest,
                             depths ? gl::Wrap::BorderFar : gl::Wrap::ClampToEdge,
                             target.mipmaps ? gl::Levels::All : gl::Levels::One);
@@ -185,9 +141,14 @@ private:
         return texture;
     }
 
+    void clearStencils() const {
+        for (const auto& [name, target] : targets_)
+            if (target.now.format() == gl::Format::Depth32FStencil8) gl::RenderTarget({&target.now}).clearStencil();
+    }
+
     static void clear(const gl::Texture& texture) {
         const gl::RenderTarget target({&texture});
-        if (texture.format() == gl::Format::Depth32F)
+        if (isDepth(texture.format()))
             target.clearDepth(1);
         else if (texture.format() == gl::Format::RG32UI)
             target.clearColour(0, 0U);
@@ -253,14 +214,15 @@ private:
         program.dispatchGroups(groups);
     }
 
-    static void drawScreen(const FolderPass& pass, const gl::Program& program,
-                           const std::vector<const gl::Texture*>& attachments) {
+    static void drawScreen(const FolderPass& pass, const gl::Program& program, std::vector<const gl::Texture*> attachments) {
+        const auto colours =
+            std::ranges::stable_partition(attachments, std::not_fn(hasDepths)).begin() - attachments.begin();
         const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
         if (pass.clear)
-            for (std::size_t i = 0; i < attachments.size(); ++i) target.clearColour(static_cast<int>(i), *pass.clear);
+            for (std::ptrdiff_t i = 0; i < colours; ++i) target.clearColour(static_cast<int>(i), *pass.clear);
         target.bind();
-        const Blending blending(pass.blend);
-        if (attachments.front()->format() == gl::Format::Depth32F)
+        const DrawState state(pass);
+        if (!pass.stencil && isDepth(attachments.front()->format()))
             program.drawScreenDepth();
         else
             program.drawScreen();
@@ -269,15 +231,14 @@ private:
     /// Where no depths are kept the nearest casters are found in a buffer of the program's own.
     void drawCasters(const FolderPass& pass, gl::Program& program, const Frame& frame,
                      std::vector<const gl::Texture*> attachments) {
-        const auto isDepth = [](const gl::Texture* t) { return t->format() == gl::Format::Depth32F; };
-        if (pass.depthTest && std::ranges::none_of(attachments, isDepth)) {
+        if (pass.depthTest && std::ranges::none_of(attachments, hasDepths)) {
             const glm::ivec2 size = attachments.front()->size();
             if (!ownDepths_ || ownDepths_->size() != size) ownDepths_.emplace(gl::Format::Depth32F, size);
             attachments.push_back(&*ownDepths_);
         }
-        std::ranges::stable_partition(attachments, std::not_fn(isDepth));
+        std::ranges::stable_partition(attachments, std::not_fn(hasDepths));
         const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
-        const auto colours = std::ranges::count_if(attachments, std::not_fn(isDepth));
+        const auto colours = std::ranges::count_if(attachments, std::not_fn(hasDepths));
         for (int i = 0; i < colours; ++i) target.clearColour(i, *pass.clear);
         if (pass.depthTest && !pass.peels) target.clearDepth(1);
         const std::vector<Tile> tiles = tilesOf(pass.to.front());
@@ -291,10 +252,7 @@ private:
 
     void drawView(const FolderPass& pass, gl::Program& program, const Frame& frame, std::size_t view) const {
         const CasterPass casters(program, views_.views()[view], biasOf(pass));
-        const Blending blending(pass.blend);
-        const Culling culling(pass.cull);
-        if (!pass.depthTest) glDisable(GL_DEPTH_TEST); // until the next pass sets it
-        const Peeling peeling(pass.peels);
+        const DrawState state(pass);
         if (const std::vector<bool>* shown = views_.casters(view))
             frame.scene.draw(*shown);
         else

@@ -97,8 +97,9 @@ constexpr std::array keys{
               [] { return std::string(R"("type": "integer")"); }},
 
     FolderKey{Target, "format",
-              "`R8`, `RGBA8`, `R32F`, `RG16F`, `RG32F`, `RGBA16`, `RGBA16F`, `RGBA32F`, `RG32UI` or `Depth32F`, or the "
-              "parameter whose choices are some of them, without the last two",
+              "`R8`, `RGBA8`, `R32F`, `RG16F`, `RG32F`, `RGBA16`, `RGBA16F`, `RGBA32F`, `RG32UI`, `Depth32F` or "
+              "`Depth32FStencil8`, "
+              "or the parameter whose choices are some of them, without the last three",
               "needed", formatOrParameter},
     FolderKey{Target, "size",
               "`\"image\"`, texels per side, or the parameter that has them; with several views they share as many texels",
@@ -156,6 +157,20 @@ constexpr std::array keys{
               "`false`", flag},
     FolderKey{Pass, "depth_test", "of casters without a target of depths: `false` draws all of them, not the nearest alone",
               "`true`", flag},
+    FolderKey{Pass, "stencil", "`[pass.stencil]`, below: of a pass with a target of the format `Depth32FStencil8`", "none",
+              tables},
+
+    FolderKey{Stencil, "test",
+              "which pixels are drawn: `always` all, `equal` and `not-equal` those whose stencil is, or is not, `ref`",
+              "`always`", oneOf<stencilTests>},
+    FolderKey{Stencil, "ref", "0 to 255", "0", [] { return std::string(R"("type": "integer")"); }},
+    FolderKey{
+        Stencil, "pass",
+        "what becomes of the stencil where a pixel is drawn: `keep`, `replace` (by `ref`), `increment` or `decrement` (255 "
+        "and 0 are neighbours) or `invert` (its bits)",
+        "`keep`", oneOf<stencilOperations>},
+    FolderKey{Stencil, "depth_fail", "the same of casters where the depth test fails", "`keep`", oneOf<stencilOperations>},
+    FolderKey{Stencil, "fail", "the same where `test` fails", "`keep`", oneOf<stencilOperations>},
 };
 
 std::string quoted(std::string_view words) {
@@ -175,6 +190,9 @@ std::string keySchema(const FolderKey& key, const std::string& indent) {
     std::string schema = fmt::format("{{\"description\": {}, {}", quoted(key.meaning), key.schema());
     if (key.table == Root && key.name == "cascades")
         return fmt::format("{{\"description\": {},{}\n{}}}", quoted(key.meaning), tableSchema(Cascades, indent + "  "),
+                           indent);
+    if (key.table == Pass && key.name == "stencil")
+        return fmt::format("{{\"description\": {},{}\n{}}}", quoted(key.meaning), tableSchema(Stencil, indent + "  "),
                            indent);
     if (key.table == Root && key.name == "parameter") schema += ", \"additionalProperties\": " + inner(Parameter);
     if (key.table == Root && key.name == "pattern") schema += ", \"additionalProperties\": " + inner(Pattern);

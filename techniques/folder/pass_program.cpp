@@ -241,6 +241,9 @@ std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
         pass.peels, pass.when ? pass.when->parameter + "=" + pass.when->word : "", text(pass.slopeOffset),
         text(pass.unitOffset), pass.clear.has_value(), clear.x, clear.y, clear.z, clear.w,
         pass.blend ? static_cast<int>(*pass.blend) : -1, static_cast<int>(pass.cull), pass.depthTest, text(pass.repeat));
+    if (const auto& s = pass.stencil)
+        state += fmt::format(" {} {} {} {} {}", static_cast<int>(s->test), s->reference, static_cast<int>(s->pass),
+                             static_cast<int>(s->depthFail), static_cast<int>(s->fail));
     for (const GroupCount& count : pass.groups)
         state += std::visit([](const auto& value) { return fmt::format(" {}", value); }, count);
     if (pass.kind == PassKind::Casters) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace shadowbench::techniques {
 namespace {
@@ -25,6 +26,7 @@ public:
         readShader();
         if (const auto when = value_.find("when")) pass_.when = conditionOf(*when, read_);
         if (const auto peel = value_.find("peel")) pass_.peels = peel->boolean();
+        if (const auto stencil = value_.find("stencil")) readStencil(*stencil);
         if (const auto blend = value_.find("blend")) pass_.blend = blends.named(blend->oneOf(blends.all()));
         if (const auto clear = value_.find("clear")) readClear(*clear);
         requireSomethingBelow();
@@ -50,7 +52,7 @@ private:
             return;
         }
         pass_.kind = PassKind::Compute;
-        for (const char* key : {"draw", "fragment", "blend", "clear", "offset", "cull", "depth_test", "peel"})
+        for (const char* key : {"draw", "fragment", "blend", "clear", "offset", "cull", "depth_test", "peel", "stencil"})
             if (const auto said = value_.find(key)) said->fail("is of a pass that draws; this one computes");
     }
 
@@ -61,6 +63,16 @@ private:
             addTarget(to);
         if (pass_.to.empty()) to.fail("names no target");
         if (std::ssize(pass_.to) > mostWritten) to.fail(fmt::format("a pass writes {} targets at most", mostWritten));
+    }
+
+    [[nodiscard]] bool hasStencil(const std::string& name) const {
+        const FolderTarget* target = targetNamed(name);
+        return target != nullptr && target->format == gl::Format::Depth32FStencil8;
+    }
+
+    /// Null: of visibility.
+    [[nodiscard]] static std::pair<bool, Amount> sizeOf(const FolderTarget* target) {
+        return target == nullptr ? std::pair(true, Amount(0.0)) : std::pair(target->ofImage, target->side);
     }
 
     /// `others`: names that might have stood there, too.
@@ -75,10 +87,12 @@ private:
         if (target == nullptr && name != visibilityTarget) value.fail(noTarget(name, {visibilityTarget}));
         if (std::ranges::find(pass_.to, name) != pass_.to.end()) value.fail("is written twice");
         if (!pass_.to.empty()) {
-            const FolderTarget* first = targetNamed(pass_.to.front());
-            if (target == nullptr || first == nullptr) value.fail("visibility is written alone");
-            if (target->ofImage != first->ofImage || target->side != first->side)
-                value.fail(fmt::format("is of another size than {}; what a pass writes is of one size", first->name));
+            const std::string& first = pass_.to.front();
+            if (const auto written = std::ranges::find(pass_.to, visibilityTarget);
+                (written != pass_.to.end() && !hasStencil(name)) || (target == nullptr && !hasStencil(first)))
+                value.fail("visibility is written alone, or with a stencil");
+            if (sizeOf(target) != sizeOf(targetNamed(first)))
+                value.fail(fmt::format("is of another size than {}; what a pass writes is of one size", first));
         }
         pass_.to.push_back(name);
     }
@@ -132,13 +146,13 @@ private:
     [[nodiscard]] std::ptrdiff_t depths() const {
         return std::ranges::count_if(pass_.to, [&](const std::string& name) {
             const FolderTarget* target = targetNamed(name);
-            return target != nullptr && target->format == gl::Format::Depth32F;
+            return target != nullptr && isDepth(target->format);
         });
     }
 
     void readCasters() {
         if (depths() > 1) value_.fail("one target of depths is all that a pass has");
-        if (pass_.to.front() == visibilityTarget || targetNamed(pass_.to.front())->ofImage)
+        if (sizeOf(targetNamed(pass_.to.front())).first)
             value_.fail("casters are drawn into a map, which has a size of its own");
         if (pass_.shader.empty() && std::ssize(pass_.to) > depths()) value_.fail("colours need a fragment shader");
         if (pass_.peels && (depths() == 0 || pass_.shader.empty()))
@@ -151,6 +165,24 @@ private:
                 test->fail("a target of depths keeps the nearest: leave one of the two out");
         }
         if (const auto offset = value_.find("offset")) readOffset(*offset);
+    }
+
+    void readStencil(const TomlValue& value) {
+        value.only(keysOf(KeyTable::Stencil));
+        if (std::ranges::none_of(pass_.to, [&](const std::string& name) { return hasStencil(name); }))
+            value.fail("needs a target with a stencil: name one of the format Depth32FStencil8 in `to`");
+        FolderStencil stencil;
+        const auto operation = [&](const char* key, StencilOperation& read) {
+            if (const auto said = value.find(key)) read = stencilOperations.named(said->oneOf(stencilOperations.all()));
+        };
+        if (const auto test = value.find("test")) stencil.test = stencilTests.named(test->oneOf(stencilTests.all()));
+        if (const auto reference = value.find("ref")) stencil.reference = reference->integer(0, 255);
+        operation("pass", stencil.pass);
+        operation("depth_fail", stencil.depthFail);
+        operation("fail", stencil.fail);
+        if (pass_.kind == PassKind::Screen && value.find("depth_fail"))
+            value.get("depth_fail").fail("is of casters; over the screen no depth is tested");
+        pass_.stencil = stencil;
     }
 
     void readOffset(const TomlValue& offset) {
@@ -175,8 +207,9 @@ private:
     }
 
     void requireScreen() const {
-        if (depths() > 0 && (pass_.to.size() > 1 || pass_.blend))
+        if (depths() > 0 && !pass_.stencil && (pass_.to.size() > 1 || pass_.blend))
             value_.fail("a pass over the screen writes depths alone, by gl_FragDepth");
+        if (depths() > 1) value_.fail("one target of depths is all that a pass has");
         for (const char* key : {"offset", "cull", "depth_test", "peel"})
             if (const auto said = value_.find(key)) said->fail("is of casters");
     }
@@ -224,7 +257,7 @@ void readPasses(const TomlValue& list, TechniqueFolder& read) {
     if (passes.empty() || passes.size() > mostPasses)
         list.fail(fmt::format("expected 1 to {} of them, got {}", mostPasses, passes.size()));
     for (const TomlValue& value : passes) PassReader(value, read).add();
-    if (read.passes.back().to != std::vector<std::string>{visibilityTarget})
+    if (std::ranges::count(read.passes.back().to, visibilityTarget) == 0)
         passes.back().fail(R"(the last pass writes the answer: to = "visibility")");
 }
 
