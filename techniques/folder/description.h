@@ -133,6 +133,7 @@ struct FolderPass {
     std::optional<FolderStencil> stencil = {};
     bool peels = false;                       // only casters behind the target of depths, which stays as it is
     std::optional<FolderCondition> when = {}; // else it is left out
+    bool once = false;                        // drawn where light or casters have changed alone; else in each frame
     Amount repeat = 1.0;                      // how often; said by the first pass of a group
     std::vector<GroupCount> groups = {};      // of Compute, three; empty: each texel of the first target has an invocation
     std::string group;                        // passes in a row with this name are repeated in turns; "": alone

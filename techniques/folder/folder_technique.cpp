@@ -1,6 +1,7 @@
 #include "techniques/folder/folder_technique.h"
 
 #include "base/error.h"
+#include "techniques/contract/surroundings.h"
 #include "techniques/folder/draw_state.h"
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/pass_program.h"
@@ -51,16 +52,22 @@ public:
     void reset() override {
         historyFrames_ = 0;
         targets_.clear();
+        keptFor_.reset();
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         if (imageSize_ != frame.size) reset();
         imageSize_ = frame.size;
         if (targets_.empty()) makeTargets();
-        clearStencils();
+        const bool keeps = isKept(frame);
+        clearStencils(keeps);
         views_.fit(frame, tiles_.empty() ? 0 : tiles_.front().size.x);
         for (std::size_t first = 0; first < passes_.size();) {
             const std::size_t end = endOfGroup(first);
+            if (keeps && passes_[first]->once) {
+                first = end;
+                continue;
+            }
             const int repetitions = static_cast<int>(valueOf(passes_[first]->repeat, values_));
             for (repetition_ = 0; repetition_ < repetitions; ++repetition_)
                 for (std::size_t i = first; i < end; ++i) {
@@ -141,9 +148,24 @@ private:
         return texture;
     }
 
-    void clearStencils() const {
+    /// Whether passes that are drawn once have been drawn for what stands there.
+    bool isKept(const Frame& frame) {
+        if (std::ranges::none_of(passes_, [](const FolderPass* pass) { return pass->once; })) return false;
+        Surroundings now(frame);
+        const bool kept = keptFor_ == now;
+        keptFor_ = std::move(now);
+        return kept;
+    }
+
+    [[nodiscard]] bool isWrittenOnce(const std::string& target) const {
+        return std::ranges::any_of(passes_,
+                                   [&](const FolderPass* p) { return p->once && std::ranges::count(p->to, target) > 0; });
+    }
+
+    void clearStencils(bool keeps) const {
         for (const auto& [name, target] : targets_)
-            if (target.now.format() == gl::Format::Depth32FStencil8) gl::RenderTarget({&target.now}).clearStencil();
+            if (target.now.format() == gl::Format::Depth32FStencil8 && !(keeps && isWrittenOnce(name)))
+                gl::RenderTarget({&target.now}).clearStencil();
     }
 
     static void clear(const gl::Texture& texture) {
@@ -268,6 +290,7 @@ private:
     std::vector<Tile> tiles_;               // of the first map; none where no casters are drawn
     std::unordered_map<std::string, Target> targets_;
     std::optional<gl::Texture> ownDepths_;
+    std::optional<Surroundings> keptFor_; // of passes that are drawn once
     Bias bias_{};
     bool followsPlane_ = true;
     glm::ivec2 imageSize_{0};

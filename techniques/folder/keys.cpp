@@ -133,6 +133,10 @@ constexpr std::array keys{
     FolderKey{Pass, "define", "macros of this pass, as `{ DIRECTION = \"ivec2(1, 0)\" }`: one file may serve several passes",
               "none", tables},
     FolderKey{Pass, "when", "the one choice of a parameter with which it is drawn, as `\"depth=midpoint\"`", "always", text},
+    FolderKey{
+        Pass, "once",
+        "`light`: drawn where light or casters have changed since, and what it has written is kept; of the view `scene`",
+        "in each frame", oneOf<changes>},
     FolderKey{Pass, "repeat", "how often it is drawn, 1 to 64, or the parameter that says it; `repetition` counts", "1",
               [] { return std::string(R"("type": ["string", "integer"])"); }},
     FolderKey{Pass, "group",

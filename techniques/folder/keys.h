@@ -40,6 +40,7 @@ inline constexpr Words<MapParameters, 2> mapBiases{
     "depth_map", {{{MapParameters::DepthBias, "depth-bias"}, {MapParameters::AnyBias, "any-bias"}}}};
 inline constexpr Words<PassKind, 2> draws{"draw", {{{PassKind::Casters, "casters"}, {PassKind::Screen, "screen"}}}};
 inline constexpr Words<bool, 2> filters{"filter", {{{false, "nearest"}, {true, "linear"}}}}; // whether it is linear
+inline constexpr Words<bool, 1> changes{"once", {{{true, "light"}}}};
 inline constexpr Words<Blend, 4> blends{
     "blend", {{{Blend::Add, "add"}, {Blend::Min, "min"}, {Blend::Max, "max"}, {Blend::Multiply, "multiply"}}}};
 inline constexpr Words<Cull, 3> culls{"cull", {{{Cull::None, "none"}, {Cull::Front, "front"}, {Cull::Back, "back"}}}};

@@ -161,6 +161,7 @@ private:
         if (isLeftOut(folder_, *target, values_))
             fail(name,
                  fmt::format("the pass \"{}\" reads {}, which no pass writes with these parameters", pass_.name, name));
+        requireKept(name, *target);
         if (std::ranges::find(pass_.to, name) != pass_.to.end())
             fail(name, fmt::format("the pass \"{}\" reads {}, which it writes; write another target", pass_.name, name));
     }
@@ -184,15 +185,30 @@ private:
             fail(name, "is of cascades: say view = \"cascades\"");
         if (pass_.kind == PassKind::Casters && input.type.ends_with("[]"))
             fail(name, fmt::format("\"{}\" is of passes over the screen; casters are drawn into one view at a time", name));
+        if (pass_.once && input.of == InputOf::Frame)
+            fail(name,
+                 fmt::format("\"{}\" changes from frame to frame, and the pass \"{}\" is drawn once: leave one of the two "
+                             "out",
+                             name, pass_.name));
         const bool several = folder_.view == FolderView::Cube || folder_.view == FolderView::Cascades;
-        const std::string each =
-            std::string(input.type) + (input.ofEachView && several && pass_.kind != PassKind::Casters ? "[]" : "");
+        const std::string each = std::string(input.type) +
+                                 (input.of == InputOf::EachView && several && pass_.kind != PassKind::Casters ? "[]" : "");
         requireType(name, type, each);
     }
 
     void requireType(const std::string& name, const std::string& type, std::string_view right) const {
         if (type != right)
             fail(name, fmt::format("the uniform \"{}\" is {}{}", name, right, type.empty() ? "" : ", not " + type));
+    }
+
+    /// What a pass that is drawn once reads is drawn once, too.
+    void requireKept(const std::string& sampler, const FolderTarget& target) const {
+        const auto isLater = [&](const FolderPass& pass) {
+            return !pass.once && std::ranges::count(pass.to, target.name) > 0;
+        };
+        if (pass_.once && std::ranges::any_of(folder_.passes, isLater))
+            fail(sampler, fmt::format("the pass \"{}\" is drawn once, but {} in each frame: say once of both or of none",
+                                      pass_.name, target.name));
     }
 
     /// Whose texels the sampler has, of this frame or the one before.
@@ -241,6 +257,7 @@ std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
         pass.peels, pass.when ? pass.when->parameter + "=" + pass.when->word : "", text(pass.slopeOffset),
         text(pass.unitOffset), pass.clear.has_value(), clear.x, clear.y, clear.z, clear.w,
         pass.blend ? static_cast<int>(*pass.blend) : -1, static_cast<int>(pass.cull), pass.depthTest, text(pass.repeat));
+    if (pass.once) state += " once";
     if (const auto& s = pass.stencil)
         state += fmt::format(" {} {} {} {} {}", static_cast<int>(s->test), s->reference, static_cast<int>(s->pass),
                              static_cast<int>(s->depthFail), static_cast<int>(s->fail));

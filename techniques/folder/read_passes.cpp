@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <utility>
 
 namespace shadowbench::techniques {
@@ -35,6 +36,7 @@ public:
         if (pass_.kind == PassKind::Compute) readGroups();
         requireFloats();
         readRepetition();
+        readOnce();
         read_.passes.push_back(std::move(pass_));
     }
 
@@ -239,10 +241,35 @@ private:
             if (!follows && std::ranges::count(read_.passes, pass_.group, &FolderPass::group) > 0)
                 group->fail("has passes above; those of a group come one after the other");
             if (follows && before->when != pass_.when) group->fail("has passes above that are drawn with another choice");
+            if (follows && before->once != value_.find("once").has_value())
+                group->fail("has passes above that are kept otherwise; say once of all or of none");
             if (follows && value_.find("repeat")) value_.get("repeat").fail("is said by the first pass of the group");
         }
         if (const auto repeat = value_.find("repeat"))
             pass_.repeat = amountWithin(*repeat, IntegerRange{1, mostRepetitions}, read_);
+    }
+
+    void readOnce() {
+        if (const auto once = value_.find("once")) {
+            pass_.once = changes.named(once->oneOf(changes.all()));
+            if (read_.view != FolderView::Scene) once->fail("is of the view scene: the others change from frame to frame");
+            for (const std::string& name : pass_.to) requireKept(*once, name);
+        }
+        for (const FolderPass& before : read_.passes)
+            for (const std::string& name : pass_.to)
+                if (before.once != pass_.once && std::ranges::count(before.to, name) > 0)
+                    value_.get("to").fail(
+                        fmt::format("{} is written by \"{}\" as well, one of them once and the other in each "
+                                    "frame: say once of both or of none",
+                                    name, before.name));
+    }
+
+    void requireKept(const TomlValue& once, const std::string& name) const {
+        const FolderTarget* target = targetNamed(name);
+        if (target == nullptr) once.fail("visibility is each frame's own; keep a target that it is made of");
+        if (target->ofImage) once.fail(fmt::format("{} is as large as the image, whose camera moves: keep a map", name));
+        if (target->history)
+            once.fail(fmt::format("{} has a history, which each frame writes: leave one of the two out", name));
     }
 
     const TomlValue& value_;
@@ -259,6 +286,12 @@ void readPasses(const TomlValue& list, TechniqueFolder& read) {
     for (const TomlValue& value : passes) PassReader(value, read).add();
     if (std::ranges::count(read.passes.back().to, visibilityTarget) == 0)
         passes.back().fail(R"(the last pass writes the answer: to = "visibility")");
+    std::vector<std::string> kept;
+    for (const FolderPass& pass : read.passes)
+        if (pass.once && std::ranges::count(kept, pass.name) == 0) kept.push_back(pass.name);
+    if (!kept.empty())
+        read.entry.computed =
+            fmt::format("when light or casters change, {}; each frame, the other passes", fmt::join(kept, ", "));
 }
 
 } // namespace shadowbench::techniques
