@@ -111,10 +111,17 @@ private:
             const std::size_t link = line.starts_with("linking ") ? line.find(" failed: ") : std::string::npos;
             if (link != std::string::npos) line = fmt::format("{}: {}", file(), line.substr(link + 9));
             if (line.find(": error: ") != std::string::npos || line.find("preprocessor error: ") != std::string::npos)
-                return line;
+                return inFolder(line);
             if (first.empty() && !line.starts_with("compiling ")) first = line;
         }
         return first;
+    }
+
+    /// What is found in a file of ours is what stands before its #include.
+    [[nodiscard]] std::string inFolder(const std::string& line) const {
+        const std::string own = folder_.path.string() + "/";
+        const bool isOurs = !line.starts_with(own) && line.find(".glsl:") != std::string::npos;
+        return isOurs ? fmt::format("{}: before or in its #include of {}", file(), line) : line;
     }
 
     struct Declaration {
