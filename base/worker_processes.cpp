@@ -69,6 +69,8 @@ bool sendMessage(int socket, Message message, std::string_view text) {
     return sendAll(socket, &message, sizeof message) && sendAll(socket, text.data(), text.size());
 }
 
+int socketOfWorker = -1; // -1: this process is none
+
 /// Progress that is sent now and then.
 Progress progressThrough(int socket) {
     return [socket, last = Clock::time_point()](double done, std::string_view what) mutable {
@@ -85,6 +87,7 @@ Progress progressThrough(int socket) {
     prctl(PR_SET_PDEATHSIG, SIGTERM); // not SIGKILL: the tools that it runs have folders to remove
     if (getppid() != parent) _exit(1);
     shareThreads(workers);
+    socketOfWorker = socket;
     std::size_t item = noMore;
     while (receiveAll(socket, &item, sizeof item) && item != noMore) {
         try {
@@ -257,6 +260,10 @@ private:
 
 void shareAmongProcesses(int workers, const SharedWork& work) { Sharing(work, workers).all(); }
 
+bool sendFailure(std::string_view sentence) {
+    return socketOfWorker >= 0 && sendMessage(socketOfWorker, {.kind = Message::Kind::Failure}, sentence);
+}
+
 void checkInOwnProcess(const std::function<void()>& check, std::chrono::seconds limit) {
     std::optional<Error> failure;
     SharedWork work;
@@ -275,7 +282,11 @@ void checkInOwnProcess(const std::function<void()>& check, std::chrono::seconds 
     work.finished = [&failure](std::size_t, const std::string& answer) {
         if (!answer.empty()) failure.emplace(static_cast<ExitCode>(answer.front()), answer.substr(1));
     };
-    work.lost = [](std::size_t, const std::string& how) { throw InternalError("the process of a check " + how); };
+    work.lost = [](std::size_t, const std::string& how) {
+        constexpr std::string_view failed = "failed: "; // what sendFailure says, as exceptions are answers here
+        if (how.starts_with(failed)) throw BadInput(how.substr(failed.size()));
+        throw InternalError("the process of a check " + how);
+    };
     work.limit = [limit](std::size_t) { return limit; };
     shareAmongProcesses(1, work);
     if (failure) throw Error(*failure);

@@ -37,6 +37,10 @@ struct SharedWork {
 /// Throws InternalError when none can be started, and what `finished` and `lost` throw.
 void shareAmongProcesses(int workers, const SharedWork& work);
 
+/// In a worker: has it lost as one that failed with `sentence`. Whether it could be sent; elsewhere it cannot. May be called
+/// by a signal's handler, which ends the worker then.
+bool sendFailure(std::string_view sentence);
+
 /// Calls `check` in such a process and throws here what it throws, as an Error of the same code and sentence: for questions
 /// that take what this process must not have made before it forks. Throws InternalError when the process is lost, as it is
 /// after `limit`; 0: never.

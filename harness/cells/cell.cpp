@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <fmt/format.h>
 
 namespace shadowbench {
@@ -113,6 +114,15 @@ std::chrono::seconds longestFor(const Scene& scene, const techniques::Variant& v
     const double size = std::max(1.0, scene.size.x * scene.size.y / (256.0 * 256.0));
     return std::chrono::seconds(
         static_cast<std::int64_t>(std::ceil(static_cast<double>(limitOf(Limit::CellSeconds)) * size)));
+}
+
+InternalError lostCell(const std::string& how) {
+    const bool isKilled = how.ends_with(fmt::format("signal {}", SIGKILL)); // as by a system without memory
+    const std::string remedy = how.ends_with("was ended")
+                                   ? fmt::format(": shorten its shaders' loops, or raise {}", variableOf(Limit::CellSeconds))
+                                   : "";
+    return InternalError(fmt::format("the process that rendered it {}{}", how, remedy),
+                         isKilled ? Failure::Transient : Failure::Lasting);
 }
 
 void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record,

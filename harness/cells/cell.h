@@ -1,6 +1,7 @@
 // One cell: a technique variant on a scene. Renders its frames, scores them against the truth, measures their cost.
 #pragma once
 
+#include "base/error.h"
 #include "harness/cells/measure_options.h"
 #include "harness/cells/scene_frames.h"
 #include "harness/cells/truths.h"
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace shadowbench {
@@ -51,6 +53,9 @@ std::optional<std::string> notApplicable(const Scene& scene, const techniques::V
 /// How long a cell may take to be drawn and scored, its truths being there: of a technique folder, whose shaders may hang.
 /// 0: as long as it does.
 std::chrono::seconds longestFor(const Scene& scene, const techniques::Variant& variant);
+
+/// What a cell ends with whose process was lost (SharedWork::lost), with what to do where that is known.
+InternalError lostCell(const std::string& how);
 
 /// Fills in status, references, accuracy, stability and work of a blank record. Throws what rendering or the truth throws,
 /// and InternalError when more than 0.1 % of the primary hits disagree with the truth's: that is an error of the set-up, not

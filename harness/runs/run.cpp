@@ -19,7 +19,6 @@
 #include "techniques/gl/context.h"
 
 #include <algorithm>
-#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <fmt/format.h>
@@ -256,12 +255,7 @@ private:
 
     MeasuredCell lost(std::size_t cell, const std::string& how) {
         makeContext();
-        const bool isKilled = how.ends_with(fmt::format("signal {}", SIGKILL)); // as by a system without memory
-        const bool isLate = how.ends_with("was ended");
-        const std::string remedy =
-            isLate ? fmt::format(": shorten its shaders' loops, or raise {}", variableOf(Limit::CellSeconds)) : "";
-        const InternalError error(fmt::format("the process that rendered it {}{}", how, remedy),
-                                  isKilled ? Failure::Transient : Failure::Lasting);
+        const InternalError error = lostCell(how);
         return {"", cellsOf(sceneOf(cell)).failed(variantOf(cell), "", error), error.code(), error.isTransient()};
     }
 

@@ -15,20 +15,23 @@ std::int64_t nanoseconds(const timespec& time) { return std::int64_t{time.tv_sec
 /// Editors leave files of their own beside those that they edit.
 bool isDrawnWith(const fs::path& file) {
     const std::string ending = file.extension().string();
-    return ending == ".glsl" || ending == ".frag" || file.filename() == "technique.toml";
+    return ending == ".glsl" || ending == ".frag" || ending == ".comp" || file.filename() == "technique.toml";
 }
 
 } // namespace
 
 FolderWatch::Files FolderWatch::filesNow() const {
     Files files;
-    std::error_code ignored; // a folder or a file that is being replaced is not there for a moment
-    for (fs::directory_iterator i(folder_, ignored), end; i != end; i.increment(ignored)) {
+    const auto add = [&](const fs::path& file) { // one that is being replaced is not there for a moment
         struct stat status {};
-        if (!isDrawnWith(i->path()) || ::stat(i->path().c_str(), &status) != 0) continue;
-        files[i->path().filename().string()] = {status.st_ino, static_cast<std::uint64_t>(status.st_size),
-                                                nanoseconds(status.st_mtim), nanoseconds(status.st_ctim)};
-    }
+        if (::stat(file.c_str(), &status) != 0) return;
+        files[file.string()] = {status.st_ino, static_cast<std::uint64_t>(status.st_size), nanoseconds(status.st_mtim),
+                                nanoseconds(status.st_ctim)};
+    };
+    std::error_code ignored; // nor is the folder
+    for (fs::directory_iterator i(folder_, ignored), end; i != end; i.increment(ignored))
+        if (isDrawnWith(i->path())) add(i->path());
+    for (const fs::path& file : others_) add(file);
     return files;
 }
 

@@ -1,4 +1,4 @@
-// Whether the files that a technique folder draws with have changed.
+// Whether the files that a technique folder is drawn with have changed.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,16 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <vector>
 
 namespace shadowbench::develop {
 
 class FolderWatch {
 public:
-    /// The files as they are now count as changed: nobody has drawn them yet.
-    explicit FolderWatch(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// Of a folder, which may be none (""), and of other `files`. As they are now they count as changed: nobody has drawn
+    /// them yet.
+    FolderWatch(std::filesystem::path folder, std::vector<std::filesystem::path> files)
+        : folder_(std::move(folder)), others_(std::move(files)) {}
 
     /// Whether they are others than when they last settled.
     [[nodiscard]] bool changed() const { return !seen_ || filesNow() != *seen_; }
@@ -29,6 +32,7 @@ private:
     [[nodiscard]] Files filesNow() const;
 
     std::filesystem::path folder_;
+    std::vector<std::filesystem::path> others_;
     std::optional<Files> seen_;
 };
 

@@ -14,10 +14,13 @@
 #include "techniques/gl/context.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 namespace shadowbench {
 namespace {
@@ -46,6 +49,12 @@ Scene atRest(Scene scene) {
     return scene;
 }
 
+/// What a worker scores in one go.
+struct Part {
+    std::size_t value;
+    std::vector<std::size_t> variants = {};
+};
+
 class Sweeper {
 public:
     explicit Sweeper(const SweepOptions& options)
@@ -65,24 +74,21 @@ public:
     }
 
     SweepResult all() {
-        ProgressLine line(fmt::format("{} over {}", scene_.id, axis_.id), static_cast<int>(values_.size()), options_.quiet);
-        int done = 0;
-        SharedWork work;
-        work.items = values_.size();
-        work.work = [this](std::size_t i, const Progress& progress) { return answerOf(i, progress); };
-        work.leave = [this] { context_.reset(); };
-        work.progress = [&](std::size_t i, double share, std::string_view what) {
-            line.show(done, share, what.empty() ? fmt::format("{}", values_[i]) : what);
-        };
-        work.finished = [&](std::size_t i, const std::string& answer) {
-            ++done;
-            keep(i, answer);
-        };
-        work.lost = [&](std::size_t i, const std::string& how) {
-            throw InternalError(fmt::format("the process that scored {} at {:g} {}", axis_.id, values_[i], how));
-        };
-        shareAmongProcesses(availableThreads(), work);
-        line.show(static_cast<int>(values_.size()), 0, "");
+        std::vector<Part> together, alone;
+        for (std::size_t value = 0; value < values_.size(); ++value) {
+            together.push_back({value});
+            for (std::size_t i = 0; i < variants_.size(); ++i)
+                (mayHang(variants_[i]) ? alone.emplace_back(Part{value}) : together.back()).variants.push_back(i);
+        }
+        ProgressLine line(fmt::format("{} over {}", scene_.id, axis_.id), static_cast<int>(together.size() + alone.size()),
+                          options_.quiet);
+        score(together, line, [&](const Part& part, const std::string& how) {
+            throw InternalError(fmt::format("the process that scored {} at {:g} {}", axis_.id, values_[part.value], how));
+        });
+        std::vector<std::pair<Part, std::string>> lost; // their records need a context, before which nothing forks
+        score(alone, line, [&](const Part& part, const std::string& how) { lost.emplace_back(part, how); });
+        for (const auto& [part, how] : lost) keepLost(part, how);
+        line.show(done_, 0, "");
         for (std::vector<Record>& curve : curves_) {
             const std::optional<double> point = breakPoint(curve);
             for (Record& record : curve) {
@@ -94,6 +100,42 @@ public:
     }
 
 private:
+    /// A technique folder's: each of its cells is drawn in a process that is ended after its limit, once the truths are
+    /// there.
+    [[nodiscard]] bool mayHang(const Variant& variant) const { return longestFor(scene_, variant).count() > 0; }
+
+    void score(const std::vector<Part>& parts, ProgressLine& line,
+               const std::function<void(const Part&, const std::string& how)>& lost) {
+        SharedWork work;
+        work.items = parts.size();
+        work.work = [&](std::size_t i, const Progress& progress) { return answerOf(parts[i], progress); };
+        work.leave = [this] { context_.reset(); };
+        work.progress = [&](std::size_t i, double share, std::string_view what) {
+            line.show(done_, share, what.empty() ? fmt::format("{}", values_[parts[i].value]) : what);
+        };
+        work.finished = [&](std::size_t i, const std::string& answer) {
+            ++done_;
+            keep(parts[i], answer);
+        };
+        work.lost = [&](std::size_t i, const std::string& how) {
+            ++done_;
+            lost(parts[i], how);
+        };
+        work.limit = [&](std::size_t i) {
+            const auto hanging =
+                std::ranges::find_if(parts[i].variants, [&](std::size_t v) { return mayHang(variants_[v]); });
+            if (hanging == parts[i].variants.end()) return std::chrono::seconds(0);
+            return longestFor(sceneAt(parts[i].value), variants_[*hanging]);
+        };
+        shareAmongProcesses(availableThreads(), work);
+    }
+
+    [[nodiscard]] Scene sceneAt(std::size_t value) const {
+        Scene scene = scene_;
+        if (!axis_.isParameter()) axis_.move(scene, values_[value]);
+        return scene;
+    }
+
     /// Sets the axis' parameter; why not, if the variant does not take the value. Making the technique tells whether its
     /// parameters go together.
     std::string setParameter(Variant& variant, double value) const {
@@ -114,36 +156,63 @@ private:
         throw BadInput(reason);
     }
 
-    /// In a worker: the exit code and the records of value `i`, a line each; instead of these what cannot be scored at all.
-    std::string answerOf(std::size_t i, const Progress& progress) {
+    /// In a worker: the exit code and the records of the part, a line each; instead of these what cannot be scored at all.
+    std::string answerOf(const Part& part, const Progress& progress) {
         if (!context_) context_ = contextOfRun(cache_.folder(), false);
         result_.code = ExitCode::Pass;
         std::string lines;
         try {
-            for (const Record& record : scoredAt(values_[i], progress)) lines += toJson(record) + "\n";
+            for (const Record& record : scoredIn(part, progress)) lines += toJson(record) + "\n";
         } catch (const Error& error) {
             return fmt::format("{}\nerror {}", static_cast<int>(error.code()), error.what());
         }
         return fmt::format("{}\n{}", static_cast<int>(result_.code), lines);
     }
 
-    void keep(std::size_t i, const std::string& answer) {
+    void keep(const Part& part, const std::string& answer) {
         std::istringstream lines(answer);
         std::string line;
         std::getline(lines, line);
         const auto code = static_cast<ExitCode>(std::stoi(line));
         if (result_.code == ExitCode::Pass) result_.code = code;
-        for (std::vector<Record>& curve : curves_) {
-            std::getline(lines, line);
+        while (std::getline(lines, line)) {
             if (line.starts_with("error ")) throw Error(code, line.substr(6));
-            curve[i] = parseRecord(line);
+            Record record = parseRecord(line);
+            const auto curve = std::ranges::find(variants_, record.sweep->curve, &Variant::name) - variants_.begin();
+            curves_[static_cast<std::size_t>(curve)][part.value] = std::move(record);
         }
     }
 
-    /// All variants where the axis has `value`.
-    std::vector<Record> scoredAt(double value, const Progress& progress) {
-        Scene scene = scene_;
-        if (!axis_.isParameter()) axis_.move(scene, value);
+    /// A variant alone.
+    void keepLost(const Part& part, const std::string& how) {
+        if (!context_) context_ = contextOfRun(cache_.folder(), false);
+        const Variant& curve = variants_[part.variants.front()];
+        const double value = values_[part.value];
+        const Variant variant = axis_.isParameter() ? withParameter(curve, axis_.id, fmt::format("{}", value)) : curve;
+        const InternalError error = lostCell(how);
+        Record& record = curves_[part.variants.front()][part.value] =
+            blankRecord(sceneAt(part.value), variant, options_.seed);
+        record.sweep = SweepStep{axis_.id, axis_.unit, curve.name, value, {}};
+        record.status = Status::Error;
+        record.reason = error.what();
+        if (result_.code == ExitCode::Pass) result_.code = error.code();
+    }
+
+    /// What the cells that follow alone are scored against, so that it takes none of their time.
+    void computeTruthsOfFolders(const Scene& scene, Truths& truths, const Progress& progress) const {
+        for (const Variant& variant : variants_) {
+            if (!mayHang(variant) || notApplicable(scene, variant)) continue;
+            for (const int frame : truths.scoredFrames()) {
+                truths.at(mainTruth(scene, variant), frame, progress);
+                if (usesPixelAreas(scene, variant)) truths.at(Truth::PixelArea, frame, progress);
+            }
+        }
+    }
+
+    /// Where the axis has the part's value.
+    std::vector<Record> scoredIn(const Part& part, const Progress& progress) {
+        const double value = values_[part.value];
+        const Scene scene = sceneAt(part.value);
         std::string unsound;
         try {
             requireWellPosed(scene);
@@ -151,13 +220,14 @@ private:
             unsound = error.what();
         }
         Truths truths(scene, cache_);
+        if (unsound.empty()) computeTruthsOfFolders(scene, truths, progress);
         SceneFrames frames(scene, truths);
         std::vector<Record> records;
-        for (std::size_t i = 0; i < variants_.size(); ++i) {
+        for (const std::size_t i : part.variants) {
             Variant variant = variants_[i];
             std::string reason = unsound;
             if (axis_.isParameter()) reason = setParameter(variant, value);
-            progress(static_cast<double>(i) / static_cast<double>(variants_.size()),
+            progress(static_cast<double>(records.size()) / static_cast<double>(part.variants.size()),
                      fmt::format("{} {}", value, variant.name));
             Record record = blankRecord(scene, variant, options_.seed);
             record.sweep = SweepStep{axis_.id, axis_.unit, variants_[i].name, value, {}};
@@ -199,6 +269,7 @@ private:
     groundtruth::Cache cache_;
     std::vector<std::vector<Record>> curves_; // of each variant, by value
     SweepResult result_;
+    int done_ = 0;                         // parts
     std::unique_ptr<gl::Context> context_; // of a worker
 };
 

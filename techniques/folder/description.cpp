@@ -22,6 +22,7 @@ constexpr const char* description = "technique.toml";
 constexpr int mostPatterns = 8, mostTaps = 1024;
 constexpr int mostTargets = 32, mostParameters = 32, mostVariants = 32;
 constexpr std::size_t mostFiles = 64, mostBytes = 1 << 20; // of a file
+constexpr std::size_t mostBytesTogether = 4 << 20;         // which one pass may include
 
 /// Calls `read`; BadInput of it, which knows no place, is of `value`.
 template <class Read>
@@ -197,9 +198,8 @@ private:
         if (!target.ofImage) target.side = amountOf(size, read_);
         if (const double* texels = std::get_if<double>(&target.side); !target.ofImage && texels != nullptr)
             target.side = static_cast<double>(size.integer(1, mostTexelsOfSide));
-        if (target.compare && target.format != gl::Format::Depth32F)
-            value.fail("only depths compare: format = \"Depth32F\"");
-        if (target.mipmaps && target.format == gl::Format::Depth32F) value.fail("depths have no mipmaps");
+        if (target.compare && !isDepth(target.format)) value.fail("only depths compare: format = \"Depth32F\"");
+        if (target.mipmaps && isDepth(target.format)) value.fail("depths have no mipmaps");
         if ((target.mipmaps || target.linear) && target.format == gl::Format::RG32UI)
             value.fail("whole numbers are not interpolated: leave filter and mipmaps out");
         if (target.history && !read_.entry.temporal)
@@ -218,7 +218,7 @@ private:
         if (choices == nullptr) format.fail(fmt::format("{} is a number; its choices would be formats", parameter->name));
         for (const std::string& word : choices->values)
             if (const gl::Format each = at(format, [&] { return formats.named(word); });
-                each == gl::Format::Depth32F || each == gl::Format::RG32UI)
+                isDepth(each) || each == gl::Format::RG32UI)
                 format.fail(fmt::format("{} is none to choose: shaders read it in another way", word));
         target.format = formats.named(parameter->defaultValue);
         target.chosen = parameter->name;
@@ -258,11 +258,16 @@ std::string textOf(const fs::directory_entry& entry) {
 /// Of the folder alone, none of those that it links to; what is no shader is left alone.
 gl::ShaderFiles shadersIn(const fs::path& folder) {
     gl::ShaderFiles shaders;
+    std::size_t bytes = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const std::string ending = entry.path().extension().string();
-        if (ending == ".glsl" || ending == ".frag") shaders[entry.path().filename().string()] = textOf(entry);
+        if (ending == ".glsl" || ending == ".frag" || ending == ".comp")
+            bytes += (shaders[entry.path().filename().string()] = textOf(entry)).size();
         if (shaders.size() > mostFiles)
             throw BadInput(fmt::format("{} has more than {} shaders", folder.string(), mostFiles));
+        if (bytes > mostBytesTogether)
+            throw BadInput(
+                fmt::format("the shaders of {} are larger than 4 MiB together, which is the most", folder.string()));
     }
     return shaders;
 }

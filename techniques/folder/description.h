@@ -5,6 +5,7 @@
 #include "techniques/gl/program.h"
 #include "techniques/shared/maps/cascade_rule.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec4.hpp>
 #include <optional>
@@ -87,6 +88,29 @@ enum class Blend { Add, Min, Max, Multiply };
 /// Which triangles of casters are left out.
 enum class Cull { None, Front, Back };
 
+/// When a pass draws a pixel, by the stencil that is there.
+enum class StencilTest { Always, Equal, NotEqual };
+
+/// What becomes of it; whole numbers of 8 bits wrap around.
+enum class StencilOperation { Keep, Replace, Increment, Decrement, Invert };
+
+/// Of a pass with a target of depths and stencil.
+struct FolderStencil {
+    StencilTest test = StencilTest::Always;
+    int reference = 0; // that is tested against, and replaces
+    StencilOperation pass = StencilOperation::Keep, depthFail = StencilOperation::Keep, fail = StencilOperation::Keep;
+};
+
+/// What a pass runs.
+enum class PassKind {
+    Casters, // draws them into the map
+    Screen,  // draws one triangle over the screen
+    Compute
+};
+
+/// Work groups of a compute pass along one axis: as many, or a target whose texels along the axis these are.
+using GroupCount = std::variant<int, std::string>;
+
 /// Of the parameters of a depth map.
 enum class MapBias {
     Own,
@@ -96,8 +120,8 @@ enum class MapBias {
 
 struct FolderPass {
     std::string name;
-    bool casters = false;        // draws them into the map; else one triangle over the screen
-    std::string fragment;        // file of the folder, or an embedded one; empty: depth alone
+    PassKind kind = PassKind::Screen;
+    std::string shader;          // file of the folder, or an embedded one; empty: depth alone
     std::vector<std::string> to; // targets, one of depth at most, or `visibility` alone
     gl::Defines defines;
     Amount slopeOffset = 0.0, unitOffset = 0.0; // of casters (shared/maps/depth_map.h, Bias)
@@ -106,9 +130,12 @@ struct FolderPass {
     std::optional<Blend> blend;
     Cull cull = Cull::None;
     bool depthTest = true;
+    std::optional<FolderStencil> stencil = {};
     bool peels = false;                       // only casters behind the target of depths, which stays as it is
     std::optional<FolderCondition> when = {}; // else it is left out
+    bool once = false;                        // drawn where light or casters have changed alone; else in each frame
     Amount repeat = 1.0;                      // how often; said by the first pass of a group
+    std::vector<GroupCount> groups = {};      // of Compute, three; empty: each texel of the first target has an invocation
     std::string group;                        // passes in a row with this name are repeated in turns; "": alone
 };
 
@@ -127,8 +154,16 @@ struct TechniqueFolder {
 /// Of a target as a row has it.
 gl::Format formatOf(const FolderTarget& target, const Parameters& values);
 
+/// Whether it is one of depths, with a stencil or without.
+constexpr bool isDepth(gl::Format format) {
+    return format == gl::Format::Depth32F || format == gl::Format::Depth32FStencil8;
+}
+
 /// Texels per side of a target that is no image.
 inline constexpr int mostTexelsOfSide = 8192;
+
+/// Work groups of a pass: an invocation each for the texels of the largest target.
+inline constexpr std::int64_t mostGroups = std::int64_t{mostTexelsOfSide} * mostTexelsOfSide;
 
 /// What a pass writes that is the technique's answer.
 inline constexpr const char* visibilityTarget = "visibility";

@@ -1,6 +1,8 @@
 #include "techniques/folder/folder_technique.h"
 
 #include "base/error.h"
+#include "techniques/contract/surroundings.h"
+#include "techniques/folder/draw_state.h"
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/pass_program.h"
 #include "techniques/folder/patterns.h"
@@ -17,54 +19,6 @@
 namespace shadowbench::techniques {
 namespace {
 
-/// As long as it lives; everything else draws without.
-class Blending {
-public:
-    explicit Blending(std::optional<Blend> blend) {
-        if (!blend) return;
-        glEnable(GL_BLEND);
-        glBlendFunc(blend == Blend::Multiply ? GL_DST_COLOR : GL_ONE, blend == Blend::Multiply ? GL_ZERO : GL_ONE);
-        glBlendEquation(blend == Blend::Min ? GL_MIN : blend == Blend::Max ? GL_MAX : GL_FUNC_ADD);
-    }
-    ~Blending() {
-        glBlendEquation(GL_FUNC_ADD);
-        glDisable(GL_BLEND);
-    }
-    Blending(const Blending&) = delete;
-    Blending& operator=(const Blending&) = delete;
-};
-
-class Culling {
-public:
-    explicit Culling(Cull cull) {
-        if (cull == Cull::None) return;
-        glEnable(GL_CULL_FACE);
-        glCullFace(cull == Cull::Front ? GL_FRONT : GL_BACK);
-    }
-    ~Culling() {
-        glCullFace(GL_BACK);
-        glDisable(GL_CULL_FACE);
-    }
-    Culling(const Culling&) = delete;
-    Culling& operator=(const Culling&) = delete;
-};
-
-/// What lies behind the depths that are there, which stay, as long as it lives.
-class Peeling {
-public:
-    explicit Peeling(bool peels) {
-        if (!peels) return;
-        glDepthFunc(GL_GREATER);
-        glDepthMask(GL_FALSE);
-    }
-    ~Peeling() {
-        glDepthMask(GL_TRUE);
-        glDepthFunc(GL_LESS);
-    }
-    Peeling(const Peeling&) = delete;
-    Peeling& operator=(const Peeling&) = delete;
-};
-
 /// Confines drawing to one of several tiles, as long as it lives.
 class Tiling {
 public:
@@ -78,6 +32,8 @@ public:
     Tiling(const Tiling&) = delete;
     Tiling& operator=(const Tiling&) = delete;
 };
+
+bool hasDepths(const gl::Texture* texture) { return isDepth(texture->format()); }
 
 class FolderTechnique final : public Technique {
 public:
@@ -97,15 +53,22 @@ public:
         historyFrames_ = 0;
         targets_.clear();
         views_.reset();
+        keptFor_.reset();
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         if (imageSize_ != frame.size) reset();
         imageSize_ = frame.size;
         if (targets_.empty()) makeTargets();
+        const bool keeps = isKept(frame);
+        clearStencils(keeps);
         views_.fit(frame, tiles_.empty() ? 0 : tiles_.front().size.x);
         for (std::size_t first = 0; first < passes_.size();) {
             const std::size_t end = endOfGroup(first);
+            if (keeps && passes_[first]->once) {
+                first = end;
+                continue;
+            }
             const int repetitions = static_cast<int>(valueOf(passes_[first]->repeat, values_));
             for (repetition_ = 0; repetition_ < repetitions; ++repetition_)
                 for (std::size_t i = first; i < end; ++i) {
@@ -166,7 +129,8 @@ private:
             }
             targets_.emplace(target.name, std::move(made));
         }
-        const auto casters = std::ranges::find_if(passes_, [](const FolderPass* pass) { return pass->casters; });
+        const auto casters =
+            std::ranges::find_if(passes_, [](const FolderPass* pass) { return pass->kind == PassKind::Casters; });
         if (casters != passes_.end()) tiles_ = tilesOf((*casters)->to.front());
     }
 
@@ -177,7 +141,7 @@ private:
     }
 
     [[nodiscard]] gl::Texture textureOf(const FolderTarget& target, glm::ivec2 size, bool linear) const {
-        const bool depths = target.format == gl::Format::Depth32F;
+        const bool depths = isDepth(target.format);
         gl::Texture texture(formatOf(target, values_), size, linear ? gl::Filter::Linear : gl::Filter::Nearest,
                             depths ? gl::Wrap::BorderFar : gl::Wrap::ClampToEdge,
                             target.mipmaps ? gl::Levels::All : gl::Levels::One);
@@ -185,9 +149,29 @@ private:
         return texture;
     }
 
+    /// Whether passes that are drawn once have been drawn for what stands there.
+    bool isKept(const Frame& frame) {
+        if (std::ranges::none_of(passes_, [](const FolderPass* pass) { return pass->once; })) return false;
+        Surroundings now(frame);
+        const bool kept = keptFor_ == now;
+        keptFor_ = std::move(now);
+        return kept;
+    }
+
+    [[nodiscard]] bool isWrittenOnce(const std::string& target) const {
+        return std::ranges::any_of(passes_,
+                                   [&](const FolderPass* p) { return p->once && std::ranges::count(p->to, target) > 0; });
+    }
+
+    void clearStencils(bool keeps) const {
+        for (const auto& [name, target] : targets_)
+            if (target.now.format() == gl::Format::Depth32FStencil8 && !(keeps && isWrittenOnce(name)))
+                gl::RenderTarget({&target.now}).clearStencil();
+    }
+
     static void clear(const gl::Texture& texture) {
         const gl::RenderTarget target({&texture});
-        if (texture.format() == gl::Format::Depth32F)
+        if (isDepth(texture.format()))
             target.clearDepth(1);
         else if (texture.format() == gl::Format::RG32UI)
             target.clearColour(0, 0U);
@@ -199,11 +183,14 @@ private:
         std::vector<const gl::Texture*> attachments;
         for (const std::string& name : pass.to)
             attachments.push_back(name == visibilityTarget ? &visibility : &targets_.at(name).now);
-        if (pass.casters) {
+        if (pass.kind == PassKind::Casters) {
             drawCasters(pass, program, frame, attachments);
         } else {
             setInputs(program, frame, views_.views());
-            drawScreen(pass, program, attachments);
+            if (pass.kind == PassKind::Compute)
+                compute(pass, program, attachments);
+            else
+                drawScreen(pass, program, attachments);
         }
         for (const std::string& name : pass.to)
             if (name != visibilityTarget && hasMipmaps(name)) targets_.at(name).now.makeMipmaps();
@@ -222,6 +209,7 @@ private:
         const FolderState state{frame,          views,       tiles_, sizeOf(tiles_), views_.cascades(),
                                 historyFrames_, repetition_, bias_,  followsPlane_,  addsUnits()};
         for (const auto& [name, type] : program.uniformTypes()) {
+            if (isImage(type)) continue;
             const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name);
             if (input != folderInputs().end()) input->set(program, name, state);
             patterns_.set(program, name, frame.snapshot.light);
@@ -232,14 +220,32 @@ private:
         }
     }
 
-    static void drawScreen(const FolderPass& pass, const gl::Program& program,
-                           const std::vector<const gl::Texture*>& attachments) {
+    void compute(const FolderPass& pass, gl::Program& program, const std::vector<const gl::Texture*>& stored) const {
+        for (std::size_t i = 0; i < stored.size(); ++i) program.setImage(pass.to[i], *stored[i]);
+        const glm::uvec3 size = program.groupSize(), texels(stored.front()->size(), 1);
+        glm::uvec3 groups = (texels + size - 1U) / size;
+        for (int axis = 0; axis < std::ssize(pass.groups); ++axis) {
+            const GroupCount& count = pass.groups[static_cast<std::size_t>(axis)];
+            const int* number = std::get_if<int>(&count);
+            groups[axis] = static_cast<unsigned>(
+                number != nullptr ? *number : targets_.at(std::get<std::string>(count)).now.size()[axis]);
+        }
+        const std::int64_t all = std::int64_t{groups.x} * groups.y * groups.z;
+        if (all > mostGroups)
+            throw BadInput(fmt::format("{}: the pass \"{}\" would run {} work groups; {} are allowed",
+                                       folder_->path.string(), pass.name, all, mostGroups));
+        program.dispatchGroups(groups);
+    }
+
+    static void drawScreen(const FolderPass& pass, const gl::Program& program, std::vector<const gl::Texture*> attachments) {
+        const auto colours =
+            std::ranges::stable_partition(attachments, std::not_fn(hasDepths)).begin() - attachments.begin();
         const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
         if (pass.clear)
-            for (std::size_t i = 0; i < attachments.size(); ++i) target.clearColour(static_cast<int>(i), *pass.clear);
+            for (std::ptrdiff_t i = 0; i < colours; ++i) target.clearColour(static_cast<int>(i), *pass.clear);
         target.bind();
-        const Blending blending(pass.blend);
-        if (attachments.front()->format() == gl::Format::Depth32F)
+        const DrawState state(pass);
+        if (!pass.stencil && isDepth(attachments.front()->format()))
             program.drawScreenDepth();
         else
             program.drawScreen();
@@ -248,15 +254,14 @@ private:
     /// Where no depths are kept the nearest casters are found in a buffer of the program's own.
     void drawCasters(const FolderPass& pass, gl::Program& program, const Frame& frame,
                      std::vector<const gl::Texture*> attachments) {
-        const auto isDepth = [](const gl::Texture* t) { return t->format() == gl::Format::Depth32F; };
-        if (pass.depthTest && std::ranges::none_of(attachments, isDepth)) {
+        if (pass.depthTest && std::ranges::none_of(attachments, hasDepths)) {
             const glm::ivec2 size = attachments.front()->size();
             if (!ownDepths_ || ownDepths_->size() != size) ownDepths_.emplace(gl::Format::Depth32F, size);
             attachments.push_back(&*ownDepths_);
         }
-        std::ranges::stable_partition(attachments, std::not_fn(isDepth));
+        std::ranges::stable_partition(attachments, std::not_fn(hasDepths));
         const gl::RenderTarget target{std::span<const gl::Texture* const>(attachments)};
-        const auto colours = std::ranges::count_if(attachments, std::not_fn(isDepth));
+        const auto colours = std::ranges::count_if(attachments, std::not_fn(hasDepths));
         for (int i = 0; i < colours; ++i) target.clearColour(i, *pass.clear);
         if (pass.depthTest && !pass.peels) target.clearDepth(1);
         const std::vector<Tile> tiles = tilesOf(pass.to.front());
@@ -270,10 +275,7 @@ private:
 
     void drawView(const FolderPass& pass, gl::Program& program, const Frame& frame, std::size_t view) const {
         const CasterPass casters(program, views_.views()[view], biasOf(pass));
-        const Blending blending(pass.blend);
-        const Culling culling(pass.cull);
-        if (!pass.depthTest) glDisable(GL_DEPTH_TEST); // until the next pass sets it
-        const Peeling peeling(pass.peels);
+        const DrawState state(pass);
         if (const std::vector<bool>* shown = views_.casters(view))
             frame.scene.draw(*shown);
         else
@@ -289,6 +291,7 @@ private:
     std::vector<Tile> tiles_;               // of the first map; none where no casters are drawn
     std::unordered_map<std::string, Target> targets_;
     std::optional<gl::Texture> ownDepths_;
+    std::optional<Surroundings> keptFor_; // of passes that are drawn once
     Bias bias_{};
     bool followsPlane_ = true;
     glm::ivec2 imageSize_{0};

@@ -28,12 +28,19 @@ struct FolderState {
     bool addsUnits;                   // to depths that are made linear: they are drawn without
 };
 
+/// What an input changes with, beside light and casters.
+enum class InputOf {
+    Light,    // nothing else
+    EachView, // nothing else; where there are several views, an array of as many
+    Frame     // camera, motion or time
+};
+
 struct FolderInput {
     std::string_view name;
     std::string_view type;
     std::string_view meaning;
     void (*set)(gl::Program&, const std::string& name, const FolderState&);
-    bool ofEachView = false; // where there are several views, an array of as many
+    InputOf of = InputOf::Light;
 };
 
 /// All but the targets, which are samplers by their names.

@@ -102,8 +102,9 @@ constexpr std::array keys{
               [] { return std::string(R"("type": "integer")"); }},
 
     FolderKey{Target, "format",
-              "`R8`, `RGBA8`, `R32F`, `RG16F`, `RG32F`, `RGBA16`, `RGBA16F`, `RGBA32F`, `RG32UI` or `Depth32F`, or the "
-              "parameter whose choices are some of them, without the last two",
+              "`R8`, `RGBA8`, `R32F`, `RG16F`, `RG32F`, `RGBA16`, `RGBA16F`, `RGBA32F`, `RG32UI`, `Depth32F` or "
+              "`Depth32FStencil8`, "
+              "or the parameter whose choices are some of them, without the last three",
               "needed", formatOrParameter},
     FolderKey{Target, "size",
               "`\"image\"`, texels per side, or the parameter that has them; with several views they share as many texels",
@@ -118,7 +119,18 @@ constexpr std::array keys{
     FolderKey{Pass, "name", "for costs and profilers; the field's word, such as \"depth map\", \"blur\", \"resolve\"",
               "needed", text},
     FolderKey{Pass, "draw", "`casters`: the scene, as the light's view sees it; `screen`: each texel of the target once",
-              "needed", oneOf<draws>},
+              "this or `compute`", oneOf<draws>},
+    FolderKey{
+        Pass, "compute",
+        "in place of `draw` and `fragment`: a compute shader of the folder or one of ours, which stores into the targets",
+        "this or `draw`", text},
+    FolderKey{Pass, "work_groups",
+              "of `compute`: how many along x, y and z, each a number or the target whose texels along that axis it is",
+              "an invocation for each texel of the first target",
+              [] {
+                  return std::string(
+                      R"("type": "array", "minItems": 3, "maxItems": 3, "items": {"type": ["string", "integer"]})");
+              }},
     FolderKey{Pass, "to", "the target that is written, or a list of them in the order of the shader's outputs", "needed",
               [] { return std::string(R"("type": ["string", "array"], "items": {"type": "string"}, "maxItems": 7)"); }},
     FolderKey{Pass, "fragment", "a file of the folder or one of ours; casters without one write depth alone",
@@ -126,6 +138,10 @@ constexpr std::array keys{
     FolderKey{Pass, "define", "macros of this pass, as `{ DIRECTION = \"ivec2(1, 0)\" }`: one file may serve several passes",
               "none", tables},
     FolderKey{Pass, "when", "the one choice of a parameter with which it is drawn, as `\"depth=midpoint\"`", "always", text},
+    FolderKey{
+        Pass, "once",
+        "`light`: drawn where light or casters have changed since, and what it has written is kept; of the view `scene`",
+        "in each frame", oneOf<changes>},
     FolderKey{Pass, "repeat", "how often it is drawn, 1 to 64, or the parameter that says it; `repetition` counts", "1",
               [] { return std::string(R"("type": ["string", "integer"])"); }},
     FolderKey{Pass, "group",
@@ -150,6 +166,20 @@ constexpr std::array keys{
               "`false`", flag},
     FolderKey{Pass, "depth_test", "of casters without a target of depths: `false` draws all of them, not the nearest alone",
               "`true`", flag},
+    FolderKey{Pass, "stencil", "`[pass.stencil]`, below: of a pass with a target of the format `Depth32FStencil8`", "none",
+              tables},
+
+    FolderKey{Stencil, "test",
+              "which pixels are drawn: `always` all, `equal` and `not-equal` those whose stencil is, or is not, `ref`",
+              "`always`", oneOf<stencilTests>},
+    FolderKey{Stencil, "ref", "0 to 255", "0", [] { return std::string(R"("type": "integer")"); }},
+    FolderKey{
+        Stencil, "pass",
+        "what becomes of the stencil where a pixel is drawn: `keep`, `replace` (by `ref`), `increment` or `decrement` (255 "
+        "and 0 are neighbours) or `invert` (its bits)",
+        "`keep`", oneOf<stencilOperations>},
+    FolderKey{Stencil, "depth_fail", "the same of casters where the depth test fails", "`keep`", oneOf<stencilOperations>},
+    FolderKey{Stencil, "fail", "the same where `test` fails", "`keep`", oneOf<stencilOperations>},
 };
 
 std::string quoted(std::string_view words) {
@@ -169,6 +199,9 @@ std::string keySchema(const FolderKey& key, const std::string& indent) {
     std::string schema = fmt::format("{{\"description\": {}, {}", quoted(key.meaning), key.schema());
     if (key.table == Root && key.name == "cascades")
         return fmt::format("{{\"description\": {},{}\n{}}}", quoted(key.meaning), tableSchema(Cascades, indent + "  "),
+                           indent);
+    if (key.table == Pass && key.name == "stencil")
+        return fmt::format("{{\"description\": {},{}\n{}}}", quoted(key.meaning), tableSchema(Stencil, indent + "  "),
                            indent);
     if (key.table == Root && key.name == "parameter") schema += ", \"additionalProperties\": " + inner(Parameter);
     if (key.table == Root && key.name == "pattern") schema += ", \"additionalProperties\": " + inner(Pattern);

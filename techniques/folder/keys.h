@@ -12,7 +12,7 @@
 
 namespace shadowbench::techniques {
 
-inline constexpr Words<gl::Format, 10> formats{"format",
+inline constexpr Words<gl::Format, 11> formats{"format",
                                                {{{gl::Format::R8, "R8"},
                                                  {gl::Format::RGBA8, "RGBA8"},
                                                  {gl::Format::R32F, "R32F"},
@@ -22,7 +22,8 @@ inline constexpr Words<gl::Format, 10> formats{"format",
                                                  {gl::Format::RGBA16F, "RGBA16F"},
                                                  {gl::Format::RGBA32F, "RGBA32F"},
                                                  {gl::Format::RG32UI, "RG32UI"},
-                                                 {gl::Format::Depth32F, "Depth32F"}}}};
+                                                 {gl::Format::Depth32F, "Depth32F"},
+                                                 {gl::Format::Depth32FStencil8, "Depth32FStencil8"}}}};
 inline constexpr Words<Answer, 3> answers{
     "answer", {{{Answer::Hard, "hard"}, {Answer::Filtered, "filtered"}, {Answer::Soft, "soft"}}}};
 inline constexpr Words<FolderView, 6> views{"view",
@@ -37,11 +38,20 @@ inline constexpr Words<bool, 2> cascadeWarps{"warp", {{{true, "lispsm"}, {false,
 inline constexpr Words<bool, 2> cascadeTexels{"stable", {{{true, "texels"}, {false, "none"}}}};
 inline constexpr Words<MapParameters, 2> mapBiases{
     "depth_map", {{{MapParameters::DepthBias, "depth-bias"}, {MapParameters::AnyBias, "any-bias"}}}};
-inline constexpr Words<bool, 2> draws{"draw", {{{true, "casters"}, {false, "screen"}}}};
+inline constexpr Words<PassKind, 2> draws{"draw", {{{PassKind::Casters, "casters"}, {PassKind::Screen, "screen"}}}};
 inline constexpr Words<bool, 2> filters{"filter", {{{false, "nearest"}, {true, "linear"}}}}; // whether it is linear
+inline constexpr Words<bool, 1> changes{"once", {{{true, "light"}}}};
 inline constexpr Words<Blend, 4> blends{
     "blend", {{{Blend::Add, "add"}, {Blend::Min, "min"}, {Blend::Max, "max"}, {Blend::Multiply, "multiply"}}}};
 inline constexpr Words<Cull, 3> culls{"cull", {{{Cull::None, "none"}, {Cull::Front, "front"}, {Cull::Back, "back"}}}};
+inline constexpr Words<StencilTest, 3> stencilTests{
+    "test", {{{StencilTest::Always, "always"}, {StencilTest::Equal, "equal"}, {StencilTest::NotEqual, "not-equal"}}}};
+inline constexpr Words<StencilOperation, 5> stencilOperations{"operation",
+                                                              {{{StencilOperation::Keep, "keep"},
+                                                                {StencilOperation::Replace, "replace"},
+                                                                {StencilOperation::Increment, "increment"},
+                                                                {StencilOperation::Decrement, "decrement"},
+                                                                {StencilOperation::Invert, "invert"}}}};
 
 inline constexpr Words<PatternKind, 5> patternKinds{"kind",
                                                     {{{PatternKind::PoissonDisk, "poisson-disk"},
@@ -51,7 +61,7 @@ inline constexpr Words<PatternKind, 5> patternKinds{"kind",
                                                       {PatternKind::Jitter, "jitter"}}}};
 inline constexpr Words<MapBias, 2> biases{"offset", {{{MapBias::Parameters, "bias"}, {MapBias::Slope, "bias-of-slope"}}}};
 
-enum class KeyTable { Root, Cascades, Parameter, Pattern, Target, Pass };
+enum class KeyTable { Root, Cascades, Parameter, Pattern, Target, Pass, Stencil };
 
 struct FolderKey {
     KeyTable table;

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/memory.h"
+#include "base/memory_bound.h"
 #include "base/words.h"
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/patterns.h"
@@ -9,12 +11,18 @@
 #include "techniques/shared/maps/normal_offset.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <fmt/format.h>
+#include <new>
 #include <regex>
 #include <sstream>
 
 namespace shadowbench::techniques {
 namespace {
+
+/// Of Mesa's compiler, for one program: a hundred times what the largest of ours needs. Macros and functions that call each
+/// other twice would take what there is.
+constexpr std::uint64_t compilersMemory = std::uint64_t{1} << 30;
 
 /// A parameter is a macro by its name in capitals; a choice is one of name and word.
 gl::Defines definesOf(const TechniqueFolder& folder, const Parameters& values) {
@@ -34,25 +42,64 @@ gl::Defines definesOf(const TechniqueFolder& folder, const Parameters& values) {
     return defines;
 }
 
+/// Of `target`; null: of visibility.
+std::string imageType(const FolderTarget* target) {
+    return target != nullptr && target->format == gl::Format::RG32UI ? "uimage2D" : "image2D";
+}
+
 class PassProgram {
 public:
     PassProgram(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values)
         : folder_(folder), pass_(pass), values_(values) {}
 
     [[nodiscard]] gl::Program made(const gl::Defines& defines) const {
-        const std::string vertex = pass_.casters ? "folder/casters.vert" : "gl/screen.vert";
         try {
-            gl::Program program =
-                gl::Program::ofFolder(vertex, {folder_.path.string(), folder_.shaders}, pass_.fragment, defines);
-            for (const auto& [name, type] : program.uniformTypes()) requireKnown(name, type);
+            const MemoryBound bound(compilersMemory, tooLarge());
+            gl::Program program = linked(defines);
+            const auto types = program.uniformTypes();
+            for (const auto& [name, type] : types) requireKnown(name, type);
+            if (pass_.kind == PassKind::Compute) requireStores(types);
             return program;
         } catch (const InternalError& error) {
             throw BadInput(firstErrorIn(error.what()));
+        } catch (const std::bad_alloc&) {
+            throw BadInput(tooLarge());
         }
     }
 
 private:
-    [[nodiscard]] std::string file() const { return gl::placeOf({folder_.path.string(), folder_.shaders}, pass_.fragment); }
+    [[nodiscard]] gl::Program linked(const gl::Defines& defines) const {
+        const gl::ShaderFolder folder{folder_.path.string(), folder_.shaders};
+        if (pass_.kind == PassKind::Compute) return gl::Program::computeOfFolder(folder, pass_.shader, defines);
+        const char* vertex = pass_.kind == PassKind::Casters ? "folder/casters.vert" : "gl/screen.vert";
+        return gl::Program::ofFolder(vertex, folder, pass_.shader, defines);
+    }
+
+    [[nodiscard]] std::string tooLarge() const {
+        return fmt::format(
+            "{}: compiling it takes more than {} of memory, or nests deeper than its stack: let its macros and "
+            "functions expand to less",
+            file(), inBytes(compilersMemory));
+    }
+
+    /// Of a compute pass: that it can store into all targets, and has the targets that its groups are counted by.
+    void requireStores(const std::map<std::string, std::string>& types) const {
+        for (const std::string& name : pass_.to)
+            if (!types.contains(name))
+                throw BadInput(
+                    fmt::format("{}: the pass \"{}\" writes {}, but its shader stores into no such image: declare "
+                                "writeonly uniform {} {};",
+                                file(), pass_.name, name, imageType(targetOf(name)), name));
+        for (const GroupCount& count : pass_.groups)
+            if (const auto* name = std::get_if<std::string>(&count);
+                name != nullptr && isLeftOut(folder_, *targetOf(*name), values_))
+                throw BadInput(
+                    fmt::format("{}: the pass \"{}\" has a work group for each texel of {}, which no pass writes with "
+                                "these parameters: say another target or a number",
+                                (folder_.path / "technique.toml").string(), pass_.name, *name));
+    }
+
+    [[nodiscard]] std::string file() const { return gl::placeOf({folder_.path.string(), folder_.shaders}, pass_.shader); }
 
     /// The line of the compiler's log that is the first error, where warnings may come before; of the linker's, after the
     /// file.
@@ -64,35 +111,48 @@ private:
             const std::size_t link = line.starts_with("linking ") ? line.find(" failed: ") : std::string::npos;
             if (link != std::string::npos) line = fmt::format("{}: {}", file(), line.substr(link + 9));
             if (line.find(": error: ") != std::string::npos || line.find("preprocessor error: ") != std::string::npos)
-                return line;
+                return inFolder(line);
             if (first.empty() && !line.starts_with("compiling ")) first = line;
         }
         return first;
     }
 
+    /// What is found in a file of ours is what stands before its #include.
+    [[nodiscard]] std::string inFolder(const std::string& line) const {
+        const std::string own = folder_.path.string() + "/";
+        const bool isOurs = !line.starts_with(own) && line.find(".glsl:") != std::string::npos;
+        return isOurs ? fmt::format("{}: before or in its #include of {}", file(), line) : line;
+    }
+
+    struct Declaration {
+        std::string place; // file and line
+        std::string line;  // empty where none was found
+    };
+
     /// Where a file of the folder declares a uniform: the pass's own first.
-    [[nodiscard]] std::string placeOf(const std::string& uniform) const {
+    [[nodiscard]] Declaration declarationOf(const std::string& uniform) const {
         const std::regex declaration("\\buniform\\b.*\\b" + uniform + "\\b");
         std::vector<std::string> names;
-        if (folder_.shaders.contains(pass_.fragment)) names.push_back(pass_.fragment);
+        if (folder_.shaders.contains(pass_.shader)) names.push_back(pass_.shader);
         for (const auto& [name, text] : folder_.shaders) names.push_back(name);
         for (const std::string& name : names) {
             std::istringstream lines(folder_.shaders.at(name));
             std::string line;
             for (int number = 1; std::getline(lines, line); ++number)
                 if (line.size() < 1000 && std::regex_search(line, declaration)) // regex recurses by the character
-                    return fmt::format("{}/{}:{}", folder_.path.string(), name, number);
+                    return {fmt::format("{}/{}:{}", folder_.path.string(), name, number), line};
         }
-        return file();
+        return {file(), ""};
     }
 
     [[noreturn]] void fail(const std::string& uniform, const std::string& sentence) const {
-        throw BadInput(fmt::format("{}: {}", placeOf(uniform), sentence));
+        throw BadInput(fmt::format("{}: {}", declarationOf(uniform).place, sentence));
     }
 
     /// All but what the program sets by itself for casters.
     void requireKnown(const std::string& name, const std::string& type) const {
-        if (pass_.casters && (name == "clipFromWorld" || name == "lightPlane")) return;
+        if (isImage(type)) return requireImage(name, type);
+        if (pass_.kind == PassKind::Casters && (name == "clipFromWorld" || name == "lightPlane")) return;
         if (const auto input = std::ranges::find(folderInputs(), name, &FolderInput::name); input != folderInputs().end())
             return requireInput(name, type, *input);
         const auto pattern = std::ranges::find(folder_.patterns, name, &FolderPattern::name);
@@ -108,24 +168,54 @@ private:
         if (isLeftOut(folder_, *target, values_))
             fail(name,
                  fmt::format("the pass \"{}\" reads {}, which no pass writes with these parameters", pass_.name, name));
+        requireKept(name, *target);
         if (std::ranges::find(pass_.to, name) != pass_.to.end())
             fail(name, fmt::format("the pass \"{}\" reads {}, which it writes; write another target", pass_.name, name));
+    }
+
+    /// Those that a pass stores into are all the images that there are. What they were is not read: their format is the
+    /// target's, which the shader need not say then.
+    void requireImage(const std::string& name, const std::string& type) const {
+        if (pass_.kind != PassKind::Compute) fail(name, "images are stored into by compute passes alone: declare a sampler");
+        if (std::ranges::count(pass_.to, name) == 0)
+            fail(name, fmt::format("the pass \"{}\" does not write {}{}: name it in `to`", pass_.name, name,
+                                   didYouMean(name, pass_.to)));
+        requireType(name, type, imageType(targetOf(name)));
+        const std::string line = declarationOf(name).line;
+        if (!line.empty() && line.find("writeonly") == std::string::npos)
+            fail(name, fmt::format("images are written alone: declare writeonly uniform {} {};", type, name));
     }
 
     /// Casters are drawn into one view at a time; other passes read all.
     void requireInput(const std::string& name, const std::string& type, const FolderInput& input) const {
         if (name == "sliceEnds" && folder_.view != FolderView::Cascades)
             fail(name, "is of cascades: say view = \"cascades\"");
-        if (pass_.casters && input.type.ends_with("[]"))
+        if (pass_.kind == PassKind::Casters && input.type.ends_with("[]"))
             fail(name, fmt::format("\"{}\" is of passes over the screen; casters are drawn into one view at a time", name));
+        if (pass_.once && input.of == InputOf::Frame)
+            fail(name,
+                 fmt::format("\"{}\" changes from frame to frame, and the pass \"{}\" is drawn once: leave one of the two "
+                             "out",
+                             name, pass_.name));
         const bool several = folder_.view == FolderView::Cube || folder_.view == FolderView::Cascades;
-        const std::string each = std::string(input.type) + (input.ofEachView && several && !pass_.casters ? "[]" : "");
+        const std::string each = std::string(input.type) +
+                                 (input.of == InputOf::EachView && several && pass_.kind != PassKind::Casters ? "[]" : "");
         requireType(name, type, each);
     }
 
     void requireType(const std::string& name, const std::string& type, std::string_view right) const {
         if (type != right)
             fail(name, fmt::format("the uniform \"{}\" is {}{}", name, right, type.empty() ? "" : ", not " + type));
+    }
+
+    /// What a pass that is drawn once reads is drawn once, too.
+    void requireKept(const std::string& sampler, const FolderTarget& target) const {
+        const auto isLater = [&](const FolderPass& pass) {
+            return !pass.once && std::ranges::count(pass.to, target.name) > 0;
+        };
+        if (pass_.once && std::ranges::any_of(folder_.passes, isLater))
+            fail(sampler, fmt::format("the pass \"{}\" is drawn once, but {} in each frame: say once of both or of none",
+                                      pass_.name, target.name));
     }
 
     /// Whose texels the sampler has, of this frame or the one before.
@@ -158,23 +248,29 @@ std::string text(const Amount& amount) {
 
 /// One that includes what is not there has no other text than its own.
 std::string shaderText(const TechniqueFolder& folder, const FolderPass& pass) {
-    if (pass.fragment.empty()) return "";
+    if (pass.shader.empty()) return "";
     try {
-        return gl::loadShader({"", folder.shaders}, pass.fragment, pass.defines).text;
+        return gl::loadShader({"", folder.shaders}, pass.shader, pass.defines).text;
     } catch (const InternalError&) {
-        const auto own = folder.shaders.find(pass.fragment);
-        return own == folder.shaders.end() ? pass.fragment : own->second;
+        const auto own = folder.shaders.find(pass.shader);
+        return own == folder.shaders.end() ? pass.shader : own->second;
     }
 }
 
 std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
     const glm::vec4 clear = pass.clear.value_or(glm::vec4(-1));
     std::string state = fmt::format(
-        "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", pass.casters, static_cast<int>(pass.bias), pass.peels,
-        pass.when ? pass.when->parameter + "=" + pass.when->word : "", text(pass.slopeOffset), text(pass.unitOffset),
-        pass.clear.has_value(), clear.x, clear.y, clear.z, clear.w, pass.blend ? static_cast<int>(*pass.blend) : -1,
-        static_cast<int>(pass.cull), pass.depthTest, text(pass.repeat));
-    if (pass.casters) {
+        "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", pass.kind == PassKind::Casters, static_cast<int>(pass.bias),
+        pass.peels, pass.when ? pass.when->parameter + "=" + pass.when->word : "", text(pass.slopeOffset),
+        text(pass.unitOffset), pass.clear.has_value(), clear.x, clear.y, clear.z, clear.w,
+        pass.blend ? static_cast<int>(*pass.blend) : -1, static_cast<int>(pass.cull), pass.depthTest, text(pass.repeat));
+    if (pass.once) state += " once";
+    if (const auto& s = pass.stencil)
+        state += fmt::format(" {} {} {} {} {}", static_cast<int>(s->test), s->reference, static_cast<int>(s->pass),
+                             static_cast<int>(s->depthFail), static_cast<int>(s->fail));
+    for (const GroupCount& count : pass.groups)
+        state += std::visit([](const auto& value) { return fmt::format(" {}", value); }, count);
+    if (pass.kind == PassKind::Casters) {
         const FolderCascades& cascades = folder.cascades;
         state +=
             fmt::format("\n{} {} {} {} {} {} {}", static_cast<int>(folder.view), text(cascades.count), text(cascades.lambda),
@@ -191,6 +287,8 @@ std::string stateOf(const TechniqueFolder& folder, const FolderPass& pass) {
 
 } // namespace
 
+bool isImage(std::string_view type) { return type.starts_with("image2D") || type.starts_with("uimage2D"); }
+
 std::map<std::string, std::string> passHashes(const TechniqueFolder& folder) {
     std::map<std::string, std::string> texts, hashes;
     for (const FolderPass& pass : folder.passes)
@@ -200,7 +298,7 @@ std::map<std::string, std::string> passHashes(const TechniqueFolder& folder) {
 }
 
 gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values, int views) {
-    if (pass.fragment.empty()) return {"shared/maps/depth_map.vert", "gl/depth_only.frag"};
+    if (pass.shader.empty()) return {"shared/maps/depth_map.vert", "gl/depth_only.frag"};
     gl::Defines defines = definesOf(folder, values);
     defines.emplace_back("TILES", std::to_string(views));
     defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());

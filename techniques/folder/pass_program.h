@@ -7,6 +7,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 
 namespace shadowbench::techniques {
 
@@ -14,6 +15,9 @@ namespace shadowbench::techniques {
 /// file and the line where there is one: for what does not compile or link, a uniform that nothing sets or of another type,
 /// and a target that is read while it is written.
 gl::Program programOf(const TechniqueFolder& folder, const FolderPass& pass, const Parameters& values, int views);
+
+/// Whether a uniform of this type is stored into.
+bool isImage(std::string_view type);
 
 /// Hashes of all that passes draw with but parameters: their shaders with what these include, and their state; by their
 /// names.

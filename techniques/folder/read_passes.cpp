@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <utility>
 
 namespace shadowbench::techniques {
 namespace {
 
 constexpr int mostPasses = 64, mostRepetitions = 64;
+constexpr int mostGroupsOfAxis = 65535;   // the least that GL promises
 constexpr std::ptrdiff_t mostWritten = 7; // GL promises 8 of colour; casters may need depths beside them
 
 class PassReader {
@@ -19,20 +22,21 @@ public:
     void add() {
         value_.only(keysOf(KeyTable::Pass));
         pass_.name = words(value_.get("name"));
-        pass_.casters = draws.named(value_.get("draw").oneOf(draws.all()));
+        readKind();
         readTargets(value_.get("to"));
         readShader();
         if (const auto when = value_.find("when")) pass_.when = conditionOf(*when, read_);
         if (const auto peel = value_.find("peel")) pass_.peels = peel->boolean();
+        if (const auto stencil = value_.find("stencil")) readStencil(*stencil);
         if (const auto blend = value_.find("blend")) pass_.blend = blends.named(blend->oneOf(blends.all()));
         if (const auto clear = value_.find("clear")) readClear(*clear);
         requireSomethingBelow();
-        if (pass_.casters)
-            readCasters();
-        else
-            requireScreen();
+        if (pass_.kind == PassKind::Casters) readCasters();
+        if (pass_.kind == PassKind::Screen) requireScreen();
+        if (pass_.kind == PassKind::Compute) readGroups();
         requireFloats();
         readRepetition();
+        readOnce();
         read_.passes.push_back(std::move(pass_));
     }
 
@@ -40,6 +44,18 @@ private:
     [[nodiscard]] const FolderTarget* targetNamed(const std::string& name) const {
         const auto found = std::ranges::find(read_.targets, name, &FolderTarget::name);
         return found == read_.targets.end() ? nullptr : &*found;
+    }
+
+    void readKind() {
+        if (!value_.find("compute")) {
+            if (const auto groups = value_.find("work_groups"))
+                groups->fail("is of a compute pass: say compute = \"FILE.comp\"");
+            pass_.kind = draws.named(value_.get("draw").oneOf(draws.all()));
+            return;
+        }
+        pass_.kind = PassKind::Compute;
+        for (const char* key : {"draw", "fragment", "blend", "clear", "offset", "cull", "depth_test", "peel", "stencil"})
+            if (const auto said = value_.find(key)) said->fail("is of a pass that draws; this one computes");
     }
 
     void readTargets(const TomlValue& to) {
@@ -51,29 +67,43 @@ private:
         if (std::ssize(pass_.to) > mostWritten) to.fail(fmt::format("a pass writes {} targets at most", mostWritten));
     }
 
+    [[nodiscard]] bool hasStencil(const std::string& name) const {
+        const FolderTarget* target = targetNamed(name);
+        return target != nullptr && target->format == gl::Format::Depth32FStencil8;
+    }
+
+    /// Null: of visibility.
+    [[nodiscard]] static std::pair<bool, Amount> sizeOf(const FolderTarget* target) {
+        return target == nullptr ? std::pair(true, Amount(0.0)) : std::pair(target->ofImage, target->side);
+    }
+
+    /// `others`: names that might have stood there, too.
+    [[nodiscard]] std::string noTarget(const std::string& name, std::vector<std::string> others) const {
+        for (const FolderTarget& known : read_.targets) others.push_back(known.name);
+        return fmt::format("there is no target \"{}\"{}", name, didYouMean(name, others));
+    }
+
     void addTarget(const TomlValue& value) {
         const std::string name = value.text();
         const FolderTarget* target = targetNamed(name);
-        if (target == nullptr && name != visibilityTarget) {
-            std::vector<std::string> names{visibilityTarget};
-            for (const FolderTarget& known : read_.targets) names.push_back(known.name);
-            value.fail(fmt::format("there is no target \"{}\"{}", name, didYouMean(name, names)));
-        }
+        if (target == nullptr && name != visibilityTarget) value.fail(noTarget(name, {visibilityTarget}));
         if (std::ranges::find(pass_.to, name) != pass_.to.end()) value.fail("is written twice");
         if (!pass_.to.empty()) {
-            const FolderTarget* first = targetNamed(pass_.to.front());
-            if (target == nullptr || first == nullptr) value.fail("visibility is written alone");
-            if (target->ofImage != first->ofImage || target->side != first->side)
-                value.fail(fmt::format("is of another size than {}; what a pass writes is of one size", first->name));
+            const std::string& first = pass_.to.front();
+            if (const auto written = std::ranges::find(pass_.to, visibilityTarget);
+                (written != pass_.to.end() && !hasStencil(name)) || (target == nullptr && !hasStencil(first)))
+                value.fail("visibility is written alone, or with a stencil");
+            if (sizeOf(target) != sizeOf(targetNamed(first)))
+                value.fail(fmt::format("is of another size than {}; what a pass writes is of one size", first));
         }
         pass_.to.push_back(name);
     }
 
     void readShader() {
-        if (const auto fragment = value_.find("fragment")) {
-            pass_.fragment = fragment->text();
-            if (!read_.shaders.contains(pass_.fragment) && !gl::isEmbedded(pass_.fragment)) fragment->fail(noShader());
-        } else if (!pass_.casters) {
+        if (const auto shader = value_.find(pass_.kind == PassKind::Compute ? "compute" : "fragment")) {
+            pass_.shader = shader->text();
+            if (!read_.shaders.contains(pass_.shader) && !gl::isEmbedded(pass_.shader)) shader->fail(noShader());
+        } else if (pass_.kind == PassKind::Screen) {
             value_.fail("a pass over the screen needs a fragment shader: fragment = \"resolve.frag\"");
         }
         if (const auto defines = value_.find("define"))
@@ -83,8 +113,7 @@ private:
     [[nodiscard]] std::string noShader() const {
         std::vector<std::string> names;
         for (const auto& [file, text] : read_.shaders) names.push_back(file);
-        return fmt::format("{} has no shader \"{}\"{}", read_.path.string(), pass_.fragment,
-                           didYouMean(pass_.fragment, names));
+        return fmt::format("{} has no shader \"{}\"{}", read_.path.string(), pass_.shader, didYouMean(pass_.shader, names));
     }
 
     void addDefine(const TomlValue& value) {
@@ -97,7 +126,8 @@ private:
     }
 
     void readClear(const TomlValue& clear) {
-        if (!pass_.casters && !pass_.blend) clear.fail("is of casters, or with blend: all else is drawn over");
+        if (pass_.kind != PassKind::Casters && !pass_.blend)
+            clear.fail("is of casters, or with blend: all else is drawn over");
         const std::vector<TomlValue> four = clear.list();
         if (four.size() != 4) clear.fail("expected four numbers");
         pass_.clear.emplace();
@@ -106,7 +136,7 @@ private:
 
     /// Casters are drawn over cleared colours; over the screen blending takes what an earlier pass has drawn.
     void requireSomethingBelow() const {
-        if (!pass_.blend || pass_.casters || pass_.clear) return;
+        if (!pass_.blend || pass_.kind == PassKind::Casters || pass_.clear) return;
         const auto draws = [&](const FolderPass& before, const std::string& name) {
             return std::ranges::count(before.to, name) > 0 && (!before.when || before.when == pass_.when);
         };
@@ -118,16 +148,16 @@ private:
     [[nodiscard]] std::ptrdiff_t depths() const {
         return std::ranges::count_if(pass_.to, [&](const std::string& name) {
             const FolderTarget* target = targetNamed(name);
-            return target != nullptr && target->format == gl::Format::Depth32F;
+            return target != nullptr && isDepth(target->format);
         });
     }
 
     void readCasters() {
         if (depths() > 1) value_.fail("one target of depths is all that a pass has");
-        if (pass_.to.front() == visibilityTarget || targetNamed(pass_.to.front())->ofImage)
+        if (sizeOf(targetNamed(pass_.to.front())).first)
             value_.fail("casters are drawn into a map, which has a size of its own");
-        if (pass_.fragment.empty() && std::ssize(pass_.to) > depths()) value_.fail("colours need a fragment shader");
-        if (pass_.peels && (depths() == 0 || pass_.fragment.empty()))
+        if (pass_.shader.empty() && std::ssize(pass_.to) > depths()) value_.fail("colours need a fragment shader");
+        if (pass_.peels && (depths() == 0 || pass_.shader.empty()))
             value_.get("peel").fail("needs a target of depths, behind which it draws, and another with a fragment shader");
         if (!pass_.clear) pass_.clear = glm::vec4(0);
         if (const auto cull = value_.find("cull")) pass_.cull = culls.named(cull->oneOf(culls.all()));
@@ -137,6 +167,24 @@ private:
                 test->fail("a target of depths keeps the nearest: leave one of the two out");
         }
         if (const auto offset = value_.find("offset")) readOffset(*offset);
+    }
+
+    void readStencil(const TomlValue& value) {
+        value.only(keysOf(KeyTable::Stencil));
+        if (std::ranges::none_of(pass_.to, [&](const std::string& name) { return hasStencil(name); }))
+            value.fail("needs a target with a stencil: name one of the format Depth32FStencil8 in `to`");
+        FolderStencil stencil;
+        const auto operation = [&](const char* key, StencilOperation& read) {
+            if (const auto said = value.find(key)) read = stencilOperations.named(said->oneOf(stencilOperations.all()));
+        };
+        if (const auto test = value.find("test")) stencil.test = stencilTests.named(test->oneOf(stencilTests.all()));
+        if (const auto reference = value.find("ref")) stencil.reference = reference->integer(0, 255);
+        operation("pass", stencil.pass);
+        operation("depth_fail", stencil.depthFail);
+        operation("fail", stencil.fail);
+        if (pass_.kind == PassKind::Screen && value.find("depth_fail"))
+            value.get("depth_fail").fail("is of casters; over the screen no depth is tested");
+        pass_.stencil = stencil;
     }
 
     void readOffset(const TomlValue& offset) {
@@ -156,15 +204,33 @@ private:
     void requireFloats() const {
         for (const std::string& name : pass_.to)
             if (const FolderTarget* target = targetNamed(name); target != nullptr && target->format == gl::Format::RG32UI)
-                if (pass_.casters || pass_.blend)
+                if (pass_.kind == PassKind::Casters || pass_.blend)
                     value_.fail(fmt::format("{} holds whole numbers, which are drawn over the screen without blend", name));
     }
 
     void requireScreen() const {
-        if (depths() > 0 && (pass_.to.size() > 1 || pass_.blend))
+        if (depths() > 0 && !pass_.stencil && (pass_.to.size() > 1 || pass_.blend))
             value_.fail("a pass over the screen writes depths alone, by gl_FragDepth");
+        if (depths() > 1) value_.fail("one target of depths is all that a pass has");
         for (const char* key : {"offset", "cull", "depth_test", "peel"})
             if (const auto said = value_.find(key)) said->fail("is of casters");
+    }
+
+    void readGroups() {
+        if (depths() > 0) value_.get("to").fail("no image has depths: a pass over the screen writes them, by gl_FragDepth");
+        const auto groups = value_.find("work_groups");
+        if (!groups) return;
+        const std::vector<TomlValue> three = groups->list();
+        if (three.size() != 3) groups->fail("expected three: along x, y and z");
+        for (const TomlValue& count : three) {
+            if (!count.isText()) {
+                pass_.groups.emplace_back(count.integer(1, mostGroupsOfAxis));
+                continue;
+            }
+            if (targetNamed(count.text()) == nullptr) count.fail(noTarget(count.text(), {}));
+            if (&count == &three.back()) count.fail("a target has no third side; say a number");
+            pass_.groups.emplace_back(count.text());
+        }
     }
 
     void readRepetition() {
@@ -175,10 +241,35 @@ private:
             if (!follows && std::ranges::count(read_.passes, pass_.group, &FolderPass::group) > 0)
                 group->fail("has passes above; those of a group come one after the other");
             if (follows && before->when != pass_.when) group->fail("has passes above that are drawn with another choice");
+            if (follows && before->once != value_.find("once").has_value())
+                group->fail("has passes above that are kept otherwise; say once of all or of none");
             if (follows && value_.find("repeat")) value_.get("repeat").fail("is said by the first pass of the group");
         }
         if (const auto repeat = value_.find("repeat"))
             pass_.repeat = amountWithin(*repeat, IntegerRange{1, mostRepetitions}, read_);
+    }
+
+    void readOnce() {
+        if (const auto once = value_.find("once")) {
+            pass_.once = changes.named(once->oneOf(changes.all()));
+            if (read_.view != FolderView::Scene) once->fail("is of the view scene: the others change from frame to frame");
+            for (const std::string& name : pass_.to) requireKept(*once, name);
+        }
+        for (const FolderPass& before : read_.passes)
+            for (const std::string& name : pass_.to)
+                if (before.once != pass_.once && std::ranges::count(before.to, name) > 0)
+                    value_.get("to").fail(
+                        fmt::format("{} is written by \"{}\" as well, one of them once and the other in each "
+                                    "frame: say once of both or of none",
+                                    name, before.name));
+    }
+
+    void requireKept(const TomlValue& once, const std::string& name) const {
+        const FolderTarget* target = targetNamed(name);
+        if (target == nullptr) once.fail("visibility is each frame's own; keep a target that it is made of");
+        if (target->ofImage) once.fail(fmt::format("{} is as large as the image, whose camera moves: keep a map", name));
+        if (target->history)
+            once.fail(fmt::format("{} has a history, which each frame writes: leave one of the two out", name));
     }
 
     const TomlValue& value_;
@@ -193,8 +284,14 @@ void readPasses(const TomlValue& list, TechniqueFolder& read) {
     if (passes.empty() || passes.size() > mostPasses)
         list.fail(fmt::format("expected 1 to {} of them, got {}", mostPasses, passes.size()));
     for (const TomlValue& value : passes) PassReader(value, read).add();
-    if (read.passes.back().to != std::vector<std::string>{visibilityTarget})
+    if (std::ranges::count(read.passes.back().to, visibilityTarget) == 0)
         passes.back().fail(R"(the last pass writes the answer: to = "visibility")");
+    std::vector<std::string> kept;
+    for (const FolderPass& pass : read.passes)
+        if (pass.once && std::ranges::count(kept, pass.name) == 0) kept.push_back(pass.name);
+    if (!kept.empty())
+        read.entry.computed =
+            fmt::format("when light or casters change, {}; each frame, the other passes", fmt::join(kept, ", "));
 }
 
 } // namespace shadowbench::techniques

@@ -99,7 +99,8 @@ double valueOf(const Amount& amount, const Parameters& values) {
 
 Amount amountWithin(const TomlValue& value, const Domain& bounds, const TechniqueFolder& read) {
     const auto* whole = std::get_if<IntegerRange>(&bounds);
-    const RealRange within = whole != nullptr ? RealRange(whole->low, whole->high) : std::get<RealRange>(bounds);
+    const RealRange within = whole != nullptr ? RealRange{static_cast<double>(whole->low), static_cast<double>(whole->high)}
+                                              : std::get<RealRange>(bounds);
     if (!value.isText()) {
         if (whole != nullptr) return static_cast<double>(value.integer(whole->low, whole->high));
         if (value.number() < within.low || value.number() > within.high)
@@ -110,7 +111,8 @@ Amount amountWithin(const TomlValue& value, const Domain& bounds, const Techniqu
     const auto parameter = std::ranges::find(read.entry.parameters, value.text(), &Parameter::name);
     const auto* integers = std::get_if<IntegerRange>(&parameter->domain);
     const auto* reals = std::get_if<RealRange>(&parameter->domain);
-    const RealRange range = integers != nullptr ? RealRange(integers->low, integers->high) : *reals;
+    const RealRange range =
+        integers != nullptr ? RealRange{static_cast<double>(integers->low), static_cast<double>(integers->high)} : *reals;
     if ((whole != nullptr && integers == nullptr) || range.low < within.low || range.high > within.high)
         value.fail(fmt::format("{} must be a {}number within {} and {}", parameter->name, whole != nullptr ? "whole " : "",
                                within.low, within.high));

@@ -5,6 +5,7 @@
 #include "techniques/gl/context.h"
 #include "techniques/gl/texture.h"
 
+#include <array>
 #include <cctype>
 #include <glm/gtc/type_ptr.hpp>
 #include <regex>
@@ -77,6 +78,8 @@ bool isSampler(GLenum type) {
     }
 }
 
+bool isImage(GLenum type) { return type == GL_IMAGE_2D || type == GL_UNSIGNED_INT_IMAGE_2D; }
+
 } // namespace
 
 Program::Program(const std::string& vertexFile, const std::string& fragmentFile, const Defines& defines)
@@ -101,7 +104,7 @@ Program::Program(const std::vector<Stage>& stages) {
 void Program::findUniforms() {
     GLint count = 0;
     glGetProgramiv(id_, GL_ACTIVE_UNIFORMS, &count);
-    int unit = 0;
+    int samplers = 0, images = 0;
     for (GLint i = 0; i < count; ++i) {
         char buffer[256];
         GLint size = 0;
@@ -110,7 +113,8 @@ void Program::findUniforms() {
         std::string name(buffer);
         const bool array = name.ends_with("[0]");
         if (array) name.resize(name.size() - 3);
-        uniforms_[name] = {glGetUniformLocation(id_, buffer), isSampler(type) ? unit++ : -1, type, array, size};
+        const int unit = isSampler(type) ? samplers++ : isImage(type) ? images++ : -1;
+        uniforms_[name] = {glGetUniformLocation(id_, buffer), unit, type, array, size};
     }
 }
 
@@ -123,7 +127,9 @@ std::map<std::string, std::string> Program::uniformTypes() const {
                                                      {GL_FLOAT_MAT4, "mat4"},
                                                      {GL_SAMPLER_2D, "sampler2D"},
                                                      {GL_SAMPLER_2D_SHADOW, "sampler2DShadow"},
-                                                     {GL_UNSIGNED_INT_SAMPLER_2D, "usampler2D"}};
+                                                     {GL_UNSIGNED_INT_SAMPLER_2D, "usampler2D"},
+                                                     {GL_IMAGE_2D, "image2D"},
+                                                     {GL_UNSIGNED_INT_IMAGE_2D, "uimage2D"}};
     std::map<std::string, std::string> types;
     for (const auto& [name, uniform] : uniforms_) {
         const auto word = words.find(uniform.type);
@@ -149,6 +155,10 @@ Program Program::ofFolder(const std::string& vertexFile, const ShaderFolder& fol
 
 Program Program::compute(const std::string& file, const Defines& defines) {
     return Program({{GL_COMPUTE_SHADER, file, loadShader(file, defines)}});
+}
+
+Program Program::computeOfFolder(const ShaderFolder& folder, const std::string& file, const Defines& defines) {
+    return Program({{GL_COMPUTE_SHADER, placeOf(folder, file), loadShader(folder, file, defines)}});
 }
 
 Program::~Program() {
@@ -222,9 +232,18 @@ Program& Program::set(const std::string& sampler, const TextureArray& array) {
     return *this;
 }
 
+Program& Program::setImage(const std::string& image, const Texture& texture) {
+    const Uniform& found = uniform(image);
+    if (!isImage(found.type)) throw InternalError(title_ + ": " + image + " is no image");
+    glProgramUniform1i(id_, found.location, found.unit);
+    texture.bindImage(static_cast<unsigned>(found.unit));
+    return *this;
+}
+
 void Program::activateUnit(const std::string& sampler) const {
     const Uniform& found = uniform(sampler);
-    if (found.unit < 0) throw InternalError(title_ + ": " + sampler + " is no sampler of a 2D texture or an array of them");
+    if (!isSampler(found.type))
+        throw InternalError(title_ + ": " + sampler + " is no sampler of a 2D texture or an array of them");
     glProgramUniform1i(id_, found.location, found.unit);
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(found.unit));
 }
@@ -248,11 +267,21 @@ void Program::dispatch(std::size_t invocations) const {
     constexpr std::size_t group = 64, widest = 65535; // gl/invocation.glsl; the least that GL promises for an axis
     const std::size_t groups = (invocations + group - 1) / group;
     if (groups == 0) return;
-    use();
     const std::size_t rows = (groups + widest - 1) / widest;
-    glDispatchCompute(static_cast<GLuint>((groups + rows - 1) / rows), static_cast<GLuint>(rows), 1);
+    dispatchGroups({(groups + rows - 1) / rows, rows, 1});
+}
+
+void Program::dispatchGroups(glm::uvec3 groups) const {
+    use();
+    glDispatchCompute(groups.x, groups.y, groups.z);
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
     ++Context::current().tally().passes;
+}
+
+glm::uvec3 Program::groupSize() const {
+    std::array<GLint, 3> size{};
+    glGetProgramiv(id_, GL_COMPUTE_WORK_GROUP_SIZE, size.data());
+    return {size[0], size[1], size[2]};
 }
 
 void Program::drawTriangle() const {

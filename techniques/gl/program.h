@@ -76,6 +76,9 @@ public:
     /// A compute shader.
     static Program compute(const std::string& file, const Defines& defines = {});
 
+    /// The same of a folder, or an embedded one.
+    static Program computeOfFolder(const ShaderFolder& folder, const std::string& file, const Defines& defines);
+
     ~Program();
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
@@ -96,6 +99,9 @@ public:
     Program& set(const std::string& sampler, const Texture& texture);
     Program& set(const std::string& sampler, const TextureArray& array);
 
+    /// Lets the image of that name be stored into the texture's largest level.
+    Program& setImage(const std::string& image, const Texture& texture);
+
     [[nodiscard]] bool uses(const std::string& uniform) const { return uniforms_.contains(uniform); }
 
     /// The uniforms in use with their types as GLSL has them, of an array "vec2[]"; another type than those of `set` is "".
@@ -115,6 +121,12 @@ public:
     /// wrote is visible to everything after. Counts as a pass.
     void dispatch(std::size_t invocations) const;
 
+    /// The same of as many work groups along each axis, 65,535 at most.
+    void dispatchGroups(glm::uvec3 groups) const;
+
+    /// Invocations of a work group of a compute shader.
+    [[nodiscard]] glm::uvec3 groupSize() const;
+
 private:
     struct Stage {
         unsigned kind; // GL's
@@ -126,7 +138,7 @@ private:
 
     struct Uniform {
         int location;
-        int unit;      // texture unit of a sampler, else −1
+        int unit;      // texture unit of a sampler, image unit of an image, else −1
         unsigned type; // GL's
         bool array;
         int elements;

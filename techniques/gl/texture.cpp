@@ -167,6 +167,10 @@ void Texture::compareDepth() {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 }
 
+void Texture::bindImage(unsigned unit) const {
+    glBindImageTexture(unit, id_, 0, GL_FALSE, 0, GL_WRITE_ONLY, facts(format_).internal);
+}
+
 void Texture::upload(const Image<std::uint8_t>& texels) {
     bindToChange(GL_TEXTURE_2D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

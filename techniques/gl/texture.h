@@ -37,6 +37,9 @@ public:
     /// Every level from the one before it, by 2 × 2 means (`Levels::All`).
     void makeMipmaps();
 
+    /// Lets image unit `unit` be stored into the largest level.
+    void bindImage(unsigned unit) const;
+
     /// Replaces the texels of an R8 texture of the image's size; row 0 of the image is at texture coordinate 0.
     void upload(const Image<std::uint8_t>& texels);
 

@@ -94,6 +94,27 @@ TEST_F(Develop, AnErrorStandsWithItsPlaceUntilItIsSetRight) {
     EXPECT_EQ(figure(right, "error"), figure(right, "error", "kept"));
 }
 
+TEST_F(Develop, ASaveOfASceneIsDrawnAgainstItsOwnTruth) {
+    const Folder room;
+    const std::string other = room.write("other.toml", tinyScene());
+    const LivePage page = this->page({"--scene", other});
+    const auto truth = [&](const Json& state) {
+        return page.client().Get(fmt::format("/pictures/{}/truth.png", int(state["rows"][1]["last"])))->body;
+    };
+    const Json first = page.drawnAfter(0);
+    ASSERT_EQ(first["rows"][1]["scene"], "other");
+    const int number = first["rows"][0]["last"];
+    const std::string before = truth(first);
+    room.write("other.toml", replaced(tinyScene(), "at = [0.13, 1.2, 0.21]", "at = [0.9, 1.2, 0.21]"));
+    const Json moved = page.drawnAfter(number);
+    EXPECT_NE(truth(moved), before);
+    room.write("other.toml", replaced(tinyScene(), "title", "titel"));
+    const Json wrong = page.stateWhere([](const Json& state) { return state["error"] != ""; });
+    EXPECT_EQ(wrong["error"], other + ":2: titel: unknown key (did you mean \"title\"?)");
+    room.write("other.toml", tinyScene());
+    EXPECT_EQ(truth(page.drawnAfter(moved["rows"][0]["last"])), before);
+}
+
 TEST_F(Develop, ANewerSaveStopsADrawingThatHangs) {
     const LivePage page = this->page();
     const int number = page.drawnAfter(0)["rows"][0]["last"];

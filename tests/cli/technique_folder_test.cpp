@@ -4,7 +4,10 @@
 #include "tests/support/program.h"
 #include "tests/support/technique_folders.h"
 
+#include <algorithm>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace shadowbench {
 namespace {
@@ -107,6 +110,53 @@ TEST_F(TechniqueFolderRun, AShaderThatHangsIsOneLineAndTheOtherRowsGoOn) {
     ASSERT_EQ(records().size(), 2U);
     EXPECT_EQ(records()[0].status, Status::Error);
     EXPECT_EQ(records()[1].status, Status::Scored);
+}
+
+TEST_F(TechniqueFolderRun, AShaderThatHangsAtSomeValuesOfASweepIsALineForEachAndTheOthersAreScored) {
+    mine_.write("resolve.frag", replaced(replaced(hangingShader, "#define SIN sum", "#if MAP == 512\n#define SIN sum"),
+                                         "#define SIN8", "#else\n#define SIN\n#endif\n#define SIN8"));
+    const Outcome outcome =
+        shell("SHADOWBENCH_MAX_CELL_SECONDS=2 shadowbench sweep --quiet --scene " + out_ / "tiny.toml" +
+              " --technique my:mine --technique sm-uniform --axis map --values 256,512 --technique-folder " +
+              mine_.path().string() + " --cache " + out_ / "cache" + " --out " + (out_ / "out"));
+    EXPECT_EQ(outcome.code, 1) << outcome.output;
+    const std::vector<Record> swept = readRecords(out_ / "out/sweep.jsonl");
+    ASSERT_EQ(swept.size(), 4U);
+    EXPECT_EQ(swept[0].status, Status::Scored);
+    EXPECT_EQ(swept[1].status, Status::Error);
+    EXPECT_EQ(swept[1].variant, "my:mine:map=512");
+    EXPECT_EQ(swept[1].sweep->value, 512);
+    EXPECT_EQ(swept[1].reason,
+              "the process that rendered it took longer than 2 s and was ended: shorten its shaders' loops, or "
+              "raise SHADOWBENCH_MAX_CELL_SECONDS");
+    EXPECT_EQ(swept[2].status, Status::Scored);
+    EXPECT_EQ(swept[3].status, Status::Scored);
+}
+
+/// `first` and 40 more, each of which expands to the one before twice.
+std::string doubled(const std::string& first, const std::string& next) {
+    std::string text = first;
+    for (int i = 1; i <= 40; ++i) text += fmt::format(fmt::runtime(next), i, i - 1);
+    return text;
+}
+
+TEST_F(TechniqueFolderRun, AShaderThatExpandsWithoutEndIsOneLineAndTakesNoMoreMemoryThanItMay) {
+    const std::string main = "out float visibility;\nvoid main() { visibility = ";
+    for (const std::string& shader :
+         {doubled("#define A0 + sin(1.0)\n", "#define A{0} A{1} A{1}\n") + main + "0.0 A40; }\n",
+          doubled("float a0(float x) { return sin(x); }\n", "float a{0}(float x) {{ return a{1}(a{1}(x)); }}\n") + main +
+              "a40(gl_FragCoord.x); }\n",
+          main + std::string(200'000, '-') + "1.0; }\n"}) {
+        mine_.write("resolve.frag", shader);
+        const Outcome outcome = shell("shadowbench check " + mine_.path().string());
+        EXPECT_EQ(outcome.code, 2) << outcome.output;
+        EXPECT_TRUE(outcome.output.starts_with("shadowbench: " + (mine_.path() / "resolve.frag").string() + ":"))
+            << outcome.output;
+        EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    }
+    rusage used{};
+    getrusage(RUSAGE_CHILDREN, &used);
+    EXPECT_LT(used.ru_maxrss, 2 << 20); // KiB
 }
 
 } // namespace

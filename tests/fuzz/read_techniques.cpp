@@ -15,7 +15,7 @@ void readTechniqueDescription(std::string_view input) {
     for (const std::string& variant : read.entry.variants)
         techniques::parseParameters(variant, read.entry.parameters, read.entry.id);
     for (const techniques::FolderPass& pass : read.passes) {
-        require(pass.fragment.empty() || read.shaders.contains(pass.fragment), "a pass has a shader that the folder lacks");
+        require(pass.shader.empty() || read.shaders.contains(pass.shader), "a pass has a shader that the folder lacks");
         for (const std::string& name : pass.to)
             require(name == techniques::visibilityTarget ||
                         std::ranges::count(read.targets, name, &techniques::FolderTarget::name) == 1,

@@ -11,6 +11,7 @@
 // matter, and a receiver takes all layers that its plane crosses within its texel.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
+#include "techniques/contract/surroundings.h"
 #include "techniques/sampled/layered-attenuation/attenuation_map.h"
 #include "techniques/shared/maps/light_receiver.h"
 #include "techniques/shared/sampling/light_points.h"
@@ -22,19 +23,6 @@
 
 namespace shadowbench::techniques {
 namespace {
-
-/// All that a layered attenuation map depends on.
-struct Surroundings {
-    explicit Surroundings(const Frame& frame) : light(frame.snapshot.light), seed(frame.seed) {
-        for (const Batch& batch : frame.snapshot.batches)
-            for (const Placement& placement : batch.placements) casters.emplace_back(batch.mesh, placement.world);
-    }
-    friend bool operator==(const Surroundings&, const Surroundings&) = default;
-
-    Light light;
-    std::uint32_t seed;
-    std::vector<std::pair<std::shared_ptr<const Mesh>, glm::dmat4>> casters;
-};
 
 class LayeredAttenuation final : public Technique {
 public:

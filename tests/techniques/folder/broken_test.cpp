@@ -60,6 +60,10 @@ format = "RGBA32F"
 size = "image"
 history = true
 
+[target.mask]
+format = "Depth32FStencil8"
+size = "image"
+
 [[pass]]
 name = "moments"
 draw = "casters"
@@ -76,6 +80,24 @@ fragment = "moments.frag"
 to = "layers"
 blend = "add"
 depth_test = false
+
+[[pass]]
+name = "sums"
+compute = "sums.comp"
+to = "moments"
+work_groups = [1, "moments", 1]
+
+[[pass]]
+name = "mask"
+draw = "screen"
+fragment = "mean.frag"
+to = "mask"
+
+[pass.stencil]
+test = "not-equal"
+ref = 1
+pass = "increment"
+fail = "invert"
 
 [[pass]]
 name = "mean"
@@ -96,7 +118,7 @@ to = "visibility"
 class BrokenFolder : public testing::Test {
 protected:
     BrokenFolder() {
-        for (const char* file : {"moments.frag", "mean.frag"}) folder_.write(file, "void main() {}\n");
+        for (const char* file : {"moments.frag", "mean.frag", "sums.comp"}) folder_.write(file, "void main() {}\n");
     }
 
     /// What is said of it, without the folder; "" of one that is read.
@@ -147,7 +169,7 @@ bool mayBe(const std::string& key, const std::string& value) {
     if (key == "id") return value == "\"xyz\"";
     if (is({"history", "compare", "mipmaps"})) return value == "true";
     if (key == "depth_test") return value == "true";
-    if (key == "repeat") return value == "42";
+    if (key == "repeat" || key == "ref") return value == "42";
     if (key == "lacks") return value == "[]";
     if (key == "define") return value == "{}" || value == "{ a = 1 }";
     if (is({"default", "size"})) return value == "42" || value == "1.5";
@@ -181,9 +203,10 @@ TEST_F(BrokenFolder, AnyOtherValueOfAKeyIsOneLineAtItsPlace) {
 }
 
 TEST_F(BrokenFolder, AKeyThatIsMissingMisspeltOrThereTwiceIsNamed) {
-    const std::vector<std::string> lines = linesOf(fullToml), mayLack{"source", "view",    "variants",   "lacks",  "compare",
-                                                                      "filter", "mipmaps", "offset",     "clear",  "define",
-                                                                      "cull",   "blend",   "depth_test", "repeat", "group"};
+    const std::vector<std::string> lines = linesOf(fullToml),
+                                   mayLack{"source", "view",    "variants",    "lacks", "compare", "filter",     "mipmaps",
+                                           "offset", "clear",   "define",      "cull",  "blend",   "depth_test", "repeat",
+                                           "group",  "compute", "work_groups", "test",  "ref",     "pass",       "fail"};
     std::string table; // the last header
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (lines[i].starts_with("[")) table = lines[i];
@@ -259,6 +282,29 @@ TEST_F(BrokenFolder, WhatContradictsItselfIsToldWithTheRemedy) {
         {changed("repeat = 2", "blend = \"min\""), "no pass before has drawn mean: say clear = [0, 0, 0, 0]"},
         {changed("repeat = 2", "clear = [0, 0, 0, 0]"), "is of casters, or with blend"},
         {changed("repeat = 2", "cull = \"back\""), "cull: is of casters"},
+        {changed("to = \"mask\"", "to = \"mean\""),
+         "stencil: needs a target with a stencil: name one of the format Depth32FStencil8 in `to`"},
+        {changed("to = \"mask\"", "to = [\"visibility\", \"mask\", \"mean\"]"),
+         "visibility is written alone, or with a stencil"},
+        {said(replaced(replaced(fullToml, "to = \"mask\"", "to = [\"visibility\", \"mask\"]"),
+                       "size = \"image\"\n\n[[pass]]", "size = 64\n\n[[pass]]")),
+         "is of another size than visibility"},
+        {changed("fail = \"invert\"", "depth_fail = \"invert\""), "is of casters; over the screen no depth is tested"},
+        {changed("fail = \"invert\"", "fail = \"inverts\""),
+         "expected one of keep, replace, increment, decrement, invert, got \"inverts\" (did you mean \"invert\"?)"},
+        {changed("ref = 1", "ref = 256"), "expected a whole number from 0 to 255, got 256"},
+        {changed("work_groups =", "stencil = { ref = 1 }\nwork_groups ="), "stencil: is of a pass that draws"},
+        {changed("work_groups =", "blend = \"min\"\nwork_groups ="), "blend: is of a pass that draws; this one computes"},
+        {changed("compute =", "draw = \"screen\"\ncompute ="), "draw: is of a pass that draws; this one computes"},
+        {changed("compute = \"sums.comp\"", "compute = \"sum.comp\""),
+         "has no shader \"sum.comp\" (did you mean \"sums.comp\"?)"},
+        {changed("compute = \"sums.comp\"", "draw = \"screen\"\nfragment = \"mean.frag\""),
+         "work_groups: is of a compute pass: say compute = \"FILE.comp\""},
+        {changed("to = \"moments\"\nwork_groups", "to = \"depths\"\nwork_groups"), "no image has depths"},
+        {changed("[1, \"moments\", 1]", "[1, \"moment\", 1]"), "there is no target \"moment\" (did you mean \"moments\"?)"},
+        {changed("[1, \"moments\", 1]", "[1, 1, \"moments\"]"), "a target has no third side; say a number"},
+        {changed("[1, \"moments\", 1]", "[1, \"moments\"]"), "expected three: along x, y and z"},
+        {changed("[1, \"moments\", 1]", "[0, \"moments\", 1]"), "expected a whole number from 1 to 65535, got 0"},
         {changed("cull = \"front\"", "depth_test = false"), "a target of depths keeps the nearest"},
         {changed("format = \"Depth32F\"", "format = \"Depth32F\"\nmipmaps = true"), "depths have no mipmaps"},
         {changed("format = \"RG32F\"", "format = \"RG32F\"\ncompare = true"), "only depths compare"},

@@ -116,6 +116,8 @@ TEST_F(BrokenShader, IncludesLeadToFilesOfTheFolderOrOurs) {
         of("  #  include \"gl/reciever.glsl\"")
             .starts_with("resolve.frag:1: there is no shader \"gl/reciever.glsl\" (did you mean \"gl/receiver.glsl\"?)"))
         << of("  #  include \"gl/reciever.glsl\"");
+    EXPECT_TRUE(said("float a\n" + mapShader).starts_with("resolve.frag: before or in its #include of gl/"))
+        << said("float a\n" + mapShader);
     folder_.write("more.glsl", "float more() { return less; }\n");
     EXPECT_TRUE(of("#include \"more.glsl\"").starts_with("more.glsl:1: error: `less' undeclared"));
     folder_.write("more.glsl", "\n#include \"other.glsl\"\n");
@@ -145,7 +147,7 @@ TEST_F(BrokenShader, UniformsThatNothingSetsOrOfAnotherTypeAreToldByTheirLine) {
     EXPECT_EQ(of("uniform sampler2D depths;", "texture(depths, vec2(0.5)).r"),
               "resolve.frag:3: the uniform \"depths\" is sampler2DShadow, not sampler2D");
     EXPECT_EQ(of("layout(r32f) uniform image2D depths;", "imageLoad(depths, ivec2(0)).r"),
-              "resolve.frag:3: the uniform \"depths\" is sampler2DShadow");
+              "resolve.frag:3: images are stored into by compute passes alone: declare a sampler");
     EXPECT_EQ(of("uniform sampler2D previous_depths;", "texture(previous_depths, vec2(0.5)).r").substr(0, 70),
               std::string("resolve.frag:3: nothing sets the uniform \"previous_depths\"; parameters").substr(0, 70));
     EXPECT_NE(of("uniform Mine { float a; };", "a").find("nothing sets the uniform"), std::string::npos);

@@ -272,7 +272,7 @@ TEST(FolderTechnique, EveryInputCanBeDeclaredAsItsType) {
         std::string declared, used = "0.0";
         for (const techniques::FolderInput& input : techniques::folderInputs()) {
             if (!several && input.name == "sliceEnds") continue; // of cascades
-            const bool array = input.type.ends_with("[]") || (several && input.ofEachView);
+            const bool array = input.type.ends_with("[]") || (several && input.of == techniques::InputOf::EachView);
             const std::string type(input.type.substr(0, input.type.find('['))), name(input.name);
             const std::string value = array ? name + "[0]" : name;
             declared += fmt::format("uniform {} {}{};\n", type, name, array ? "[1]" : "");

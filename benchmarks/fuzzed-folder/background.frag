@@ -1,0 +1,5 @@
+#include "gl/receiver.glsl"
+
+void main() {
+    if (receiverAt(gl_FragCoord.xy).seen) discard;
+}
