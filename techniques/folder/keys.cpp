@@ -149,8 +149,9 @@ constexpr std::array keys{
               "none", text},
     FolderKey{Pass, "blend", "`add`, `min`, `max` or `multiply`: what is drawn with what is there already, in place of it",
               "none", oneOf<blends>},
-    FolderKey{Pass, "clear", "of casters or with `blend`: what colours are before anything is drawn", "of casters zeros",
-              [] { return numbers(4); }},
+    FolderKey{Pass, "clear",
+              "of casters or with `blend`: what colours are before anything is drawn, four numbers of at most 10¹⁸",
+              "of casters zeros", [] { return numbers(4); }},
     FolderKey{
         Pass, "offset",
         "of casters, away from the light: `[of the slope, units]`, numbers or parameters, as glPolygonOffset has them; "

@@ -21,10 +21,11 @@ namespace shadowbench {
 
 class LivePage {
 public:
-    /// Starts it on a tiny scene, with `temporary` as its TMPDIR, and waits until the page can be opened.
+    /// Starts it on a scene, without one on a tiny one, with `temporary` as its TMPDIR, and waits until the page can be
+    /// opened.
     LivePage(const std::filesystem::path& technique, const std::filesystem::path& temporary,
-             const std::vector<std::string>& more = {}) {
-        const std::string scene = folder_.write("tiny.toml", tinyScene());
+             const std::vector<std::string>& more = {}, std::string scene = "") {
+        if (scene.empty()) scene = folder_.write("tiny.toml", tinyScene());
         words_ = {PROGRAM, "develop", technique.string(), "--scene", scene, "--cache", "/tmp/shadowbench-test-references"};
         words_.insert(words_.end(), more.begin(), more.end());
         int ends[2];
@@ -43,6 +44,7 @@ public:
     LivePage& operator=(const LivePage&) = delete;
 
     [[nodiscard]] int port() const { return port_; }
+    [[nodiscard]] pid_t process() const { return child_; }
     [[nodiscard]] std::string address() const { return "http://127.0.0.1:" + std::to_string(port_); }
     [[nodiscard]] httplib::Client client() const { return httplib::Client("127.0.0.1", port_); }
     [[nodiscard]] httplib::Headers ownOrigin() const { return {{"Origin", address()}}; }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <regex>
 #include <utility>
 
 namespace shadowbench {
@@ -184,6 +185,18 @@ TEST(TechniqueFolder, TheDocumentNamesEveryInputOfShaders) {
     for (const techniques::FolderInput& input : techniques::folderInputs())
         EXPECT_NE(page.find(fmt::format("| `{}` | {} | {} |", input.name, input.type, input.meaning)), std::string::npos)
             << input.name;
+}
+
+TEST(TechniqueFolder, TheDocumentNamesFunctionsThatOurShadersHave) {
+    const std::string page = readFile(std::filesystem::path(SOURCE_FOLDER) / "docs/technique-folders.md");
+    const std::regex row("\n\\| ([a-z_/]+\\.glsl) \\| (.*) \\|"), call("`([a-zA-Z]+)\\(");
+    int functions = 0;
+    for (std::sregex_iterator i(page.begin(), page.end(), row), end; i != end; ++i) {
+        const std::string shader = gl::loadShader((*i)[1], {}).text, says = (*i)[2];
+        for (std::sregex_iterator j(says.begin(), says.end(), call); j != end; ++j, ++functions)
+            EXPECT_NE(shader.find((*j)[1].str() + "("), std::string::npos) << (*i)[1] << " " << (*j)[1];
+    }
+    EXPECT_EQ(functions, 10);
 }
 
 TEST(TechniqueFolder, TheDocumentNamesEveryKey) {
