@@ -4,6 +4,8 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/one_line.h"
+#include "base/words.h"
+#include "techniques/folder/built_in.h"
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/keys.h"
 #include "techniques/folder/reading.h"
@@ -53,6 +55,7 @@ public:
         readFacts(root);
         if (const auto parameters = root.find("parameter"))
             for (const TomlValue& value : members(*parameters, mostParameters)) readParameter(value);
+        if (const auto row = root.find("parameters_of")) addParametersOf(*row);
         if (const auto map = root.find("depth_map")) addMapParameters(*map);
         readView(root, read_);
         if (const auto patterns = root.find("pattern"))
@@ -106,6 +109,18 @@ private:
             parameter.domain = rangeOf(value);
         }
         add(std::move(parameter), value);
+    }
+
+    /// Those of a row that is built in, its map's left out.
+    void addParametersOf(const TomlValue& row) {
+        const std::vector<std::string> places = builtInPlaces();
+        if (std::ranges::count(places, row.text()) == 0)
+            row.fail(
+                fmt::format("there is no folder \"{}\" that is built in{}", row.text(), didYouMean(row.text(), places)));
+        const TomlSource source{.file = row.text(), .largest = 1e18};
+        const toml::table table = parseToml(builtInText(row.text()), row.text());
+        if (const auto parameters = TomlValue(source, "", table).find("parameter"))
+            for (const TomlValue& value : members(*parameters, mostParameters)) readParameter(value);
     }
 
     void addMapParameters(const TomlValue& value) {

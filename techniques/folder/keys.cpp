@@ -53,6 +53,8 @@ constexpr std::array keys{
               "what it has no right answer for, as `list techniques` names it: `recommend` leaves such rows out", "none",
               texts},
     FolderKey{Root, "parameter", "`[parameter.NAME]`, below", "none", tables},
+    FolderKey{Root, "parameters_of",
+              "a folder that is built in, as `modern/pcss-vogel`, whose parameters it has after its own", "none", text},
     FolderKey{Root, "pattern", "`[pattern.NAME]`, points to sample with, below", "none", tables},
     FolderKey{Root, "target", "`[target.NAME]`, a texture, below", "none", tables},
     FolderKey{Root, "pass", "`[[pass]]`, below: what is drawn, in order; the last one writes `visibility`", "needed",

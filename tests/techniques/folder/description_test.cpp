@@ -56,6 +56,21 @@ TEST(TechniqueFolder, HasTheParametersOfADepthMapAfterItsOwn) {
     EXPECT_EQ(techniques::describe(depth.at(2).domain), "none|constant|slope");
 }
 
+TEST(TechniqueFolder, HasTheParametersOfAFolderThatIsBuiltInAfterItsOwn) {
+    const std::vector<techniques::Parameter> own =
+        WrittenTechnique(replaced(mapToml, "answer", "parameters_of = \"modern/pcss-vogel\"\nanswer")).entry().parameters;
+    const std::vector<techniques::Parameter> theirs =
+        techniques::readTechniqueFolder(std::filesystem::path(SOURCE_FOLDER) / "techniques/modern/pcss-vogel")
+            .entry.parameters;
+    ASSERT_EQ(own.size(), 9U); // theirs has four more of its depth map
+    EXPECT_EQ(own[0].name, "map");
+    for (std::size_t i = 1; i < own.size(); ++i) {
+        EXPECT_EQ(own[i].name, theirs[i - 1].name);
+        EXPECT_EQ(own[i].defaultValue, theirs[i - 1].defaultValue);
+        EXPECT_EQ(techniques::describe(own[i].domain), techniques::describe(theirs[i - 1].domain));
+    }
+}
+
 TEST(TechniqueFolder, AnyChangeOfAFileIsAnotherDigest) {
     const WrittenTechnique folder;
     const std::string before = folder.entry().digest;
@@ -135,6 +150,10 @@ TEST(TechniqueFolder, WhatIsWrongIsOneLineWithItsPlace) {
               ":4: cascades.warp: expected one of lispsm, none, got \"lispms\" (did you mean \"lispsm\"?)");
     EXPECT_NE(cascades("count = 4, stable = \"texels\"").find("stable=texels goes with fit=view and warp=none"),
               std::string::npos);
+    EXPECT_EQ(with("answer", "parameters_of = \"modern/pcss-vogle\"\nanswer"),
+              ":3: parameters_of: there is no folder \"modern/pcss-vogle\" that is built in (did you mean "
+              "\"modern/pcss-vogel\" or "
+              "\"modern/pcf-vogel\"?)");
     EXPECT_NE(with("[parameter.map]", "[parameter.__map]").find("is no name in GLSL"), std::string::npos);
 }
 
