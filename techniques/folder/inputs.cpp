@@ -100,10 +100,10 @@ constexpr std::array inputs{
                     setTiles<glm::vec4>(p, n, s,
                                         [](const LightView&, const Tile& t, glm::ivec2 m) { return innerTile(t, m); });
                 }},
-    FolderInput{
-        "sliceEnds", "vec4[]",
-        "of each cascade: where it ends, and where the next one's map begins to take over (shared/maps/slice.glsl)",
-        [](gl::Program& p, Name n, State s) { p.set(n, std::span<const glm::vec4>(s.cascades->ends())); }, InputOf::Frame},
+    FolderInput{"sliceEnds", "vec4[]",
+                "of each cascade: where it ends, and where the next one's map begins to take over (shared/maps/slice.glsl)",
+                [](gl::Program& p, Name n, State s) { p.set(n, std::span<const glm::vec4>(s.cascades->ends())); },
+                InputOf::Frame},
     FolderInput{"eyeDepthFromWorld", "vec4", "dot(·, (p, 1)): metres from the eye along its axis",
                 [](gl::Program& p, Name n, State s) { p.set(n, eyeDepth(s.frame.snapshot.camera)); }, InputOf::Frame},
     FolderInput{"mapTexels", "vec2", "texels of the first map, along x and y",
