@@ -23,7 +23,7 @@ struct Candidate {
     std::optional<double> cost;
 };
 
-/// Whose light has an area, or none has; of these, scenes on which a shadow map was scored.
+/// Scenes whose light has an area, or those whose light has none; of these, the ones on which a shadow map was scored.
 std::vector<std::string> scenesOf(const std::vector<Record>& records, bool area) {
     std::vector<std::string> scenes;
     for (const std::string& scene : report::scenes(records)) {
@@ -93,8 +93,8 @@ Table shipTable(const std::vector<Record>& records, const std::filesystem::path&
             shipped = best->first;
             const Candidate& candidate = best->second;
             const Record& shown = *candidate.within.front();
-            table.rows.push_back({{Cell{area ? "with an area" : "without"}, Cell{fmt::format("{:g} ×", factor), factor},
-                                   techniqueCell(shown, images),
+            table.rows.push_back({{Cell{area ? "with an area" : "a point or a direction"},
+                                   Cell{fmt::format("{:g} ×", factor), factor}, techniqueCell(shown, images),
                                    Cell{fmt::format("{} of {}", candidate.within.size(), scenes.size()),
                                         static_cast<double>(candidate.within.size())},
                                    Cell{fmt::format("{:.2f}", *candidate.cost), *candidate.cost},

@@ -48,6 +48,19 @@ void main() {
 }
 )";
 
+/// `mapShader` with percentage-closer filtering over KERNEL² texels.
+inline const std::string filteringShader = R"(#include "shared/filters/pcf.glsl"
+#include "shared/maps/tested_point.glsl"
+uniform sampler2DShadow depths;
+out float visibility;
+void main() {
+    Receiver receiver = receiverAt(gl_FragCoord.xy);
+    MapPoint point = testedPoint(receiver);
+    vec2 slope = receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at);
+    visibility = receiver.seen ? percentageCloser(depths, point, slope, KERNEL) : 1.0;
+}
+)";
+
 /// `text` with the first `from` in it replaced.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
     return text.replace(text.find(from), from.size(), to);

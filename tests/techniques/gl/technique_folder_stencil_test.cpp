@@ -9,17 +9,7 @@
 namespace shadowbench {
 namespace {
 
-const std::string kernel = R"(#include "shared/filters/pcf.glsl"
-#include "shared/maps/tested_point.glsl"
-uniform sampler2DShadow depths;
-out float visibility;
-void main() {
-    Receiver receiver = receiverAt(gl_FragCoord.xy);
-    MapPoint point = testedPoint(receiver);
-    vec2 slope = receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at);
-    visibility = receiver.seen ? percentageCloser(depths, point, slope, 7) : 1.0;
-}
-)";
+const std::string kernel = replaced(filteringShader, "KERNEL", "7");
 
 /// Filters with many taps where the pass before did not know.
 std::unique_ptr<WrittenTechnique> masked(const std::string& sureStencil, const std::string& filterStencil) {

@@ -40,22 +40,11 @@ TEST(FolderTechnique, DrawsTheBitsOfTheUniformMap) {
 }
 
 TEST(FolderTechnique, DrawsTheBitsOfPercentageCloserFiltering) {
-    const std::string shader = R"(#include "shared/filters/pcf.glsl"
-#include "shared/maps/tested_point.glsl"
-uniform sampler2DShadow depths;
-out float visibility;
-void main() {
-    Receiver receiver = receiverAt(gl_FragCoord.xy);
-    MapPoint point = testedPoint(receiver);
-    vec2 slope = receiverPlaneSlope(receiver.position, normalAt(gl_FragCoord.xy), point.at);
-    visibility = receiver.seen ? percentageCloser(depths, point, slope, KERNEL) : 1.0;
-}
-)";
     const std::string kernel = "[parameter.kernel]\ndefault = 3\nrange = [3, 7]\nmeaning = \"taps\"\n";
     const Scene scene = boxScene();
     Stage stage(scene);
     stage.show(0);
-    const WrittenTechnique folder(replaced(mapToml, "[target", kernel + "[target"), shader);
+    const WrittenTechnique folder(replaced(mapToml, "[target", kernel + "[target"), filteringShader);
     for (const char* parameters : {"kernel=3", "kernel=7"}) {
         const auto mine = folder.made(parameters);
         const Image<float> image = drawn(stage, *mine);
