@@ -25,7 +25,8 @@ struct TriangleTree {
     std::vector<glm::vec4> corners; // three a triangle, in world space
 };
 
-/// Boxes are cut at the median of their triangles' middles, along the axis on which these spread farthest.
+/// Boxes are cut in two where rays meet the fewest triangles by the surface area heuristic, with the middles of triangles in
+/// slices (Wald 2007).
 TriangleTree treeOver(const Snapshot& snapshot);
 
 } // namespace shadowbench::techniques
