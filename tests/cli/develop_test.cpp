@@ -157,6 +157,23 @@ TEST_F(Develop, AnInterruptLeavesNoFolderAndNoProgram) {
     }
 }
 
+TEST_F(Develop, AKillLeavesNoProgramAndTheNextOneRemovesItsFolder) {
+    mine_.write("resolve.frag", hangingShader);
+    {
+        LivePage page = this->page();
+        EXPECT_TRUE(page.stateWhere([](const Json& state) { return state["drawing"].get<bool>(); })["drawing"]);
+        while (programs() < 3) std::this_thread::sleep_for(std::chrono::milliseconds(5)); // its run, and that one's worker
+        page.end(SIGKILL);
+    }
+    for (int ticks = 0; programs() > 0 && ticks < 400; ++ticks) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_EQ(programs(), 0);
+    mine_.write("resolve.frag", mapShader);
+    LivePage next = this->page();
+    next.drawnAfter(0);
+    next.end(SIGTERM);
+    EXPECT_TRUE(leavesNothing());
+}
+
 TEST_F(Develop, TwoRunBesideEachOtherOnPortsOfTheirOwn) {
     const LivePage one = page(), other = page();
     EXPECT_NE(one.port(), other.port());
