@@ -94,7 +94,8 @@ struct EmbreeShadows::Scene {
 };
 
 EmbreeShadows::EmbreeShadows(const Snapshot& snapshot, int threads, bool filters)
-    : scene_(std::make_unique<Scene>()), threads_(threads) {
+    : scene_(std::make_unique<Scene>()), threads_(threads),
+      reach_(glm::length(snapshot.bounds().high - snapshot.bounds().low)) {
     scene_->device.reset(rtcNewDevice(("threads=" + std::to_string(threads)).c_str()));
     if (!scene_->device) throw InternalError("Embree gave no device.");
     const RTCDevice device = scene_->device.get();
@@ -111,12 +112,17 @@ EmbreeShadows::EmbreeShadows(const Snapshot& snapshot, int threads, bool filters
 
 EmbreeShadows::~EmbreeShadows() = default;
 
-Image<float> EmbreeShadows::visibility(const groundtruth::PrimaryHits& primary, const glm::dvec3& light, float tnear) const {
+Image<float> EmbreeShadows::visibility(const groundtruth::PrimaryHits& primary, const glm::dvec4& light, float tnear) const {
+    const auto endOf = [&](const glm::vec3& from) {
+        const glm::dvec3 end(light);
+        return light.w == 0 ? from + glm::vec3(reach_ * glm::normalize(end)) : glm::vec3(end);
+    };
     Image<float> result(primary.id.width(), primary.id.height());
     inParallel(result.height(), threads_, [&](int y) {
         for (int x = 0; x < result.width(); ++x) {
             if (primary.surface(x, y) != groundtruth::Surface::Receiver) continue;
-            result(x, y) = occluded(scene_->scene.get(), primary.position(x, y), glm::vec3(light), tnear) ? 0.0F : 1.0F;
+            const glm::vec3 from = primary.position(x, y);
+            result(x, y) = occluded(scene_->scene.get(), from, endOf(from), tnear) ? 0.0F : 1.0F;
         }
     });
     return result;

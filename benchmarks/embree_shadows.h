@@ -19,10 +19,10 @@ public:
     EmbreeShadows(const EmbreeShadows&) = delete;
     EmbreeShadows& operator=(const EmbreeShadows&) = delete;
 
-    /// Visibility (1 or 0) of the point light at the receivers of `primary`, 0 elsewhere. Rays run from the receiver point
-    /// in float to the light, one by one (rtcOccluded1), from the share `tnear` of the way on: above 0, so that a surface
-    /// does not meet itself.
-    [[nodiscard]] Image<float> visibility(const groundtruth::PrimaryHits& primary, const glm::dvec3& light,
+    /// Visibility (1 or 0) of the light, a homogeneous position, at the receivers of `primary`, 0 elsewhere. Rays run from
+    /// the receiver point in float to the light, or as far as the scene reaches, one by one (rtcOccluded1), from the share
+    /// `tnear` of the way on: above 0, so that a surface does not meet itself.
+    [[nodiscard]] Image<float> visibility(const groundtruth::PrimaryHits& primary, const glm::dvec4& light,
                                           float tnear) const;
 
     /// Names a triangle by the number of its placement, in the order of the snapshot, and its number in the mesh.
@@ -36,6 +36,7 @@ private:
     struct Scene;
     std::unique_ptr<Scene> scene_;
     int threads_;
+    double reach_; // from one end of the scene to the other
 };
 
 } // namespace shadowbench::benchmarks

@@ -1,20 +1,27 @@
 // What exactness costs: the oracles `polygon` and `rays` against Embree's float shadow rays on the same frame.
 //
 //   oracles [--triangles 10000,100000,1000000] [--size 512] [--rounds 7] [--threads 2] [--out FILE]
+//   oracles --scene street,interior [--profile paper] [--light-rays 64] [--out FILE]
 //
 // Prints Markdown tables; --out writes them to a file, too. A round measures Embree, polygon and rays one after the other;
-// the tables show medians over the rounds. All start from the same primary hits, which are timed apart.
+// the tables show medians over the rounds. All start from the same primary hits, which are timed apart. Scenes are labelled
+// as a run labels them, primary hits included.
 #include "base/error.h"
 #include "base/files.h"
+#include "base/parallel.h"
 #include "benchmarks/bumpy_scene.h"
 #include "benchmarks/embree_shadows.h"
 #include "benchmarks/peak_memory.h"
 #include "benchmarks/shared_hits.h"
+#include "groundtruth/oracle.h"
+#include "scene/load/load.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <string>
 #include <vector>
 
@@ -30,7 +37,9 @@ constexpr float tnear = 1e-4F; // of Embree's rays, as a share of the way
 struct Settings {
     std::vector<int> triangles{10'000, 100'000, 1'000'000};
     int size = 512, rounds = 7, threads = 2;
-    std::string out;
+    std::vector<std::string> scenes;
+    std::string profile = "paper", out;
+    int lightRays = 64;
 };
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
@@ -105,7 +114,7 @@ Measured measure(int triangles, const Settings& settings) {
             const EmbreeShadows scene(snapshot, settings.threads);
             t.embreeBuild = secondsSince(start);
             start = std::chrono::steady_clock::now();
-            embree = scene.visibility(ground, snapshot.light.centre, tnear);
+            embree = scene.visibility(ground, glm::dvec4(snapshot.light.centre, 1), tnear);
             t.embreeTrace = secondsSince(start);
         }
         start = std::chrono::steady_clock::now();
@@ -116,7 +125,8 @@ Measured measure(int triangles, const Settings& settings) {
         t.rays = secondsSince(start);
         result.rounds.push_back(t);
     }
-    const Image<float> fromZero = EmbreeShadows(snapshot, settings.threads).visibility(ground, snapshot.light.centre, 0);
+    const Image<float> fromZero =
+        EmbreeShadows(snapshot, settings.threads).visibility(ground, glm::dvec4(snapshot.light.centre, 1), 0);
     for (std::size_t i = 0; i < ground.id.size(); ++i) {
         if (ground.surface[i] != groundtruth::Surface::Receiver) continue;
         ++result.rays;
@@ -166,7 +176,8 @@ std::string memoryTable(const Settings& settings) {
     const std::size_t scene = peakMemory([&] { static_cast<void>(bumpyScene(triangles)); });
     const std::size_t embree = peakMemory([&] {
         const Snapshot snapshot = bumpyScene(triangles);
-        static_cast<void>(EmbreeShadows(snapshot, settings.threads).visibility(shared.load(), snapshot.light.centre, tnear));
+        static_cast<void>(EmbreeShadows(snapshot, settings.threads)
+                              .visibility(shared.load(), glm::dvec4(snapshot.light.centre, 1), tnear));
     });
     const std::size_t polygon =
         peakMemory([&] { static_cast<void>(polygonLabels(bumpyScene(triangles), shared.load(), settings)); });
@@ -198,6 +209,91 @@ std::string report(const Settings& settings) {
     return text;
 }
 
+/// Seconds of one scene, and where Embree and the exact truth differ.
+struct SceneTimes {
+    std::string id;
+    std::size_t triangles = 0, receivers = 0, wrong = 0;
+    double primary = 0, build = 0, trace = 0, labels = 0;
+    double lightTrace = 0, area = 0, areaRms = 0; // 0 where the light has no area
+};
+
+constexpr double surfaceOffset = 1e-3; // metres from the surface at which Embree's rays begin
+
+/// The mean of Embree's visibility over a grid of points of the light.
+Image<float> lightMean(const EmbreeShadows& scene, const PrimaryHits& primary, const Light& light, int side, float from) {
+    Image<float> sum(primary.id.width(), primary.id.height());
+    for (int i = 0; i < side * side; ++i) {
+        const glm::dvec2 at((i % side + 0.5) / side, (i / side + 0.5) / side);
+        const Image<float> one = scene.visibility(primary, glm::dvec4(light.sample(at), 1), from);
+        for (std::size_t pixel = 0; pixel < sum.size(); ++pixel) sum[pixel] += one[pixel] / static_cast<float>(side * side);
+    }
+    return sum;
+}
+
+SceneTimes measureScene(const std::string& id, const Settings& settings) {
+    const Scene scene = loadScene(id, profileNamed(settings.profile));
+    const Snapshot shown = snapshot(scene, scene.timeline.still - 1);
+    const Bounds bounds = shown.bounds();
+    const auto from = static_cast<float>(surfaceOffset / glm::length(bounds.high - bounds.low));
+    SceneTimes times{.id = scene.id, .triangles = shown.triangles()};
+    auto start = std::chrono::steady_clock::now();
+    const auto lap = [&](double& seconds) {
+        seconds = secondsSince(start);
+        start = std::chrono::steady_clock::now();
+    };
+    const PrimaryHits primary = groundtruth::hard::primaryHits(shown, scene.size);
+    lap(times.primary);
+    const EmbreeShadows embree(shown, availableThreads());
+    lap(times.build);
+    const Image<float> traced = embree.visibility(primary, shown.light.centreOnly().homogeneous(), from);
+    lap(times.trace);
+    const Reference exact = compute(groundtruth::Request(shown, scene.size, groundtruth::Truth::Hard));
+    lap(times.labels);
+    for (std::size_t i = 0; i < traced.size(); ++i) {
+        if (exact.surface[i] != groundtruth::Surface::Receiver) continue;
+        ++times.receivers;
+        times.wrong += traced[i] != exact.visibility[i];
+    }
+    if (!shown.light.isArea()) return times;
+    start = std::chrono::steady_clock::now();
+    const int side = static_cast<int>(std::lround(std::sqrt(settings.lightRays)));
+    const Image<float> mean = lightMean(embree, primary, shown.light, side, from);
+    lap(times.lightTrace);
+    const Reference area = compute(groundtruth::Request(shown, scene.size, groundtruth::Truth::Area));
+    lap(times.area);
+    double squares = 0;
+    std::size_t receivers = 0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        if (area.surface[i] != groundtruth::Surface::Receiver) continue;
+        ++receivers;
+        squares += (mean[i] - area.visibility[i]) * (mean[i] - area.visibility[i]);
+    }
+    times.areaRms = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(receivers, 1)));
+    return times;
+}
+
+std::string scenesReport(const Settings& settings) {
+    std::string text = fmt::format(
+        "# What exact shadows cost on scenes\n\nMade by `oracles --scene {} --profile {}`, {} threads. Embree 3 traces one "
+        "ray to the light's centre, or {} to\npoints of an area light, from {:g} m off the surface, and starts from the "
+        "exact "
+        "primary hits; labels and area shares are what a run\ncomputes, from the snapshot on, primary hits included.\n\n"
+        "| scene | triangles | receivers | primary hits, s | Embree build + trace, s | labels, s | ÷ Embree | Embree wrong, "
+        "px "
+        "| Embree's light rays, s | area shares, s | ÷ Embree | rms apart "
+        "|\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+        fmt::join(settings.scenes, ","), settings.profile, availableThreads(), settings.lightRays, surfaceOffset);
+    for (const std::string& id : settings.scenes) {
+        const SceneTimes t = measureScene(id, settings);
+        text += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} + {:.2f} | {:.2f} | **{:.2f}** | {} |", t.id, t.triangles,
+                            t.receivers, t.primary, t.build, t.trace, t.labels, t.labels / (t.build + t.trace), t.wrong);
+        text += t.area == 0 ? std::string(" – | – | – | – |\n")
+                            : fmt::format(" {:.1f} | {:.1f} | **{:.2f}** | {:.4f} |\n", t.lightTrace, t.area,
+                                          t.area / (t.build + t.lightTrace), t.areaRms);
+    }
+    return text;
+}
+
 int run(int argc, char** argv) {
     Settings settings;
     CLI::App app("The exact oracles against Embree");
@@ -205,9 +301,14 @@ int run(int argc, char** argv) {
     app.add_option("--size", settings.size, "pixels on a side")->check(CLI::Range(16, 4096));
     app.add_option("--rounds", settings.rounds)->check(CLI::Range(1, 1000));
     app.add_option("--threads", settings.threads)->check(CLI::Range(1, 256));
+    app.add_option("--scene", settings.scenes, "scenes of the library, or files, instead of the bumpy body")->delimiter(',');
+    app.add_option("--profile", settings.profile, "of the scenes")->capture_default_str();
+    app.add_option("--light-rays", settings.lightRays, "a pixel that Embree traces to an area light")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
     app.add_option("--out", settings.out, "file for the tables");
     CLI11_PARSE(app, argc, argv);
-    const std::string text = report(settings);
+    const std::string text = settings.scenes.empty() ? report(settings) : scenesReport(settings);
     fmt::print("{}", text);
     if (!settings.out.empty()) writeFile(settings.out, text);
     return 0;
