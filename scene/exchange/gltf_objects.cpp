@@ -28,15 +28,6 @@ std::string nameOfPrimitive(const std::string& node, std::size_t primitive) {
     return primitive == 0 ? node : fmt::format("{}_{}", node, primitive + 1);
 }
 
-void requireNoMask(const Json& material, const Json& index) {
-    if (material.value("alphaMode", std::string()) != "MASK") return;
-    const std::string name = nameOf(material);
-    throw BadInput(
-        fmt::format("material {} has holes where its texture is transparent (alphaMode MASK), which is not supported "
-                    "yet; make it opaque, or model the holes",
-                    name.empty() ? index.dump() : fmt::format("\"{}\"", name)));
-}
-
 } // namespace
 
 GltfObjects::GltfObjects(const GltfDocument& gltf, const std::string& file) : gltf_(gltf), file_(file) {
@@ -75,10 +66,7 @@ toml::table GltfObjects::objectOf(std::size_t mesh, std::size_t primitive, const
     const Json& entry = gltf_.json()["meshes"][mesh];
     const Json& drawn = entry["primitives"][primitive];
     Json material = Json::object();
-    if (drawn.contains("material")) {
-        material = gltf_.entry("materials", drawn["material"]);
-        requireNoMask(material, drawn["material"]);
-    }
+    if (drawn.contains("material")) material = gltf_.entry("materials", drawn["material"]);
     const std::string& part = names_[mesh][primitive];
     // Only our exporter promises that what is seen from outside alone is closed.
     const bool closed = gltf_.isExported() && !material.value("doubleSided", false);

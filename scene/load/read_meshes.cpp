@@ -80,7 +80,21 @@ Recipe treeRecipe(const TomlValue& value, int level) {
     return {fmt::format("tree {} {}", triangles, seed), [=] { return tree(triangles, seed); }};
 }
 
+Recipe cardsRecipe(const TomlValue& value) {
+    value.only({"count", "size", "texels", "cutoff", "seed"});
+    const int count = value.get("count").integer(1, 100'000), texels = value.get("texels").integer(2, 4096);
+    const double size = value.get("size").positive();
+    if (!(size < 1)) value.get("size").fail("expected less than the crown's radius, 1");
+    const auto given = value.find("cutoff");
+    const double cutoff = given ? given->positive() : 0.5;
+    if (!(cutoff < 1)) given->fail("expected less than 1, the alpha of a leaf's middle");
+    const std::uint32_t seed = seedOf(value);
+    return {fmt::format("leaf cards {} {} {} {} {}", count, size, texels, cutoff, seed),
+            [=] { return leafCards(count, size, texels, cutoff, seed); }};
+}
+
 Recipe plainRecipe(const TomlValue& value) {
+    if (value.lastKey() == "leaf_cards") return cardsRecipe(value);
     if (value.lastKey() == "plane") {
         const double half = value.only({"half"}).get("half").positive();
         return {fmt::format("plane {}", half), [=] { return plane(half); }};
@@ -155,8 +169,8 @@ double metresOf(const TomlValue& unit) {
 bool isZUp(const TomlValue& up) { return up.oneOf({"y", "z"}) == "z"; }
 
 std::shared_ptr<const Mesh> MeshStore::get(const TomlValue& value, int triangles) {
-    value.only({"plane", "box", "sphere", "column", "bumpy", "windmill_tower", "windmill_rotor", "tree", "file", "part",
-                "closed", "simplify", "unit", "up", "flip", "matrix"});
+    value.only({"plane", "box", "sphere", "column", "bumpy", "windmill_tower", "windmill_rotor", "tree", "leaf_cards",
+                "file", "part", "closed", "simplify", "unit", "up", "flip", "matrix"});
     if (value.find("file")) return imported(value.only(kKeysOfFiles), triangles);
     const std::vector<TomlValue> members = value.members();
     if (members.size() != 1) value.fail(fmt::format("expected one kind of mesh, got {}", members.size()));

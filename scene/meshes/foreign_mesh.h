@@ -17,7 +17,7 @@ class ReaderChild;
 struct ForeignMeshFile {
     std::string extension; // ".obj", ".ply", ".gltf" or ".glb"; the importer is chosen by it alone
     std::string bytes;
-    std::map<std::string, std::string> buffers; // of a glTF file, by the name that it gives them
+    std::map<std::string, std::string> buffers; // and textures of a glTF file, by the name that it gives them
 };
 
 /// Throws BadInput, without a file's name, unless it is one of the four.
@@ -29,10 +29,10 @@ Mesh readMeshHere(const ForeignMeshFile& file);
 /// The parts of a .gltf or .glb by name (importParts()), through nlohmann's JSON. Throws as above.
 std::map<std::string, Mesh> readPartsHere(const ForeignMeshFile& file);
 
-/// The names of the files that hold a glTF file's buffers, each once; `gltf` is its JSON. Nothing of the file is kept in
-/// memory. Throws BadInput for more than the child can be handed, and for JSON nested deeper than Limit::Nesting; of other
-/// errors the child speaks.
-std::vector<std::string> bufferNamesOf(std::string_view gltf);
+/// The names of the files that hold a glTF file's buffers and the textures of its alpha tests, each once; `gltf` is its
+/// JSON. Nothing else of the file is kept in memory. Throws BadInput for more than the child can be handed, and for JSON
+/// nested deeper than Limit::Nesting; of other errors the child speaks.
+std::vector<std::string> filesNeededBy(std::string_view gltf);
 
 /// What a child has answered, checked: finite positions, indices in range, no more than Limit::Vertices and
 /// Limit::Triangles. Throws BadInput.

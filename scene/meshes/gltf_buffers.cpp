@@ -21,12 +21,12 @@ GltfJson parsed(std::string_view text) {
 }
 
 /// The bytes that a data URI carries.
-std::string decoded(std::string_view uri, std::size_t buffer) {
+std::string decoded(std::string_view uri, const char* list, std::size_t index) {
     constexpr std::string_view mark = ";base64,";
     const std::size_t at = uri.find(mark);
     std::optional<std::string> bytes;
     if (at != std::string_view::npos) bytes = fromBase64(uri.substr(at + mark.size()));
-    if (!bytes) throw BadInput(fmt::format("the data URI of buffers[{}] is no base64; export it as .glb", buffer));
+    if (!bytes) throw BadInput(fmt::format("the data URI of {}[{}] is no base64; export it as .glb", list, index));
     return std::move(*bytes);
 }
 
@@ -73,12 +73,32 @@ std::string_view GltfBuffers::bytesOf(std::size_t buffer) {
     }
     if (uri.starts_with("data:")) {
         const auto [known, isNew] = decoded_.try_emplace(buffer);
-        if (isNew) known->second = decoded(uri, buffer);
+        if (isNew) known->second = decoded(uri, "buffers", buffer);
         return known->second;
     }
+    return handed(uri);
+}
+
+std::string_view GltfBuffers::handed(const std::string& uri) const {
     const auto bytes = file_.buffers.find(uri);
-    if (bytes == file_.buffers.end()) throw BadInput(fmt::format("the buffer \"{}\" is not there", uri));
+    if (bytes == file_.buffers.end()) throw BadInput(fmt::format("the file \"{}\" is not there", uri));
     return bytes->second;
+}
+
+std::string_view GltfBuffers::bytesOfView(std::size_t number) {
+    const GltfJson& view = entry("bufferViews", number);
+    const std::string_view buffer = bytesOf(wholeNumber<std::size_t>(view.at("buffer")));
+    const std::size_t start = gltfWhole(view, "byteOffset", 0);
+    if (start > buffer.size() || gltfWhole(view, "byteLength", 0) > buffer.size() - start)
+        throw BadInput(fmt::format("bufferViews[{}] reaches beyond its buffer", number));
+    return buffer.substr(start, gltfWhole(view, "byteLength", buffer.size() - start));
+}
+
+std::string GltfBuffers::image(std::size_t index) {
+    const GltfJson& image = entry("images", index);
+    if (image.contains("bufferView")) return std::string(bytesOfView(wholeNumber<std::size_t>(image["bufferView"])));
+    const auto uri = image.at("uri").get<std::string>();
+    return uri.starts_with("data:") ? decoded(uri, "images", index) : std::string(handed(uri));
 }
 
 GltfElements GltfBuffers::elements(std::size_t accessor, std::string_view type) {
@@ -88,16 +108,12 @@ GltfElements GltfBuffers::elements(std::size_t accessor, std::string_view type) 
     };
     if (!a.contains("bufferView") || a.contains("sparse")) fail("is sparse or has no bufferView; export it whole");
     if (a.at("type").get<std::string>() != type) fail(fmt::format("is of type {}, not {}", a["type"].dump(), type));
-    const GltfJson& view = entry("bufferViews", wholeNumber<std::size_t>(a.at("bufferView")));
-    const std::string_view buffer = bytesOf(wholeNumber<std::size_t>(view.at("buffer")));
-    const std::size_t start = gltfWhole(view, "byteOffset", 0);
-    if (start > buffer.size() || gltfWhole(view, "byteLength", 0) > buffer.size() - start)
-        fail("has a bufferView that reaches beyond its buffer");
-    const std::size_t length = gltfWhole(view, "byteLength", buffer.size() - start);
-    const std::string_view bytes = buffer.substr(start, length);
+    const auto viewNumber = wholeNumber<std::size_t>(a.at("bufferView"));
+    const std::string_view bytes = bytesOfView(viewNumber);
     const int component = wholeNumber<int>(a.at("componentType"));
-    const std::size_t width = (type == "VEC3" ? 3 : 1) * sizeOfComponent(component);
-    const std::size_t count = wholeNumber<std::size_t>(a.at("count")), stride = gltfWhole(view, "byteStride", width);
+    const std::size_t width = (type == "VEC3" ? 3 : type == "VEC2" ? 2 : 1) * sizeOfComponent(component);
+    const std::size_t count = wholeNumber<std::size_t>(a.at("count")),
+                      stride = gltfWhole(entry("bufferViews", viewNumber), "byteStride", width);
     const std::size_t first = gltfWhole(a, "byteOffset", 0);
     if (count == 0) fail("is empty");
     if (stride < width || first > bytes.size() || count - 1 > (bytes.size() - first) / stride ||

@@ -34,12 +34,18 @@ public:
 
     [[nodiscard]] const GltfJson& json() const { return json_; }
 
-    /// `type`: of an element, "SCALAR" or "VEC3".
+    [[nodiscard]] const GltfJson& entry(const char* list, std::size_t index) const;
+
+    /// `type`: of an element, "SCALAR", "VEC2" or "VEC3".
     GltfElements elements(std::size_t accessor, std::string_view type);
 
+    /// The bytes of images[index].
+    std::string image(std::size_t index);
+
 private:
-    [[nodiscard]] const GltfJson& entry(const char* list, std::size_t index) const;
     std::string_view bytesOf(std::size_t buffer);
+    std::string_view bytesOfView(std::size_t view);
+    [[nodiscard]] std::string_view handed(const std::string& uri) const;
 
     const ForeignMeshFile& file_;
     std::string_view binary_; // of a .glb

@@ -78,8 +78,8 @@ std::vector<OpenedFile> filesOf(const fs::path& file, const std::string& doing) 
     try {
         const std::string extension = extensionOf(file);
         requireMeshExtension(extension);
-        if (extension == ".gltf") names = bufferNamesOf(contentOf(files.front()));
-        if (extension == ".glb") names = bufferNamesOf(glbChunks(contentOf(files.front())).json);
+        if (extension == ".gltf") names = filesNeededBy(contentOf(files.front()));
+        if (extension == ".glb") names = filesNeededBy(glbChunks(contentOf(files.front())).json);
     } catch (const BadInput& error) {
         throw BadInput(fmt::format("{}: {}", doing, error.what()));
     }

@@ -5,7 +5,7 @@
 #include "base/limits.h"
 #include "scene/gltf_file.h"
 #include "scene/mesh_faults.h"
-#include "scene/meshes/gltf_buffers.h"
+#include "scene/meshes/gltf_masks.h"
 
 #include <algorithm>
 #include <cstring>
@@ -42,16 +42,35 @@ std::vector<std::uint32_t> indicesOf(const GltfElements& elements) {
     return indices;
 }
 
-/// The positions that `triangles` use, in their order: primitives may share an accessor and use little of it each.
-Mesh usedPart(const GltfElements& positions, std::vector<glm::uvec3> triangles) {
-    if (positions.component != kGltfFloat)
-        throw BadInput("its positions are no 32-bit floats; export it without quantisation");
+/// Of texture coordinates, which may be shares of the largest whole number.
+float coordinateAt(const char* bytes, int component) {
+    if (component == kGltfFloat) {
+        float value = 0;
+        std::memcpy(&value, bytes, sizeof value);
+        return value;
+    }
+    std::uint32_t value = 0;
+    const std::size_t size = sizeOfComponent(component);
+    if (size == 4) throw BadInput("its texture coordinates are whole numbers of 32 bits");
+    std::memcpy(&value, bytes, size);
+    return static_cast<float>(value) / static_cast<float>((1U << 8U * size) - 1);
+}
+
+/// The vertices of an accessor that `triangles` use, ascending: primitives may share one and use little of it each.
+std::vector<std::uint32_t> usedOf(const std::vector<glm::uvec3>& triangles, std::size_t count) {
     std::vector<std::uint32_t> used;
     for (const glm::uvec3& t : triangles) used.insert(used.end(), {t.x, t.y, t.z});
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    if (!used.empty() && used.back() >= positions.count)
-        throw BadInput(fmt::format("a triangle uses position {} of {}; export it again", used.back(), positions.count));
+    if (!used.empty() && used.back() >= count)
+        throw BadInput(fmt::format("a triangle uses position {} of {}; export it again", used.back(), count));
+    return used;
+}
+
+/// The positions of the vertices `used`.
+Mesh usedPart(const GltfElements& positions, std::vector<glm::uvec3> triangles, const std::vector<std::uint32_t>& used) {
+    if (positions.component != kGltfFloat)
+        throw BadInput("its positions are no 32-bit floats; export it without quantisation");
     Mesh mesh{std::vector<glm::vec3>(used.size()), std::move(triangles)};
     for (std::size_t i = 0; i < used.size(); ++i)
         std::memcpy(&mesh.positions[i], positions.first + used[i] * positions.stride, sizeof(glm::vec3));
@@ -61,9 +80,21 @@ Mesh usedPart(const GltfElements& positions, std::vector<glm::uvec3> triangles) 
     return mesh;
 }
 
+std::vector<glm::vec2> coordinatesOf(const GltfElements& elements, const std::vector<std::uint32_t>& used) {
+    std::vector<glm::vec2> coordinates;
+    for (const std::uint32_t vertex : used) {
+        if (vertex >= elements.count)
+            throw BadInput(fmt::format("it has {} texture coordinates and a vertex {}", elements.count, vertex));
+        const char* first = elements.first + vertex * elements.stride;
+        coordinates.emplace_back(coordinateAt(first, elements.component),
+                                 coordinateAt(first + sizeOfComponent(elements.component), elements.component));
+    }
+    return coordinates;
+}
+
 class PartReader {
 public:
-    explicit PartReader(const ForeignMeshFile& file) : buffers_(file) {}
+    explicit PartReader(const ForeignMeshFile& file) : buffers_(file), masks_(buffers_) {}
 
     std::map<std::string, Mesh> parts() {
         std::map<std::string, Mesh> result;
@@ -107,7 +138,23 @@ private:
             corners.resize(positions.count);
             std::iota(corners.begin(), corners.end(), 0U);
         }
-        return usedPart(positions, trianglesOf(corners, mode));
+        std::vector<glm::uvec3> triangles = trianglesOf(corners, mode);
+        const std::vector<std::uint32_t> used = usedOf(triangles, positions.count);
+        Mesh mesh = usedPart(positions, std::move(triangles), used);
+        if (const std::optional<GltfMask>& mask = masks_.of(primitive)) return cut(mesh, *mask, primitive, used);
+        return mesh;
+    }
+
+    Mesh cut(const Mesh& mesh, const GltfMask& mask, const GltfJson& primitive, const std::vector<std::uint32_t>& used) {
+        requireNumbers(mesh, "its mesh"); // which may have no area otherwise
+        std::vector<glm::vec2> coordinates(used.size());
+        if (!mask.coordinates.empty()) {
+            const auto number = wholeNumber<std::size_t>(primitive.at("attributes").at(mask.coordinates));
+            coordinates = coordinatesOf(buffers_.elements(number, "VEC2"), used);
+        }
+        const Mesh left = cutByMask(mesh, coordinates, mask.mask);
+        if (left.triangles.empty()) throw BadInput("its mask leaves nothing of it; is its alphaCutoff as it should be?");
+        return compacted(left);
     }
 
     /// Of all parts together.
@@ -121,6 +168,7 @@ private:
     }
 
     GltfBuffers buffers_;
+    GltfMasks masks_;
     /// What we have exported must come back bit by bit; what modelling programs write has each corner of a sharp edge twice.
     bool isExported_ = buffers_.json().contains(GltfJson::json_pointer("/asset/extras/shadowbench"));
     std::uint64_t vertices_ = 0, triangles_ = 0;

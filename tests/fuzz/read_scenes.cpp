@@ -1,3 +1,4 @@
+#include "base/base64.h"
 #include "base/toml_value.h"
 #include "harness/metrics/table.h"
 #include "scene/exchange/export.h"
@@ -41,9 +42,14 @@ void readGltfScene(const std::string& name, std::string_view input) {
     require(isTaken([&] { parseToml(scene.toml, name); }), "what was made of a glTF file is no TOML: " + scene.toml);
 }
 
+/// 2 × 2 texels, half of them clear.
+const std::string leaf =
+    *fromBase64("iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAEklEQVR42mP4z8DwH4SBkAGMAUHQBfsM2jl8AAAAAElFTkSuQmCC");
+
 /// As the child does that reads its meshes.
 void readParts(const std::string& extension, std::string_view input) {
-    for (const auto& part : readPartsHere({extension, std::string(input), {{"scene.bin", std::string(1000, '\1')}}})) {
+    for (const auto& part :
+         readPartsHere({extension, std::string(input), {{"scene.bin", std::string(1000, '\1')}, {"leaf.png", leaf}}})) {
         requireNumbers(part.second, part.first);
         isTaken([&] { requireWellFormed(part.second, part.first); });
     }
@@ -58,14 +64,14 @@ void readScene(std::string_view input) {
 }
 
 void readMeshParts(std::string_view input) {
-    bufferNamesOf(input); // as the process does that starts the child
+    filesNeededBy(input); // as the process does that starts the child
     readParts(".gltf", input);
 }
 
 void readGltfText(std::string_view input) { readGltfScene("scene.gltf", input); }
 
 void readGltfBinary(std::string_view input) {
-    bufferNamesOf(glbChunks(input).json);
+    filesNeededBy(glbChunks(input).json);
     isTaken([&] { readGltfScene("scene.glb", input); });
     readParts(".glb", input);
 }

@@ -158,6 +158,26 @@ TEST(MeshGenerators, ModelsKeepTheirSizeOverLevels) {
     for (const int count : {60, 700, 12000}) EXPECT_NEAR(windmillRotor(count).bounds().high.y, 1.65, 0.05) << count;
 }
 
+TEST(MeshGenerators, LeavesOfCardsAreWhatTheirCutoffLeaves) {
+    const auto areaOf = [](double cutoff) {
+        const Mesh crown = leafCards(10, 0.5, 32, cutoff, 5);
+        EXPECT_FALSE(crown.closed);
+        EXPECT_NO_THROW(requireWellFormed(crown, "leaf cards"));
+        double area = 0;
+        for (const glm::uvec3& t : crown.triangles)
+            area += 0.5 * glm::length(glm::cross(glm::dvec3(crown.positions[t.y] - crown.positions[t.x]),
+                                                 glm::dvec3(crown.positions[t.z] - crown.positions[t.x])));
+        for (const glm::vec3& p : crown.positions) EXPECT_LE(glm::length(p), 1.2F); // a card's corners lie beyond its head
+        return area / (10 * 0.25);
+    };
+    const double usual = areaOf(0.5);
+    EXPECT_GT(usual, 0.2);
+    EXPECT_LT(usual, 0.5);
+    EXPECT_GT(areaOf(0.4), 1.2 * usual); // ellipses grow by the square of 0.6 / 0.5, and overlap
+    EXPECT_LT(areaOf(0.6), 0.75 * usual);
+    EXPECT_NE(leafCards(10, 0.5, 32, 0.5, 5).positions, leafCards(10, 0.5, 32, 0.5, 6).positions);
+}
+
 TEST(MeshGenerators, ModelsReachIntoTheGroundSoThatNoFaceLiesInItsPlane) {
     EXPECT_LT(tree(300, 1).bounds().low.y, -0.02);
     EXPECT_LT(windmillTower(300).bounds().low.y, -0.02);

@@ -87,7 +87,7 @@ TEST_F(GltfOfOthers, ADamagedContainerIsNamed) {
     expect(changed(15, 1), "one of its chunks reaches beyond its end"); // length of the JSON
     expect(changed(16, 'X'), "its first chunk is no JSON");
     for (std::size_t length = 0; length < 24; ++length) expect(whole.substr(0, length), "other.glb");
-    expect(glbOf(gltf.dump(), ""), "bufferView that reaches beyond its buffer");
+    expect(glbOf(gltf.dump(), ""), "reaches beyond its buffer");
     expect(glbOf(std::string(100, '['), ""), "nested deeper");
 }
 
@@ -302,12 +302,9 @@ TEST_F(GltfOfOthers, WhatNoSceneHasIsNamedWithWhatToWrite) {
     gltf["cameras"][0] = {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 1}, {"zfar", 9}}}};
     expectRefused("camera \"camera\" is not in perspective; give one that is in a scene file: camera = { eye = [0, 5, 0]");
     gltf = whole;
-    gltf["materials"] = {{{"name", "Leaves"}, {"alphaMode", "MASK"}}, {{"alphaMode", "BLEND"}}};
-    gltf["meshes"][0]["primitives"][0]["material"] = 1;
-    EXPECT_EQ(loaded().objects.size(), 1U) << "glass is as opaque as all else";
+    gltf["materials"] = {{{"alphaMode", "BLEND"}}};
     gltf["meshes"][0]["primitives"][0]["material"] = 0;
-    expectRefused(
-        "material \"Leaves\" has holes where its texture is transparent (alphaMode MASK), which is not supported yet");
+    EXPECT_EQ(loaded().objects.size(), 1U) << "glass is as opaque as all else";
     gltf = whole;
     gltf["meshes"][0]["primitives"][0]["mode"] = 3;
     expectRefused("no node of it shows a triangle; points and lines cast no shadow");

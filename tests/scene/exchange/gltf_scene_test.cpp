@@ -118,7 +118,7 @@ TEST_F(ForeignGltf, WhatIsNoSceneIsNamed) {
         {[](Json& g) { g["accessors"][0]["count"] = 4; }, "accessors[0] reaches beyond its bufferView"},
         {[](Json& g) { g["accessors"][1]["count"] = 2; }, "its 2 corners are no list of triangles"},
         {[](Json& g) { g["accessors"][0]["count"] = 2; }, "a triangle uses position 2 of 2"},
-        {[](Json& g) { g["bufferViews"][0]["byteOffset"] = 20; }, "bufferView that reaches beyond its buffer"},
+        {[](Json& g) { g["bufferViews"][0]["byteOffset"] = 20; }, "reaches beyond its buffer"},
         {[](Json& g) { g["meshes"][0]["primitives"][0]["mode"] = 7; }, "no mode 7"},
         {[](Json& g) { g["buffers"][0]["uri"] = "data:application/octet-stream;base64,=AAA"; }, "is no base64"},
         {[](Json& g) { g["buffers"][0].erase("uri"); }, "buffers[0] names no file"},

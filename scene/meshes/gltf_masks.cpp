@@ -1,0 +1,76 @@
+#include "scene/meshes/gltf_masks.h"
+
+#include "base/error.h"
+#include "base/image_formats.h"
+#include "base/json_text.h"
+#include "base/limits.h"
+
+#include <fmt/format.h>
+
+namespace shadowbench {
+namespace {
+
+constexpr int nearestFilter = 9728, mirroredRepeat = 33648, clampToEdge = 33071; // glTF's numbers, as OpenGL's
+
+AlphaMask::Wrap wrapOf(const GltfJson& sampler, const char* name) {
+    const std::size_t number = gltfWhole(sampler, name, 0);
+    if (number == mirroredRepeat) return AlphaMask::Wrap::Mirror;
+    return number == clampToEdge ? AlphaMask::Wrap::Clamp : AlphaMask::Wrap::Repeat;
+}
+
+/// JPEG knows no alpha.
+Image<float> alphaOf(const std::string& bytes) {
+    const Image<float> solid(1, 1, 1.0F);
+    if (bytes.starts_with("\xFF\xD8")) return solid;
+    if (!bytes.starts_with("\x89PNG")) throw BadInput("its texture is neither PNG nor JPEG");
+    const ImageHeader header = png::headerOf(bytes);
+    if (static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height) > limitOf(Limit::Pixels))
+        throw BadInput(
+            fmt::format("its texture has {} × {} pixels, {}", header.width, header.height, beyond(Limit::Pixels)));
+    return header.alpha < 0 ? solid : png::channelOf(bytes, header.alpha);
+}
+
+} // namespace
+
+const std::optional<GltfMask>& GltfMasks::of(const GltfJson& primitive) {
+    static const std::optional<GltfMask> none;
+    if (!primitive.contains("material")) return none;
+    const auto number = wholeNumber<std::size_t>(primitive["material"]);
+    const auto [known, isNew] = known_.try_emplace(number);
+    if (!isNew) return known->second;
+    const GltfJson& material = buffers_.entry("materials", number);
+    if (material.value("alphaMode", std::string()) != "MASK") return none;
+    try {
+        return known->second = read(material);
+    } catch (const BadInput& error) {
+        throw BadInput(fmt::format("material \"{}\" with alphaMode MASK: {}", material.value("name", std::to_string(number)),
+                                   error.what()));
+    }
+}
+
+GltfMask GltfMasks::read(const GltfJson& material) {
+    GltfMask result;
+    result.mask.cutoff = material.value("alphaCutoff", 0.5);
+    result.mask.alpha = Image<float>(1, 1, 1.0F);
+    const GltfJson factors = material.value("pbrMetallicRoughness", GltfJson::object());
+    if (factors.contains("baseColorTexture")) readTexture(factors["baseColorTexture"], result);
+    if (factors.contains("baseColorFactor"))
+        for (float& alpha : result.mask.alpha) alpha *= factors["baseColorFactor"].at(3).get<float>();
+    return result;
+}
+
+void GltfMasks::readTexture(const GltfJson& use, GltfMask& result) {
+    if (use.contains(GltfJson::json_pointer("/extensions/KHR_texture_transform")))
+        throw BadInput("KHR_texture_transform is not read; apply it to the texture's coordinates");
+    result.coordinates = fmt::format("TEXCOORD_{}", gltfWhole(use, "texCoord", 0));
+    const GltfJson& texture = buffers_.entry("textures", wholeNumber<std::size_t>(use.at("index")));
+    if (!texture.contains("source")) throw BadInput("its texture is neither PNG nor JPEG");
+    result.mask.alpha = alphaOf(buffers_.image(wholeNumber<std::size_t>(texture["source"])));
+    if (!texture.contains("sampler")) return;
+    const GltfJson& sampler = buffers_.entry("samplers", wholeNumber<std::size_t>(texture["sampler"]));
+    result.mask.nearest = gltfWhole(sampler, "magFilter", 0) == nearestFilter;
+    result.mask.u = wrapOf(sampler, "wrapS");
+    result.mask.v = wrapOf(sampler, "wrapT");
+}
+
+} // namespace shadowbench

@@ -1,0 +1,33 @@
+// The alpha tests of a glTF file's materials, in the child that reads meshes.
+#pragma once
+
+#include "scene/meshes/alpha_mask.h"
+#include "scene/meshes/gltf_buffers.h"
+
+#include <map>
+#include <optional>
+
+namespace shadowbench {
+
+struct GltfMask {
+    AlphaMask mask;
+    std::string coordinates; // attribute with the places in it; empty where all of it has one alpha
+};
+
+/// Members throw as GltfBuffers' do.
+class GltfMasks {
+public:
+    explicit GltfMasks(GltfBuffers& buffers) : buffers_(buffers) {}
+
+    /// Of the primitive's material; nothing unless its alphaMode is MASK. An alpha of vertices is not read.
+    const std::optional<GltfMask>& of(const GltfJson& primitive);
+
+private:
+    GltfMask read(const GltfJson& material);
+    void readTexture(const GltfJson& use, GltfMask& result);
+
+    GltfBuffers& buffers_;
+    std::map<std::size_t, std::optional<GltfMask>> known_; // by material
+};
+
+} // namespace shadowbench
