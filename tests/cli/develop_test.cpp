@@ -169,7 +169,7 @@ TEST_F(Develop, AKillLeavesNoProgramAndTheNextOneRemovesItsFolder) {
     EXPECT_EQ(programs(), 0);
     mine_.write("resolve.frag", mapShader);
     LivePage next = this->page();
-    next.drawnAfter(0);
+    EXPECT_EQ(next.drawnAfter(0)["rows"][0]["error"], "");
     next.end(SIGTERM);
     EXPECT_TRUE(leavesNothing());
 }
