@@ -100,8 +100,9 @@ bool hasPass(const std::vector<PassRecord>& passes, const std::string& name) {
 CellScene& plates() { return stillScene("overlapping-occluders", 1); }
 
 TEST(CostInMotion, IsThatOfTheStandingFrameForTechniquesThatKeepNothing) {
-    for (const char* variant : {"none", "sm-uniform", "sm-lispsm", "sm-cascaded", "sm-tiled", "sm-adaptive:cache=off", "pcf",
-                                "vsm", "pcss", "sampled-maps:n=4", "volume-zfail", "penumbra-wedge", "planar-soft:n=4"}) {
+    for (const char* variant :
+         {"none", "sm-uniform", "sm-lispsm", "sm-cascaded", "sm-tiled", "sm-adaptive:cache=off", "sm-clipmap:cache=off",
+          "pcf", "vsm", "pcss", "sampled-maps:n=4", "volume-zfail", "penumbra-wedge", "planar-soft:n=4"}) {
         const Record& record = plates().scored(variant);
         EXPECT_EQ(workOf(record, Frame::Moving), workOf(record, Frame::Standing)) << variant;
         EXPECT_TRUE(record.motionPasses.empty()) << variant;
@@ -145,7 +146,8 @@ CellScene& smallSky() {
 }
 
 TEST(WhatIsKept, IsDroppedWhereLightOrCastersAloneHaveMoved) {
-    for (const char* variant : {"sm-adaptive", "layered-attenuation:n=16,map=128"}) expectNothingStale(plates(), variant);
+    for (const char* variant : {"sm-adaptive", "sm-clipmap", "layered-attenuation:n=16,map=128"})
+        expectNothingStale(plates(), variant);
     for (const char* variant : {"prt-sh:points=256,directions=64", "prt-haar:points=256,rays=1,resolution=16"})
         expectNothingStale(smallSky(), variant);
 }

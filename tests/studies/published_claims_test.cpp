@@ -59,7 +59,7 @@ TEST_F(PublishedClaims, AreThoseOfTheRecords) {
 }
 
 TEST_F(PublishedClaims, AreAllMeasured) {
-    EXPECT_EQ(judgements.size(), 56U);
+    EXPECT_EQ(judgements.size(), 59U);
     for (const Judgement& judgement : judgements) EXPECT_NE(judgement.verdict, Verdict::NotMeasured) << judgement.claim->id;
 }
 

@@ -77,6 +77,16 @@ inline Scene avenueScene(double near) {
     return scene;
 }
 
+/// The avenue, whose first box moves from frame 2 on and whose camera moves from frame 4 on.
+inline Scene movingAvenue() {
+    Scene scene = avenueScene(0.5);
+    scene.timeline = {.still = 3, .moving = 4};
+    scene.objects[1].motion.shift.keys = {{0, {0, 0, 0}}, {4, {0.4, 0, 0}}};
+    const glm::dvec3 eye = scene.camera.eye;
+    scene.eye.keys = {{2, eye}, {4, eye + glm::dvec3(0.3, 0, -0.2)}};
+    return scene;
+}
+
 /// Pixels whose visibility differs.
 inline std::size_t differing(const Image<float>& a, const Image<float>& b) {
     std::size_t count = 0;

@@ -1,6 +1,6 @@
 // Which pages of an adaptive shadow map are kept, and what of the casters has changed.
-#include "techniques/maps/sm-adaptive/caster_changes.h"
-#include "techniques/maps/sm-adaptive/page_cache.h"
+#include "techniques/shared/maps/caster_changes.h"
+#include "techniques/shared/maps/page_cache.h"
 
 #include "scene/meshes/primitives.h"
 

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <queue>
 #include <span>
-#include <tuple>
 
 namespace shadowbench::techniques {
 namespace {
@@ -106,11 +105,6 @@ private:
 };
 
 } // namespace
-
-bool operator<(const Page& a, const Page& b) {
-    const auto place = [](const Page& p) { return std::tuple(p.plane, p.level, p.at.y, p.at.x); };
-    return place(a) < place(b);
-}
 
 std::vector<Page> refine(const std::vector<Demand>& demands, const Refinement& limits) {
     const Quadtree tree(demands, limits);

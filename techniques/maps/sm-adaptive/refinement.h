@@ -1,24 +1,14 @@
 // Refinement of a quadtree over a light's image planes by what pixels need (fitted virtual shadow maps; no GL).
 #pragma once
 
+#include "techniques/shared/maps/page.h"
 #include "techniques/shared/maps/tile_choice.h"
 
 #include <vector>
 
 namespace shadowbench::techniques {
 
-/// A node of the quadtree over a plane: level 0 is the whole plane, level l one of 2^l × 2^l squares, `at` its column and
-/// row.
-struct Page {
-    int plane = 0;
-    int level = 0;
-    glm::ivec2 at{0};
-    friend bool operator==(const Page&, const Page&) = default;
-};
-
-/// The order of planes, levels, rows, columns.
-bool operator<(const Page& a, const Page& b);
-
+/// Level 0 of the quadtree is the whole plane, level l is 2^l × 2^l squares.
 inline constexpr int finestLevel = 8;
 
 struct Refinement {

@@ -13,11 +13,11 @@
 // too long by the least, summed over their pixels.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
-#include "techniques/maps/sm-adaptive/caster_changes.h"
-#include "techniques/maps/sm-adaptive/page_cache.h"
-#include "techniques/maps/sm-adaptive/page_maps.h"
 #include "techniques/maps/sm-adaptive/refinement.h"
+#include "techniques/shared/maps/page_cache.h"
+#include "techniques/shared/maps/page_maps.h"
 #include "techniques/shared/maps/plane_demands.h"
+#include "techniques/shared/maps/stale_pages.h"
 #include "techniques/shared/maps/tiles_on_planes.h"
 
 #include <algorithm>
@@ -42,11 +42,6 @@ struct alignas(8) Place {
     int pagesPerPlane;
 };
 
-bool sameView(const LightView& a, const LightView& b) {
-    return a.clipFromWorld == b.clipFromWorld && a.depthFromWorld == b.depthFromWorld && a.far == b.far &&
-           a.perspective == b.perspective;
-}
-
 class Adaptive final : public Technique {
 public:
     explicit Adaptive(const Parameters& p)
@@ -57,7 +52,7 @@ public:
 
     void reset() override {
         cache_.clear();
-        changes_.forget();
+        stale_.forget();
     }
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
@@ -98,20 +93,10 @@ private:
         return {page.plane, size * page.at, size, {{0, 0}, glm::ivec2(limits_.texels)}};
     }
 
-    /// Leaves what this frame would draw just so.
     void dropStalePages(const Snapshot& snapshot) {
-        const std::optional<std::vector<glm::dvec3>> moved = changes_.since(snapshot);
         const std::vector<LightView>& planes = demands_.planes();
-        const bool samePlanes = std::ranges::equal(planes, planesOfCache_, sameView);
-        planesOfCache_ = planes;
-        if (!keeps_ || !moved || !samePlanes) {
-            cache_.clear();
-        } else if (!moved->empty()) {
-            cache_.drop([&](const Page& page) {
-                const std::vector<bool> meets = castersIn(tiles_.viewOf(tileOf(page), planes), *moved);
-                return std::ranges::find(meets, true) != meets.end();
-            });
-        }
+        stale_.drop(cache_, snapshot, planes, [&](const Page& page) { return tiles_.viewOf(tileOf(page), planes); });
+        if (!keeps_) cache_.clear();
     }
 
     void draw(const Filling& filling, const Frame& frame, const std::vector<glm::dvec3>& corners) {
@@ -144,8 +129,7 @@ private:
     TilesOnPlanes tiles_; // of `pages_`
     PageMaps maps_;
     PageCache cache_;
-    CasterChanges changes_;
-    std::vector<LightView> planesOfCache_;
+    StalePages stale_;
     gl::Buffer placeBuffer_;
     gl::Program test_;
 

@@ -35,7 +35,8 @@ std::optional<metrics::Aliasing> aliasingOf(Stage& stage, const std::string& nam
 
 bool hasShadowMap(const techniques::Entry& entry) {
     if (entry.answer == techniques::Answer::Soft || entry.id.starts_with("planar")) return false;
-    if (entry.id == "sm-tiled" || entry.id == "sm-adaptive") return false; // texels by what pixels ask, see below
+    if (entry.id == "sm-tiled" || entry.id == "sm-adaptive" || entry.id == "sm-clipmap")
+        return false; // by what pixels ask, below
     return std::ranges::any_of(entry.parameters, [](const techniques::Parameter& p) { return p.name == "map"; });
 }
 
@@ -100,6 +101,24 @@ TEST(AdaptiveMap, HasNoTexelLongerThanAPixel) {
         EXPECT_LE(one->p95, std::sqrt(2) * 1.001); // normals of 16 bits
         EXPECT_LE(four->p95, std::sqrt(2) / 4 * 1.001);
         EXPECT_GT(one->median, 0.25); // nor are they much shorter: levels are powers of two
+    }
+}
+
+TEST(SmClipmap, HasTexelsOfHalfAPixelToAPixelWhereSunAndCameraLookTheSameWay) {
+    Scene scene = groundScene();
+    scene.light = {LightKind::Directional, {}, {0, -1, 0}, {}, {}};
+    scene.camera.up = {0, 0, -1};
+    for (const double height : {2.1, 3.3, 5.7, 8.9}) {
+        scene.camera.eye = scene.camera.target + glm::dvec3(0, height, 0);
+        Stage stage(scene);
+        stage.show(0);
+        const std::optional<metrics::Aliasing> one = aliasingOf(stage, "sm-clipmap"),
+                                               four = aliasingOf(stage, "sm-clipmap:density=4");
+        ASSERT_TRUE(one && four);
+        EXPECT_EQ(one->mapped, 1);
+        EXPECT_LE(one->p95, 1.001); // positions of 32 bits
+        EXPECT_GE(one->median, 0.499);
+        EXPECT_NEAR(four->median, one->median / 4, 0.001);
     }
 }
 

@@ -115,6 +115,7 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"sm-cascaded:fit=view", {"G-buffer", "depth map", "resolve"}},
         {"sm-tiled", {"G-buffer", "depth map", "demands", "tile choice", "resolve"}}, // the depth map twice
         {"sm-adaptive:cache=off", {"G-buffer", "demands", "refinement", "depth map", "resolve"}},
+        {"sm-clipmap:cache=off", {"G-buffer", "page marking", "page allocation", "depth map", "resolve"}},
         {"sm-history", {"G-buffer", "depth map", "temporal resolve"}},
         {"sm-silhouette", {"G-buffer", "depth map", "silhouette edges", "silhouette map", "resolve"}},
         {"sm-alias-free", {"G-buffer", "pixel lists", "triangle tests", "resolve"}},

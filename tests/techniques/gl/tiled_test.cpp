@@ -133,16 +133,6 @@ TEST(SmAdaptive, DrawsOverASmallMapAgainAndAgainWithTheSameResult) {
     EXPECT_EQ(differing(rendered(stage, "sm-adaptive:map=128"), whole), 0U);
 }
 
-/// The avenue, whose first box moves from frame 2 on and whose camera moves from frame 4 on.
-Scene movingAvenue() {
-    Scene scene = avenueScene(0.5);
-    scene.timeline = {.still = 3, .moving = 4};
-    scene.objects[1].motion.shift.keys = {{0, {0, 0, 0}}, {4, {0.4, 0, 0}}};
-    const glm::dvec3 eye = scene.camera.eye;
-    scene.eye.keys = {{2, eye}, {4, eye + glm::dvec3(0.3, 0, -0.2)}};
-    return scene;
-}
-
 /// A technique and how many pages it draws.
 struct Pages {
     std::unique_ptr<techniques::Technique> technique;

@@ -1,4 +1,4 @@
-#include "techniques/maps/sm-adaptive/page_maps.h"
+#include "techniques/shared/maps/page_maps.h"
 
 #include "techniques/gl/api.h"
 

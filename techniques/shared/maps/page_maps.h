@@ -1,4 +1,4 @@
-// The maps of an adaptive shadow map's pages on the GPU.
+// The maps of pages on the GPU.
 #pragma once
 
 #include "techniques/contract/technique.h"
@@ -26,6 +26,7 @@ public:
     [[nodiscard]] glm::ivec2 cornerOf(int slot) const { return texels_ * glm::ivec2(slot % columns_, slot / columns_); }
 
     [[nodiscard]] const gl::Texture& texture() const { return depths_; }
+    [[nodiscard]] int columns() const { return columns_; }
     [[nodiscard]] int slots() const { return columns_ * columns_; }
 
 private:

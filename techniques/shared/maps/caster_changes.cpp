@@ -1,4 +1,4 @@
-#include "techniques/maps/sm-adaptive/caster_changes.h"
+#include "techniques/shared/maps/caster_changes.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,8 +1,9 @@
-// Which pages of an adaptive shadow map are kept from frame to frame, and where (no GL).
+// Which pages of shadow maps that are drawn in pages are kept from frame to frame, and where (no GL).
 #pragma once
 
-#include "techniques/maps/sm-adaptive/refinement.h"
+#include "techniques/shared/maps/page.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>

@@ -1,4 +1,4 @@
-#include "techniques/maps/sm-adaptive/page_cache.h"
+#include "techniques/shared/maps/page_cache.h"
 
 #include <algorithm>
 #include <numeric>
