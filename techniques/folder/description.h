@@ -183,6 +183,9 @@ bool holds(const std::optional<FolderCondition>& condition, const Parameters& va
 /// Whether only passes write the target that are left out with these parameters.
 bool isLeftOut(const TechniqueFolder& folder, const FolderTarget& target, const Parameters& values);
 
+/// What the map sees with these parameters: cascades of no slice are the scene.
+FolderView viewOf(const TechniqueFolder& folder, const Parameters& values);
+
 /// How the cascades are fitted with these parameters.
 CascadeRule cascadeRule(const FolderCascades& cascades, const Parameters& values);
 

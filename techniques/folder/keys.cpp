@@ -60,8 +60,8 @@ constexpr std::array keys{
     FolderKey{Root, "pass", "`[[pass]]`, below: what is drawn, in order; the last one writes `visibility`", "needed",
               [] { return std::string(R"("type": "array", "minItems": 1)"); }},
 
-    FolderKey{Cascades, "count", "how many slices, 1 to 8, or the parameter that says it", "needed",
-              [] { return std::string(R"("type": ["string", "integer"])"); }},
+    FolderKey{Cascades, "count", "how many slices, 1 to 8, or the parameter that says it; 0 is one map of the scene",
+              "needed", [] { return std::string(R"("type": ["string", "integer"])"); }},
     FolderKey{Cascades, "lambda",
               "share of geometrical (1) against even (0) steps between slices, or the parameter that says it", "1", scalar},
     FolderKey{Cascades, "blend",
@@ -71,7 +71,8 @@ constexpr std::array keys{
               "what slices are fitted to: `visible`, the points that the G-buffer shows; `view`, the frustum within the "
               "scene's box; or the parameter that says which",
               "`visible`", text},
-    FolderKey{Cascades, "warp", "`none`, `lispsm`, or the parameter that says which", "`none`", text},
+    FolderKey{Cascades, "warp", "`none`, `lispsm`, or the parameter that says which; not where the answer is soft", "`none`",
+              text},
     FolderKey{
         Cascades, "stable",
         "`none`; `texels`: maps of a directional light as large as the slice's ball, moved by whole texels, which asks "

@@ -188,8 +188,8 @@ private:
 
     /// Casters are drawn into one view at a time; other passes read all.
     void requireInput(const std::string& name, const std::string& type, const FolderInput& input) const {
-        if (name == "sliceEnds" && folder_.view != FolderView::Cascades)
-            fail(name, "is of cascades: say view = \"cascades\"");
+        const FolderView view = viewOf(folder_, values_);
+        if (name == "sliceEnds" && view != FolderView::Cascades) fail(name, "is of cascades: say view = \"cascades\"");
         if (pass_.kind == PassKind::Casters && input.type.ends_with("[]"))
             fail(name, fmt::format("\"{}\" is of passes over the screen; casters are drawn into one view at a time", name));
         if (pass_.once && input.of == InputOf::Frame)
@@ -197,7 +197,7 @@ private:
                  fmt::format("\"{}\" changes from frame to frame, and the pass \"{}\" is drawn once: leave one of the two "
                              "out",
                              name, pass_.name));
-        const bool several = folder_.view == FolderView::Cube || folder_.view == FolderView::Cascades;
+        const bool several = view == FolderView::Cube || view == FolderView::Cascades;
         const std::string each = std::string(input.type) +
                                  (input.of == InputOf::EachView && several && pass_.kind != PassKind::Casters ? "[]" : "");
         requireType(name, type, each);

@@ -28,7 +28,10 @@ FolderWord wordOf(const TomlValue& value, const Words<bool, count>& words, const
 
 FolderCascades cascadesOf(const TomlValue& value, const TechniqueFolder& read) {
     value.only(keysOf(KeyTable::Cascades));
-    FolderCascades cascades{.count = amountWithin(value.get("count"), IntegerRange{1, mostCascades}, read)};
+    FolderCascades cascades{.count = amountWithin(value.get("count"), IntegerRange{0, mostCascades}, read)};
+    for (const char* key : {"warp", "stable"})
+        if (const auto hard = value.find(key); hard && read.entry.answer == Answer::Soft)
+            hard->fail("is of maps of a light's centre alone: leave it out of a technique whose answer is soft");
     if (const auto lambda = value.find("lambda")) cascades.lambda = amountWithin(*lambda, RealRange{0, 1}, read);
     if (const auto blend = value.find("blend")) cascades.blend = amountWithin(*blend, RealRange{0, 0.5}, read);
     if (const auto latency = value.find("latency")) {
@@ -67,6 +70,11 @@ void readView(const TomlValue& root, TechniqueFolder& read) {
     };
     const Parameters defaults = parseParameters("", read.entry.parameters, read.entry.id);
     if (const auto why = read.entry.contradiction(defaults)) cascades->fail(*why);
+}
+
+FolderView viewOf(const TechniqueFolder& folder, const Parameters& values) {
+    const bool none = folder.view == FolderView::Cascades && valueOf(folder.cascades.count, values) == 0;
+    return none ? FolderView::Scene : folder.view;
 }
 
 CascadeRule cascadeRule(const FolderCascades& cascades, const Parameters& values) {

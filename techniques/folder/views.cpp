@@ -24,10 +24,11 @@ bool isSeen(const LightView& side, const Frame& frame) {
 } // namespace
 
 FolderViews::FolderViews(const TechniqueFolder& folder, const Parameters& values)
-    : kind_(folder.view), soft_(folder.entry.answer == Answer::Soft) {
+    : kind_(viewOf(folder, values)), soft_(folder.entry.answer == Answer::Soft) {
     if (kind_ == FolderView::Cube) count_ = sidesOfCube;
     if (kind_ != FolderView::Cascades) return;
-    const CascadeRule rule = cascadeRule(folder.cascades, values);
+    CascadeRule rule = cascadeRule(folder.cascades, values);
+    rule.soft = soft_;
     count_ = rule.slices;
     cascades_.emplace(rule);
 }

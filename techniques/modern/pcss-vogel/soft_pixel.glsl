@@ -9,12 +9,13 @@ uniform int seed;
 float softPixel() {
     Receiver receiver = receiverAt(gl_FragCoord.xy);
     if (!receiver.seen) return -1.0;
-    if (mapPoint(receiver.position).behind) return 1.0;
+    SoftReceiver soft = softReceiver(receiver.position, normalAt(gl_FragCoord.xy));
+    if (soft.behind) return 1.0;
     float turn = turnOf(gl_FragCoord.xy, frame, seed);
 #ifdef TURNED_FILTER
     vec2 turns = vec2(0.0, turn);
 #else
     vec2 turns = vec2(turn);
 #endif
-    return softVisibility(softReceiver(receiver.position, normalAt(gl_FragCoord.xy)), turns);
+    return softVisibility(soft, turns);
 }

@@ -64,7 +64,7 @@ CascadeFit::Region CascadeFit::seen(const Frame& frame) {
     Region region{.camera = camera, .eyeDepthFromWorld = eyeDepthOf(camera), .ofPoints = true};
     const auto depths = receivers_->depths(frame, region.eyeDepthFromWorld);
     divide(region, depths.value_or(DepthRange{camera.near, camera.far}));
-    region.clipFromWorld = fitToScene(frame.hardLight, frame.snapshot).clipFromWorld;
+    region.clipFromWorld = fitToScene(lightOf(frame), frame.snapshot).clipFromWorld;
     region.boxes = receivers_->boxes(frame, region.eyeDepthFromWorld, region.ranges, region.clipFromWorld);
     return region;
 }
@@ -80,15 +80,18 @@ void CascadeFit::fitSlices(const Frame& frame, int texels) {
     casters_.clear();
     for (std::size_t i = 0; i < region_.ranges.size(); ++i) {
         const bool empty = region_.ofPoints && !region_.boxes[i];
-        views_.push_back(empty ? fitToScene(frame.hardLight, frame.snapshot) : sliceView(frame, i, texels));
+        views_.push_back(empty ? fitToScene(lightOf(frame), frame.snapshot) : sliceView(frame, i, texels));
         casters_.push_back(empty ? std::vector<bool>(corners.size() / 8, false) : castersIn(views_[i], corners));
     }
 }
+
+const Light& CascadeFit::lightOf(const Frame& frame) const { return rule_.soft ? frame.snapshot.light : frame.hardLight; }
 
 LightView CascadeFit::sliceView(const Frame& frame, std::size_t slice, int texels) const {
     Camera part = region_.camera;
     part.near = region_.ranges[slice].near;
     part.far = region_.ranges[slice].far;
+    if (rule_.soft) return partOfScene(frame, slice, part);
     const Light& light = frame.hardLight;
     if (rule_.stable && light.kind == LightKind::Directional)
         return fitStable(light, frame.snapshot, part, frame.aspect(), texels);
@@ -100,6 +103,26 @@ LightView CascadeFit::sliceView(const Frame& frame, std::size_t slice, int texel
         for (const glm::dvec4& plane : frustumPlanes(fitMatrix(box, 0) * region_.clipFromWorld)) within.push_back(plane);
     }
     return (rule_.warped ? fitLispsm : fitFocused)(light, frame.snapshot, part, frame.aspect(), within);
+}
+
+/// Depths are those of the scene's map: a caster that was held on a near plane of the slice's own would have a narrower
+/// penumbra.
+LightView CascadeFit::partOfScene(const Frame& frame, std::size_t slice, const Camera& part) const {
+    const Light& light = lightOf(frame);
+    const LightView whole = fitToScene(light, frame.snapshot);
+    Bounds box;
+    if (region_.ofPoints) {
+        box = *region_.boxes[slice];
+    } else {
+        const auto lit = frustumPlanes(whole.clipFromWorld);
+        const auto body = visiblePart(frame.snapshot.bounds(), part, frame.aspect(), lit);
+        if (body.size() < 3) return whole;
+        box = boundsOf(whole.clipFromWorld, body);
+    }
+    // Half the light as the farthest receiver sees it on the near plane: what hides some of it lies no farther beside.
+    const glm::dvec2 half = 0.5 * glm::dvec2(glm::length(light.u), glm::length(light.v)) * (1 / whole.near - 1 / whole.far);
+    const glm::dvec2 beside = half / whole.span + leastHalf;
+    return partOf(whole, 0.5 + 0.5 * glm::dvec2(box.low) - beside, 0.5 + 0.5 * glm::dvec2(box.high) + beside);
 }
 
 } // namespace shadowbench::techniques

@@ -57,7 +57,9 @@ private:
     [[nodiscard]] Region seen(const Frame& frame);
     void divide(Region& region, const DepthRange& depths) const;
     void fitSlices(const Frame& frame, int texels);
+    [[nodiscard]] const Light& lightOf(const Frame& frame) const;
     [[nodiscard]] LightView sliceView(const Frame& frame, std::size_t slice, int texels) const;
+    [[nodiscard]] LightView partOfScene(const Frame& frame, std::size_t slice, const Camera& part) const;
 
     CascadeRule rule_;
     std::optional<ReceiverBounds> receivers_; // where they are fitted to what the G-buffer shows

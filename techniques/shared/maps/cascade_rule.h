@@ -10,7 +10,9 @@ struct CascadeRule {
     bool visible = true; // fitted to the points that the G-buffer shows; else to the frustum within the scene's box
     bool warped = false; // by `fitLispsm`
     bool stable = false; // of a directional light: as `fitStable` does. Neither visible nor warped
-    bool late = false;   // visible: to the points that the frame before showed; the first frame to its frustum
+    bool soft =
+        false; // of an area light, not of its centre: parts of the scene's map, with all that hides some of the light
+    bool late = false; // visible: to the points that the frame before showed; the first frame to its frustum
 };
 
 } // namespace shadowbench::techniques

@@ -4,10 +4,14 @@ uniform vec4 linearisation;
 
 const float nothingInTheWay = 1e30;
 
-float linearised(float window) {
+float linearised(float window, vec4 by) {
     // 1 − z is exact for z in [½, 1]; the same terms in another order would lose the last bits of far depths.
-    precise float reciprocal = (1.0 - window) + linearisation.z * window;
-    return (linearisation.x + linearisation.y * window) / reciprocal + linearisation.w;
+    precise float reciprocal = (1.0 - window) + by.z * window;
+    return (by.x + by.y * window) / reciprocal + by.w;
+}
+
+float linearised(float window) {
+    return linearised(window, linearisation);
 }
 
 /// Metres along the light's axis of a window depth.

@@ -12,7 +12,10 @@ TEST(Accumulated, TheFirstFrameIsThatOfPcssVogel) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);
     stage.show(0);
-    EXPECT_EQ(rmsDifference(imageAfter(stage, "accumulated", 1), imageAfter(stage, "pcss-vogel", 1)), 0);
+    for (const std::string parameters : {"", ":cascades=3"})
+        EXPECT_EQ(
+            rmsDifference(imageAfter(stage, "accumulated" + parameters, 1), imageAfter(stage, "pcss-vogel" + parameters, 1)),
+            0);
 }
 
 TEST(Accumulated, WithoutAClampItIsTheExponentialMeanOfTheFrames) {

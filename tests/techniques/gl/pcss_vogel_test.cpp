@@ -1,5 +1,6 @@
 // Percentage-closer soft shadows over Vogel disks: the penumbra of a parallel occluder is that of similar triangles, over
-// the ramp of a disk, and what engines limit is limited.
+// the ramp of a disk, and what engines limit is limited; over cascades it is as wide in each, or as many texels wide.
+#include "techniques/shared/light_views/cascades.h"
 #include "tests/support/filtered_scenes.h"
 #include "tests/support/rows_over_frames.h"
 #include "tests/support/soft_scenes.h"
@@ -26,8 +27,7 @@ struct Plate {
 
 /// Worst mean error, over tenths of the penumbra, of the mean over frames against a disk's ramp `half` metres wide to each
 /// side.
-double fromDiskRamp(const Plate& plate, const std::string& variant, double half) {
-    const Scene scene = plate.scene();
+double fromDiskRamp(const Plate& plate, const Scene& scene, const std::string& variant, double half) {
     Stage stage(scene);
     stage.show(0);
     const auto row = rowOf(variant);
@@ -44,6 +44,10 @@ double fromDiskRamp(const Plate& plate, const std::string& variant, double half)
     for (int bin = 0; bin < 20; ++bin)
         if (counts[bin] > 20) worst = std::max(worst, std::abs(sums[bin] / counts[bin]));
     return worst;
+}
+
+double fromDiskRamp(const Plate& plate, const std::string& variant, double half) {
+    return fromDiskRamp(plate, plate.scene(), variant, half);
 }
 
 TEST(PcssVogel, APenumbraIsAsWideAsSimilarTrianglesSay) {
@@ -105,6 +109,99 @@ TEST(PcssVogel, BlockersThatAreNotTurnedLeaveBands) { // bevy#22272: "ghost" sha
         };
     // Eight taps of a disk that stands still reach 0.97 of its rim, and not along x.
     EXPECT_GT(edge("pcss-vogel:turned=filter"), edge("pcss-vogel") + 0.02);
+}
+
+/// A plate whose edge, x = 0.3, runs away from the camera, 20 m above a slab and 180 m below a disk of 14 m: one penumbra
+/// that the camera sees 5 to 60 m away.
+struct LongEdge {
+    static constexpr double middle = 0.3 * 200 / 180, half = 7 * 20 / 180.0;
+    Scene scene = groundScene(192);
+    std::vector<double> ends; // of three cascades
+
+    LongEdge() {
+        scene.light = {LightKind::Disk, {0, 200, -30}, {0, -1, 0}, {14, 0, 0}, {0, 0, 14}};
+        scene.camera = {{0, 3, 6}, {0, 0, -6}, {0, 1, 0}, 40, 4, 60};
+        scene.objects[0] = object(box({80, 0.2, 90}), {0, -0.1, -35});
+        scene.objects.push_back(object(box({39.7, 0.002, 90}), {20.15, 20.001, -35}));
+        const techniques::DepthRange depths = techniques::visibleDepths(snapshot(scene, 0).bounds(), scene.camera, 1);
+        ends = techniques::practicalSplits(depths.near, depths.far, 3, 1);
+    }
+
+    [[nodiscard]] double depthOf(const glm::dvec3& p) const {
+        return glm::dot(p - scene.camera.eye, scene.camera.basis().forward);
+    }
+};
+
+/// Of a ramp over a disk's share s, the integral of s (1 − s) in half widths.
+double integralOfDisk() {
+    double sum = 0;
+    for (int i = -500; i < 500; ++i) sum += diskShare((i + 0.5) / 500) * (1 - diskShare((i + 0.5) / 500)) / 500;
+    return sum;
+}
+
+/// Half the width of the long edge's penumbra between two depths, of the mean over frames: that of the disk's ramp over
+/// which v (1 − v) has the same integral.
+double halfWidth(const LongEdge& edge, const std::vector<SlabPoint>& points, double low, double high) {
+    constexpr double bin = 0.25; // metres: more than a pixel where these are largest
+    std::vector<double> sums(48), counts(48);
+    for (const SlabPoint& point : points) {
+        const double depth = edge.depthOf(point.at), x = (point.at.x - edge.middle) / bin + 24;
+        if (depth < low || depth > high || x < 0 || x >= 48) continue;
+        sums[static_cast<std::size_t>(x)] += point.visibility;
+        ++counts[static_cast<std::size_t>(x)];
+    }
+    double integral = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        if (counts[i] > 0) integral += bin * (sums[i] / counts[i]) * (1 - sums[i] / counts[i]);
+    return integral / integralOfDisk();
+}
+
+/// What of the true width the penumbra has before and behind each seam, and how wide a texel is there, in texels of the
+/// first cascade.
+struct AtSeam {
+    double before, behind, texelBefore, texelBehind;
+};
+
+std::vector<AtSeam> atSeams(const std::string& variant) {
+    const LongEdge edge;
+    Stage stage(edge.scene);
+    stage.show(0);
+    const auto row = rowOf(variant);
+    const std::vector<SlabPoint> points = slabPoints(stage, meanOver(stage, *row, 16));
+    const auto texelAt = [&](double depth) { // metres along x of the slab
+        const glm::dvec3 at = edge.scene.camera.eye + depth * edge.scene.camera.basis().forward;
+        const glm::dvec3 left(-0.5, 0, at.z), right(0.5, 0, at.z);
+        return 1 / (row->mapPoint(right).value().x - row->mapPoint(left).value().x);
+    };
+    const double first = texelAt(0.9 * edge.ends[1]);
+    std::vector<AtSeam> seams;
+    for (const double end : {edge.ends[1], edge.ends[2]})
+        seams.push_back({halfWidth(edge, points, 0.8 * end, end) / LongEdge::half,
+                         halfWidth(edge, points, end, 1.25 * end) / LongEdge::half, texelAt(0.9 * end) / first,
+                         texelAt(1.1 * end) / first});
+    return seams;
+}
+
+TEST(PcssVogel, APenumbraIsAsWideOnBothSidesOfASeamOfCascades) {
+    for (const AtSeam& seam : atSeams("pcss-vogel:blockers=32,taps=32,cascades=3")) {
+        EXPECT_GT(seam.texelBehind, 2 * seam.texelBefore);
+        EXPECT_NEAR(seam.before, 1, 0.06);
+        EXPECT_NEAR(seam.behind, 1, 0.06);
+    }
+}
+
+TEST(PcssVogel, WidthsInTexelsGrowWithThoseOfACascade) { // bevy#22272
+    for (const AtSeam& seam : atSeams("pcss-vogel:blockers=32,taps=32,cascades=3,widths=texels")) {
+        EXPECT_NEAR(seam.before / seam.texelBefore, 1, 0.08);
+        EXPECT_NEAR(seam.behind / seam.texelBehind, 1, 0.08);
+    }
+}
+
+TEST(PcssVogel, AMapOfACascadeHoldsWhatHidesTheLightBesideTheView) {
+    const Plate plate{2};
+    Scene scene = plate.scene();
+    scene.camera = {{-0.26, 1.4, 0.2}, {-0.26, 0, 0.2}, {0, 0, -1}, 40, 0.5, 40}; // straight down, as far as x = 0.25
+    EXPECT_LT(fromDiskRamp(plate, scene, "pcss-vogel:blockers=32,taps=32,cascades=1", plate.half()), 0.03);
 }
 
 } // namespace

@@ -321,6 +321,15 @@ TEST(FolderTechnique, HasAnElementOfEachUniformForEachOfSeveralViews) {
     EXPECT_NEAR(second, (depths.near + 2 * (depths.far - depths.near) / 3) / depths.far, 1e-5);
 }
 
+TEST(FolderTechnique, HasOneMapOfTheSceneInPlaceOfNoCascades) {
+    const std::string none = "view = \"cascades\"\ncascades = { count = 0 }";
+    const std::string span = "uniform vec2 mapSpan;\n", ratio = "mapSpan.x / (mapSpan.x + mapSpan.y)";
+    EXPECT_EQ(shown(none, span, ratio), shown("", span, ratio));
+    const std::string error =
+        test::messageOf<BadInput>([&] { shown(none, "uniform vec4 sliceEnds[TILES];\n", "sliceEnds[0].x"); });
+    EXPECT_TRUE(error.ends_with("is of cascades: say view = \"cascades\"")) << error;
+}
+
 TEST(FolderTechnique, HasThePassesAndTargetsOfItsChoiceAlone) {
     std::string toml = replaced(
         mapToml, "[target", "[parameter.kind]\ndefault = \"one\"\nchoices = [\"one\", \"two\"]\nmeaning = \"m\"\n[target");
