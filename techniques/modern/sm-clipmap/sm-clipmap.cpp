@@ -171,7 +171,13 @@ Entry smClipmap() {
          "Epic: 2.83 (a bias of −1.5 levels)"},
         {"cache", "on", OneOf{{"on", "off"}}, "pages are kept from frame to frame, which changes no image", "Epic"},
     };
-    for (Parameter& parameter : depthMapParameters(4096)) parameters.push_back(std::move(parameter));
+    for (Parameter& parameter : depthMapParameters(4096)) {
+        if (parameter.name == "map") {
+            parameter.meaning = "texels per side of the pool, which has (map / page)² pages";
+            parameter.source = "Epic: 4,096 pages";
+        }
+        parameters.push_back(std::move(parameter));
+    }
     return {.id = "sm-clipmap",
             .title = "Virtual shadow map in a clipmap, its pages cached",
             .source = {Document::Other, "Olsson et al. 2014; Epic's virtual shadow maps; Frogfood"},
