@@ -33,14 +33,14 @@ glm::dvec3 middleAt(double first, double deepest, std::span<const glm::dvec3> bo
 
 } // namespace
 
-LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect,
-                    std::span<const glm::dvec4> within) {
-    LightView view = fitToScene(light, snapshot);
+TurnedLight turnedAlongView(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect,
+                            std::span<const glm::dvec4> within) {
+    const LightView view = fitToScene(light, snapshot);
     // Nothing of the scene is nearer to the light than the near plane, though corners of its bounding box may be.
     std::vector<glm::dvec4> halfSpaces(within.begin(), within.end());
     halfSpaces.push_back(view.depthFromWorld - glm::dvec4(0, 0, 0, view.near));
     std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, halfSpaces);
-    if (body.size() < 3) return view; // nothing visible lies in front of the light
+    if (body.size() < 3) return {.view = view}; // nothing visible lies in front of the light
 
     // The view axis in light space (post-perspective for a point light, where each parallel of the axis has a direction of
     // its own), from where the body begins: a corner of the body beside the axis would turn the map of a symmetric scene.
@@ -59,7 +59,7 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& 
     const glm::dvec3 axis = toLight(nearest + 1e-4 * (deepest - eyeDepth(nearest)) * forward) - start;
 
     const double turn = std::atan2(axis.x, axis.y); // about z: brings the axis onto +y
-    glm::dmat4 light2 = glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 0, 1)) * light1;
+    const glm::dmat4 light2 = glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 0, 1)) * light1;
     const Bounds box = boundsOf(light2, body);
     const glm::dvec3 e = divided(light2 * glm::dvec4(nearest, 1));
 
@@ -71,19 +71,28 @@ LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& 
     const glm::dmat4 back = glm::inverse(light2);
     const double z0 = eyeDepth(divided(back * glm::dvec4(e.x, box.low.y, z, 1)));
     const double z1 = eyeDepth(divided(back * glm::dvec4(e.x, box.high.y, z, 1)));
+    return {view, std::move(body), light2, box, e, z0, z1};
+}
+
+LightView fitLispsm(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect,
+                    std::span<const glm::dvec4> within) {
+    TurnedLight seen = turnedAlongView(light, snapshot, camera, aspect, within);
+    LightView view = std::move(seen.view);
+    if (seen.body.size() < 3) return view;
+    const Bounds& box = seen.box;
     const double d = box.high.y - box.low.y;
-    const double n = lispsmNear(d, z0, z1);
+    const double n = lispsmNear(d, seen.z0, seen.z1);
 
     if (!std::isfinite(n) || n >= 1e4 * d) return fitFocused(light, snapshot, camera, aspect);
 
-    const glm::dvec3 centre(e.x, box.low.y - n, 0.5 * (box.low.z + box.high.z));
+    const glm::dvec3 centre(seen.nearest.x, box.low.y - n, 0.5 * (box.low.z + box.high.z));
     const double f = n + d;
     // Perspective along +y: w = y; x and z are divided by it, so that light rays (along z) stay parallel.
     const glm::dmat4 warp(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, (f + n) / (f - n), 0, 1), glm::dvec4(0, 0, 1, 0),
                           glm::dvec4(0, -2 * f * n / (f - n), 0, 0));
-    light2 = warp * glm::translate(glm::dmat4(1), -centre) * light2;
-    view.clipFromWorld = fitMatrix(boundsOf(light2, body), 0) * light2;
-    view.covered = std::move(body);
+    const glm::dmat4 warped = warp * glm::translate(glm::dmat4(1), -centre) * seen.plane;
+    view.clipFromWorld = fitMatrix(boundsOf(warped, seen.body), 0) * warped;
+    view.covered = std::move(seen.body);
     return view;
 }
 
