@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <new>
 #include <regex>
 #include <sstream>
@@ -58,7 +59,10 @@ public:
             gl::Program program = linked(defines);
             const auto types = program.uniformTypes();
             for (const auto& [name, type] : types) requireKnown(name, type);
-            if (pass_.kind == PassKind::Compute) requireStores(types);
+            if (pass_.kind == PassKind::Compute)
+                requireStores(types);
+            else
+                requireOutputs(program.outputs());
             return program;
         } catch (const InternalError& error) {
             throw BadInput(firstErrorIn(error.what()));
@@ -99,7 +103,30 @@ private:
                                 (folder_.path / "technique.toml").string(), pass_.name, *name));
     }
 
+    /// What no output is written to would hold anything.
+    void requireOutputs(int outputs) const {
+        const auto colours = std::ranges::count_if(pass_.to, [&](const std::string& name) {
+            const FolderTarget* target = targetOf(name);
+            return target == nullptr || !isDepth(target->format);
+        });
+        if (outputs < colours)
+            throw BadInput(
+                fmt::format("{}: the pass \"{}\" writes {}, and its shader writes {} outputs: declare an `out` for "
+                            "each, in their order, and write it",
+                            file(), pass_.name, fmt::join(pass_.to, ", "), outputs));
+    }
+
     [[nodiscard]] std::string file() const { return gl::placeOf({folder_.path.string(), folder_.shaders}, pass_.shader); }
+
+    /// In words of the folder where Mesa's are of what the folder does not have.
+    static std::string plain(const std::string& line) {
+        if (const std::size_t at = line.find("preprocessor error: #version"); at != std::string::npos)
+            return line.substr(0, at) + "error: leave #version out: shaders here are 4.50 core";
+        if (const std::size_t at = line.find("; candidates are:"); at != std::string::npos) return line.substr(0, at);
+        if (line.find("has no matching output in the previous stage") != std::string::npos)
+            return line + ": casters' shaders have casterDepth and casterPosition, others no inputs";
+        return line;
+    }
 
     /// The line of the compiler's log that is the first error, where warnings may come before; of the linker's, after the
     /// file.
@@ -111,7 +138,7 @@ private:
             const std::size_t link = line.starts_with("linking ") ? line.find(" failed: ") : std::string::npos;
             if (link != std::string::npos) line = fmt::format("{}: {}", file(), line.substr(link + 9));
             if (line.find(": error: ") != std::string::npos || line.find("preprocessor error: ") != std::string::npos)
-                return inFolder(line);
+                return inFolder(plain(line));
             if (first.empty() && !line.starts_with("compiling ")) first = line;
         }
         return first;

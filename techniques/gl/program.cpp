@@ -138,6 +138,12 @@ std::map<std::string, std::string> Program::uniformTypes() const {
     return types;
 }
 
+int Program::outputs() const {
+    GLint count = 0;
+    glGetProgramInterfaceiv(id_, GL_PROGRAM_OUTPUT, GL_ACTIVE_RESOURCES, &count);
+    return count;
+}
+
 Program Program::screen(const std::string& fragmentFile, const Defines& defines) {
     return {"gl/screen.vert", fragmentFile, defines};
 }

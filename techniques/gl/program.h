@@ -107,6 +107,9 @@ public:
     /// The uniforms in use with their types as GLSL has them, of an array "vec2[]"; another type than those of `set` is "".
     [[nodiscard]] std::map<std::string, std::string> uniformTypes() const;
 
+    /// How many outputs of a fragment shader are written.
+    [[nodiscard]] int outputs() const;
+
     /// The elements of an array that are in use; 1 of another uniform.
     [[nodiscard]] int elements(const std::string& name) const { return uniform(name).elements; }
     void use() const;

@@ -245,6 +245,17 @@ TEST(FolderTechnique, AShaderThatDoesNotCompileIsOneLineWithItsOwnPlace) {
                       "vec3(0.5)); }\n"),
               "/resolve.frag:1: nothing sets the uniform \"dephts\" (did you mean \"depths\"?); parameters are macros in "
               "capitals");
+    EXPECT_EQ(errorOf("float visibility;\nvoid main() { visibility = 1.0; }\n"),
+              "/resolve.frag: the pass \"resolve\" writes visibility, and its shader writes 0 outputs: declare an `out` for "
+              "each, in their order, and write it");
+    EXPECT_EQ(errorOf("#version 450\nout float visibility;\nvoid main() { visibility = 1.0; }\n"),
+              "/resolve.frag:1: error: leave #version out: shaders here are 4.50 core");
+    EXPECT_EQ(errorOf("uniform sampler2DShadow depths;\nout float visibility;\nvoid main() { visibility = texture(depths, "
+                      "vec2(0.5)); }\n"),
+              "/resolve.frag:3: error: no matching function for call to `texture(sampler2DShadow, vec2)'");
+    EXPECT_NE(errorOf("in float casterDpeth;\nout float visibility;\nvoid main() { visibility = casterDpeth; }\n")
+                  .find("casters' shaders have casterDepth and casterPosition"),
+              std::string::npos);
 }
 
 TEST(FolderTechnique, APassThatReadsWhatItWritesIsRefused) {
