@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
 #include <vector>
 
 namespace shadowbench {
@@ -56,11 +56,9 @@ AlphaMask sprayMask(int texels, double cutoff) {
     return mask;
 }
 
-/// Alike in all directions.
-glm::dvec3 directionOf(Random& random) {
-    const double z = random.uniform(-1, 1), angle = random.uniform(0, glm::two_pi<double>());
-    const double r = std::sqrt(1 - z * z);
-    return {r * std::cos(angle), z, r * std::sin(angle)};
+glm::dvec3 nextDirection(Random& random) {
+    const double s = random.uniform();
+    return directionOf(s, random.uniform());
 }
 
 } // namespace
@@ -72,9 +70,9 @@ Mesh leafCards(int count, double size, int texels, double cutoff, std::uint32_t 
     Mesh crown;
     Random random(seed);
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 outward = directionOf(random), foot = (1 - size) * std::cbrt(random.uniform(0.1, 1)) * outward;
-        const glm::dvec3 up = glm::normalize(outward + 0.6 * directionOf(random));
-        const glm::dvec3 right = glm::normalize(glm::cross(up, directionOf(random)));
+        const glm::dvec3 outward = nextDirection(random), foot = (1 - size) * std::cbrt(random.uniform(0.1, 1)) * outward;
+        const glm::dvec3 up = glm::normalize(outward + 0.6 * nextDirection(random));
+        const glm::dvec3 right = glm::normalize(glm::cross(up, nextDirection(random)));
         append(crown, leaves,
                glm::dmat4(glm::dvec4(size * right, 0), glm::dvec4(size * up, 0), glm::dvec4(size * glm::cross(right, up), 0),
                           glm::dvec4(foot, 1)));

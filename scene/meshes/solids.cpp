@@ -1,5 +1,6 @@
 #include "scene/meshes/solids.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -75,6 +76,12 @@ Mesh foldedLeaf(const glm::dvec3& base, const glm::dvec3& tip, const glm::dvec3&
     return {{glm::vec3(base), glm::vec3(tip), glm::vec3(middle - side), glm::vec3(middle + side)},
             {{0, 1, 3}, {1, 0, 2}, {0, 3, 2}, {1, 2, 3}},
             true};
+}
+
+glm::dvec3 directionOf(double s, double t) {
+    const double z = 2 * s - 1;
+    const double r = std::sqrt(std::max(0.0, 1 - z * z));
+    return {r * std::cos(glm::two_pi<double>() * t), z, r * std::sin(glm::two_pi<double>() * t)};
 }
 
 } // namespace shadowbench

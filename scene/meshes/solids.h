@@ -24,4 +24,7 @@ Mesh revolved(double bottom, const std::vector<glm::dvec2>& rings, double top, i
 /// 4 triangles.
 Mesh foldedLeaf(const glm::dvec3& base, const glm::dvec3& tip, const glm::dvec3& side, double rise);
 
+/// A direction for numbers in [0, 1), all directions alike.
+glm::dvec3 directionOf(double s, double t);
+
 } // namespace shadowbench

@@ -38,12 +38,6 @@ std::array<Ball, kBalls> crownOf(std::uint32_t seed) {
     return crown;
 }
 
-glm::dvec3 directionOf(double s, double t) {
-    const double z = 2 * s - 1;
-    const double r = std::sqrt(std::max(0.0, 1 - z * z));
-    return {r * std::cos(glm::two_pi<double>() * t), z, r * std::sin(glm::two_pi<double>() * t)};
-}
-
 /// Trunk, and branches where the triangles allow: about an eighth of them, at most as many as look round.
 Mesh wood(int triangles, const std::array<Ball, kBalls>& crown) {
     const int budget = triangles / 8;

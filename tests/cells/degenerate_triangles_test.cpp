@@ -1,8 +1,7 @@
-// Casters that turn edge-on to the light, where triangles have no area in a shadow map: what interpolation makes of their
-// depth, why no map of ours holds it, and that exact truth stays right.
+// Casters that turn edge-on to the light, where triangles have no area in a shadow map: exact truth stays right, and maps of
+// moments, which are made of a depth buffer, hold none of what interpolation makes of their depth.
 #include "tests/support/cell_stage.h"
 #include "tests/support/rows_over_frames.h"
-#include "tests/support/technique_folders.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -85,63 +84,6 @@ TEST(DegenerateTriangles, ExactLabelsAreThoseOfConvexBodies) {
         EXPECT_EQ(differing, 0U) << frame;
     }
 }
-
-/// In how many blocks of texels, of maps of several sizes in all scored frames, a caster's fragment shader is told that it
-/// lies where no caster is: between the ground and the height at which the others begin.
-std::size_t placesOfNothing() {
-    const WrittenTechnique folder(R"(id = "written"
-title = "Heights that casters' shaders write"
-answer = "hard"
-
-[parameter.map]
-default = 1024
-range = [256, 8192]
-meaning = "texels per side"
-
-[target.written]
-format = "R32F"
-size = "map"
-
-[[pass]]
-name = "depth map"
-draw = "casters"
-to = "written"
-fragment = "written.frag"
-
-[[pass]]
-name = "resolve"
-draw = "screen"
-fragment = "resolve.frag"
-to = "visibility"
-)",
-                                  R"(uniform sampler2D written;
-out float visibility;
-void main() {
-    visibility = 1.0;
-    const int side = MAP / 256;
-    for (int i = 0; i < side * side; ++i)
-        if (texelFetch(written, side * ivec2(gl_FragCoord.xy) + ivec2(i % side, i / side), 0).r > 0.0) visibility = 0.0;
-}
-)");
-    folder.write("written.frag",
-                 "in vec3 casterPosition;\nout float written;\n"
-                 "void main() { written = casterPosition.y > 0.05 && casterPosition.y < 2.3 ? 1.0 : 0.0; }\n");
-    Stage& stage = spinning().stage(); // 256² pixels
-    std::size_t count = 0;
-    for (const char* map : {"map=1024", "map=2048"}) {
-        const auto row = folder.made(map);
-        for (const int frame : scoredFrames(spinning().scene())) {
-            stage.show(frame);
-            stage.render(*row, frame, 1);
-            for (const float v : stage.visibility()) count += v == 1 ? 0 : 1;
-        }
-    }
-    return count;
-}
-
-/// The depth test sees triangles edge-on a step of the rasteriser away from the light, behind all that lies in the texel.
-/// Without one, interpolated places lie where nothing is in a few texels of some maps (playcanvas#7480).
-TEST(DegenerateTriangles, NoMapHoldsAPlaceWhereNothingIs) { EXPECT_EQ(placesOfNothing(), 0U); }
 
 TEST(DegenerateTriangles, MapsOfMomentsAreRightInEachFrame) {
     CellScene& cells = spinning();
