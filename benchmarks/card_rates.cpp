@@ -10,6 +10,7 @@
 #include "techniques/gl/context.h"
 #include "techniques/gl/counters.h"
 #include "techniques/gl/program.h"
+#include "techniques/gl/scene_buffers.h"
 #include "techniques/gl/texture.h"
 
 #include <fmt/format.h>
@@ -173,6 +174,39 @@ void readTextures() {
     }
 }
 
+/// Reads of a storage buffer and atomic additions to one: all lanes at one place, each beside its neighbour's, or scattered.
+void useBuffers() {
+    const gl::Texture texture(gl::Format::RGBA32F, {side, side});
+    const gl::RenderTarget target{&texture};
+    constexpr int taps = 32, words = 1 << 22;
+    const std::vector<std::pair<std::string, std::string>> places{
+        {"one place for all", "uint(i)"},
+        {"side by side", "uint(gl_FragCoord.y) * 2048u + uint(gl_FragCoord.x) + uint(i)"},
+        {"scattered", "uint(gl_FragCoord.x) * 2654435761u ^ uint(gl_FragCoord.y) * 2246822519u ^ uint(i) * 3266489917u"}};
+    const auto time = [&](const std::string& type, int count, const std::string& place, const std::string& use) {
+        gl::Buffer buffer;
+        buffer.clear(std::size_t{words} * 4);
+        gl::Program program =
+            screen(fmt::format("layout(std430, binding = 0) buffer Words {{ {} words[]; }};\nuniform int taps;\nvoid main() "
+                               "{{\n  {} sum = {}(0);\n"
+                               "  for (int i = 0; i < taps; ++i) {{ uint p = ({}) % {}u; {} }}\n  result = vec4(sum);\n}}\n",
+                               type, type, type, place, count, use));
+        program.set("taps", taps);
+        return deviceMilliseconds([&] {
+            buffer.bindStorage(0);
+            target.bind();
+            program.drawScreen();
+        });
+    };
+    for (const auto& [name, place] : places) {
+        print("buffer reads of 4 bytes, " + name, "read", taps * pixels, time("float", words, place, "sum += words[p];"));
+        print("buffer reads of 16 bytes, " + name, "read", taps * pixels,
+              time("vec4", words / 4, place, "sum += words[p];"));
+        print("atomic additions, " + name, "addition", taps * pixels,
+              time("uint", words, place, "atomicAdd(words[p], 1u);"));
+    }
+}
+
 GLuint compiled(GLenum stage, const std::string& body) {
     const GLuint shader = glCreateShader(stage);
     const std::string text = "#version 450 core\n" + body;
@@ -276,6 +310,7 @@ void measure() {
     setUpTriangles();
     doArithmetic();
     readTextures();
+    useBuffers();
 }
 
 } // namespace
