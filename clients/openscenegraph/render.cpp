@@ -28,11 +28,10 @@ namespace {
 
 struct Settings {
     std::string technique = "shadow-map";
-    int mapSize = 0;    // the technique's own
-    double margin = -1; // the technique's own
+    int mapSize = 0;    // 0: the technique's own
+    double margin = -1; // below 0: the technique's own
 };
 
-/// The engine's techniques by our names; `setUp` gives one that is made its size.
 using Technique = osg::ref_ptr<osgShadow::ShadowTechnique>;
 
 template <class Map>
@@ -42,7 +41,7 @@ Technique mapOfSize(const Settings& settings) {
     return map;
 }
 
-/// Ambient light is no shadow: these two techniques take a share of the light, (0.5, 0.5) by default, as such.
+/// By default half of the light stays in a shadow, as ambient light; here none does.
 template <class Map>
 Technique mapWithoutAmbient(const Settings& settings) {
     Technique map = mapOfSize<Map>(settings);
@@ -64,6 +63,7 @@ Technique parallelSplit(const Settings& settings) {
     return map;
 }
 
+/// By the words of `--technique`.
 const std::map<std::string, std::function<Technique(const Settings&)>> techniques = {
     {"shadow-map", mapWithoutAmbient<osgShadow::ShadowMap>},
     {"soft", mapWithoutAmbient<osgShadow::SoftShadowMap>},
