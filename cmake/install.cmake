@@ -12,7 +12,7 @@ install(FILES ${documents}/_shadowbench DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY scene/library/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples/scenes FILES_MATCHING PATTERN "*.toml")
-install(DIRECTORY clients DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples PATTERN node_modules EXCLUDE)
+install(DIRECTORY clients DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples PATTERN node_modules EXCLUDE PATTERN built EXCLUDE)
 
 # Our notice, and those of the packages whose code is compiled in, as Debian has them.
 set(notices "shadowbench, GPL-3.0-or-later: /usr/share/common-licenses/GPL-3\n")

@@ -68,13 +68,28 @@ class ExportedScene:
         except (ValueError, KeyError) as error:
             raise BadInput(f"--frames: the scene has no frame {error}; it has {', '.join(map(str, self.frames))}") from error
 
-    def bounds(self, frame):
-        """Middle of the box around a frame's vertices, and half of its diagonal."""
-        least, most = [math.inf] * 3, [-math.inf] * 3
+    def vertices(self, frame):
+        """Those of a frame, in the world."""
         for node in frame["nodes"]:
             m = node["matrix"]
             for x, y, z in self.meshes[node["mesh"]][0]:
-                for k in range(3):
-                    along = m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k]
-                    least[k], most[k] = min(least[k], along), max(most[k], along)
+                yield [m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k] for k in range(3)]
+
+    def bounds(self, frame):
+        """Middle of the box around a frame's vertices, and half of its diagonal."""
+        least, most = [math.inf] * 3, [-math.inf] * 3
+        for vertex in self.vertices(frame):
+            for k, along in enumerate(vertex):
+                least[k], most[k] = min(least[k], along), max(most[k], along)
         return [(a + b) / 2 for a, b in zip(least, most)], math.dist(least, most) / 2
+
+    def angle_from(self, frame, eye):
+        """The largest between the direction from a point to the middle of a frame and that to one of its vertices, in radians."""
+        axis = [a - b for a, b in zip(self.bounds(frame)[0], eye)]
+
+        def angle(vertex):
+            to = [a - b for a, b in zip(vertex, eye)]
+            cosine = sum(a * b for a, b in zip(axis, to)) / (math.hypot(*axis) * math.hypot(*to))
+            return math.acos(max(-1, min(1, cosine)))
+
+        return max(map(angle, self.vertices(frame)))

@@ -43,10 +43,10 @@ bool isExecutable(const fs::path& file) {
     return (fs::status(file).permissions() & fs::perms::owner_exec) != fs::perms::none;
 }
 
-TEST(Clients, AreThreeJsBabylonJsAndBlender) {
+TEST(Clients, AreThese) {
     std::vector<std::string> names;
     for (const fs::path& folder : clientFolders()) names.push_back(folder.filename());
-    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "threejs"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "openscenegraph", "threejs", "vtk"}));
 }
 
 TEST(Clients, HaveExecutableCommands) {
