@@ -46,7 +46,7 @@ bool isExecutable(const fs::path& file) {
 TEST(Clients, AreThoseThatTheirReadMeLists) {
     std::vector<std::string> names;
     for (const fs::path& folder : clientFolders()) names.push_back(folder.filename());
-    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "playcanvas", "threejs"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "filament", "playcanvas", "threejs"}));
 }
 
 TEST(Clients, HaveExecutableCommands) {
@@ -83,7 +83,7 @@ TEST(Clients, SayEachSettingOfTheirCommands) {
 
 /// What npm installs is what was committed.
 TEST(Clients, PinTheirPackages) {
-    for (const char* name : {"threejs", "babylonjs", "playcanvas"}) {
+    for (const char* name : {"threejs", "babylonjs", "playcanvas", "filament"}) {
         const auto package = nlohmann::json::parse(readFile(clients / name / "package.json"));
         const auto lock = nlohmann::json::parse(readFile(clients / name / "package-lock.json"));
         EXPECT_EQ(package.at("dependencies"), lock.at("packages").at("").at("dependencies")) << name;
