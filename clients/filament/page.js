@@ -26,7 +26,8 @@ function addLight(frame, scene) {
     const kind = Filament.LightManager$Type[direction ? "DIRECTIONAL" : "POINT"];
     const light = Filament.LightManager.Builder(kind).intensity(100000).castShadows(true);
     if (direction) light.direction(direction);
-    else light.position(centre).falloff(1.01 * coneFrom(meshes, frame, centre).far);
+    // Where the range ends just behind the farthest vertex, the engine leaves whole bands of the picture dark there.
+    else light.position(centre).falloff(2 * coneFrom(meshes, frame, centre).far);
     light.build(engine, entity);
     scene.addEntity(entity);
     return entity;
