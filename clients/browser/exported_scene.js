@@ -76,6 +76,13 @@ export function middleOf(meshes, frame) {
              radius: Math.hypot(...bounds.map(({ least, most }) => most - least)) / 2 };
 }
 
+/// Distance along the viewing axis of the vertex that is farthest from the camera.
+export function depthOf(meshes, frame) {
+    const { view } = frame; // column by column, and −z lies ahead
+    const [{ least }] = boundsAlong(meshes, frame, [[view[2], view[6], view[10]]]);
+    return -(least + view[14]);
+}
+
 /// The frame as seen from a point towards its middle: that `axis`, the largest angle (radians) between it and a vertex, the
 /// least distance along it and the largest distance of a vertex.
 export function coneFrom(meshes, frame, eye) {

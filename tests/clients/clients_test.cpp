@@ -43,10 +43,11 @@ bool isExecutable(const fs::path& file) {
     return (fs::status(file).permissions() & fs::perms::owner_exec) != fs::perms::none;
 }
 
-TEST(Clients, AreThese) {
+TEST(Clients, AreThoseThatTheirReadMeLists) {
     std::vector<std::string> names;
     for (const fs::path& folder : clientFolders()) names.push_back(folder.filename());
-    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "openscenegraph", "threejs", "vtk"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "filament", "openscenegraph", "playcanvas", "threejs",
+                                               "vtk"}));
 }
 
 TEST(Clients, HaveExecutableCommands) {
@@ -83,7 +84,7 @@ TEST(Clients, SayEachSettingOfTheirCommands) {
 
 /// What npm installs is what was committed.
 TEST(Clients, PinTheirPackages) {
-    for (const char* name : {"threejs", "babylonjs"}) {
+    for (const char* name : {"threejs", "babylonjs", "playcanvas", "filament"}) {
         const auto package = nlohmann::json::parse(readFile(clients / name / "package.json"));
         const auto lock = nlohmann::json::parse(readFile(clients / name / "package-lock.json"));
         EXPECT_EQ(package.at("dependencies"), lock.at("packages").at("").at("dependencies")) << name;
