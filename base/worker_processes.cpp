@@ -17,6 +17,7 @@
 #include <optional>
 #include <poll.h>
 #include <string_view>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -71,6 +72,30 @@ bool sendMessage(int socket, Message message, std::string_view text) {
 
 int socketOfWorker = -1; // -1: this process is none
 
+/// Text that a worker writes and its parent reads, whatever becomes of the worker.
+class SharedText {
+public:
+    SharedText() {
+        void* shared = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        if (shared != MAP_FAILED) text_ = static_cast<char*>(shared); // zeros; without it nothing is told
+    }
+    ~SharedText() {
+        if (text_ != nullptr) munmap(text_, size);
+    }
+    SharedText(const SharedText&) = delete;
+    SharedText& operator=(const SharedText&) = delete;
+
+    void write(std::string_view text) {
+        if (text_ != nullptr) text_[text.copy(text_, size - 1)] = '\0'; // the last byte stays 0
+    }
+    [[nodiscard]] std::string read() const { return text_ != nullptr ? text_ : ""; }
+
+private:
+    static constexpr std::size_t size = 256;
+    char* text_ = nullptr;
+};
+SharedText* doingOfWorker = nullptr;
+
 /// Progress that is sent now and then.
 Progress progressThrough(int socket) {
     return [socket, last = Clock::time_point()](double done, std::string_view what) mutable {
@@ -82,14 +107,16 @@ Progress progressThrough(int socket) {
 
 /// The worker's half: receives the numbers of items and answers each. What is thrown here ends the worker, after which it
 /// clears up nothing: the copies of the parent's objects would clear up what is the parent's.
-[[noreturn]] void answerItems(int socket, pid_t parent, int workers, const SharedWork& work) noexcept {
+[[noreturn]] void answerItems(int socket, SharedText& doing, pid_t parent, int workers, const SharedWork& work) noexcept {
     DeferredInterrupts::startAsWorker();
     prctl(PR_SET_PDEATHSIG, SIGTERM); // not SIGKILL: the tools that it runs have folders to remove
     if (getppid() != parent) _exit(1);
     shareThreads(workers);
     socketOfWorker = socket;
+    doingOfWorker = &doing;
     std::size_t item = noMore;
     while (receiveAll(socket, &item, sizeof item) && item != noMore) {
+        doing.write("");
         try {
             if (!sendMessage(socket, {.kind = Message::Kind::Answer}, work.work(item, progressThrough(socket)))) break;
         } catch (const std::exception& error) {
@@ -130,7 +157,8 @@ public:
     /// Ends it, and says why.
     std::string stop() {
         end(SIGTERM);
-        return fmt::format("took longer than {} s and was ended", limit_.count());
+        const std::string doing = doing_.read();
+        return fmt::format("took longer than {} s{} and was ended", limit_.count(), doing.empty() ? "" : " in " + doing);
     }
 
     /// Waits for what it says next; nothing when it has ended.
@@ -155,7 +183,7 @@ private:
         std::fflush(nullptr); // or what is buffered would be written by the worker as well
         const pid_t parent = getpid();
         process_ = faults::fails(faults::Point::Fork) ? -1 : fork();
-        if (process_ == 0) answerItems(ends.second.get(), parent, workers, work);
+        if (process_ == 0) answerItems(ends.second.get(), doing_, parent, workers, work);
         const int reason = errno;
         if (process_ < 0)
             throw InternalError("starting another process failed: " + std::generic_category().message(reason),
@@ -172,6 +200,7 @@ private:
     }
 
     Descriptor socket_;
+    SharedText doing_;
     pid_t process_ = -1;
     std::size_t item_ = noMore;
     std::chrono::seconds limit_{0};
@@ -259,6 +288,11 @@ private:
 } // namespace
 
 void shareAmongProcesses(int workers, const SharedWork& work) { Sharing(work, workers).all(); }
+
+bool sayDoing(std::string_view what) {
+    if (doingOfWorker != nullptr) doingOfWorker->write(what);
+    return doingOfWorker != nullptr;
+}
 
 bool sendFailure(std::string_view sentence) {
     return socketOfWorker >= 0 && sendMessage(socketOfWorker, {.kind = Message::Kind::Failure}, sentence);

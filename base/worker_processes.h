@@ -25,7 +25,7 @@ struct SharedWork {
     // In this process, one call at a time:
     std::function<void(std::size_t item, double done, std::string_view what)> progress = {}; // of `work`; may be empty
     std::function<void(std::size_t item, std::string answer)> finished;
-    /// Its worker "was killed by signal 9", "failed: …", "took longer than 120 s and was ended".
+    /// Its worker "was killed by signal 9", "failed: …", "took longer than 120 s and was ended" (see sayDoing).
     std::function<void(std::size_t item, const std::string& how)> lost;
     /// After which the worker of an item is ended; 0: never. May be empty.
     std::function<std::chrono::seconds(std::size_t item)> limit = {};
@@ -36,6 +36,10 @@ struct SharedWork {
 /// other thread; they end with it, and share its threads (base/parallel.h). One that has ended before its time is replaced.
 /// Throws InternalError when none can be started, and what `finished` and `lost` throw.
 void shareAmongProcesses(int workers, const SharedWork& work);
+
+/// In a worker: says what it does from now on, for `lost` to be told of one that is ended for its limit: "took longer than
+/// 120 s in `what` and was ended". Whether this process is a worker; elsewhere it says nothing.
+bool sayDoing(std::string_view what);
 
 /// In a worker: has it lost as one that failed with `sentence`. Whether it could be sent; elsewhere it cannot. May be called
 /// by a signal's handler, which ends the worker then.

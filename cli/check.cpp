@@ -40,7 +40,10 @@ void addCheck(CLI::App& app, Action& action) {
     verb->callback([&action, folder, cache] {
         techniques::addTechniqueFolder(*folder);
         action = [folder, cache] {
-            return gate::checkFolder(*folder, cache->empty() ? groundtruth::defaultCacheFolder() : *cache, print);
+            const ExitCode code =
+                gate::checkFolder(*folder, cache->empty() ? groundtruth::defaultCacheFolder() : *cache, print);
+            warnOfFolders(); // an error is one line, and nothing beside it
+            return code;
         };
     });
 }

@@ -1,10 +1,13 @@
 #include "cli/options.h"
 
+#include "base/one_line.h"
 #include "techniques/catalog.h"
 #include "techniques/folder/description.h"
 #include "techniques/gl/platform.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
 
 namespace shadowbench {
 
@@ -41,6 +44,10 @@ void addTechniqueFolderOption(CLI::App& verb) {
             for (const std::filesystem::path& folder : folders) techniques::addTechniqueFolder(folder);
         },
         "Folder that is a technique of your own, my:ID (docs/technique-folders.md); repeatable");
+}
+
+void warnOfFolders() {
+    for (const std::string& line : techniques::unusedInFolders()) fmt::print(stderr, "warning: {}\n", onOneLine(line));
 }
 
 void addStaticOption(CLI::App& verb, bool& standing) {

@@ -27,6 +27,9 @@ void addTechniqueFolderOption(CLI::App& verb, std::vector<std::string>& techniqu
 /// The same of a verb that names them all.
 void addTechniqueFolderOption(CLI::App& verb);
 
+/// Prints what these folders declare and nothing uses.
+void warnOfFolders();
+
 /// `standing` is set where light and casters stand still.
 void addStaticOption(CLI::App& verb, bool& standing);
 

@@ -159,6 +159,7 @@ void addRun(CLI::App& app, Action& action) {
             options->instructions = std::find(cost->begin(), cost->end(), "instructions") != cost->end();
             options->measure.images = options->out / "images";
             options->measure.pictures = *images;
+            warnOfFolders();
             return part->any() ? runPart(*options, *part) : runAndPrint(*options, *standing);
         };
     });

@@ -4,6 +4,7 @@
 #include "techniques/folder/built_in.h"
 #include "techniques/folder/folder_technique.h"
 #include "techniques/folder/pass_program.h"
+#include "techniques/folder/unused.h"
 #include "techniques/folder_passes.h"
 #include "techniques/gl/platform.h"
 
@@ -81,6 +82,13 @@ void addTechniqueFolder(const std::filesystem::path& folder) {
     for (const std::string& chosen : chosenFolders()) all += chosen + ":";
     all += std::filesystem::absolute(folder).lexically_normal().string();
     setenv(folderVariable, all.c_str(), 1);
+}
+
+std::vector<std::string> unusedInFolders() {
+    std::vector<std::string> lines;
+    for (const std::string& place : chosenFolders())
+        for (std::string& line : unusedIn(readTechniqueFolder(place))) lines.push_back(std::move(line));
+    return lines;
 }
 
 std::vector<std::string> inheritedVariables() {

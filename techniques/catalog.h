@@ -19,6 +19,10 @@ std::span<const Entry> catalog();
 /// the first use of the catalogue, which reads the folders and throws BadInput for what is wrong in one.
 void addTechniqueFolder(const std::filesystem::path& folder);
 
+/// What the added folders declare and nothing uses, a line each with file, line and name. Throws BadInput as the catalogue
+/// does.
+std::vector<std::string> unusedInFolders();
+
 /// The variables that a child process needs to draw as this one does.
 std::vector<std::string> inheritedVariables();
 

@@ -63,7 +63,12 @@ bool drawChecks(const std::vector<RowCheck>& checks, const OnResult& onResult) {
     };
     work.leave = [&] { context.reset(); };
     work.finished = finish;
-    work.lost = [&](std::size_t item, const std::string& how) { finish(item, "the process that drew it " + how); };
+    work.lost = [&](std::size_t item, const std::string& how) {
+        const std::string remedy = how.ends_with("was ended") ? fmt::format(": shorten its shaders' loops, or raise {}",
+                                                                            variableOf(shadowbench::Limit::CellSeconds))
+                                                              : "";
+        finish(item, fmt::format("the process that drew it {}{}", how, remedy));
+    };
     work.limit = [](std::size_t) { return limit(); };
     shareAmongProcesses(availableThreads(), work);
     return hold;

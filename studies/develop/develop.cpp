@@ -44,7 +44,7 @@ void drawInto(LiveState& state, FolderWatch& watch, FolderWatch& scenes, Request
         }
         if (auto drawing = draw(request, room, [&] { return watch.changed(); })) state.finish(std::move(*drawing));
     } catch (const Error& error) {
-        if (!DeferredInterrupts::pending()) state.finish({{}, error.what(), 0});
+        if (!DeferredInterrupts::pending()) state.finish({{}, error.what(), {}, 0});
     }
 }
 
@@ -54,6 +54,7 @@ void develop(Request request, const std::string& command, const std::function<vo
     const std::vector<std::filesystem::path> files = filesOf(request.scenes);
     FolderWatch scenes("", files);
     scenes.settle(DeferredInterrupts::pending);
+    limitRows();
     prepare(request);
     const TemporaryFolder room; // an interrupt waits until it is gone
     LiveState state(request.folder.filename().string(), command);

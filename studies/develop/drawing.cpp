@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/interrupts.h"
+#include "base/limits.h"
 #include "base/process.h"
 #include "base/progress_line.h"
 #include "groundtruth/store/cache.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace shadowbench::develop {
@@ -87,6 +89,7 @@ Command commandOf(const Request& request, const fs::path& room) {
     command.arguments.insert(command.arguments.end(), {"--out", (room / "out").string()});
     command.inherited = techniques::inheritedVariables();
     command.inherited.emplace_back("SHADOWBENCH_THREADS");
+    command.inherited.emplace_back(variableOf(Limit::CellSeconds));
     command.openFiles.reset(); // as for a run that the user starts
     command.memoryLimit.reset();
     return command;
@@ -103,8 +106,10 @@ std::vector<std::string> runWords(const Request& request) {
     return words;
 }
 
+void limitRows() { setenv(std::string(variableOf(Limit::CellSeconds)).c_str(), "10", 0); }
+
 std::chrono::milliseconds limitFor(const std::vector<Scene>& scenes) {
-    constexpr double secondsAt256 = 10;
+    const double secondsAt256 = 6 * static_cast<double>(limitOf(Limit::CellSeconds));
     double seconds = 0;
     for (const Scene& scene : scenes) seconds += secondsAt256 * std::max(1.0, scene.size.x * scene.size.y / (256.0 * 256.0));
     return std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(seconds));
@@ -134,10 +139,14 @@ std::optional<Drawing> draw(const Request& request, const fs::path& room, const 
     Command command = commandOf(request, room);
     command.stops = stops;
     std::string last;
-    const Finished finished = runProcess(command, [&](std::string_view line) { last = line; });
+    Drawing drawing;
+    const Finished finished = runProcess(command, [&](std::string_view line) {
+        last = line;
+        if (constexpr std::string_view mark = "warning: "; line.starts_with(mark))
+            drawing.warnings.push_back(withoutFolder(last.substr(mark.size()), request.folder));
+    });
     if (finished.stopped) return std::nullopt;
 
-    Drawing drawing;
     if (finished.timedOut)
         drawing.error = fmt::format("drawing took longer than {} s and was ended: shorten a shader's loops",
                                     std::chrono::duration_cast<std::chrono::seconds>(command.limit).count());

@@ -19,7 +19,7 @@ struct Request {
     std::vector<std::string> scenes, techniques; // ids or files; variants, as for `run`
     Profile profile = Profile::Gate;
     std::filesystem::path cache;
-    std::chrono::milliseconds limit{10'000}; // of one drawing
+    std::chrono::milliseconds limit{60'000}; // of one drawing
 };
 
 /// A figure of a row: that with the name "error" ranks it.
@@ -43,11 +43,16 @@ struct Row {
 
 struct Drawing {
     std::vector<Row> rows;
-    std::string error; // one line, where not even rows are known
+    std::string error;                 // one line, where not even rows are known
+    std::vector<std::string> warnings; // a line each, of the folder
     double seconds = 0;
 };
 
-/// Many times what frames of these sizes take: only a shader that hangs is longer under way.
+/// Has a row on a scene of 256² end after ten seconds, unless the user's environment has another limit: many times what its
+/// frames take.
+void limitRows();
+
+/// For all rows together. Only where several hang a drawing is longer under way.
 std::chrono::milliseconds limitFor(const std::vector<Scene>& scenes);
 
 /// Computes what is true of the scenes, unless the cache has it: the long part, which no limit of time may end.

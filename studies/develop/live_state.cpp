@@ -48,6 +48,7 @@ void LiveState::finish(Drawing drawing) {
     const std::scoped_lock lock(mutex_);
     drawing_ = false;
     error_ = std::move(drawing.error);
+    warnings_ = std::move(drawing.warnings);
     seconds_ = drawing.seconds;
     if (error_.empty()) { // else the rows stay, for what is wrong may be set right soon
         std::vector<Place> places;
@@ -100,8 +101,8 @@ std::string LiveState::json() const {
             place.last ? figuresOf(place.last->figures, place.kept ? &place.kept->figures : nullptr) : Json::array();
         rows.push_back(std::move(row));
     }
-    const Json all{{"folder", folder_},   {"command", command_}, {"drawing", drawing_},
-                   {"seconds", seconds_}, {"error", error_},     {"rows", rows}};
+    const Json all{{"folder", folder_}, {"command", command_},   {"drawing", drawing_}, {"seconds", seconds_},
+                   {"error", error_},   {"warnings", warnings_}, {"rows", rows}};
     return all.dump(-1, ' ', false, Json::error_handler_t::replace); // a compiler may quote any byte of a shader
 }
 

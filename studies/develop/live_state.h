@@ -62,6 +62,7 @@ private:
     std::string folder_, command_;
     std::vector<Place> places_;
     std::string error_;
+    std::vector<std::string> warnings_;
     double seconds_ = 0;
     bool drawing_ = false, closed_ = false;
     std::uint64_t version_ = 1, numbers_ = 0;

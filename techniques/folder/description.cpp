@@ -54,7 +54,10 @@ public:
         root.only(keysOf(KeyTable::Root));
         readFacts(root);
         if (const auto parameters = root.find("parameter"))
-            for (const TomlValue& value : members(*parameters, mostParameters)) readParameter(value);
+            for (const TomlValue& value : members(*parameters, mostParameters)) {
+                readParameter(value);
+                keepPlace(value);
+            }
         if (const auto row = root.find("parameters_of")) addParametersOf(*row);
         if (const auto map = root.find("depth_map")) addMapParameters(*map);
         readView(root, read_);
@@ -87,6 +90,12 @@ private:
         std::vector<TomlValue> all = table.membersAsWritten();
         if (all.size() > most) table.fail(fmt::format("has {} entries; {} are allowed", all.size(), most));
         return all;
+    }
+
+    /// For what is found later.
+    void keepPlace(const TomlValue& value) {
+        const std::string where = value.where();
+        read_.places[value.key()] = where.substr(0, where.size() - value.key().size() - 2);
     }
 
     void readParameter(const TomlValue& value) {
@@ -195,6 +204,7 @@ private:
 
     void readTarget(const TomlValue& value) {
         value.only(keysOf(KeyTable::Target));
+        keepPlace(value);
         const auto flag = [&](const char* key) { return value.find(key) && value.get(key).boolean(); };
         FolderTarget target{.name = identifier(value, std::string(value.lastKey())),
                             .format = gl::Format::R8,

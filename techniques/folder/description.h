@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec4.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -149,6 +150,7 @@ struct TechniqueFolder {
     std::vector<FolderTarget> targets;
     std::vector<FolderPass> passes;
     gl::ShaderFiles shaders;
+    std::map<std::string, std::string> places; // file and line of "parameter.NAME" and "target.NAME" in technique.toml
 };
 
 /// Of a target as a row has it.

@@ -1,6 +1,7 @@
 #include "techniques/folder/folder_technique.h"
 
 #include "base/error.h"
+#include "base/worker_processes.h"
 #include "techniques/contract/surroundings.h"
 #include "techniques/folder/draw_state.h"
 #include "techniques/folder/inputs.h"
@@ -73,7 +74,9 @@ public:
             for (repetition_ = 0; repetition_ < repetitions; ++repetition_)
                 for (std::size_t i = first; i < end; ++i) {
                     const auto pass = frame.pass(passes_[i]->name);
+                    const bool isTold = !isBuiltIn() && sayDoing(fmt::format("the pass \"{}\"", passes_[i]->name));
                     draw(*passes_[i], programs_[i], frame, visibility);
+                    if (isTold) glFinish(); // Mesa draws late, and one that hangs would be told as a later one
                 }
             first = end;
         }
@@ -95,6 +98,9 @@ private:
         gl::Texture now;
         std::optional<gl::Texture> before = {}; // of a target with a history
     };
+
+    /// Those of users may hang.
+    [[nodiscard]] bool isBuiltIn() const { return folder_->entry.digest.empty(); }
 
     [[nodiscard]] Bias biasOf(const FolderPass& pass) const {
         if (pass.bias == MapBias::Parameters) return bias_;

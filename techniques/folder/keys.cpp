@@ -87,7 +87,8 @@ constexpr std::array keys{
     FolderKey{Parameter, "default", "the value without another", "needed", scalar},
     FolderKey{Parameter, "meaning", "one line for people, with the unit", "needed", text},
     FolderKey{Parameter, "range",
-              "of a number: `[least, most]`; whole numbers where neither they nor the default have a decimal point",
+              "of a number: `[least, most]`; whole numbers where neither they nor the default have a decimal point, "
+              "an `int` in shaders; else a `float`",
               "this or `choices`", [] { return numbers(2); }},
     FolderKey{Parameter, "choices", "of a word: all that there are", "this or `range`", texts},
     FolderKey{Parameter, "source", "where the paper has it", "none", text},

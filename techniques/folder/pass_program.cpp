@@ -5,9 +5,11 @@
 #include "base/memory.h"
 #include "base/memory_bound.h"
 #include "base/words.h"
+#include "techniques/folder/compile_error.h"
 #include "techniques/folder/inputs.h"
 #include "techniques/folder/patterns.h"
 #include "techniques/folder/reading.h"
+#include "techniques/folder/vocabulary.h"
 #include "techniques/shared/maps/normal_offset.h"
 
 #include <algorithm>
@@ -65,7 +67,7 @@ public:
                 requireOutputs(program.outputs());
             return program;
         } catch (const InternalError& error) {
-            throw BadInput(firstErrorIn(error.what()));
+            throw BadInput(compileError(folder_, pass_, defines, error.what()));
         } catch (const std::bad_alloc&) {
             throw BadInput(tooLarge());
         }
@@ -118,39 +120,6 @@ private:
 
     [[nodiscard]] std::string file() const { return gl::placeOf({folder_.path.string(), folder_.shaders}, pass_.shader); }
 
-    /// In words of the folder where Mesa's are of what the folder does not have.
-    static std::string plain(const std::string& line) {
-        if (const std::size_t at = line.find("preprocessor error: #version"); at != std::string::npos)
-            return line.substr(0, at) + "error: leave #version out: shaders here are 4.50 core";
-        if (const std::size_t at = line.find("; candidates are:"); at != std::string::npos) return line.substr(0, at);
-        if (line.find("has no matching output in the previous stage") != std::string::npos)
-            return line + ": casters' shaders have casterDepth and casterPosition, others no inputs";
-        return line;
-    }
-
-    /// The line of the compiler's log that is the first error, where warnings may come before; of the linker's, after the
-    /// file.
-    [[nodiscard]] std::string firstErrorIn(const std::string& text) const {
-        std::istringstream lines(text);
-        std::string first;
-        for (std::string line; std::getline(lines, line);) {
-            if (line.starts_with("0:0(0)")) line = file() + line.substr(6); // of the file as a whole
-            const std::size_t link = line.starts_with("linking ") ? line.find(" failed: ") : std::string::npos;
-            if (link != std::string::npos) line = fmt::format("{}: {}", file(), line.substr(link + 9));
-            if (line.find(": error: ") != std::string::npos || line.find("preprocessor error: ") != std::string::npos)
-                return inFolder(plain(line));
-            if (first.empty() && !line.starts_with("compiling ")) first = line;
-        }
-        return first;
-    }
-
-    /// What is found in a file of ours is what stands before its #include.
-    [[nodiscard]] std::string inFolder(const std::string& line) const {
-        const std::string own = folder_.path.string() + "/";
-        const bool isOurs = !line.starts_with(own) && line.find(".glsl:") != std::string::npos;
-        return isOurs ? fmt::format("{}: before or in its #include of {}", file(), line) : line;
-    }
-
     struct Declaration {
         std::string place; // file and line
         std::string line;  // empty where none was found
@@ -187,7 +156,7 @@ private:
         const FolderTarget* target = targetOf(name);
         if (target == nullptr)
             fail(name, fmt::format("nothing sets the uniform \"{}\"{}; parameters are macros in capitals", name,
-                                   didYouMean(name, knownNames())));
+                                   didYouMean(name, uniformNames(folder_))));
         requireType(name, type,
                     target->compare                        ? "sampler2DShadow"
                     : target->format == gl::Format::RG32UI ? "usampler2D"
@@ -251,17 +220,6 @@ private:
             if (sampler == target.name || (target.history && sampler == std::string(historyPrefix) + target.name))
                 return &target;
         return nullptr;
-    }
-
-    [[nodiscard]] std::vector<std::string> knownNames() const {
-        std::vector<std::string> known;
-        for (const FolderInput& input : folderInputs()) known.emplace_back(input.name);
-        for (const FolderPattern& pattern : folder_.patterns) known.push_back(pattern.name);
-        for (const FolderTarget& target : folder_.targets) {
-            known.push_back(target.name);
-            if (target.history) known.push_back(std::string(historyPrefix) + target.name);
-        }
-        return known;
     }
 
     const TechniqueFolder& folder_;

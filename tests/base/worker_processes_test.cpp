@@ -69,6 +69,20 @@ TEST(WorkerProcesses, AreEndedAfterTheLimitOfTheirItemAndReplaced) {
     EXPECT_EQ(outcome.answers.size(), 3U);
 }
 
+TEST(WorkerProcesses, ThatAreEndedForTheirLimitAreToldWithWhatTheyDidLast) {
+    Outcome outcome;
+    SharedWork work = outcome.work(3, [](std::size_t item, const Progress&) {
+        if (item < 2 && !sayDoing(item == 0 ? "the first pass" : std::string(1000, 'a'))) return std::string("not told");
+        std::this_thread::sleep_for(std::chrono::milliseconds(item > 0 ? 60'000 : 0));
+        return std::string("done");
+    });
+    work.limit = [](std::size_t) { return std::chrono::seconds(1); };
+    shareAmongProcesses(1, work);
+    EXPECT_EQ(outcome.lost[1], "took longer than 1 s in " + std::string(255, 'a') + " and was ended");
+    EXPECT_EQ(outcome.lost[2], "took longer than 1 s and was ended");
+    EXPECT_FALSE(sayDoing("the test"));
+}
+
 TEST(WorkerProcesses, HaveNothingToDoWithoutItems) {
     Outcome outcome;
     shareAmongProcesses(2, outcome.work(0, [](std::size_t, const Progress&) { return std::string(); }));

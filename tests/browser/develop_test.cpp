@@ -65,7 +65,7 @@ TEST_F(DevelopPage, SaysAnErrorOverThePictureThatWasGood) {
     const std::string good = picture(*tab);
     mine_.write("resolve.frag", replaced(mapShader, "receiver.seen ?", "reciever.seen ?"));
     tab->waitFor("!document.getElementById('error').hidden");
-    EXPECT_EQ(errorText(*tab), "resolve.frag:8: error: `reciever' undeclared");
+    EXPECT_EQ(errorText(*tab), "resolve.frag:8: error: `reciever' undeclared (did you mean \"receiver\" or \"Receiver\"?)");
     EXPECT_EQ(tab->value("document.getElementById('error').getAttribute('role')"), "alert");
     EXPECT_EQ(picture(*tab), good);
     EXPECT_EQ(tab->value("getComputedStyle(document.querySelector('img')).opacity"), "0.3");

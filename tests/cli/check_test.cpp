@@ -102,7 +102,8 @@ TEST_F(CheckOfFolder, AShaderThatHangsIsALineAndTheOthersGoOn) {
     const Outcome outcome = check("SHADOWBENCH_MAX_CELL_SECONDS=2");
     EXPECT_EQ(outcome.code, 4) << outcome.output;
     EXPECT_EQ(lineWith(outcome, "at map = 16"),
-              "FAILS  my:mine at map = 16: the process that drew it took longer than 2 s and was ended");
+              "FAILS  my:mine at map = 16: the process that drew it took longer than 2 s in the pass \"resolve\" and was "
+              "ended: shorten its shaders' loops, or raise SHADOWBENCH_MAX_CELL_SECONDS");
     EXPECT_EQ(lineWith(outcome, "at map = 2048"), "holds  my:mine at map = 2048");
 }
 

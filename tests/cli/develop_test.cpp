@@ -75,7 +75,8 @@ TEST_F(Develop, AnErrorStandsWithItsPlaceUntilItIsSetRight) {
     mine_.write("resolve.frag", replaced(mapShader, "receiver.seen ?", "reciever.seen ?"));
     const Json wrong =
         page.stateWhere([](const Json& state) { return !state["rows"].empty() && state["rows"][0]["error"] != ""; });
-    EXPECT_EQ(wrong["rows"][0]["error"], "resolve.frag:8: error: `reciever' undeclared");
+    EXPECT_EQ(wrong["rows"][0]["error"],
+              "resolve.frag:8: error: `reciever' undeclared (did you mean \"receiver\" or \"Receiver\"?)");
     EXPECT_EQ(wrong["rows"][0]["last"], number);
 
     mine_.write("technique.toml", replaced(mapToml, "\"casters\"", "\"caster\""));
@@ -122,6 +123,33 @@ TEST_F(Develop, ANewerSaveStopsADrawingThatHangs) {
     EXPECT_TRUE(page.stateWhere([](const Json& state) { return state["drawing"].get<bool>(); })["drawing"]);
     mine_.write("resolve.frag", allLit);
     EXPECT_EQ(figure(page.drawnAfter(number), "false shadow"), 0);
+}
+
+TEST_F(Develop, ARowThatHangsNamesItsPassAndTheOthersAreShown) {
+    mine_.write("technique.toml", replaced(mapToml, "title", "variants = [\"map=512\", \"\"]\ntitle"));
+    mine_.write("resolve.frag", replaced(hangingShader, "k < 60000", "k < (MAP == 512 ? 60000 : 1)"));
+    ::setenv("SHADOWBENCH_MAX_CELL_SECONDS", "2", 1);
+    const LivePage page = this->page();
+    ::unsetenv("SHADOWBENCH_MAX_CELL_SECONDS");
+    const Json state = page.stateWhere([](const Json& news) { return news["rows"].size() == 2; });
+    EXPECT_EQ(
+        state["rows"][0]["error"],
+        "the process that rendered it took longer than 2 s in the pass \"resolve\" and was ended: shorten its shaders' "
+        "loops, or raise SHADOWBENCH_MAX_CELL_SECONDS");
+    EXPECT_EQ(state["rows"][1]["error"], "");
+}
+
+TEST_F(Develop, WhatNothingUsesIsAWarningUntilItIsUsed) {
+    const std::string unused = "[parameter.radius]\ndefault = 1\nrange = [1, 8]\nmeaning = \"texels\"\n";
+    mine_.write("technique.toml", replaced(mapToml, "[target.depths]", unused + "[target.depths]"));
+    const LivePage page = this->page();
+    const Json first = page.drawnAfter(0);
+    ASSERT_EQ(first["warnings"].size(), 1U);
+    EXPECT_EQ(first["warnings"][0].get<std::string>().find("technique.toml:10: parameter.radius: no shader reads RADIUS"),
+              0U)
+        << first["warnings"];
+    mine_.write("resolve.frag", replaced(mapShader, ": 1.0", ": float(RADIUS)"));
+    EXPECT_TRUE(page.drawnAfter(first["rows"][0]["last"])["warnings"].empty());
 }
 
 TEST_F(Develop, StrangersAreRefused) {

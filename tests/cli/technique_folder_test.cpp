@@ -81,6 +81,18 @@ TEST_F(TechniqueFolderRun, ABrokenFolderIsOneLineAndNothingIsWritten) {
     }
 }
 
+TEST_F(TechniqueFolderRun, WhatNothingUsesIsAWarningAndNoMore) {
+    const std::string unused = "[parameter.radius]\ndefault = 1\nrange = [1, 8]\nmeaning = \"texels\"\n";
+    mine_.write("technique.toml", replaced(mapToml, "[target.depths]", unused + "[target.depths]"));
+    const std::string warning =
+        "warning: " + (mine_.path() / "technique.toml").string() + ":10: parameter.radius: no shader reads RADIUS";
+    for (const Outcome& outcome : {run("--cost none"), shell("shadowbench check " + mine_.path().string())}) {
+        EXPECT_EQ(outcome.code, 0) << outcome.output;
+        EXPECT_NE(outcome.output.find(warning), std::string::npos) << outcome.output;
+        EXPECT_EQ(outcome.output.find("warning: "), outcome.output.rfind("warning: ")) << outcome.output;
+    }
+}
+
 TEST_F(TechniqueFolderRun, TheGateJudgesItsRowsAgainstRecordsOfBefore) {
     EXPECT_EQ(run("--cost none").code, 0);
     const auto gate = [&] {
@@ -103,13 +115,27 @@ TEST_F(TechniqueFolderRun, AShaderThatHangsIsOneLineAndTheOtherRowsGoOn) {
     const Outcome outcome =
         shell("SHADOWBENCH_MAX_CELL_SECONDS=2 " + command("--technique my:mine --technique none --cost none"));
     EXPECT_EQ(outcome.code, 1) << outcome.output;
-    EXPECT_NE(outcome.output.find("error: my:mine on tiny: the process that rendered it took longer than 2 s and was ended: "
-                                  "shorten its shaders' loops, or raise SHADOWBENCH_MAX_CELL_SECONDS"),
-              std::string::npos)
+    EXPECT_NE(
+        outcome.output.find("error: my:mine on tiny: the process that rendered it took longer than 2 s in the pass "
+                            "\"resolve\" and was ended: shorten its shaders' loops, or raise SHADOWBENCH_MAX_CELL_SECONDS"),
+        std::string::npos)
         << outcome.output;
     ASSERT_EQ(records().size(), 2U);
     EXPECT_EQ(records()[0].status, Status::Error);
     EXPECT_EQ(records()[1].status, Status::Scored);
+}
+
+TEST_F(TechniqueFolderRun, AShaderThatHangsIsToldByItsPassWhereLaterOnesFollow) {
+    mine_.write("hang.frag", hangingShader);
+    mine_.write("technique.toml", replaced(replaced(mapToml, "[[pass]]\nname = \"resolve\"",
+                                                    "[[pass]]\nname = \"first\"\ndraw = \"screen\"\nfragment = "
+                                                    "\"hang.frag\"\nto = \"hangs\"\n\n[[pass]]\nname = \"resolve\""),
+                                           "[[pass]]", "[target.hangs]\nformat = \"R32F\"\nsize = \"image\"\n\n[[pass]]"));
+    mine_.write("resolve.frag", replaced(replaced(mapShader, "out float", "uniform sampler2D hangs;\nout float"), ": 1.0",
+                                         ": texelFetch(hangs, ivec2(0), 0).r"));
+    const Outcome outcome = shell("SHADOWBENCH_MAX_CELL_SECONDS=8 " + command("--cost none"));
+    EXPECT_NE(outcome.output.find("took longer than 8 s in the pass \"first\" and was ended"), std::string::npos)
+        << outcome.output;
 }
 
 TEST_F(TechniqueFolderRun, AShaderThatHangsAtSomeValuesOfASweepIsALineForEachAndTheOthersAreScored) {
@@ -127,8 +153,8 @@ TEST_F(TechniqueFolderRun, AShaderThatHangsAtSomeValuesOfASweepIsALineForEachAnd
     EXPECT_EQ(swept[1].variant, "my:mine:map=512");
     EXPECT_EQ(swept[1].sweep->value, 512);
     EXPECT_EQ(swept[1].reason,
-              "the process that rendered it took longer than 2 s and was ended: shorten its shaders' loops, or "
-              "raise SHADOWBENCH_MAX_CELL_SECONDS");
+              "the process that rendered it took longer than 2 s in the pass \"resolve\" and was ended: shorten its "
+              "shaders' loops, or raise SHADOWBENCH_MAX_CELL_SECONDS");
     EXPECT_EQ(swept[2].status, Status::Scored);
     EXPECT_EQ(swept[3].status, Status::Scored);
 }

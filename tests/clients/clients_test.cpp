@@ -43,7 +43,7 @@ bool isExecutable(const fs::path& file) {
     return (fs::status(file).permissions() & fs::perms::owner_exec) != fs::perms::none;
 }
 
-TEST(Clients, AreThoseThatTheirReadMeLists) {
+TEST(Clients, AreThoseOfTheirPage) {
     std::vector<std::string> names;
     for (const fs::path& folder : clientFolders()) names.push_back(folder.filename());
     EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "filament", "openscenegraph", "playcanvas", "threejs",

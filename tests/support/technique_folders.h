@@ -7,6 +7,7 @@
 #include "tests/support/stages.h"
 
 #include <string>
+#include <vector>
 
 namespace shadowbench {
 
@@ -73,6 +74,18 @@ inline const std::string hangingShader =
         mapShader, "    visibility =",
         "    float sum = gl_FragCoord.x;\n    for (int k = 0; k < 60000; ++k) { SIN8 SIN8 SIN8 SIN8 SIN8 SIN8 SIN8 SIN8 }\n"
         "    visibility = sum > 1e9 ? 0.0 :");
+
+/// Those of docs/technique-folders.md that are marked as of this language, in their order.
+inline std::vector<std::string> documentedBlocks(const std::string& language) {
+    const std::string page = readFile(std::filesystem::path(SOURCE_FOLDER) / "docs/technique-folders.md"),
+                      mark = "```" + language + "\n";
+    std::vector<std::string> blocks;
+    for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at)) {
+        at += mark.size();
+        blocks.push_back(page.substr(at, page.find("```", at) - at));
+    }
+    return blocks;
+}
 
 class WrittenTechnique {
 public:

@@ -86,6 +86,7 @@ const show = () => {
   const error = errorOf();
   if (at("error").textContent !== error) at("error").textContent = error;
   at("error").hidden = !error;
+  at("warnings").replaceChildren(...news.warnings.map((textContent) => made("p", { className: "warning", textContent })));
   at("rows").replaceChildren(...news.rows.map(rowOf));
 };
 

@@ -236,13 +236,8 @@ TEST(TechniqueFolder, TheSchemaForEditorsIsThatOfTheKeys) {
 }
 
 TEST(TechniqueFolder, TheFirstOneOfTheDocumentIsOne) {
-    const std::string page = readFile(std::filesystem::path(SOURCE_FOLDER) / "docs/technique-folders.md");
-    const auto block = [&](const std::string& language) {
-        const std::size_t begin = page.find("```" + language + "\n") + language.size() + 4;
-        return page.substr(begin, page.find("```", begin) - begin);
-    };
-    const WrittenTechnique folder(block("toml"));
-    folder.write("single_map.frag", block("glsl"));
+    const WrittenTechnique folder(documentedBlocks("toml").at(0));
+    folder.write("single_map.frag", documentedBlocks("glsl").at(0));
     EXPECT_EQ(folder.entry().id, "my:first");
 }
 

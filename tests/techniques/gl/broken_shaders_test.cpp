@@ -106,6 +106,44 @@ TEST_F(BrokenShader, AWarningBeforeIsNotTheError) {
     EXPECT_NE(saidOf(warned).find(": error: `nothing' undeclared"), std::string::npos) << saidOf(warned);
 }
 
+TEST_F(BrokenShader, ANameThatIsNotThereIsToldWithNearOnesThatTheShaderMayHaveMeant) {
+    const auto near = [&](const std::string& expression) {
+        const std::string message = saidOf("float a = " + expression + ";");
+        const std::size_t begin = message.find(" (");
+        return begin == std::string::npos ? "none of: " + message : message.substr(begin);
+    };
+    EXPECT_EQ(near("float(MAPP)"), " (did you mean \"MAP\"?)"); // a parameter
+    EXPECT_EQ(near("unitDepthFromWrold.x"),
+              " (did you mean \"unitDepthFromWorld\" or \"eyeDepthFromWorld\" or \"depthFromWorld\"?)"); // a uniform
+    EXPECT_EQ(near("reciever.position.x"), " (did you mean \"receiver\" or \"Receiver\"?)");         // a variable of its own
+    EXPECT_EQ(near("shadowTset(depths, testedPoint(receiver))"), " (did you mean \"shadowTest\"?)"); // a function of ours
+    EXPECT_EQ(saidOf("float a = nothing;"), "resolve.frag:8: error: `nothing' undeclared");
+    const std::string longName(900, 'a');
+    EXPECT_EQ(saidOf("float " + longName + "b = " + longName + ";"), "resolve.frag:8: error: `" + longName + "' undeclared");
+}
+
+TEST_F(BrokenShader, AnErrorOfTypesSaysThoseOfParametersInItsLine) {
+    folder_.write("technique.toml", replaced(mapToml, "[target.depths]",
+                                             "[parameter.radius]\ndefault = 2\nrange = [0.5, 8]\nmeaning = \"m\"\n"
+                                             "[parameter.taps]\ndefault = \"4\"\nchoices = [\"4\", \"8\"]\nmeaning = \"m\"\n"
+                                             "[target.depths]"));
+    const std::string file = (folder_.path() / "technique.toml").string();
+    for (const auto& [line, says] :
+         {std::pair("int a = RADIUS;",
+                    "; RADIUS is the float 2.00000000, as a number at " + file + ":10 has a decimal point"),
+          std::pair("float a = MAP % 2.0;", "; MAP is the int 1024, as no number at " + file + ":5 has a decimal point"),
+          std::pair("int a[RADIUS];",
+                    "; RADIUS is the float 2.00000000, as a number at " + file + ":10 has a decimal point"),
+          std::pair("vec2 a = pow(TAPS, RADIUS, 1.0);", "; RADIUS is the float 2.00000000, as a number at " + file +
+                                                            ":10 has a decimal point; TAPS is the int 4, as no number at " +
+                                                            file + ":14 has a decimal point")}) {
+        const std::string message = saidOf(line);
+        EXPECT_TRUE(message.starts_with("resolve.frag:8: error: ")) << message;
+        EXPECT_TRUE(message.ends_with(says)) << message;
+    }
+    EXPECT_EQ(saidOf("int a = 1.5;").find(';'), std::string::npos) << saidOf("int a = 1.5;");
+}
+
 TEST_F(BrokenShader, IncludesLeadToFilesOfTheFolderOrOurs) {
     const auto of = [&](const std::string& line) { return said(line + "\n" + mapShader); };
     for (const char* away : {"../resolve.frag", "/etc/passwd", "gl/../gl/receiver.glsl", "./more.glsl", "more.glsl/", ""})

@@ -59,6 +59,23 @@ TEST(FolderTemplate, VsmMakesAnEdgeARampOfTheKernelsWidth) {
     }
 }
 
+// The second example of docs/technique-folders.md. Between the means of texels of a level, which the edge cuts anywhere, an
+// edge is a ramp of one to two of them.
+TEST(DocumentedFolder, MomentsMakeAnEdgeARampOfTheLevelsTexels) {
+    const WrittenTechnique moments(documentedBlocks("toml").at(1), documentedBlocks("glsl").at(2));
+    moments.write("moments.frag", documentedBlocks("glsl").at(1));
+    const Scene scene = edgeScene(2);
+    Stage stage(scene);
+    stage.show(0);
+    for (const int level : {2, 3}) {
+        const auto technique = moments.made("map=512,level=" + std::to_string(level));
+        stage.render(*technique, 0, 1);
+        const auto points = groundPoints(stage, stage.visibility());
+        EXPECT_LT(fromRamp(points, 1.5 * (1 << level) * texelOf(scene, 512)), 0.2) << level;
+        for (const GroundPoint& point : points) ASSERT_LT(point.at.x > edgeAt + 0.4 ? point.visibility : 0, 1e-4);
+    }
+}
+
 TEST(FolderTemplate, HistoryIsTheMeanOverPointsOfTheLight) {
     const Scene scene = halfPlaneScene();
     Stage stage(scene);

@@ -232,7 +232,7 @@ TEST(FolderTechnique, AShaderThatDoesNotCompileIsOneLineWithItsOwnPlace) {
     };
     testContext();
     EXPECT_EQ(errorOf(replaced(mapShader, "receiver.seen ?", "reciever.seen ?")),
-              "/resolve.frag:8: error: `reciever' undeclared");
+              "/resolve.frag:8: error: `reciever' undeclared (did you mean \"receiver\" or \"Receiver\"?)");
     EXPECT_EQ(
         errorOf("#include \"shared/nothing.glsl\"\nvoid main() {}\n"),
         "/resolve.frag:1: there is no shader \"shared/nothing.glsl\", neither in the folder nor among those that come with "
