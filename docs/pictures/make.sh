@@ -16,9 +16,13 @@ done
 cp "$out/images/light-behind-camera/sm-uniform/error.png" docs/pictures/behind-uniform.png
 cp "$out/images/light-behind-camera/pcf/error.png" docs/pictures/behind-pcf.png
 cp "$out/images/tessellation/sm-history_filter=pcf/error.png" docs/pictures/tessellation-history.png
-for client in threejs:threejs-pcf babylonjs:babylonjs-none blender:eevee-hard; do
+for client in threejs/external:threejs-pcf babylonjs/external:babylonjs-none blender/external:eevee-hard \
+    playcanvas/external:playcanvas-pcf3 filament/external:filament-pcf openscenegraph/directional:osg-pssm \
+    vtk/external:vtk-shadow-map; do
     row=${client#*:}
-    ./bench run --scene windmills --external "clients/${client%:*}/external.toml" --technique "external:$row" --cost none \
-        --images --quiet --out "$out"
-    cp "$out/images/windmills/external_$row/visibility.png" "docs/pictures/engines-${row%-*}.png"
+    list=${client%:*}
+    name=${list%/*}
+    [ "$name" != blender ] || name=eevee
+    ./bench run --scene windmills --external "clients/$list.toml" --technique "external:$row" --cost none --images --quiet --out "$out"
+    cp "$out/images/windmills/external_$row/visibility.png" "docs/pictures/engines-$name.png"
 done
