@@ -99,7 +99,7 @@ async function writePfm(file, [width, height], base64) {
     await rename(`${file}.part`, file);
 }
 
-async function launch(puppeteer) {
+export async function launch(puppeteer) {
     const folders = (process.env.PATH ?? "").split(":");
     const chromium = folders.map((folder) => path.join(folder, "chromium")).find(existsSync);
     if (!chromium) throw new Failure(missingTool, "chromium is missing; as root run: apt-get install chromium");
