@@ -2,6 +2,7 @@
 #include "harness/metrics/table.h"
 #include "scene/load/expectations.h"
 #include "techniques/folder/description.h"
+#include "techniques/folder/unused.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/target.h"
 
@@ -21,6 +22,7 @@ void readTechniqueDescription(std::string_view input) {
                         std::ranges::count(read.targets, name, &techniques::FolderTarget::name) == 1,
                     "a pass writes a target that there is not");
     }
+    techniques::unusedIn(read);
 }
 
 void readTechniqueShader(std::string_view input) {
