@@ -1,4 +1,4 @@
-// Renders an exported scene with a page in headless Chromium: what all of them share. The page does all drawing
+// Renders an exported scene with a page in headless Chromium: what the clients in browsers share. The page does all drawing
 // (its `start` and `renderFrame`); this reads the command line and the folder, and writes the images.
 import { access, mkdir, readFile, rename, writeFile } from "node:fs/promises";
 import { existsSync } from "node:fs";
