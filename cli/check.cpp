@@ -3,6 +3,7 @@
 #include "base/one_line.h"
 #include "cli/command.h"
 #include "cli/options.h"
+#include "gate/check/client.h"
 #include "groundtruth/store/cache.h"
 #include "techniques/catalog.h"
 
@@ -28,16 +29,25 @@ void print(const gate::CheckResult& result) {
 
 void addCheck(CLI::App& app, Action& action) {
     const auto folder = std::make_shared<fs::path>(), cache = std::make_shared<fs::path>();
-    CLI::App* verb = app.add_subcommand("check", "Checks what must hold of a technique folder, and what it expects itself");
+    CLI::App* verb = app.add_subcommand(
+        "check", "Checks what must hold of a technique folder, or of the adapters in a list of renderers");
     verb->footer(
         "Example: shadowbench check evsm\n"
         "Draws each row on small scenes at the end of what there is, and its parameters at the ends of their ranges;\n"
         "then judges its expect.toml. A line each; the exit code is 4 where one does not hold.\n"
-        "More: docs/technique-folders.md");
-    verb->add_option("folder", *folder, "Folder with a technique.toml and its shaders")->required();
+        "More: docs/technique-folders.md\n"
+        "Example: shadowbench check clients/threejs/external.toml\n"
+        "Calls each renderer of the list on six small scenes whose shadows are known, and says what its adapter does\n"
+        "wrong: rows, units, axes, the light's place, matrices, frames, encodings.   More: docs/external.md");
+    verb->add_option("folder", *folder, "Folder with a technique.toml and its shaders; or a list of renderers, a TOML file")
+        ->required();
     verb->add_option("--cache", *cache, "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     addGlOption(*verb);
     verb->callback([&action, folder, cache] {
+        if (fs::is_regular_file(*folder)) {
+            action = [folder] { return gate::checkRenderers(*folder, print); };
+            return;
+        }
         techniques::addTechniqueFolder(*folder);
         action = [folder, cache] {
             const ExitCode code =

@@ -1,0 +1,271 @@
+#include "gate/check/client.h"
+
+#include "base/interrupts.h"
+#include "base/process.h"
+#include "base/temporary_folder.h"
+#include "gate/check/client_scenes.h"
+#include "gate/check/mistakes.h"
+#include "groundtruth/oracle.h"
+#include "harness/foreign/call_renderer.h"
+#include "harness/foreign/recognition.h"
+#include "harness/foreign/renderer.h"
+#include "harness/foreign/score_images.h"
+#include "harness/foreign/visibility.h"
+#include "scene/exchange/export.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <optional>
+
+namespace shadowbench::gate {
+namespace {
+
+namespace fs = std::filesystem;
+using foreign::Definition;
+using foreign::Renderer;
+using groundtruth::Reference;
+using groundtruth::Surface;
+using groundtruth::Truth;
+
+constexpr double notable =
+    0.004; // share of wrong labels that a mistake explains, not a filter's edges: half a pixel's shift
+constexpr double explained = 0.2;  // of the error may be left by the mistake that is named …
+constexpr double leftMost = 0.05;  // … and of the labels
+constexpr double tolerated = 0.06; // share of wrong labels, or rms error, of a map that is none too fine
+
+std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+
+foreign::Pixels receiversOf(const Reference& truth) {
+    foreign::Pixels scored(truth.surface.width(), truth.surface.height());
+    for (std::size_t i = 0; i < scored.size(); ++i) scored[i] = truth.surface[i] == Surface::Receiver ? 1 : 0;
+    return scored;
+}
+
+/// What is true of a scene's frames, and what mistakes would draw: computed when first asked for.
+class KnownScene {
+public:
+    explicit KnownScene(Scene scene) : scene_(std::move(scene)), frames_(shadowbench::scoredFrames(scene_)) {
+        exchange::exportScene(scene_, folder_.path() / "scene");
+    }
+
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const std::vector<int>& frames() const { return frames_; }
+    [[nodiscard]] fs::path exported() const { return folder_.path() / "scene"; }
+
+    const Reference& truth(Truth truth, int frame) {
+        const auto key = std::pair(truth, frame);
+        if (const auto known = truths_.find(key); known != truths_.end()) return known->second;
+        return truths_.emplace(key, groundtruth::compute({snapshot(scene_, frame), scene_.size, truth})).first->second;
+    }
+
+    /// Nothing where the mistake changes nothing or leaves nothing to see.
+    const std::optional<Reference>& with(const Mistake& mistake, int frame) {
+        const auto key = std::pair(&mistake, frame);
+        if (const auto known = mistaken_.find(key); known != mistaken_.end()) return known->second;
+        return mistaken_.emplace(key, computed(mistake, frame)).first->second;
+    }
+
+private:
+    [[nodiscard]] std::optional<Reference> computed(const Mistake& mistake, int frame) const {
+        const auto taken = mistake.taken(snapshot(scene_, frame), snapshot(scene_, frames_.front()), scene_.size);
+        if (!taken || taken->batches.empty()) return {};
+        try {
+            return groundtruth::compute({*taken, scene_.size, Truth::Hard});
+        } catch (const Error&) { // a light in a surface, say: no picture has such a truth
+            return {};
+        }
+    }
+
+    Scene scene_;
+    std::vector<int> frames_;
+    TemporaryFolder folder_;
+    std::map<std::pair<Truth, int>, Reference> truths_;
+    std::map<std::pair<const Mistake*, int>, std::optional<Reference>> mistaken_;
+};
+
+/// One frame that a renderer drew.
+struct Drawing {
+    const Renderer& renderer;
+    KnownScene& known;
+    int frame;
+    const Image<float>& v;
+    const Reference& truth; // of the renderer's definition
+    foreign::Pixels scored;
+    [[nodiscard]] bool labels() const { return renderer.definition == Definition::Hard; }
+    [[nodiscard]] foreign::Compared compared() const { return {v, truth.visibility, scored, labels()}; }
+};
+
+/// What a mistake draws, where nothing is seen `background`.
+Image<float> drawnWith(const Reference& mistaken, float background) {
+    Image<float> v = mistaken.visibility;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        if (mistaken.surface[i] == Surface::Background) v[i] = background;
+    return v;
+}
+
+/// The error against what a mistake would have drawn. What a renderer has where it sees nothing is its own business.
+double errorWith(const Drawing& drawing, const Reference& mistaken) {
+    double least = 1;
+    for (const float background : {0.0F, 1.0F})
+        least = std::min(least, foreign::errorOf({drawing.v, drawnWith(mistaken, background), drawing.scored, true}));
+    return least;
+}
+
+/// Of an image that is not all light or all shadow, which many mistakes would draw.
+std::string mistakeIn(const Drawing& drawing) {
+    const double error = foreign::errorOf(drawing.compared());
+    if (!drawing.labels() || error < notable || foreign::uniform(drawing.compared())) return "";
+    double least = std::min(explained * error, leftMost);
+    std::string found;
+    for (const Mistake& mistake : mistakes()) {
+        const std::optional<Reference>& mistaken = drawing.known.with(mistake, drawing.frame);
+        if (!mistaken) continue;
+        const double left = errorWith(drawing, *mistaken);
+        if (left >= least) continue;
+        least = left;
+        found =
+            fmt::format("{}: {} of the pixels are wrong, and {} with that", mistake.sentence, percent(error), percent(left));
+    }
+    return found;
+}
+
+std::string oddityIn(const Drawing& drawing) {
+    std::vector<foreign::OtherFrame> others;
+    const Truth truth = drawing.labels() ? Truth::Hard : Truth::Area;
+    for (const int frame : drawing.known.frames())
+        if (frame != drawing.frame) others.push_back({frame, drawing.known.truth(truth, frame).visibility});
+    for (const foreign::Finding& finding : foreign::oddities(drawing.compared(), drawing.renderer.encoding, others))
+        return fmt::format("its image {}{}", finding.sentence,
+                           foreign::uniform(drawing.compared()) ? "; is its light behind everything, or at the eye?" : "");
+    return "";
+}
+
+/// The median of the visibilities where the truth is `visibility`, away from edges.
+std::optional<double> medianWhere(const Drawing& drawing, float visibility) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < drawing.v.size(); ++i) {
+        const bool inside = !drawing.labels() || drawing.truth.edgeDistance[i] > 2;
+        if (drawing.scored[i] != 0 && drawing.truth.visibility[i] == visibility && inside) values.push_back(drawing.v[i]);
+    }
+    if (values.size() < 64) return {};
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return static_cast<double>(*middle);
+}
+
+std::string remainingLightIn(const Drawing& drawing) {
+    const auto dark = medianWhere(drawing, 0), lit = medianWhere(drawing, 1);
+    if (!dark || !lit || *dark < 0.05 || *dark > 0.95 || *lit - *dark < 0.05) return "";
+    return fmt::format("{} of the light is left in its shadows: ambient light or a second light is in the image; subtract "
+                       "it, or write frame-…-lit and frame-…-unlit",
+                       percent(*dark));
+}
+
+std::string definitionIn(const Drawing& drawing) {
+    if (drawing.labels()) return "";
+    const double error = foreign::errorOf(drawing.compared());
+    double least = error / 2;
+    std::string found;
+    for (const auto& [definition, truth] : {std::pair{Definition::Hard, Truth::Hard},
+                                            {Definition::Area, Truth::Area},
+                                            {Definition::Irradiance, Truth::Irradiance},
+                                            {Definition::SolidAngle, Truth::SolidAngle}}) {
+        if (definition == drawing.renderer.definition) continue;
+        const Reference& other = drawing.known.truth(truth, drawing.frame);
+        const double left = foreign::errorOf({drawing.v, other.visibility, drawing.scored, false});
+        if (left >= least || error < 0.02) continue;
+        least = left;
+        found = fmt::format("its images are of the definition \"{}\", not \"{}\": the rms error falls from {:.2g} to {:.2g}",
+                            name(definition), name(drawing.renderer.definition), error, left);
+    }
+    return found;
+}
+
+/// What is wrong and nothing above explains.
+std::string errorIn(const Drawing& drawing) {
+    const double error = foreign::errorOf(drawing.compared());
+    if (error <= tolerated) return "";
+    if (!drawing.labels()) return fmt::format("its rms error is {:.2g}, and no mistake that is known explains it", error);
+    double dark = 0, lit = 0;
+    for (std::size_t i = 0; i < drawing.v.size(); ++i) {
+        if (drawing.scored[i] == 0) continue;
+        const bool isLit = drawing.v[i] >= 0.5F, shouldBe = drawing.truth.visibility[i] >= 0.5F;
+        (shouldBe ? dark : lit) += isLit != shouldBe ? 1 : 0;
+    }
+    const char* cause =
+        dark > 3 * lit   ? "most of these are dark and should be lit: lit faces shadow themselves (a bias that is "
+                           "too small or of the wrong sign), or casters are too large"
+        : lit > 3 * dark ? "most of these are lit and should be dark: casters are missing, or the bias is too large"
+                         : "no mistake that is known explains it";
+    return fmt::format("{} of the pixels are wrong; {}", percent(error), cause);
+}
+
+/// What is wrong with a frame; the first that explains it.
+std::string wrongWith(const Drawing& drawing) {
+    for (const auto& look : {remainingLightIn, mistakeIn, definitionIn, oddityIn, errorIn})
+        if (std::string wrong = look(drawing); !wrong.empty()) return wrong;
+    return "";
+}
+
+Truth truthOf(Definition definition) {
+    switch (definition) {
+    case Definition::Hard:
+        return Truth::Hard;
+    case Definition::Area:
+        return Truth::Area;
+    case Definition::Irradiance:
+        return Truth::Irradiance;
+    case Definition::SolidAngle:
+        return Truth::SolidAngle;
+    }
+    throw InternalError("images of an unknown meaning");
+}
+
+std::string wrongOn(KnownScene& known, const Renderer& renderer) {
+    const TemporaryFolder out;
+    std::vector<int> frames = known.frames();
+    if (!renderer.moving) frames.resize(1);
+    const foreign::Rendered rendered =
+        foreign::callRenderer(renderer, known.exported(), frames, out.path(), ownEnvironment());
+    for (const foreign::FrameFiles& files : rendered.frames) {
+        const Reference& truth = known.truth(truthOf(renderer.definition), files.frame);
+        const foreign::Pixels scored = receiversOf(truth);
+        std::vector<std::string> warnings;
+        const foreign::Visibility visibility = foreign::visibilityOf(
+            files, {.size = known.scene().size, .encoding = renderer.encoding, .channel = renderer.channel}, scored,
+            warnings);
+        const std::string wrong = wrongWith({renderer, known, files.frame, visibility.v, truth, scored});
+        if (!wrong.empty()) return rendered.frames.size() > 1 ? fmt::format("frame {}: {}", files.frame, wrong) : wrong;
+    }
+    return "";
+}
+
+bool fits(const Scene& scene, const Renderer& renderer) {
+    return groundtruth::hasTruth(scene.light, truthOf(renderer.definition));
+}
+
+} // namespace
+
+ExitCode checkRenderers(const fs::path& file, const std::function<void(const CheckResult&)>& onResult) {
+    const std::vector<Renderer> renderers = foreign::readRenderers(file);
+    bool hold = true;
+    for (Scene& scene : clientScenes()) {
+        KnownScene known(std::move(scene));
+        for (const Renderer& renderer : renderers) {
+            if (!fits(known.scene(), renderer)) continue;
+            std::string wrong;
+            try {
+                wrong = wrongOn(known, renderer);
+            } catch (const Error& error) {
+                if (DeferredInterrupts::pending()) throw;
+                wrong = error.what();
+            }
+            onResult({fmt::format("{} on {}", renderer.id, known.scene().id), wrong});
+            hold = hold && wrong.empty();
+        }
+    }
+    return hold ? ExitCode::Pass : ExitCode::AccuracyRegression;
+}
+
+} // namespace shadowbench::gate
