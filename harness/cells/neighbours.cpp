@@ -11,6 +11,14 @@
 #include <string>
 
 namespace shadowbench {
+namespace {
+
+/// What scoredError would draw again.
+std::optional<double> errorIn(const Record& record, Truth truth) {
+    return truth == Truth::Hard ? record.values["accuracy.mismatch"] : record.values["accuracy.rmse"];
+}
+
+} // namespace
 
 std::optional<techniques::Variant> withNeighbourMap(const techniques::Variant& variant) {
     const std::vector<techniques::Parameter>& declared = variant.entry->parameters;
@@ -36,7 +44,7 @@ double stepBetween(Truth truth, double error, double neighbour) {
 void scoreNeighbours(SceneFrames& frames, SceneFrames& larger, const techniques::Variant& variant, std::uint32_t seed,
                      Record& record) {
     const Truth truth = mainTruth(frames.scene(), variant);
-    const std::optional<double> own = scoredError(frames, variant, seed, truth);
+    const std::optional<double> own = errorIn(record, truth);
     const auto step = [&](SceneFrames& there, const techniques::Variant& neighbour) -> std::optional<double> {
         const std::optional<double> error = scoredError(there, neighbour, seed, truth);
         return own && error ? std::optional(stepBetween(truth, *own, *error)) : std::nullopt;
@@ -45,16 +53,16 @@ void scoreNeighbours(SceneFrames& frames, SceneFrames& larger, const techniques:
     record.values["sanity.image_step"] = step(larger, variant);
 }
 
-void scoreViews(SceneFrames& frames, const std::vector<std::unique_ptr<ChangedScene>>& others,
+void scoreViews(const Scene& scene, const std::vector<std::unique_ptr<ChangedScene>>& others,
                 const techniques::Variant& variant, std::uint32_t seed, Record& record) {
     if (variant.entry->temporal) return;
-    const Truth truth = gradedTruth(frames.scene());
+    const Truth truth = gradedTruth(scene);
     std::vector<double> errors;
-    const auto add = [&](SceneFrames& view) {
-        if (const std::optional<double> error = scoredError(view, variant, seed, truth)) errors.push_back(*error);
+    const auto add = [&](const std::optional<double>& error) {
+        if (error) errors.push_back(*error);
     };
-    add(frames);
-    for (const auto& other : others) add(other->frames());
+    add(errorIn(record, truth));
+    for (const auto& other : others) add(scoredError(other->frames(), variant, seed, truth));
     if (errors.size() < 2) return;
     record.values["views.mean"] = std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
     record.values["views.worst"] = *std::ranges::max_element(errors);

@@ -160,7 +160,7 @@ void SceneCells::scoreBeside(const techniques::Variant& variant, Record& record)
     if (otherViews_.empty())
         for (Scene& view : otherViews(scene_, options_.views))
             otherViews_.push_back(std::make_unique<ChangedScene>(std::move(view), cache_));
-    scoreViews(frames(), otherViews_, variant, options_.seed, record);
+    scoreViews(scene_, otherViews_, variant, options_.seed, record);
 }
 
 void SceneCells::scoreLod(const techniques::Variant& variant, Record& record, const Progress& progress) {
