@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <map>
 #include <string>
 
 namespace shadowbench::groundtruth {
@@ -33,13 +34,25 @@ Reference meansOf(const Snapshot& snapshot) {
     return means;
 }
 
+/// A scene as it is, computed once for all tests.
+struct Exact {
+    explicit Exact(const std::string& id) : scene(shown(id.c_str())), means(meansOf(shown(id.c_str()))) {
+        scene.labelByRays(size, scene.primaryHits(size), labels);
+    }
+    hard::ExactScene scene;
+    Reference labels, means;
+};
+
+const Exact& exactOf(const std::string& id) {
+    static std::map<std::string, Exact> scenes;
+    return scenes.try_emplace(id, id).first->second;
+}
+
 /// Of `means`, whatever they were made of, against the rays of the scene as it is.
 PixelCertificate certificateOf(const char* id, const Reference& means, int points = pixelCertificatePoints,
                                std::uint16_t firstSet = 0) {
-    const hard::ExactScene scene(shown(id));
-    Reference labels;
-    scene.labelByRays(size, scene.primaryHits(size), labels);
-    return certifyPixels(scene, means, labels, points, 2, {}, firstSet);
+    const Exact& exact = exactOf(id);
+    return certifyPixels(exact.scene, means, exact.labels, points, 2, {}, firstSet);
 }
 
 std::string describe(const PixelCertificate& certificate) {
@@ -52,7 +65,7 @@ constexpr const char* ids[] = {"dueling-frusta", "simple", "colonnade", "windmil
 
 TEST(PixelCertificate, AcceptsAreasOfTheLightWhereItIs) {
     for (const char* id : ids) {
-        const PixelCertificate found = certificateOf(id, meansOf(shown(id)));
+        const PixelCertificate found = certificateOf(id, exactOf(id).means);
         EXPECT_EQ(found.contradicting, 0) << id;
         EXPECT_LT(found.rms, 0.5 * found.independent) << id;
         EXPECT_NO_THROW(requirePixelsCertified(found)) << id << ": " << describe(found);
@@ -60,7 +73,7 @@ TEST(PixelCertificate, AcceptsAreasOfTheLightWhereItIs) {
 }
 
 TEST(PixelCertificate, AcceptsThemWhateverTheRays) {
-    const Reference means = meansOf(shown("windmills"));
+    const Reference means = exactOf("windmills").means;
     for (std::uint16_t seed = 1; seed <= 20; ++seed) {
         const auto firstSet = static_cast<std::uint16_t>(seed * pixelCertificateSets);
         const PixelCertificate found = certificateOf("windmills", means, 48, firstSet);
@@ -96,7 +109,7 @@ Reference moved(const Reference& means, double pixels) {
 
 TEST(PixelCertificate, RejectsAnImageThatIsMovedByATenthOfAPixel) {
     for (const char* id : ids) {
-        const PixelCertificate found = certificateOf(id, moved(meansOf(shown(id)), 0.1));
+        const PixelCertificate found = certificateOf(id, moved(exactOf(id).means, 0.1));
         EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << describe(found);
     }
 }
@@ -104,7 +117,7 @@ TEST(PixelCertificate, RejectsAnImageThatIsMovedByATenthOfAPixel) {
 /// Where rays see most of each pixel's surface they err by less.
 TEST(PixelCertificate, RejectsAnImageThatIsMovedByAFiftiethOfAPixel) {
     for (const char* id : {"dueling-frusta", "simple", "colonnade"}) {
-        const PixelCertificate found = certificateOf(id, moved(meansOf(shown(id)), 0.02));
+        const PixelCertificate found = certificateOf(id, moved(exactOf(id).means, 0.02));
         EXPECT_THROW(requirePixelsCertified(found), Inconclusive) << id << ": " << describe(found);
     }
 }
@@ -114,7 +127,7 @@ TEST(PixelCertificate, RejectsAreasThatLackACaster) {
         Snapshot scene = shown(id);
         ASSERT_GT(scene.batches.size(), 1U) << id;
         scene.batches.pop_back();
-        Reference means = meansOf(shown(id));
+        Reference means = exactOf(id).means;
         const Reference without = meansOf(scene);
         for (std::size_t i = 0; i < means.id.size(); ++i)
             if (without.id[i] == means.id[i]) means.visibility[i] = without.visibility[i];
@@ -124,7 +137,7 @@ TEST(PixelCertificate, RejectsAreasThatLackACaster) {
 
 /// Errors that the former bound, 0.75 times that of independent rays, let pass.
 TEST(PixelCertificate, RejectsErrorsOfTwiceWhatItsRaysErrBy) {
-    Reference means = meansOf(shown("simple"));
+    Reference means = exactOf("simple").means;
     const PixelCertificate honest = certificateOf("simple", means);
     bool up = false;
     for (float& v : means.visibility)
@@ -137,7 +150,7 @@ TEST(PixelCertificate, RejectsErrorsOfTwiceWhatItsRaysErrBy) {
 
 // 1,024 rays of a share of ½ lie within 0.105 of it, by Bernstein's inequality at 10⁻⁵ over all points.
 TEST(PixelCertificate, CountsPointsThatNoRaysCouldGive) {
-    Reference means = meansOf(shown("windmills"));
+    Reference means = exactOf("windmills").means;
     for (float& share : means.visibility)
         if (share > 0 && share < 1) share += share < 0.5F ? 0.3F : -0.3F;
     const PixelCertificate found = certificateOf("windmills", means);
