@@ -46,8 +46,8 @@ bool isExecutable(const fs::path& file) {
 TEST(Clients, AreThoseOfTheirPage) {
     std::vector<std::string> names;
     for (const fs::path& folder : clientFolders()) names.push_back(folder.filename());
-    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "filament", "openscenegraph", "playcanvas", "threejs",
-                                               "vtk"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "filament", "godot", "ogre", "openscenegraph",
+                                               "playcanvas", "threejs", "vtk"}));
 }
 
 TEST(Clients, HaveExecutableCommands) {
