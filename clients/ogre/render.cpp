@@ -125,7 +125,9 @@ public:
         makeMaterial("shadowed", true);
         makeMaterial("unshadowed", false);
         setUpShadows();
-        for (const auto& [name, mesh] : exported.meshes) makeMesh(*scene_, name, mesh);
+        for (const auto& [name, mesh] : exported.meshes) {
+            refuseWhatVolumesCannotNumber(name, makeMesh(*scene_, name, mesh)->getSubMesh(0)->vertexData->vertexCount);
+        }
         makeImage();
     }
 
@@ -163,6 +165,12 @@ private:
             shaders.createSubRenderState(Ogre::RTShader::IntegratedPSSM3::Type));
         if (splits) lookups->setSplitPoints(splits->getSplitPoints());
         shaders.getRenderState(Ogre::RTShader::ShaderGenerator::DEFAULT_SCHEME_NAME)->addTemplateSubRenderState(lookups);
+    }
+
+    /// The engine's volumes have each vertex twice and 16-bit indices; it ends the program otherwise.
+    void refuseWhatVolumesCannotNumber(const std::string& name, std::size_t vertices) const {
+        if (settings_.shadows == "stencil" && 2 * vertices > 65536)
+            throw BadInput("mesh " + name + " has " + std::to_string(vertices) + " vertices, and stencil shadows take 32768 at most");
     }
 
     void makeImage() {

@@ -18,7 +18,7 @@ cp "$out/images/light-behind-camera/pcf/error.png" docs/pictures/behind-pcf.png
 cp "$out/images/tessellation/sm-history_filter=pcf/error.png" docs/pictures/tessellation-history.png
 for client in threejs/external:threejs-pcf babylonjs/external:babylonjs-none blender/external:eevee-hard \
     playcanvas/external:playcanvas-pcf3 filament/external:filament-pcf openscenegraph/directional:osg-pssm \
-    vtk/external:vtk-shadow-map; do
+    ogre/external:ogre-stencil godot/external:godot-pcf5 vtk/external:vtk-shadow-map; do
     row=${client#*:}
     list=${client%:*}
     name=${list%/*}
