@@ -2,13 +2,13 @@
 // technique and without, into floats; what is written is the quotient.
 #include "../openscenegraph/exported_scene.h"
 
-#include <OgreSGTechniqueResolverListener.h>
 #include <Ogre.h>
+#include <OgreRTShaderSystem.h>
+#include <OgreSGTechniqueResolverListener.h>
+#include <OgreShaderExIntegratedPSSM3.h>
 #include <OgreShadowCameraSetupFocused.h>
 #include <OgreShadowCameraSetupLiSPSM.h>
 #include <OgreShadowCameraSetupPSSM.h>
-#include <OgreRTShaderSystem.h>
-#include <OgreShaderExIntegratedPSSM3.h>
 #include <bit>
 #include <iostream>
 
@@ -17,8 +17,8 @@ namespace {
 struct Settings {
     std::string shadows = "stencil";
     std::string camera = "default";
-    int mapSize = 512;            // the engine's own
-    bool isAsFarAsScene = false;  // setShadowFarDistance: not called, or as far as the scene is from the eye
+    int mapSize = 512;           // the engine's own
+    bool isAsFarAsScene = false; // setShadowFarDistance: not called, or as far as the scene is from the eye
 };
 
 Ogre::Affine3 matrixOf(const nlohmann::json& numbers) {
@@ -170,7 +170,8 @@ private:
     /// The engine's volumes have each vertex twice and 16-bit indices; it ends the program otherwise.
     void refuseWhatVolumesCannotNumber(const std::string& name, std::size_t vertices) const {
         if (settings_.shadows == "stencil" && 2 * vertices > 65536)
-            throw BadInput("mesh " + name + " has " + std::to_string(vertices) + " vertices, and stencil shadows take 32768 at most");
+            throw BadInput("mesh " + name + " has " + std::to_string(vertices) +
+                           " vertices, and stencil shadows take 32768 at most");
     }
 
     void makeImage() {
@@ -207,7 +208,8 @@ private:
         const nlohmann::json& described = frame.at("light");
         const std::string kind = described.at("kind");
         if (kind == "environment") throw BadInput("no shadows are of an environment light; choose another scene");
-        if (settings_.shadows == "integrated" && settings_.camera == "pssm" && kind != "directional") throw BadInput("parallel splits are for directional lights only");
+        if (settings_.shadows == "integrated" && settings_.camera == "pssm" && kind != "directional")
+            throw BadInput("parallel splits are for directional lights only");
         const Ogre::AxisAlignedBox bounds = boundsOf(exported_, frame);
         if (settings_.isAsFarAsScene) {
             const Ogre::Vector3 eye = vectorOf(frame.at("camera").at("eye"));
@@ -293,7 +295,8 @@ Settings settingsOf(std::map<std::string, std::string>& options) {
     word("--camera", settings.camera, cameras);
     if (options.contains("--map-size")) {
         settings.mapSize = std::atoi(options["--map-size"].c_str());
-        if (settings.mapSize < 16 || settings.mapSize > 8192 || !std::has_single_bit(static_cast<unsigned>(settings.mapSize)))
+        if (settings.mapSize < 16 || settings.mapSize > 8192 ||
+            !std::has_single_bit(static_cast<unsigned>(settings.mapSize)))
             throw BadInput("--map-size " + options["--map-size"] + ": give a power of 2 from 16 to 8192");
     }
     if (options.contains("--distance")) {
@@ -311,7 +314,8 @@ void printHelp() {
                  "  --out DIR     folder for the images\n\n"
                  "settings, with the engine's own values if not given:\n"
                  "  --shadows     stencil, or integrated: depth maps that the shader system looks up; stencil if not given\n"
-                 "  --camera      of the maps: default, focused, lispsm, or pssm (three splits, with integrated); default if not given\n"
+                 "  --camera      of the maps: default, focused, lispsm, or pssm (three splits, with integrated); default "
+                 "if not given\n"
                  "  --map-size N  texels along each side of a map: 512 if not given\n"
                  "  --distance scene  setShadowFarDistance, as far as the scene is from the eye\n\n"
                  "example: clients/ogre/render --scene exported --frames 59 --out images\n";
@@ -329,8 +333,8 @@ void render(std::map<std::string, std::string> options) {
         const std::string file = options["--out"] + "/frame-" + std::to_string(frame.at("index").get<int>()) + ".pfm";
         writePfm(file, exported.width, exported.height, engine.visibility(frame));
     }
-    std::cout << "ogre: " << frames.size() << " frames into " << options["--out"] << " with OGRE " << OGRE_VERSION_MAJOR << '.'
-              << OGRE_VERSION_MINOR << '.' << OGRE_VERSION_PATCH << ", " << engine.device() << '\n';
+    std::cout << "ogre: " << frames.size() << " frames into " << options["--out"] << " with OGRE " << OGRE_VERSION_MAJOR
+              << '.' << OGRE_VERSION_MINOR << '.' << OGRE_VERSION_PATCH << ", " << engine.device() << '\n';
 }
 
 } // namespace
