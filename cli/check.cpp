@@ -29,23 +29,25 @@ void print(const gate::CheckResult& result) {
 
 void addCheck(CLI::App& app, Action& action) {
     const auto folder = std::make_shared<fs::path>(), cache = std::make_shared<fs::path>();
-    CLI::App* verb = app.add_subcommand(
-        "check", "Checks what must hold of a technique folder, or of the adapters in a list of renderers");
+    CLI::App* verb = app.add_subcommand("check", "Checks what must hold of a technique folder, or of an engine's adapter");
     verb->footer(
         "Example: shadowbench check evsm\n"
         "Draws each row on small scenes at the end of what there is, and its parameters at the ends of their ranges;\n"
         "then judges its expect.toml. A line each; the exit code is 4 where one does not hold.\n"
         "More: docs/technique-folders.md\n"
-        "Example: shadowbench check clients/threejs/external.toml\n"
-        "Calls each renderer of the list on six small scenes whose shadows are known, and says what its adapter does\n"
-        "wrong: rows, units, axes, the light's place, matrices, frames, encodings.   More: docs/external.md");
-    verb->add_option("folder", *folder, "Folder with a technique.toml and its shaders; or a list of renderers, a TOML file")
+        "Example: shadowbench check clients/threejs\n"
+        "Calls each renderer of its client.toml on six small scenes whose shadows are known, and says what its adapter "
+        "does\n"
+        "wrong: rows, units, axes, the light's place, matrices, frames, encodings. More: docs/external.md");
+    verb->add_option("folder", *folder,
+                     "Folder with a technique.toml and its shaders, or with a client.toml; or a list of renderers")
         ->required();
     verb->add_option("--cache", *cache, "Folder of references (default: $SHADOWBENCH_CACHE or ~/.cache/shadowbench)");
     addGlOption(*verb);
     verb->callback([&action, folder, cache] {
-        if (fs::is_regular_file(*folder)) {
-            action = [folder] { return gate::checkRenderers(*folder, print); };
+        const fs::path list = fs::is_regular_file(*folder) ? *folder : *folder / "client.toml";
+        if (fs::exists(list)) {
+            action = [list] { return gate::checkRenderers(list, print); };
             return;
         }
         techniques::addTechniqueFolder(*folder);

@@ -242,6 +242,8 @@ std::string wrongOn(KnownScene& known, const Renderer& renderer) {
 }
 
 bool fits(const Scene& scene, const Renderer& renderer) {
+    if (!renderer.lights.empty() && std::ranges::find(renderer.lights, scene.light.kind) == renderer.lights.end())
+        return false;
     return groundtruth::hasTruth(scene.light, truthOf(renderer.definition));
 }
 

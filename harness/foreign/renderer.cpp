@@ -20,7 +20,8 @@ using namespace std::chrono;
 
 const std::vector<std::string> keys = {"id",         "title",    "source",      "command",         "definition", "encoding",
                                        "channel",    "depth_is", "history",     "leave_out_edges", "force",      "frames",
-                                       "time_limit", "settings", "environment", "means",           "as_it_is"};
+                                       "time_limit", "settings", "environment", "means",           "as_it_is",   "arguments",
+                                       "lights",     "division", "advice"};
 const std::vector<std::string> placeholders = {"scene", "frames", "out"};
 
 std::string textOf(const toml::node& entry) {
@@ -81,6 +82,34 @@ std::vector<std::string> commandIn(const TomlValue& value) {
     return words;
 }
 
+/// What a renderer adds to a command that several share.
+void addArguments(const TomlValue& value, Renderer& renderer) {
+    if (renderer.isShellLine) value.fail("is for a command that is a list of words, and `command` is a line for the shell");
+    for (const TomlValue& word : value.list()) renderer.command.push_back(word.text());
+}
+
+std::vector<LightKind> lightsIn(const TomlValue& value) {
+    std::vector<std::string> names;
+    for (int kind = 0; kind <= static_cast<int>(LightKind::Environment); ++kind)
+        names.emplace_back(name(static_cast<LightKind>(kind)));
+    std::vector<LightKind> lights;
+    for (const TomlValue& word : value.list())
+        lights.push_back(static_cast<LightKind>(std::ranges::find(names, word.oneOf(names)) - names.begin()));
+    if (lights.empty()) value.fail("is empty: name a kind of light, or leave it out for all");
+    return lights;
+}
+
+/// A tuned row says who recommends its settings, and no other one needs to.
+void readDivision(const TomlValue& entry, Renderer& renderer) {
+    const std::vector<std::string> names{"defaults", "equal-maps", "tuned"};
+    if (const auto value = entry.find("division"))
+        renderer.division = static_cast<Division>(std::ranges::find(names, value->oneOf(names)) - names.begin());
+    if (const auto value = entry.find("advice")) renderer.advice = value->text();
+    if ((renderer.division == Division::Tuned) == renderer.advice.empty())
+        entry.get("id").fail("a row of the division \"tuned\" has `advice`, the sentence of the engine's documents that "
+                             "recommends its settings, and no other row has");
+}
+
 std::vector<std::pair<std::string, std::string>> settingsIn(const TomlValue& table) {
     std::vector<std::pair<std::string, std::string>> settings;
     for (const TomlValue& value : table.members()) settings.emplace_back(value.lastKey(), value.scalar());
@@ -121,6 +150,9 @@ Renderer rendererIn(const TomlValue& entry) {
     renderer.id = idIn(entry.get("id"));
     renderer.command = commandIn(entry.get("command"));
     renderer.isShellLine = entry.get("command").isText();
+    if (const auto value = entry.find("arguments")) addArguments(*value, renderer);
+    if (const auto value = entry.find("lights")) renderer.lights = lightsIn(*value);
+    readDivision(entry, renderer);
     if (const auto value = entry.find("title")) renderer.title = value->text();
     if (const auto value = entry.find("source")) renderer.source = value->text();
     readMeaning(entry, renderer);
@@ -132,14 +164,37 @@ Renderer rendererIn(const TomlValue& entry) {
     return renderer;
 }
 
+/// Gives each renderer the keys of [shared] that it does not say itself.
+void share(toml::table& root, const TomlValue& whole) {
+    const auto shared = whole.find("shared");
+    if (!shared) return;
+    std::vector<std::string> known = keys;
+    std::erase(known, "id");
+    shared->only(known);
+    const toml::array* list = root.get("renderer") != nullptr ? root.get("renderer")->as_array() : nullptr;
+    for (std::size_t i = 0; list != nullptr && i < list->size(); ++i)
+        if (toml::table* entry = (*root.get("renderer")->as_array())[i].as_table())
+            for (const auto& [key, value] : *root.get("shared")->as_table()) entry->insert(key, value);
+}
+
 } // namespace
+
+std::optional<Client> readClient(const fs::path& file) {
+    const toml::table root = parseToml(readFile(file), file.string());
+    const TomlSource source{.file = file.string()};
+    const auto table = TomlValue(source, "", root).find("client");
+    if (!table) return {};
+    table->only({"engine", "version", "maintainer"});
+    return Client{table->get("engine").text(), table->get("version").text(), table->get("maintainer").text()};
+}
 
 std::vector<Renderer> readRenderers(const fs::path& file) {
     const std::string text = readFile(file);
-    const toml::table root = parseToml(text, file.string());
+    toml::table root = parseToml(text, file.string());
     const TomlSource source{.file = file.string()};
     const TomlValue whole(source, "", root);
-    whole.only({"renderer"});
+    whole.only({"client", "shared", "renderer"});
+    share(root, whole);
     const TomlValue list = whole.get("renderer");
     std::vector<Renderer> renderers;
     const toml::array* nodes = root.get("renderer")->as_array();

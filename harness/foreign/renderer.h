@@ -2,14 +2,28 @@
 #pragma once
 
 #include "harness/foreign/foreign_row.h"
+#include "scene/camera.h"
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace shadowbench::foreign {
+
+/// What a row may set (docs/scoreboard.md, "Divisions").
+enum class Division {
+    Defaults,  // nothing that its engine does not set itself
+    EqualMaps, // the map's size and nothing else
+    Tuned,     // what the engine's documents recommend
+};
+
+/// The engine that a list is of, and who answers for the adapter.
+struct Client {
+    std::string engine, version, maintainer;
+};
 
 struct Renderer {
     std::string id;            // as ForeignRow::id
@@ -23,7 +37,10 @@ struct Renderer {
     std::string channel; // as ForeignRow::channel, and so are these
     Depth depth = Depth::AlongView;
     bool remembers = false, leaveOutEdges = false, force = false;
-    bool moving = true; // it renders the moving frames too, not the last still one alone
+    bool moving = true;            // it renders the moving frames too, not the last still one alone
+    std::vector<LightKind> lights; // that it draws; empty: each that its definition fits
+    Division division = Division::Defaults;
+    std::string advice; // of a tuned one: where the engine's documents recommend its settings, and in which words
     std::chrono::milliseconds limit{std::chrono::minutes(10)};
     std::vector<std::pair<std::string, std::string>> settings;    // parameters of its rows, sorted by name
     std::vector<std::pair<std::string, std::string>> environment; // variables beside ours
@@ -32,8 +49,11 @@ struct Renderer {
     int line = 1;                                                 // of the file, where the entry begins
 };
 
-/// The renderers of a file, in its order. Throws BadInput naming file, line and key of what is wrong or unknown, with near
-/// matches.
+/// The [client] of a file; nothing where it has none. Throws as below.
+std::optional<Client> readClient(const std::filesystem::path& file);
+
+/// The renderers of a file, in its order; each has the keys of [shared] that it does not say itself. Throws BadInput naming
+/// file, line and key of what is wrong or unknown, with near matches.
 std::vector<Renderer> readRenderers(const std::filesystem::path& file);
 
 /// `text` with the placeholders replaced; `quoted`: by words that the shell takes as they are.

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
 namespace shadowbench::foreign {
@@ -20,17 +21,12 @@ const fs::path clients = fs::path(SOURCE_FOLDER) / "clients";
 std::vector<fs::path> clientFolders() {
     std::vector<fs::path> folders;
     for (const fs::directory_entry& entry : fs::directory_iterator(clients))
-        if (fs::exists(entry.path() / "external.toml")) folders.push_back(entry.path());
+        if (fs::exists(entry.path() / "client.toml")) folders.push_back(entry.path());
     std::ranges::sort(folders);
     return folders;
 }
 
-std::vector<Renderer> renderersIn(const fs::path& folder) {
-    std::vector<Renderer> all;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".toml") std::ranges::move(readRenderers(entry.path()), std::back_inserter(all));
-    return all;
-}
+std::vector<Renderer> renderersIn(const fs::path& folder) { return readRenderers(folder / "client.toml"); }
 
 /// The same text, or the same number written otherwise (0.0001, 1e-04).
 bool isSame(const std::string& a, const std::string& b) {
@@ -48,6 +44,18 @@ TEST(Clients, AreThoseOfTheirPage) {
     for (const fs::path& folder : clientFolders()) names.push_back(folder.filename());
     EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "filament", "godot", "ogre", "openscenegraph",
                                                "playcanvas", "threejs", "vtk"}));
+}
+
+TEST(Clients, SayWhoseTheyAre) {
+    for (const fs::path& folder : clientFolders()) {
+        const auto client = readClient(folder / "client.toml");
+        ASSERT_TRUE(client) << folder;
+        for (const Renderer& renderer : renderersIn(folder)) {
+            const bool saysSize = std::regex_search(renderer.id, std::regex("-(1024|2048|4096)$"));
+            EXPECT_EQ(renderer.division == Division::EqualMaps, saysSize && renderer.division != Division::Tuned)
+                << renderer.id;
+        }
+    }
 }
 
 TEST(Clients, HaveExecutableCommands) {

@@ -145,5 +145,55 @@ TEST(FilledIn, ReplacesPlaceholdersAndNothingElse) {
     EXPECT_EQ(filledIn("ls {scene} ${scene}", values, true), "ls '/tmp/it'\\''s' ${scene}");
 }
 
+TEST_F(RenderersFile, SharesKeysThatARendererDoesNotSayItself) {
+    const auto renderers = read(R"(
+[client]
+engine = "Mine"
+version = "4.2"
+maintainer = "me"
+[shared]
+command = ["./render", "{scene}", "{out}"]
+source = "mine 4.2"
+time_limit = 30
+[[renderer]]
+id = "a"
+arguments = ["--map=512"]
+[[renderer]]
+id = "b"
+source = "mine 4.1"
+lights = ["point", "directional"]
+division = "tuned"
+advice = "Use it."
+)");
+    ASSERT_EQ(renderers.size(), 2U);
+    EXPECT_EQ(renderers[0].command, (std::vector<std::string>{"./render", "{scene}", "{out}", "--map=512"}));
+    EXPECT_EQ(renderers[1].command, (std::vector<std::string>{"./render", "{scene}", "{out}"}));
+    EXPECT_EQ(renderers[0].source, "mine 4.2");
+    EXPECT_EQ(renderers[1].source, "mine 4.1");
+    EXPECT_EQ(renderers[1].limit, 30s);
+    EXPECT_NE(renderers[0].text.find("--map=512"), std::string::npos);
+    EXPECT_NE(renderers[0].text.find("time_limit"), std::string::npos) << "what is shared is part of the entry, too";
+    EXPECT_EQ(renderers[0].division, Division::Defaults);
+    EXPECT_EQ(renderers[1].division, Division::Tuned);
+    EXPECT_EQ(renderers[1].lights, (std::vector{LightKind::Point, LightKind::Directional}));
+    EXPECT_TRUE(renderers[0].lights.empty());
+    const auto client = readClient(file());
+    ASSERT_TRUE(client);
+    EXPECT_EQ(client->engine + client->version + client->maintainer, "Mine4.2me");
+}
+
+TEST_F(RenderersFile, RefusesWhatCannotBeShared) {
+    const std::string entry = "[[renderer]]\nid = \"a\"\ncommand = [\"x\", \"{scene}\", \"{out}\"]\n";
+    EXPECT_EQ(refusal("[shared]\nid = \"a\"\n" + entry).substr(0, 21), "r.toml:2: shared.id: ");
+    EXPECT_NE(refusalOf("division = \"tuned\"").find("has `advice`"), std::string::npos);
+    EXPECT_NE(refusalOf("advice = \"Use it.\"").find("has `advice`"), std::string::npos);
+    EXPECT_NE(refusalOf("lights = [\"sun\"]").find("lights[1]"), std::string::npos) << refusalOf("lights = [\"sun\"]");
+    EXPECT_NE(refusalOf("lights = []").find("is empty"), std::string::npos);
+    EXPECT_NE(
+        refusal("[[renderer]]\nid = \"a\"\ncommand = \"x {scene} {out}\"\narguments = [\"y\"]\n").find("a list of words"),
+        std::string::npos);
+    EXPECT_FALSE(readClient(file()));
+}
+
 } // namespace
 } // namespace shadowbench::foreign
