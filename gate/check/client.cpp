@@ -104,6 +104,14 @@ Image<float> drawnWith(const Reference& mistaken, float background) {
     return v;
 }
 
+/// Whether the image has light and shadow: many mistakes draw one of them alone.
+bool isTelling(const Drawing& drawing) {
+    double dark = 0, lit = 0;
+    for (std::size_t i = 0; i < drawing.v.size(); ++i)
+        if (drawing.scored[i] != 0) (drawing.v[i] < 0.5F ? dark : lit) += 1;
+    return std::min(dark, lit) > 0.01 * (dark + lit);
+}
+
 /// The error against what a mistake would have drawn. What a renderer has where it sees nothing is its own business.
 double errorWith(const Drawing& drawing, const Reference& mistaken) {
     double least = 1;
@@ -112,10 +120,9 @@ double errorWith(const Drawing& drawing, const Reference& mistaken) {
     return least;
 }
 
-/// Of an image that is not all light or all shadow, which many mistakes would draw.
 std::string mistakeIn(const Drawing& drawing) {
     const double error = foreign::errorOf(drawing.compared());
-    if (!drawing.labels() || error < notable || foreign::uniform(drawing.compared())) return "";
+    if (!drawing.labels() || error < notable || !isTelling(drawing)) return "";
     double least = std::min(explained * error, leftMost);
     std::string found;
     for (const Mistake& mistake : mistakes()) {
@@ -157,8 +164,8 @@ std::optional<double> medianWhere(const Drawing& drawing, float visibility) {
 std::string remainingLightIn(const Drawing& drawing) {
     const auto dark = medianWhere(drawing, 0), lit = medianWhere(drawing, 1);
     if (!dark || !lit || *dark < 0.05 || *dark > 0.95 || *lit - *dark < 0.05) return "";
-    return fmt::format("{} of the light is left in its shadows: ambient light or a second light is in the image; subtract "
-                       "it, or write frame-…-lit and frame-…-unlit",
+    return fmt::format("{} of the light is left in its shadows: ambient light or a second light is in the image, which "
+                       "frame-…-lit and frame-…-unlit take out, or a filter leaks",
                        percent(*dark));
 }
 
