@@ -30,7 +30,7 @@ void addIndexPage(const Contents& contents, SiteWriter& site);
 /// choose.html: which technique to take on each scene; every technique on every scene. Of techniques alone.
 void addChoosePage(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site);
 
-/// engines.html: other renderers' records.
+/// engines.html: other renderers' records; and engines/<engine>.html, a page for each engine.
 void addEnginesPage(const std::vector<Record>& records, const std::filesystem::path& images, SiteWriter& site);
 
 /// scenes/<scene>.html; `drawn`: the charts that the report has written into the site's folder.

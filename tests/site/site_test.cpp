@@ -155,6 +155,38 @@ TEST_F(Site, CountsTechniquesAndHasOtherRenderersOnAPageOfTheirOwn) {
     EXPECT_EQ(deadLinks(folder()), std::set<std::string>());
 }
 
+TEST_F(Site, HasAPageForEachEngineAndNamesRowsWithTheSameImages) {
+    std::vector<Record> records;
+    const auto add = [&](const char* id, const char* source, const std::string& images) {
+        for (const char* scene : {"simple", "trees", "windmills"}) {
+            records.push_back(hardCell(std::string("external:") + id, 0.03, 1));
+            records.back().scene = scene;
+            records.back().technique = records.back().variant;
+            records.back().parameters = {{"means", "hard"}, {"map", "512"}};
+            records.back().external = ExternalInfo{.title = id, .source = source};
+            records.back().images = images.empty() ? "" : images + scene;
+        }
+    };
+    add("one-pcf", "One 4.2, OpenGL", "a");
+    add("one-vsm", "One 4.1", "b");
+    add("copy", "Two Engines 1", "a");
+    add("silent", "", "");
+    writeSite({.records = records}, folder());
+    const std::string all = readFile(folder() / "engines.html"), one = readFile(folder() / "engines/One.html");
+    for (const char* part :
+         {"one-pcf", "One 4.1", "map = 512", "run --external LIST --technique external:one-vsm --scene simple"})
+        EXPECT_TRUE(has(one, part)) << part;
+    EXPECT_FALSE(has(one, "external:copy"));
+    for (const char* page : {"engines/Two_Engines-9d59718e.html", "engines/silent.html"})
+        EXPECT_TRUE(fs::exists(folder() / page)) << page;
+    const std::size_t at = all.find("data-table=\"same\"");
+    ASSERT_NE(at, std::string::npos);
+    const std::string same = all.substr(at, all.find("</table>", at) - at);
+    EXPECT_TRUE(has(same, "one-pcf") && has(same, "copy")) << same;
+    EXPECT_FALSE(has(same, "one-vsm") || has(same, "silent")) << same;
+    EXPECT_EQ(deadLinks(folder()), std::set<std::string>());
+}
+
 TEST(SceneGroups, SortScenesByWhatTheyAreFor) {
     std::vector<Record> records(4, hardCell("pcf", 0.1, 1));
     records[0].scene = "simple";
