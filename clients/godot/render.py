@@ -104,7 +104,8 @@ def render(options):
             if not all(map(os.path.exists, files)):
                 raise BadInput(f"Godot drew no frame {frame['index']}: {(ran.stderr.strip() or ran.stdout.strip())[-2000:]}")
             shadowed, unshadowed = (read_raw(file, exported.size) for file in files)
-            image = array.array("f", (a / b if b > 0 else 0 for a, b in zip(shadowed, unshadowed)))
+            # Where two surfaces have one depth, now this one is drawn and now the other.
+            image = array.array("f", (min(1, a / b) if b > 0 else 0 for a, b in zip(shadowed, unshadowed)))
             write_pfm(os.path.join(options.out, f"frame-{frame['index']}.pfm"), exported.size, image)
     print(f"godot: {len(frames)} frames into {options.out} with {next((line for line in ran.stdout.splitlines() if line.startswith('Godot')), 'Godot')}")
 
