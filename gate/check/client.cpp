@@ -36,6 +36,20 @@ constexpr double tolerated = 0.06; // share of wrong labels, or rms error, of a 
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
+Truth truthOf(Definition definition) {
+    switch (definition) {
+    case Definition::Hard:
+        return Truth::Hard;
+    case Definition::Area:
+        return Truth::Area;
+    case Definition::Irradiance:
+        return Truth::Irradiance;
+    case Definition::SolidAngle:
+        return Truth::SolidAngle;
+    }
+    throw InternalError("images of an unknown meaning");
+}
+
 foreign::Pixels receiversOf(const Reference& truth) {
     foreign::Pixels scored(truth.surface.width(), truth.surface.height());
     for (std::size_t i = 0; i < scored.size(); ++i) scored[i] = truth.surface[i] == Surface::Receiver ? 1 : 0;
@@ -139,7 +153,7 @@ std::string mistakeIn(const Drawing& drawing) {
 
 std::string oddityIn(const Drawing& drawing) {
     std::vector<foreign::OtherFrame> others;
-    const Truth truth = drawing.labels() ? Truth::Hard : Truth::Area;
+    const Truth truth = truthOf(drawing.renderer.definition);
     for (const int frame : drawing.known.frames())
         if (frame != drawing.frame) others.push_back({frame, drawing.known.truth(truth, frame).visibility});
     for (const foreign::Finding& finding : foreign::oddities(drawing.compared(), drawing.renderer.encoding, others))
@@ -155,7 +169,7 @@ std::optional<double> medianWhere(const Drawing& drawing, float visibility) {
         const bool inside = !drawing.labels() || drawing.truth.edgeDistance[i] > 2;
         if (drawing.scored[i] != 0 && drawing.truth.visibility[i] == visibility && inside) values.push_back(drawing.v[i]);
     }
-    if (values.size() < 64) return {};
+    if (values.size() < 64) return {}; // pixels: of fewer, odd ones may be half
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);
     return static_cast<double>(*middle);
@@ -174,12 +188,9 @@ std::string definitionIn(const Drawing& drawing) {
     const double error = foreign::errorOf(drawing.compared());
     double least = error / 2;
     std::string found;
-    for (const auto& [definition, truth] : {std::pair{Definition::Hard, Truth::Hard},
-                                            {Definition::Area, Truth::Area},
-                                            {Definition::Irradiance, Truth::Irradiance},
-                                            {Definition::SolidAngle, Truth::SolidAngle}}) {
+    for (const Definition definition : foreign::allDefinitions) {
         if (definition == drawing.renderer.definition) continue;
-        const Reference& other = drawing.known.truth(truth, drawing.frame);
+        const Reference& other = drawing.known.truth(truthOf(definition), drawing.frame);
         const double left = foreign::errorOf({drawing.v, other.visibility, drawing.scored, false});
         if (left >= least || error < 0.02) continue;
         least = left;
@@ -215,20 +226,6 @@ std::string wrongWith(const Drawing& drawing) {
     return "";
 }
 
-Truth truthOf(Definition definition) {
-    switch (definition) {
-    case Definition::Hard:
-        return Truth::Hard;
-    case Definition::Area:
-        return Truth::Area;
-    case Definition::Irradiance:
-        return Truth::Irradiance;
-    case Definition::SolidAngle:
-        return Truth::SolidAngle;
-    }
-    throw InternalError("images of an unknown meaning");
-}
-
 std::string wrongOn(KnownScene& known, const Renderer& renderer) {
     const TemporaryFolder out;
     std::vector<int> frames = known.frames();
@@ -249,9 +246,7 @@ std::string wrongOn(KnownScene& known, const Renderer& renderer) {
 }
 
 bool fits(const Scene& scene, const Renderer& renderer) {
-    if (!renderer.lights.empty() && std::ranges::find(renderer.lights, scene.light.kind) == renderer.lights.end())
-        return false;
-    return groundtruth::hasTruth(scene.light, truthOf(renderer.definition));
+    return renderer.draws(scene.light.kind) && groundtruth::hasTruth(scene.light, truthOf(renderer.definition));
 }
 
 } // namespace
@@ -266,6 +261,8 @@ ExitCode checkRenderers(const fs::path& file, const std::function<void(const Che
             std::string wrong;
             try {
                 wrong = wrongOn(known, renderer);
+            } catch (const InternalError&) {
+                throw;
             } catch (const Error& error) {
                 if (DeferredInterrupts::pending()) throw;
                 wrong = error.what();

@@ -179,6 +179,8 @@ void share(toml::table& root, const TomlValue& whole) {
 
 } // namespace
 
+bool Renderer::draws(LightKind kind) const { return lights.empty() || std::ranges::find(lights, kind) != lights.end(); }
+
 std::optional<Client> readClient(const fs::path& file) {
     const toml::table root = parseToml(readFile(file), file.string());
     const TomlSource source{.file = file.string()};

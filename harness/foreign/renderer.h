@@ -47,6 +47,8 @@ struct Renderer {
     std::filesystem::path folder;                                 // of the TOML file: where the command runs
     std::string text;                                             // the entry, with keys sorted and without comments
     int line = 1;                                                 // of the file, where the entry begins
+
+    [[nodiscard]] bool draws(LightKind kind) const;
 };
 
 /// The [client] of a file; nothing where it has none. Throws as below.

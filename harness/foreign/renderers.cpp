@@ -110,8 +110,7 @@ public:
     [[nodiscard]] const std::vector<Variant>& variants() const override { return variants_; }
 
     [[nodiscard]] std::optional<std::string> notApplicable(const Scene& scene, const Variant& variant) const override {
-        const std::vector<LightKind>& lights = of(variant).lights;
-        if (!lights.empty() && std::ranges::find(lights, scene.light.kind) == lights.end())
+        if (!of(variant).draws(scene.light.kind))
             return fmt::format("{} draws no light of kind {}", of(variant).id, name(scene.light.kind));
         try {
             requireScorable(scene, plannedRow(scene, of(variant)));
