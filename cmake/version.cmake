@@ -1,7 +1,8 @@
 # Run at every build: writes embedded_commit.h with the project's version, the checked-out commit and hashes of the sources,
 # embedded_oracle_sources.h with those of each oracle's and embedded_shader_sources.h with those of what draws and compiles
-# shaders, only when they changed.
+# shaders, and embedded_reach.h with those of what decides each technique's results, only when they changed.
 # Of results/, which is being made anew while the program runs, only the golden references make another program.
+cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND git rev-parse HEAD WORKING_DIRECTORY ${ROOT} OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
                 ERROR_QUIET RESULT_VARIABLE failed)
 if(failed)
@@ -48,6 +49,12 @@ file(STRINGS ${ROOT}/cmake/layers.txt rooms REGEX "^[^#]")
 list(TRANSFORM rooms REPLACE "[/:].*" "")
 list(REMOVE_DUPLICATES rooms)
 digest_of(program "${COMPILER}${beside}" "^$" ${rooms} cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/reach.cmake)
+reach(reach)
+file(WRITE ${OUT}/embedded_reach.h.new
+     "#pragma once\n\nnamespace shadowbench::embedded {\n\n"
+     "inline constexpr const char* reach = R\"(${reach})\";\n\n}  // namespace shadowbench::embedded\n")
+file(COPY_FILE ${OUT}/embedded_reach.h.new ${OUT}/embedded_reach.h ONLY_IF_DIFFERENT)
 digest_of(metric_code "" "^$" harness/cells harness/measure harness/metrics harness/records harness/render)
 
 # The hashes of what decides which pipelines a frame uses, beside the texts of shaders, and of what compiles them, which name what is

@@ -7,6 +7,7 @@
 #include "gate/failure_pictures.h"
 #include "gate/judged_cells.h"
 #include "gate/judged_shaders.h"
+#include "gate/known_cells.h"
 #include "gate/truth_sample.h"
 #include "gate/verdict.h"
 #include "gate/waivers.h"
@@ -85,7 +86,7 @@ private:
             result_.notes.emplace_back("instructions are not compared: the base's records hold none");
         leaveOutWhatNoRecordIsOf(before);
         std::vector<Record> now = measure(head, "head", options_.instructions && counted, &before);
-        std::vector<Record> others = measureSteps(head, "head", cells_.externalSteps());
+        std::vector<Record> others = measureSteps(head, "head", cells_.externalSteps()).records();
         result_.logs = failureLogs(others, options_.out / "logs");
         std::ranges::move(others, std::back_inserter(now));
         judgeRecords(before, now, nullptr);
@@ -98,8 +99,10 @@ private:
         unitePolicies(base);
         noteUnknownScenes();
         if (options_.shader) judgeShadersOf(base, head);
-        const std::vector<Record> before = measure(base, "base", options_.instructions);
-        const std::vector<Record> now = measure(head, "head", options_.instructions);
+        const std::vector<Step> steps = cells_.steps(base, options_.instructions);
+        const Measured measured = measureSteps(base, "base", steps);
+        const std::vector<Record> before = measured.records();
+        const std::vector<Record> now = measureReached(head, KnownCells(base.build(), head.build(), steps, measured));
         judgeRecords(before, now, &base);
         if (const auto why = whyMeaningless(before, now, true)) result_.notCompared.push_back(*why);
         if (options_.time) judgeTimes(base, head);
@@ -178,17 +181,45 @@ private:
                            return r.scene == step.scene && r.seed == step.seed && r.sweep.has_value() == step.isSweep();
                        });
             });
-        return measureSteps(program, who, steps);
+        return measureSteps(program, who, steps).records();
     }
 
-    std::vector<Record> measureSteps(const MeasuredProgram& program, const char* who, const std::vector<Step>& steps) {
+    /// Runs of the head what a change can have reached, and takes the rest from its base.
+    std::vector<Record> measureReached(const MeasuredProgram& head, const KnownCells& known) {
+        const std::vector<Step> steps = cells_.steps(head, options_.instructions);
+        std::vector<Step> open = steps;
+        std::erase_if(open, [&](const Step& step) { return head.isKept(step); });
+        const KnownCells::Split split = known.split(open);
+        if (split.known > 0) {
+            const Measured measured = measureSteps(head, "head", split.steps);
+            if (const auto cell = known.contradicted(split.steps, measured))
+                result_.notCompared.push_back(
+                    fmt::format("{} is another result than the base's though nothing that can decide it has changed: "
+                                "everything was measured",
+                                *cell));
+            else {
+                for (const Step& step : open) {
+                    const std::vector<Record> records = known.whole(step, split.steps, measured);
+                    if (std::ranges::find(records, Status::Error, &Record::status) == records.end())
+                        head.keep(step, records);
+                }
+                result_.notes.push_back(fmt::format(
+                    "{} of {} results of the head are the base's, for nothing that can decide them has changed; {} of these "
+                    "were measured all the same and are",
+                    split.known, split.known + split.reached, split.sampled));
+            }
+        }
+        return measureSteps(head, "head", steps).records();
+    }
+
+    Measured measureSteps(const MeasuredProgram& program, const char* who, const std::vector<Step>& steps) {
         StageLine line(who, options_.quiet);
         Measured measured = program.measure(steps, line.progress());
         for (const fs::path& logs : measured.logs)
             fs::copy(logs, options_.out / "logs", fs::copy_options::recursive | fs::copy_options::overwrite_existing);
         for (const StepTime& step : measured.times)
             result_.times.push_back({fmt::format("{}: {}", who, step.name), step.seconds});
-        return std::move(measured.records);
+        return measured;
     }
 
     void judgeRecords(const std::vector<Record>& before, const std::vector<Record>& now, const MeasuredProgram* base) {
@@ -218,11 +249,19 @@ private:
     }
 
     void judgeTimes(const MeasuredProgram& base, const MeasuredProgram& head) {
-        const std::vector<TimedCell> cells = cells_.timedCells(base, head);
-        if (cells.empty()) {
+        std::vector<TimedCell> cells = cells_.timedCells(base, head);
+        const std::size_t all = cells.size();
+        std::erase_if(cells, [&](const TimedCell& cell) {
+            return isKnown(base.build(), head.build(), cell.variant, sceneId(cell.scene));
+        });
+        if (all > cells.size())
+            result_.notes.push_back(fmt::format(
+                "time of {} of {} cells is the base's: nothing that can decide it has changed", all - cells.size(), all));
+        if (all == 0) {
             result_.notes.emplace_back("time is not compared: none of the chosen cells is timed");
             return;
         }
+        if (cells.empty()) return;
         StageLine line("time", options_.quiet);
         PairedOptions paired;
         paired.profile = options_.profile;

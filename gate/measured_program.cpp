@@ -207,11 +207,31 @@ ShaderFigures MeasuredProgram::shaderFigures(const std::vector<std::string>& var
     return figures;
 }
 
+std::vector<Record> Measured::records() const {
+    std::vector<Record> all;
+    for (const std::vector<Record>& step : ofSteps) all.insert(all.end(), step.begin(), step.end());
+    return all;
+}
+
+fs::path MeasuredProgram::folderOf(const Step& step) const { return records_ / hash128(text(step)).text(); }
+
+bool MeasuredProgram::isKept(const Step& step) const {
+    const fs::path folder = folderOf(step), done = folder / "done";
+    return fs::exists(done) && isAsLeft(folder / step.records, done);
+}
+
+void MeasuredProgram::keep(const Step& step, const std::vector<Record>& records) const {
+    const FolderLock alone(records_, [] {});
+    const fs::path folder = folderOf(step);
+    writeRecords(folder / step.records, records);
+    writeFile(folder / "done", hash128(readFile(folder / step.records)).text());
+}
+
 Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress& progress) const {
     using Clock = std::chrono::steady_clock;
-    std::vector<std::vector<Record>> records(steps.size());
+    Measured measured;
+    measured.ofSteps.resize(steps.size());
     std::vector<std::optional<StepTime>> times(steps.size());
-    std::vector<fs::path> logs;
     std::mutex mutex;
     std::size_t ended = 0;
     // Another gate that measures the same program does so for both.
@@ -220,8 +240,8 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
     inParallel(static_cast<int>(steps.size()), programs, [&](int index) {
         const auto i = static_cast<std::size_t>(index);
         Step step = steps[i];
-        const fs::path out = records_ / hash128(text(step)).text(), done = out / "done";
-        if (step.callsRenderers || (fs::exists(done) && !isAsLeft(out / step.records, done))) fs::remove_all(out);
+        const fs::path out = folderOf(step), done = out / "done";
+        if (step.callsRenderers || (fs::exists(done) && !isKept(step))) fs::remove_all(out);
         if (!fs::exists(done)) {
             const auto start = Clock::now();
             if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");
@@ -232,17 +252,13 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
             if (code == 0) writeFile(done, hash128(readFile(out / step.records)).text()); // one with errors is tried again
             times[i] = {step.name, std::chrono::duration<double>(Clock::now() - start).count()};
         }
-        records[i] = readRecords(out / step.records);
+        measured.ofSteps[i] = readRecords(out / step.records);
         const std::scoped_lock lock(mutex);
-        if (step.callsRenderers && fs::is_directory(out / "logs")) logs.push_back(out / "logs");
+        if (step.callsRenderers && fs::is_directory(out / "logs")) measured.logs.push_back(out / "logs");
         ++ended;
     });
-    Measured measured;
-    measured.logs = std::move(logs);
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        std::ranges::move(records[i], std::back_inserter(measured.records));
-        if (times[i]) measured.times.push_back(*times[i]);
-    }
+    for (const std::optional<StepTime>& time : times)
+        if (time) measured.times.push_back(*time);
     return measured;
 }
 

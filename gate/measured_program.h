@@ -37,9 +37,11 @@ struct StepTime {
 
 /// What a program's steps gave.
 struct Measured {
-    std::vector<Record> records;
+    std::vector<std::vector<Record>> ofSteps;
     std::vector<StepTime> times;             // of the steps that were not already there
     std::vector<std::filesystem::path> logs; // folders of what renderers said that failed
+
+    [[nodiscard]] std::vector<Record> records() const;
 };
 
 /// What a program's `shader-cost` left.
@@ -76,6 +78,10 @@ public:
     /// than in some of its cells.
     Measured measure(const std::vector<Step>& steps, const Progress& progress) const;
 
+    /// Whether the step's records are kept, and keeps them without running it.
+    [[nodiscard]] bool isKept(const Step& step) const;
+    void keep(const Step& step, const std::vector<Record>& records) const;
+
     /// Runs one step in `out`, whatever was run before, and returns its exit code: not 0 when some of its cells failed,
     /// which have records that say so. Throws Inconclusive when it left no records.
     int run(const Step& step, const std::filesystem::path& out, int programs, const Progress& progress) const;
@@ -86,6 +92,8 @@ public:
                                 const Progress& progress) const;
 
 private:
+    [[nodiscard]] std::filesystem::path folderOf(const Step& step) const;
+
     struct Technique {
         std::string id;
         std::map<std::string, std::string> parameters; // with their values: "a|b", "1…8"

@@ -206,13 +206,14 @@ Policy readPolicy(const std::filesystem::path& bounds, Profile profile) {
 
 BuildInfo ownBuildInfo() {
     const Commit commit = builtFrom();
-    return {commit.hash, commit.dirty, programHash(), carriedPolicy(Profile::Gate)};
+    return {commit.hash, commit.dirty, programHash(), carriedPolicy(Profile::Gate), Reach::own()};
 }
 
 std::string toJson(const BuildInfo& build) {
     return OrderedJson{{"commit", build.commit},
                        {"dirty", build.dirty},
                        {"program", build.program},
+                       {"reach", build.reach.text()},
                        {"policy", policyJson(build.policy)}}
                .dump(1) +
            "\n";
@@ -222,7 +223,7 @@ BuildInfo buildInfoFrom(const std::string& text) {
     try {
         const OrderedJson json = OrderedJson::parse(boundedJson(text, "a program's policy"));
         return {json.at("commit").get<std::string>(), json.at("dirty").get<bool>(), json.at("program").get<std::string>(),
-                policyFrom(json.at("policy"))};
+                policyFrom(json.at("policy")), Reach(json.value("reach", ""))};
     } catch (const OrderedJson::exception& error) {
         throw BadInput(fmt::format("a program's policy cannot be read: {}", error.what()));
     }

@@ -3,6 +3,7 @@
 
 #include "gate/gate_config.h"
 #include "gate/paired.h"
+#include "gate/reach.h"
 #include "harness/records/rules.h"
 
 #include <filesystem>
@@ -31,6 +32,7 @@ struct BuildInfo {
     bool dirty = false;
     std::string program; // hash, as records have it
     Policy policy;
+    Reach reach = {}; // empty of older programs
 };
 
 /// This program, with the file of bounds that it was built with.

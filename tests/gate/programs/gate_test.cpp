@@ -24,6 +24,46 @@ TEST_F(GateOfStandIns, EqualRecordsPass) {
     EXPECT_TRUE(result.notCompared.empty());
 }
 
+TEST_F(GateOfStandIns, ResultsThatNoChangeCanHaveReachedAreTheBases) {
+    const auto reaches = [](const StandIn& program, const std::string& commit, const std::string& none) {
+        program.is({commit, false, commit, {}, Reach("* 1\nfiltered/pcf 2\nplanar/none " + none + "\n")});
+    };
+    const std::string small = "pcf:map=64", large = "pcf:map=128";
+    options_.techniques = {small, large, "none"};
+    reaches(base_, "c0ffee", "3");
+    reaches(head_, "decaf", "4");
+    base_.measures({standInRecord(small), standInRecord(large), standInRecord("none")});
+    head_.measures({headRecord(small), headRecord(large), leaking(headRecord("none"))});
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression) << notCompared(result);
+    EXPECT_TRUE(has(result.notes, "2 of 3 results of the head are the base's")) << all(result.notes);
+    EXPECT_TRUE(has(result.notes, "1 of these were measured all the same"));
+    const std::string calls = readFile(folder_.path() / "head/calls");
+    EXPECT_NE(calls.find("--technique none"), std::string::npos);
+    EXPECT_NE(calls.find(small) == std::string::npos, calls.find(large) == std::string::npos) << "one of both is the sample";
+    const std::vector<Record> records = readRecords(path("out") + "/results.jsonl");
+    ASSERT_EQ(records.size(), 3U);
+    for (const Record& record : records) EXPECT_EQ(record.commit, "decaf") << record.variant;
+    EXPECT_EQ(head_.calls("run"), 2) << "one for pictures";
+    (void)gate(options_);
+    EXPECT_EQ(head_.calls("run"), 3) << "for pictures: all results are kept, as those of the next gate's base";
+}
+
+TEST_F(GateOfStandIns, AKnownResultThatIsAnotherMakesTheGateInconclusiveAndAllIsMeasured) {
+    const Reach reach("* 1\nfiltered/pcf 2\n");
+    base_.is({"c0ffee", false, "one", {}, reach});
+    head_.is({"decaf", false, "two", {}, reach});
+    const std::string small = "pcf:map=64", large = "pcf:map=128";
+    options_.techniques = {small, large};
+    base_.measures({standInRecord(small), standInRecord(large)});
+    head_.measures({leaking(headRecord(small)), leaking(headRecord(large))});
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::Inconclusive);
+    EXPECT_TRUE(has(result.notCompared, "on tiny is another result than the base's")) << all(result.notCompared);
+    for (const Record& record : readRecords(path("out") + "/results.jsonl"))
+        EXPECT_EQ(record.values["accuracy.leak"], 0.1) << record.variant;
+}
+
 TEST_F(GateOfStandIns, AWorseHeadIsARegressionWithPicturesOfBoth) {
     head_.measures({leaking(headRecord())});
     const GateResult result = gate(options_);

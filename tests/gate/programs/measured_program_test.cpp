@@ -63,10 +63,10 @@ TEST_F(AMeasuredProgram, SaysWhatItIsIfItIsNewEnough) {
 
 TEST_F(AMeasuredProgram, IsMeasuredOnce) {
     const Measured first = measure(step_), second = measure(step_);
-    ASSERT_EQ(first.records.size(), 1U);
-    EXPECT_EQ(first.records[0].variant, "pcf");
+    ASSERT_EQ(first.records().size(), 1U);
+    EXPECT_EQ(first.records()[0].variant, "pcf");
     EXPECT_EQ(first.times.size(), 1U);
-    EXPECT_EQ(second.records.size(), 1U);
+    EXPECT_EQ(second.records().size(), 1U);
     EXPECT_TRUE(second.times.empty()) << "it was there";
     EXPECT_EQ(standIn_.calls("run"), 1);
     EXPECT_EQ(progress_, std::vector<std::string>{"tiny 1/3  pcf"}) << "of its lines those that are progress";
@@ -82,10 +82,10 @@ TEST_F(AMeasuredProgram, IsMeasuredAgainWhereSomebodyChangedOrRemovedItsRecords)
     std::vector<Record> records = readRecords(kept());
     records[0].values["accuracy.leak"] = 0.5;
     writeRecords(kept(), records);
-    EXPECT_EQ(measure(step_).records.at(0).values["accuracy.leak"], standInRecord("pcf").values["accuracy.leak"]);
+    EXPECT_EQ(measure(step_).records().at(0).values["accuracy.leak"], standInRecord("pcf").values["accuracy.leak"]);
     EXPECT_EQ(standIn_.calls("run"), 2);
     fs::remove(kept());
-    EXPECT_EQ(measure(step_).records.size(), 1U);
+    EXPECT_EQ(measure(step_).records().size(), 1U);
     EXPECT_EQ(standIn_.calls("run"), 3);
 }
 
@@ -111,7 +111,7 @@ TEST_F(AMeasuredProgram, IsMeasuredAgainWhereThereIsNoValgrind) {
     setenv("PATH", tools.c_str(), 1);
     const Measured without = measure(step_);
     setenv("PATH", before.c_str(), 1);
-    EXPECT_EQ(without.records.size(), 1U);
+    EXPECT_EQ(without.records().size(), 1U);
     EXPECT_EQ(standIn_.calls("run"), findProgram("valgrind") ? 2 : 1);
 }
 
@@ -129,14 +129,14 @@ TEST_F(AMeasuredProgram, ThatAnotherGateMeasuresIsWaitedFor) {
         progress_.emplace_back(line);
         other.reset();
     });
-    EXPECT_EQ(waited.records.size(), 1U);
+    EXPECT_EQ(waited.records().size(), 1U);
     EXPECT_EQ(progress_.back(), "waiting for another gate that measures this program");
 }
 
 TEST_F(AMeasuredProgram, WithErrorsInSomeCellsIsTriedAgain) {
     standIn_.endsWith(5);
-    EXPECT_EQ(measure(step_).records.size(), 1U);
-    EXPECT_EQ(measure(step_).records.size(), 1U);
+    EXPECT_EQ(measure(step_).records().size(), 1U);
+    EXPECT_EQ(measure(step_).records().size(), 1U);
     EXPECT_EQ(standIn_.calls("run"), 2);
 }
 
@@ -151,7 +151,7 @@ TEST_F(AMeasuredProgram, ARunIsResumedASweepIsNot) {
     Record swept = standInRecord("pcf");
     swept.sweep = SweepStep{"near-plane", "m", "pcf", 1, 0.1};
     standIn_.measures({swept});
-    EXPECT_TRUE(measure(step_).records.at(0).sweep);
+    EXPECT_TRUE(measure(step_).records().at(0).sweep);
     EXPECT_EQ(words().find(" --resume"), std::string::npos) << words();
 }
 
