@@ -1,6 +1,5 @@
 """Renders an exported scene in Blender: a white diffuse scene twice, with and without the light's shadows, direct light only.
 What is written is the quotient: of an area light the share of irradiance that arrives. Started by clients/blender/render."""
-import argparse
 import array
 import math
 import os
@@ -8,8 +7,10 @@ import sys
 import tempfile
 import time
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python"))
+sys.dont_write_bytecode = True  # the folder stays as it was
 from exported_scene import BadInput, ExportedScene  # noqa: E402
+from renderer import Parser, run, write_frame  # noqa: E402
 
 try:
     import bpy
@@ -18,19 +19,8 @@ except ImportError:  # --help needs none of it
     bpy = None
 
 
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise BadInput(f"{message}; --help names the options")
-
-
 def read_command_line(words):
-    parser = Parser(
-        prog="clients/blender/render", formatter_class=argparse.ArgumentDefaultsHelpFormatter,
-        description="Writes the share of the light that arrives at each pixel, 1 = lit, as frame-<number>.pfm.",
-        epilog="example: clients/blender/render --scene exported --frames 59 --out images --samples 1024")
-    parser.add_argument("--scene", required=True, help="folder that `shadowbench export` wrote")
-    parser.add_argument("--out", required=True, help="folder for the images")
-    parser.add_argument("--frames", help="numbers of frames, with commas; all of the scene if not given")
+    parser = Parser("blender", " --samples 1024")
     parser.add_argument("--engine", choices=["cycles", "eevee"], default="cycles", help="that renders")
     parser.add_argument("--light", choices=["area", "centre"], default="area",
                         help="an area light as it is, or the point light at its centre")
@@ -206,14 +196,6 @@ def rendered(folder):
     return red
 
 
-def write_pfm(file, size, image):
-    """Grey, rows from the bottom; whole or not at all."""
-    with open(file + ".part", "wb") as stream:
-        stream.write(f"Pf\n{size[0]} {size[1]}\n{-1.0 if sys.byteorder == 'little' else 1.0}\n".encode())
-        stream.write(image.tobytes())
-    os.replace(file + ".part", file)
-
-
 def render_frame(exported, frame, meshes, options):
     for old in list(bpy.data.objects):
         bpy.data.objects.remove(old)
@@ -229,31 +211,22 @@ def render_frame(exported, frame, meshes, options):
     return array.array("f", (a / b if b > 0 else 0 for a, b in zip(lit, unshadowed)))
 
 
-def render(options):
+def render(words):
+    options = read_command_line(words)
     exported = ExportedScene(options.scene)
     frames = exported.frames_named(options.frames)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     meshes = add_meshes(exported)
     set_up_output(exported.size)
     (set_up_cycles if options.engine == "cycles" else set_up_eevee)(options)
-    os.makedirs(options.out, exist_ok=True)
     times = []
     for frame in frames:
         before = time.monotonic()
         image = render_frame(exported, frame, meshes, options)
-        write_pfm(os.path.join(options.out, f"frame-{frame['index']}.pfm"), exported.size, image)
+        write_frame(options.out, frame, exported.size, image)
         times.append(f"{1000 * (time.monotonic() - before):.0f}")
     print(f"blender: {len(frames)} frames into {options.out} with {options.engine} of Blender {bpy.app.version_string}; "
           f"ms: {', '.join(times)}", flush=True)
 
 
-def main():
-    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else sys.argv[1:]
-    try:
-        render(read_command_line(words))
-    except BadInput as error:
-        print(f"blender: {error}", flush=True)
-        sys.exit(2)
-
-
-main()
+run("blender", render, sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else sys.argv[1:], sys.stdout)

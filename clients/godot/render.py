@@ -1,6 +1,5 @@
 """Renders an exported scene with Godot 3, its shadow code unmodified: a white diffuse scene twice, with shadows and without, by
 draw.gd. What is written is the quotient. Started by clients/godot/render."""
-import argparse
 import array
 import json
 import math
@@ -10,26 +9,17 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "blender"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python"))
+sys.dont_write_bytecode = True  # the folder stays as it was
 from exported_scene import BadInput, ExportedScene  # noqa: E402
+from renderer import Parser, run, write_frame  # noqa: E402
 
 FILTERS = {"none": 0, "pcf5": 1, "pcf13": 2}  # rendering/quality/shadows/filter_mode
 MODES = {"directional": {"orthogonal": 0, "splits2": 1, "splits4": 2}, "point": {"paraboloid": 0, "cube": 1}}
 
 
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise BadInput(f"{message}; --help names the options")
-
-
 def read_command_line(words):
-    parser = Parser(
-        prog="clients/godot/render", formatter_class=argparse.ArgumentDefaultsHelpFormatter,
-        description="Writes the share of the light that arrives at each pixel, 1 = lit, as frame-<number>.pfm.",
-        epilog="example: clients/godot/render --scene exported --frames 59 --out images")
-    parser.add_argument("--scene", required=True, help="folder that `shadowbench export` wrote")
-    parser.add_argument("--out", required=True, help="folder for the images")
-    parser.add_argument("--frames", help="numbers of frames, with commas; all of the scene if not given")
+    parser = Parser("godot")
     parser.add_argument("--filter", default="pcf5", choices=list(FILTERS), help="of the project's shadows")
     parser.add_argument("--directional", default="splits4", choices=list(MODES["directional"]), help="directional_shadow_mode")
     parser.add_argument("--point", default="cube", choices=list(MODES["point"]), help="omni_shadow_mode")
@@ -81,18 +71,10 @@ def read_raw(file, size):
     return numbers
 
 
-def write_pfm(file, size, image):
-    """Grey, rows from the bottom; whole or not at all."""
-    with open(file + ".part", "wb") as stream:
-        stream.write(f"Pf\n{size[0]} {size[1]}\n{-1.0 if sys.byteorder == 'little' else 1.0}\n".encode())
-        stream.write(image.tobytes())
-    os.replace(file + ".part", file)
-
-
-def render(options):
+def render(words):
+    options = read_command_line(words)
     exported = ExportedScene(options.scene)
     frames = exported.frames_named(options.frames)
-    os.makedirs(options.out, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         write_project(folder, options)
         job = write_job(folder, options, exported, frames)
@@ -106,16 +88,8 @@ def render(options):
             shadowed, unshadowed = (read_raw(file, exported.size) for file in files)
             # Where two surfaces have one depth, now this one is drawn and now the other.
             image = array.array("f", (min(1, a / b) if b > 0 else 0 for a, b in zip(shadowed, unshadowed)))
-            write_pfm(os.path.join(options.out, f"frame-{frame['index']}.pfm"), exported.size, image)
+            write_frame(options.out, frame, exported.size, image)
     print(f"godot: {len(frames)} frames into {options.out} with {next((line for line in ran.stdout.splitlines() if line.startswith('Godot')), 'Godot')}")
 
 
-def main():
-    try:
-        render(read_command_line(sys.argv[1:]))
-    except BadInput as error:
-        print(f"godot: {error}", file=sys.stderr)
-        sys.exit(2)
-
-
-main()
+run("godot", render, sys.argv[1:])

@@ -1,6 +1,6 @@
 // Draws an exported scene with OGRE, its shadow code unmodified: a white diffuse scene is drawn twice, with its shadow
 // technique and without, into floats; what is written is the quotient.
-#include "../openscenegraph/exported_scene.h"
+#include "../native/exported_scene.h"
 
 #include <Ogre.h>
 #include <OgreRTShaderSystem.h>
@@ -10,7 +10,6 @@
 #include <OgreShadowCameraSetupLiSPSM.h>
 #include <OgreShadowCameraSetupPSSM.h>
 #include <bit>
-#include <iostream>
 
 namespace {
 
@@ -268,24 +267,7 @@ private:
     Ogre::TexturePtr image_;
 };
 
-/// `--name value` or `--name=value`.
-std::map<std::string, std::string> readCommandLine(int count, char** words) {
-    std::map<std::string, std::string> options;
-    for (int i = 1; i < count; ++i) {
-        const std::string word = words[i];
-        const std::size_t equals = word.find('=');
-        const std::string name = word.substr(0, equals);
-        const std::string known = " --scene --out --frames --shadows --camera --map-size --distance ";
-        if (known.find(" " + name + " ") == std::string::npos) throw BadInput(word + "? --help names the options");
-        if (equals == std::string::npos && ++i == count) throw BadInput(name + " is without its value");
-        options[name] = equals == std::string::npos ? words[i] : word.substr(equals + 1);
-    }
-    for (const char* needed : {"--scene", "--out"})
-        if (!options.contains(needed)) throw BadInput(std::string(needed) + " is missing; --help shows an example");
-    return options;
-}
-
-Settings settingsOf(std::map<std::string, std::string>& options) {
+Settings settingsOf(Options& options) {
     Settings settings;
     const auto word = [&](const std::string& name, std::string& value, const auto& known) {
         if (options.contains(name)) value = options[name];
@@ -307,12 +289,8 @@ Settings settingsOf(std::map<std::string, std::string>& options) {
 }
 
 void printHelp() {
-    std::cout << "usage: clients/ogre/render --scene DIR --out DIR [--frames 59,60] [settings]\n\n"
-                 "Writes the share of the light that arrives at each pixel, 1 = lit, as frame-<number>.pfm.\n\n"
-                 "  --scene DIR   folder that `shadowbench export` wrote\n"
-                 "  --frames LIST numbers of frames, with commas; all of the scene if not given\n"
-                 "  --out DIR     folder for the images\n\n"
-                 "settings, with the engine's own values if not given:\n"
+    printUsage("ogre");
+    std::cout << "settings, with the engine's own values if not given:\n"
                  "  --shadows     stencil, or integrated: depth maps that the shader system looks up; stencil if not given\n"
                  "  --camera      of the maps: default, focused, lispsm, or pssm (three splits, with integrated); default "
                  "if not given\n"
@@ -321,7 +299,7 @@ void printHelp() {
                  "example: clients/ogre/render --scene exported --frames 59 --out images\n";
 }
 
-void render(std::map<std::string, std::string> options) {
+void render(Options options) {
     const Settings settings = settingsOf(options);
     const ExportedScene exported = readExportedScene(options["--scene"]);
     const std::vector<nlohmann::json> frames = framesNamed(exported, options["--frames"]);
@@ -340,15 +318,5 @@ void render(std::map<std::string, std::string> options) {
 } // namespace
 
 int main(int count, char** words) {
-    try {
-        if (count > 1 && (std::string(words[1]) == "--help" || std::string(words[1]) == "-h")) return printHelp(), 0;
-        render(readCommandLine(count, words));
-        return 0;
-    } catch (const BadInput& error) {
-        std::cerr << "ogre: " << error.what() << '\n';
-        return 2;
-    } catch (const std::exception& error) {
-        std::cerr << "ogre: " << error.what() << '\n';
-        return 1;
-    }
+    return runClient("ogre", count, words, " --shadows --camera --map-size --distance ", printHelp, render);
 }

@@ -1,13 +1,12 @@
 // Draws an exported scene with OpenSceneGraph, its shadow code unmodified: a white diffuse scene is drawn twice, with its
 // shadow technique and without, into floats; what is written is the quotient.
-#include "exported_scene.h"
+#include "../native/exported_scene.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <chrono>
 #include <cstdio>
 #include <functional>
-#include <iostream>
 #include <osg/ComputeBoundsVisitor>
 #include <osg/CullFace>
 #include <osg/Geometry>
@@ -222,23 +221,6 @@ std::vector<float> visibility(Drawing& drawing, const ExportedScene& exported, c
     return shares;
 }
 
-/// `--name value` or `--name=value`.
-std::map<std::string, std::string> readCommandLine(int count, char** words) {
-    std::map<std::string, std::string> options;
-    for (int i = 1; i < count; ++i) {
-        const std::string word = words[i];
-        const std::size_t equals = word.find('=');
-        const std::string name = word.substr(0, equals);
-        const std::string known = " --scene --out --frames --technique --map-size --margin ";
-        if (known.find(" " + name + " ") == std::string::npos) throw BadInput(word + "? --help names the options");
-        if (equals == std::string::npos && ++i == count) throw BadInput(name + " is without its value");
-        options[name] = equals == std::string::npos ? words[i] : word.substr(equals + 1);
-    }
-    for (const char* needed : {"--scene", "--out"})
-        if (!options.contains(needed)) throw BadInput(std::string(needed) + " is missing; --help shows an example");
-    return options;
-}
-
 double numberOf(const std::string& name, const std::string& text, double least, double most) {
     char* end = nullptr;
     const double number = std::strtod(text.c_str(), &end);
@@ -248,12 +230,8 @@ double numberOf(const std::string& name, const std::string& text, double least, 
 }
 
 void printHelp() {
-    std::cout << "usage: clients/openscenegraph/render --scene DIR --out DIR [--frames 59,60] [settings]\n\n"
-                 "Writes the share of the light that arrives at each pixel, 1 = lit, as frame-<number>.pfm.\n\n"
-                 "  --scene DIR   folder that `shadowbench export` wrote\n"
-                 "  --frames LIST numbers of frames, with commas; all of the scene if not given\n"
-                 "  --out DIR     folder for the images\n\n"
-                 "settings, with the engine's own values if not given:\n"
+    printUsage("openscenegraph");
+    std::cout << "settings, with the engine's own values if not given:\n"
                  "  --technique";
     for (const auto& [name, make] : techniques) std::cout << ' ' << name;
     std::cout << "; shadow-map if not given\n"
@@ -262,7 +240,7 @@ void printHelp() {
                  "example: clients/openscenegraph/render --scene exported --frames 59 --out images\n";
 }
 
-void render(std::map<std::string, std::string> options) {
+void render(Options options) {
     Settings settings;
     if (options.contains("--technique")) settings.technique = options["--technique"];
     if (!techniques.contains(settings.technique))
@@ -287,15 +265,5 @@ void render(std::map<std::string, std::string> options) {
 } // namespace
 
 int main(int count, char** words) {
-    try {
-        if (count > 1 && (std::string(words[1]) == "--help" || std::string(words[1]) == "-h")) return printHelp(), 0;
-        render(readCommandLine(count, words));
-        return 0;
-    } catch (const BadInput& error) {
-        std::cerr << "openscenegraph: " << error.what() << '\n';
-        return 2;
-    } catch (const std::exception& error) {
-        std::cerr << "openscenegraph: " << error.what() << '\n';
-        return 1;
-    }
+    return runClient("openscenegraph", count, words, " --technique --map-size --margin ", printHelp, render);
 }

@@ -1,14 +1,15 @@
 """Renders an exported scene with VTK, its shadow code unmodified: a white diffuse scene twice, with vtkShadowMapPass and
 without. What is written is the quotient. Started by clients/vtk/render."""
-import argparse
 import array
 import math
 import os
 import sys
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "blender"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python"))
+sys.dont_write_bytecode = True  # the folder stays as it was
 from exported_scene import BadInput, ExportedScene  # noqa: E402
+from renderer import Parser, run, write_frame  # noqa: E402
 
 try:
     import vtk
@@ -16,19 +17,8 @@ except ImportError:  # --help needs none of it
     vtk = None
 
 
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise BadInput(f"{message}; --help names the options")
-
-
 def read_command_line(words):
-    parser = Parser(
-        prog="clients/vtk/render", formatter_class=argparse.ArgumentDefaultsHelpFormatter,
-        description="Writes the share of the light that arrives at each pixel, 1 = lit, as frame-<number>.pfm.",
-        epilog="example: clients/vtk/render --scene exported --frames 59 --out images")
-    parser.add_argument("--scene", required=True, help="folder that `shadowbench export` wrote")
-    parser.add_argument("--out", required=True, help="folder for the images")
-    parser.add_argument("--frames", help="numbers of frames, with commas; all of the scene if not given")
+    parser = Parser("vtk")
     parser.add_argument("--map-size", type=int, default=1024, choices=[2 ** k for k in range(6, 14)],
                         help="vtkShadowMapBakerPass's resolution")
     return parser.parse_args(words)
@@ -134,15 +124,8 @@ def render_frame(window, exported, frame, mappers, map_size):
     return array.array("f", (a / b if b > 0 else 0 for a, b in zip(lit, unshadowed)))
 
 
-def write_pfm(file, size, image):
-    """Grey, rows from the bottom; whole or not at all."""
-    with open(file + ".part", "wb") as stream:
-        stream.write(f"Pf\n{size[0]} {size[1]}\n{-1.0 if sys.byteorder == 'little' else 1.0}\n".encode())
-        stream.write(image.tobytes())
-    os.replace(file + ".part", file)
-
-
-def render(options):
+def render(words):
+    options = read_command_line(words)
     if vtk is None:
         raise BadInput("VTK is missing; run clients/vtk/setup")
     exported = ExportedScene(options.scene)
@@ -152,22 +135,13 @@ def render(options):
     window.OffScreenRenderingOn()
     window.SetMultiSamples(0)
     window.SetSize(exported.size)
-    os.makedirs(options.out, exist_ok=True)
     times = []
     for frame in frames:
         before = time.monotonic()
         image = render_frame(window, exported, frame, mappers, options.map_size)
-        write_pfm(os.path.join(options.out, f"frame-{frame['index']}.pfm"), exported.size, image)
+        write_frame(options.out, frame, exported.size, image)
         times.append(f"{1000 * (time.monotonic() - before):.0f}")
     print(f"vtk: {len(frames)} frames into {options.out} with VTK {vtk.vtkVersion().GetVTKVersion()}; ms: {', '.join(times)}")
 
 
-def main():
-    try:
-        render(read_command_line(sys.argv[1:]))
-    except BadInput as error:
-        print(f"vtk: {error}", file=sys.stderr)
-        sys.exit(2)
-
-
-main()
+run("vtk", render, sys.argv[1:])

@@ -1,9 +1,13 @@
-// Reads the folder that `shadowbench export` writes (docs/exchange.md), and writes the images that it asks for.
+// What renderers in C++ share: the folder that `shadowbench export` writes (docs/exchange.md), their command line, the
+// images that they write, and how they end.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -102,4 +106,50 @@ inline void writePfm(const std::filesystem::path& file, int width, int height, c
     stream.close();
     if (!stream) throw BadInput("cannot write " + file.string());
     std::filesystem::rename(part, file);
+}
+
+/// The values by the options' names.
+using Options = std::map<std::string, std::string>;
+
+/// `--name value` or `--name=value`; `settings` are the names of the client's own: " --technique --map-size ".
+inline Options readCommandLine(int count, char** words, const std::string& settings) {
+    Options options;
+    for (int i = 1; i < count; ++i) {
+        const std::string word = words[i];
+        const std::size_t equals = word.find('=');
+        const std::string name = word.substr(0, equals);
+        const std::string known = " --scene --out --frames" + settings;
+        if (known.find(" " + name + " ") == std::string::npos) throw BadInput(word + "? --help names the options");
+        if (equals == std::string::npos && ++i == count) throw BadInput(name + " is without its value");
+        options[name] = equals == std::string::npos ? words[i] : word.substr(equals + 1);
+    }
+    for (const char* needed : {"--scene", "--out"})
+        if (!options.contains(needed)) throw BadInput(std::string(needed) + " is missing; --help shows an example");
+    return options;
+}
+
+/// The beginning of --help.
+inline void printUsage(const std::string& client) {
+    std::cout << "usage: clients/" << client << "/render --scene DIR --out DIR [--frames 59,60] [settings]\n\n"
+              << "Writes the share of the light that arrives at each pixel, 1 = lit, as frame-<number>.pfm.\n\n"
+                 "  --scene DIR   folder that `shadowbench export` wrote\n"
+                 "  --frames LIST numbers of frames, with commas; all of the scene if not given\n"
+                 "  --out DIR     folder for the images\n\n";
+}
+
+/// Renders as the command line says; the exit code of the program.
+template <class PrintHelp, class Render>
+int runClient(const std::string& client, int count, char** words, const std::string& settings, PrintHelp printHelp,
+              Render render) {
+    try {
+        if (count > 1 && (std::string(words[1]) == "--help" || std::string(words[1]) == "-h")) return printHelp(), 0;
+        render(readCommandLine(count, words, settings));
+        return 0;
+    } catch (const BadInput& error) {
+        std::cerr << client << ": " << error.what() << '\n';
+        return 2;
+    } catch (const std::exception& error) {
+        std::cerr << client << ": " << error.what() << '\n';
+        return 1;
+    }
 }
