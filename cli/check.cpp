@@ -18,8 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 void print(const gate::CheckResult& result) {
-    if (result.wrong.empty())
-        fmt::print("holds  {}\n", result.what);
+    if (result.what.empty())
+        fmt::print("note   {}\n", onOneLine(result.note));
+    else if (result.wrong.empty())
+        fmt::print("holds  {}{}{}\n", result.what, result.note.empty() ? "" : ": ", result.note);
     else
         fmt::print("FAILS  {}: {}\n", result.what, onOneLine(result.wrong));
     std::fflush(stdout); // some take a while

@@ -5,7 +5,10 @@
 #include "base/temporary_folder.h"
 #include "gate/check/client_scenes.h"
 #include "gate/check/mistakes.h"
+#include "gate/check/scattered_errors.h"
+#include "gate/check/watched_files.h"
 #include "groundtruth/oracle.h"
+#include "groundtruth/store/cache.h"
 #include "harness/foreign/call_renderer.h"
 #include "harness/foreign/recognition.h"
 #include "harness/foreign/renderer.h"
@@ -14,7 +17,9 @@
 #include "scene/exchange/export.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <optional>
 
@@ -59,8 +64,11 @@ foreign::Pixels receiversOf(const Reference& truth) {
 /// What is true of a scene's frames, and what mistakes would draw: computed when first asked for.
 class KnownScene {
 public:
-    explicit KnownScene(Scene scene) : scene_(std::move(scene)), frames_(shadowbench::scoredFrames(scene_)) {
-        exchange::exportScene(scene_, folder_.path() / "scene");
+    explicit KnownScene(Scene scene) : scene_(std::move(scene)), frames_(shadowbench::scoredFrames(scene_)) { exportAnew(); }
+
+    void exportAnew() {
+        fs::remove_all(exported());
+        exchange::exportScene(scene_, exported());
     }
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
@@ -73,6 +81,9 @@ public:
         return truths_.emplace(key, groundtruth::compute({snapshot(scene_, frame), scene_.size, truth})).first->second;
     }
 
+    /// Mistakes that no image could be compared with: their sentences, each with the reason.
+    [[nodiscard]] const std::map<std::string, std::string>& unknown() const { return unknown_; }
+
     /// Nothing where the mistake changes nothing or leaves nothing to see.
     const std::optional<Reference>& with(const Mistake& mistake, int frame) {
         const auto key = std::pair(&mistake, frame);
@@ -81,12 +92,13 @@ public:
     }
 
 private:
-    [[nodiscard]] std::optional<Reference> computed(const Mistake& mistake, int frame) const {
+    std::optional<Reference> computed(const Mistake& mistake, int frame) {
         const auto taken = mistake.taken(snapshot(scene_, frame), snapshot(scene_, frames_.front()), scene_.size);
         if (!taken || taken->batches.empty()) return {};
         try {
             return groundtruth::compute({*taken, scene_.size, Truth::Hard});
-        } catch (const Error&) { // a light in a surface, say: no picture has such a truth
+        } catch (const Error& error) { // a light in a surface, say: no picture has such a truth
+            unknown_.emplace(mistake.sentence, error.what());
             return {};
         }
     }
@@ -96,6 +108,7 @@ private:
     TemporaryFolder folder_;
     std::map<std::pair<Truth, int>, Reference> truths_;
     std::map<std::pair<const Mistake*, int>, std::optional<Reference>> mistaken_;
+    std::map<std::string, std::string> unknown_;
 };
 
 /// One frame that a renderer drew.
@@ -151,14 +164,21 @@ std::string mistakeIn(const Drawing& drawing) {
     return found;
 }
 
+/// What may be behind an image that is the same everywhere; nothing of others.
+std::string causeOfOneGrey(const Drawing& drawing) {
+    if (!foreign::uniform(drawing.compared())) return "";
+    const bool isLit = std::ranges::any_of(drawing.v, [](float v) { return v > 0.5F; });
+    return isLit ? "; is its light at the eye, or do its shadows end before the scene begins?"
+                 : "; is its light behind everything?";
+}
+
 std::string oddityIn(const Drawing& drawing) {
     std::vector<foreign::OtherFrame> others;
     const Truth truth = truthOf(drawing.renderer.definition);
     for (const int frame : drawing.known.frames())
         if (frame != drawing.frame) others.push_back({frame, drawing.known.truth(truth, frame).visibility});
     for (const foreign::Finding& finding : foreign::oddities(drawing.compared(), drawing.renderer.encoding, others))
-        return fmt::format("its image {}{}", finding.sentence,
-                           foreign::uniform(drawing.compared()) ? "; is its light behind everything, or at the eye?" : "");
+        return fmt::format("its image {}{}", finding.sentence, causeOfOneGrey(drawing));
     return "";
 }
 
@@ -226,12 +246,49 @@ std::string wrongWith(const Drawing& drawing) {
     return "";
 }
 
-std::string wrongOn(KnownScene& known, const Renderer& renderer) {
-    const TemporaryFolder out;
+/// What is seen of one call.
+struct Call {
+    std::string wrong;       // of its images; empty: nothing
+    double error = 0;        // of the worst frame
+    ErrorPlaces places = {}; // of hard rows
+};
+
+void requireNothingWritten(const WatchedFiles& files, const fs::path& folder, const char* where) {
+    const std::vector<fs::path> changed = files.changed();
+    if (changed.empty()) return;
+    throw Inconclusive(
+        fmt::format("it wrote outside its {{out}}: {}{}", where, changed.front().lexically_relative(folder).string()));
+}
+
+/// Another process may use entries meanwhile, or store some, but leaves none that is damaged.
+void requireIntactCache(const WatchedFiles& files, const groundtruth::Cache& cache) {
+    const std::vector<fs::path> changed = files.changed();
+    if (changed.empty()) return;
+    for (const groundtruth::CacheEntry& entry : cache.entries())
+        if (std::ranges::binary_search(changed, entry.file) && groundtruth::damage(entry))
+            throw Inconclusive(fmt::format("it wrote outside its {{out}}: {}, a truth of shadowbench", entry.file.string()));
+}
+
+foreign::Rendered calledAlone(KnownScene& known, const Renderer& renderer, const fs::path& out) {
     std::vector<int> frames = known.frames();
     if (!renderer.moving) frames.resize(1);
-    const foreign::Rendered rendered =
-        foreign::callRenderer(renderer, known.exported(), frames, out.path(), ownEnvironment());
+    const groundtruth::Cache cache(groundtruth::defaultCacheFolder());
+    const WatchedFiles scene(known.exported()), truths(cache.folder());
+    foreign::Rendered rendered = foreign::callRenderer(renderer, known.exported(), frames, out, ownEnvironment());
+    try {
+        requireNothingWritten(scene, known.exported(), "the exported scene's ");
+        requireIntactCache(truths, cache);
+    } catch (const Inconclusive&) {
+        known.exportAnew();
+        throw;
+    }
+    return rendered;
+}
+
+Call callOn(KnownScene& known, const Renderer& renderer) {
+    const TemporaryFolder out;
+    const foreign::Rendered rendered = calledAlone(known, renderer, out.path());
+    Call call;
     for (const foreign::FrameFiles& files : rendered.frames) {
         const Reference& truth = known.truth(truthOf(renderer.definition), files.frame);
         const foreign::Pixels scored = receiversOf(truth);
@@ -239,39 +296,116 @@ std::string wrongOn(KnownScene& known, const Renderer& renderer) {
         const foreign::Visibility visibility = foreign::visibilityOf(
             files, {.size = known.scene().size, .encoding = renderer.encoding, .channel = renderer.channel}, scored,
             warnings);
-        const std::string wrong = wrongWith({renderer, known, files.frame, visibility.v, truth, scored});
-        if (!wrong.empty()) return rendered.frames.size() > 1 ? fmt::format("frame {}: {}", files.frame, wrong) : wrong;
+        const Drawing drawing{renderer, known, files.frame, visibility.v, truth, scored};
+        call.error = std::max(call.error, foreign::errorOf(drawing.compared()));
+        if (drawing.labels()) addErrors(visibility.v, truth, call.places);
+        if (const std::string wrong = wrongWith(drawing); !wrong.empty() && call.wrong.empty())
+            call.wrong = rendered.frames.size() > 1 ? fmt::format("frame {}: {}", files.frame, wrong) : wrong;
     }
-    return "";
+    return call;
 }
 
 bool fits(const Scene& scene, const Renderer& renderer) {
     return renderer.draws(scene.light.kind) && groundtruth::hasTruth(scene.light, truthOf(renderer.definition));
 }
 
+/// Each row on each scene, and what is told once at the end.
+class ClientCheck {
+public:
+    using OnResult = std::function<void(const CheckResult&)>;
+    ClientCheck(std::vector<Renderer> renderers, const OnResult& onResult)
+        : renderers_(std::move(renderers)), onResult_(onResult), own_(renderers_.front().folder) {}
+
+    ExitCode run() {
+        for (Scene& scene : clientScenes()) {
+            KnownScene known(std::move(scene));
+            for (const Renderer& renderer : renderers_)
+                if (fits(known.scene(), renderer)) judge(known, renderer);
+            noteUnknown(known);
+        }
+        for (const Renderer& renderer : renderers_) noteRow(renderer);
+        noteOwnFolder();
+        return hold_ ? ExitCode::Pass : ExitCode::AccuracyRegression;
+    }
+
+private:
+    void judge(KnownScene& known, const Renderer& renderer) {
+        const std::string what = fmt::format("{} on {}", renderer.id, known.scene().id);
+        const auto before = std::chrono::steady_clock::now();
+        try {
+            const Call call = callOn(known, renderer);
+            const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
+            if (renderer.definition == Definition::Hard) places_[renderer.id].push_back(call.places);
+            const std::string error = renderer.definition == Definition::Hard
+                                          ? percent(call.error) + " of the pixels are wrong"
+                                          : fmt::format("the rms error is {:.2g}", call.error);
+            tell({what, call.wrong, call.wrong.empty() ? fmt::format("{}; {:.1f} s", error, took.count()) : ""});
+        } catch (const InternalError&) {
+            throw;
+        } catch (const Error& error) {
+            if (DeferredInterrupts::pending()) throw;
+            tellOnce(renderer, known.scene(), {what, error.what()});
+        }
+    }
+
+    void tell(const CheckResult& result) {
+        hold_ = hold_ && result.wrong.empty();
+        onResult_(result);
+    }
+
+    /// A command that fails on each scene for one reason, such as a set-up that is missing, says it for the first.
+    void tellOnce(const Renderer& renderer, const Scene& scene, const CheckResult& result) {
+        auto& [said, others] = failures_[renderer.id];
+        if (said == result.wrong) {
+            others.push_back(scene.id);
+            return;
+        }
+        said = result.wrong;
+        tell(result);
+    }
+
+    void noteUnknown(const KnownScene& known) {
+        if (known.unknown().empty()) return;
+        const auto& [sentence, reason] = *known.unknown().begin();
+        onResult_(
+            {"", "",
+             fmt::format("{} of the {} mistakes were not looked for on {}, as no truth of them can be computed; \"{}\": {}",
+                         known.unknown().size(), mistakes().size(), known.scene().id, sentence, reason)});
+    }
+
+    void noteRow(const Renderer& renderer) {
+        if (const auto& others = failures_[renderer.id].second; !others.empty())
+            onResult_({"", "", fmt::format("{} fails in the same way on {}", renderer.id, fmt::join(others, ", "))});
+        if (lieAtRandom(places_[renderer.id]))
+            onResult_({"", "",
+                       fmt::format("{}: its errors lie at random, not at edges: the images are not a rasteriser's, but look "
+                                   "like the truth with noise",
+                                   renderer.id)});
+    }
+
+    void noteOwnFolder() {
+        const std::vector<fs::path> written = own_.changed();
+        if (written.empty()) return;
+        const fs::path& folder = renderers_.front().folder;
+        onResult_({"", "",
+                   fmt::format("{} {} written in {} meanwhile: {}{}; images must follow from the exported scene alone",
+                               written.size(), written.size() > 1 ? "files were" : "file was", folder.string(),
+                               written.front().lexically_relative(folder).string(), written.size() > 1 ? ", …" : "")});
+    }
+
+    std::vector<Renderer> renderers_;
+    const OnResult& onResult_;
+    WatchedFiles own_;
+    std::map<std::string, std::vector<ErrorPlaces>> places_; // by row, one of each scene
+    std::map<std::string, std::pair<std::string, std::vector<std::string>>>
+        failures_; // by row: what, and on which scenes again
+    bool hold_ = true;
+};
+
 } // namespace
 
 ExitCode checkRenderers(const fs::path& file, const std::function<void(const CheckResult&)>& onResult) {
-    const std::vector<Renderer> renderers = foreign::readRenderers(file);
-    bool hold = true;
-    for (Scene& scene : clientScenes()) {
-        KnownScene known(std::move(scene));
-        for (const Renderer& renderer : renderers) {
-            if (!fits(known.scene(), renderer)) continue;
-            std::string wrong;
-            try {
-                wrong = wrongOn(known, renderer);
-            } catch (const InternalError&) {
-                throw;
-            } catch (const Error& error) {
-                if (DeferredInterrupts::pending()) throw;
-                wrong = error.what();
-            }
-            onResult({fmt::format("{} on {}", renderer.id, known.scene().id), wrong});
-            hold = hold && wrong.empty();
-        }
-    }
-    return hold ? ExitCode::Pass : ExitCode::AccuracyRegression;
+    return ClientCheck(foreign::readRenderers(file), onResult).run();
 }
 
 } // namespace shadowbench::gate

@@ -118,7 +118,7 @@ title = "Soft"
 size = [96, 72]
 timeline = { still = 2, moving = 0 }
 camera = { eye = [0.9, 3.9, 5.3], target = [0.1, 0.3, -0.2], fovy = 44, near = 0.5, far = 40 }
-light = { kind = "rectangle", centre = [0.3, 2.9, -0.3], u = [2.6, 0, 0.4], v = [-0.3, 0, 1.9] }
+light = { kind = "rectangle", centre = [0.3, 2.9, -0.3], u = [2.6, 0, 0.4], v = [-0.3, 0, 1.95] }
 [[object]]
 name = "ground"
 mesh = { box = { size = [9.1, 0.2, 8.3] } }

@@ -3,7 +3,10 @@
 
 #include "base/files.h"
 #include "base/temporary_folder.h"
+#include "groundtruth/store/cache.h"
+#include "tests/support/reference_samples.h"
 
+#include <cstdlib>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <map>
@@ -11,23 +14,40 @@
 namespace shadowbench::gate {
 namespace {
 
-/// What is wrong by row and scene, of renderers that make these mistakes.
-std::map<std::string, std::map<std::string, std::string>>
-checked(const std::vector<std::pair<std::string, std::string>>& rows) {
+/// Of rows, each by the mistake that it makes, and by what its images mean; `argument` is told to all.
+std::vector<CheckResult> resultsOf(const std::vector<std::pair<std::string, std::string>>& rows,
+                                   const std::string& argument = "") {
     const TemporaryFolder folder;
     std::string list;
     for (const auto& [mistake, definition] : rows)
         list +=
             fmt::format("[[renderer]]\nid = \"{}\"\ndefinition = \"{}\"\ncommand = [\"{}\", \"{{scene}}\", \"{{frames}}\", "
-                        "\"{{out}}\", \"{}\", \"{}\"]\n",
-                        mistake, definition, DRAWING_CLIENT, mistake, definition);
+                        "\"{{out}}\", \"{}\", \"{}\", \"{}\"]\n",
+                        mistake, definition, DRAWING_CLIENT, mistake, definition, argument);
     writeFile(folder.path() / "external.toml", list);
+    std::vector<CheckResult> results;
+    checkRenderers(folder.path() / "external.toml", [&](const CheckResult& result) { results.push_back(result); });
+    return results;
+}
+
+/// What is wrong by row and scene, of renderers that make these mistakes.
+std::map<std::string, std::map<std::string, std::string>>
+checked(const std::vector<std::pair<std::string, std::string>>& rows, const std::string& argument = "") {
     std::map<std::string, std::map<std::string, std::string>> wrong;
-    checkRenderers(folder.path() / "external.toml", [&](const CheckResult& result) {
+    for (const CheckResult& result : resultsOf(rows, argument)) {
+        if (result.what.empty()) continue;
         const std::size_t on = result.what.find(" on ");
         wrong[result.what.substr(0, on)][result.what.substr(on + 4)] = result.wrong;
-    });
+    }
     return wrong;
+}
+
+/// The notes of which a part is `says`.
+std::vector<std::string> notes(const std::vector<CheckResult>& results, const std::string& says) {
+    std::vector<std::string> found;
+    for (const CheckResult& result : results)
+        if (result.what.empty() && result.note.find(says) != std::string::npos) found.push_back(result.note);
+    return found;
 }
 
 struct Planted {
@@ -59,7 +79,7 @@ TEST(ClientCheck, NamesTheMistakesOfHardShadows) {
         {"light-z-up", "hands", "its light has y and z swapped"},
         {"light-negated", "sun", "is black: no receiver has light"},
         {"light-in-centimetres", "hands", "a hundred times as far"},
-        {"light-at-eye", "hands", "is its light behind everything, or at the eye?"},
+        {"light-at-eye", "hands", "is its light at the eye"},
         {"meshes-z", "hands", "its meshes are mirrored: z has the other sign"},
         {"no-matrices", "hands", "their nodes' matrices are ignored"},
         {"no-turn", "hands", "the translation alone is there"},
@@ -98,16 +118,55 @@ TEST(ClientCheck, NamesTheMistakesOfSoftShadows) {
     }
 }
 
+TEST(ClientCheck, NamesWhatIsWrittenOutsideOfOut) {
+    const auto wrong = checked({{"writes-scene", "hard"}, {"exact", "hard"}});
+    for (const auto& [scene, sentence] : wrong.at("writes-scene"))
+        EXPECT_EQ(sentence, "it wrote outside its {out}: the exported scene's scene.json") << scene;
+    for (const auto& [scene, sentence] : wrong.at("exact"))
+        EXPECT_EQ(sentence, "") << "the next row has the scene as it was";
+    const auto own = notes(resultsOf({{"writes-own", "hard"}}), "1 file was written in ");
+    ASSERT_EQ(own.size(), 1U);
+    EXPECT_NE(own.front().find(": kept; "), std::string::npos) << own.front();
+}
+
+TEST(ClientCheck, NamesATruthThatIsWrittenTo) {
+    const TemporaryFolder folder;
+    setenv("SHADOWBENCH_CACHE", folder.path().c_str(), 1);
+    const groundtruth::Cache cache(folder.path());
+    cache.store(groundtruth::sample(groundtruth::someKey));
+    const std::string entry = cache.entries().front().file;
+    const auto wrong = checked({{"writes-truth", "hard"}}, entry);
+    unsetenv("SHADOWBENCH_CACHE");
+    EXPECT_EQ(wrong.at("writes-truth").at("hands"), "it wrote outside its {out}: " + entry + ", a truth of shadowbench");
+}
+
+TEST(ClientCheck, NotesATruthWithNoise) {
+    const auto results = resultsOf(
+        {{"flips", "hard"}, {"grey-noise", "hard"}, {"exact", "hard"}, {"wrong-bias", "hard"}, {"ambient", "hard"}});
+    const auto random = notes(results, "its errors lie at random");
+    ASSERT_EQ(random.size(), 2U);
+    EXPECT_TRUE(random[0].starts_with("flips: ")) << random[0];
+    EXPECT_TRUE(random[1].starts_with("grey-noise: ")) << random[1];
+}
+
+TEST(ClientCheck, GivesFiguresOfWhatHolds) {
+    for (const CheckResult& result : resultsOf({{"exact", "area"}, {"centre-of-area", "hard"}})) {
+        const std::string says = result.what.starts_with("exact") ? "the rms error is 0" : "0 % of the pixels are wrong; ";
+        EXPECT_TRUE(result.note.starts_with(says) && result.note.ends_with(" s")) << result.what << ": " << result.note;
+    }
+}
+
 TEST(ClientCheck, ACommandThatFailsIsALine) {
     const TemporaryFolder folder;
     writeFile(folder.path() / "external.toml",
               "[[renderer]]\nid = \"a\"\ncommand = [\"/bin/sh\", \"-c\", \"echo no device >&2; exit 3 # {scene} {out}\"]\n");
-    std::vector<std::string> said;
-    EXPECT_EQ(
-        checkRenderers(folder.path() / "external.toml", [&](const CheckResult& result) { said.push_back(result.wrong); }),
-        ExitCode::AccuracyRegression);
-    ASSERT_EQ(said.size(), 6U);
-    EXPECT_EQ(said.front(), "its command ended with exit code 3; it last said: no device");
+    std::vector<CheckResult> said;
+    EXPECT_EQ(checkRenderers(folder.path() / "external.toml", [&](const CheckResult& result) { said.push_back(result); }),
+              ExitCode::AccuracyRegression);
+    ASSERT_EQ(said.size(), 2U);
+    EXPECT_EQ(said.front().what, "a on hands");
+    EXPECT_EQ(said.front().wrong, "its command ended with exit code 3; it last said: no device");
+    EXPECT_EQ(said.back().note, "a fails in the same way on sun, moving, contact, sheets, soft");
 }
 
 } // namespace

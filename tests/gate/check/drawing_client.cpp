@@ -190,6 +190,15 @@ double tangent(const World& world, double aspect) {
     return std::tan(radians / 2) / (makes("horizontal-angle") ? aspect : 1);
 }
 
+/// The same in each frame, from 0 to 1: what a cheat that has the truth adds to it.
+double randomAt(int x, int y) {
+    std::uint32_t bits = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(y) * 0x85EBCA77U;
+    for (const int shift : {15, 13, 16}) bits = (bits ^ bits >> shift) * 0x2C1B3C6DU;
+    return (bits >> 8U) / 16777216.0;
+}
+
+bool isChosen(int x, int y) { return randomAt(x, y) < 0.02; }
+
 void draw(const World& world, int width, int height, std::vector<float>& image) {
     const double aspect = static_cast<double>(width) / height, tan = tangent(world, aspect);
     const dvec3 eye = vec(world.camera["eye"]), forward = glm::normalize(vec(world.camera["target"]) - eye);
@@ -217,6 +226,8 @@ void draw(const World& world, int width, int height, std::vector<float>& image) 
                 if (makes("ambient")) v = 0.2 + 0.8 * v;
                 if (makes("second-light")) v = 0.5 + 0.5 * v;
                 if (makes("inverted")) v = 1 - v;
+                if (makes("flips") && isChosen(x, y)) v = 1 - v;
+                if (makes("grey-noise")) v += (v > 0.5 ? -0.3 : 0.3) * randomAt(x, y);
                 if (makes("srgb")) v = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
             }
             image[static_cast<std::size_t>(y * width + x)] = static_cast<float>(v);
@@ -251,6 +262,9 @@ int main(int, char** argument) {
     const json scene = json::parse(contentOf(folder + "/scene.json")), gltf = json::parse(contentOf(folder + "/scene.gltf"));
     const std::string bytes = contentOf(folder + "/scene.bin");
     const int width = scene["size"][0], height = scene["size"][1];
+    if (makes("writes-scene")) std::ofstream(folder + "/scene.json", std::ios::app) << '\n';
+    if (makes("writes-own")) std::ofstream("kept", std::ios::app) << folder; // it runs in the folder of its list
+    if (makes("writes-truth")) std::ofstream(std::string(argument[6]), std::ios::app) << "x";
     std::istringstream frames(argument[2]);
     for (std::string number; std::getline(frames, number, ',');)
         for (const json& frame : scene["frames"]) {
