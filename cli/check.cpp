@@ -22,6 +22,8 @@ void print(const gate::CheckResult& result) {
         fmt::print("note   {}\n", onOneLine(result.note));
     else if (result.wrong.empty())
         fmt::print("holds  {}{}{}\n", result.what, result.note.empty() ? "" : ": ", result.note);
+    else if (result.isExpected)
+        fmt::print("known  {}: {} ({})\n", result.what, onOneLine(result.wrong), result.note);
     else
         fmt::print("FAILS  {}: {}\n", result.what, onOneLine(result.wrong));
     std::fflush(stdout); // some take a while

@@ -10,9 +10,10 @@
 namespace shadowbench::gate {
 
 struct CheckResult {
-    std::string what;      // "my:evsm under a point light: the same bits twice"; empty: `note` is of no row alone
-    std::string wrong;     // a sentence; empty: it holds
-    std::string note = {}; // beside the outcome, such as figures of what holds; may be empty
+    std::string what;        // "my:evsm under a point light: the same bits twice"; empty: `note` is of no row alone
+    std::string wrong;       // a sentence; empty: it holds
+    std::string note = {};   // beside the outcome, such as figures of what holds; may be empty
+    bool isExpected = false; // it is wrong, and known to be: `note` says why
 };
 
 /// Checks each row of the folder, which must be in the catalogue, and its expect.toml if there is one; `onResult` gets the

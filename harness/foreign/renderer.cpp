@@ -186,8 +186,10 @@ std::optional<Client> readClient(const fs::path& file) {
     const TomlSource source{.file = file.string()};
     const auto table = TomlValue(source, "", root).find("client");
     if (!table) return {};
-    table->only({"engine", "version", "maintainer"});
-    return Client{table->get("engine").text(), table->get("version").text(), table->get("maintainer").text()};
+    table->only({"engine", "version", "maintainer", "retired"});
+    Client client{table->get("engine").text(), table->get("version").text(), table->get("maintainer").text()};
+    if (const auto retired = table->find("retired")) client.retired = retired->text();
+    return client;
 }
 
 std::vector<Renderer> readRenderers(const fs::path& file) {
@@ -195,7 +197,7 @@ std::vector<Renderer> readRenderers(const fs::path& file) {
     toml::table root = parseToml(text, file.string());
     const TomlSource source{.file = file.string()};
     const TomlValue whole(source, "", root);
-    whole.only({"client", "shared", "renderer"});
+    whole.only({"client", "shared", "renderer", "expect"});
     share(root, whole);
     const TomlValue list = whole.get("renderer");
     std::vector<Renderer> renderers;

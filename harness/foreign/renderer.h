@@ -23,6 +23,7 @@ enum class Division {
 /// The engine that a list is of, and who answers for the adapter.
 struct Client {
     std::string engine, version, maintainer;
+    std::string retired = {}; // why it is no longer scored, and since which edition; empty: it is scored
 };
 
 struct Renderer {

@@ -319,8 +319,9 @@ TEST_F(Ci, ARowThatIsGoneOrABaseWithoutAFileIsInconclusive) {
 
 TEST_F(Ci, FilesToCopyCanBeReadAndNameOptionsThatThereAre) {
     const std::string root = SOURCE_FOLDER, help = shell("shadowbench ci --help").output;
-    for (const char* file : {"/action.yml", "/docs/ci/engine-github.yml", "/docs/ci/engine-gitlab.yml",
-                             "/docs/ci/github-actions.yml", "/docs/ci/gitlab-ci.yml", "/docs/ci/technique.yml"}) {
+    for (const char* file :
+         {"/action.yml", "/docs/ci/adapters.yml", "/docs/ci/engine-github.yml", "/docs/ci/engine-gitlab.yml",
+          "/docs/ci/github-actions.yml", "/docs/ci/gitlab-ci.yml", "/docs/ci/technique.yml"}) {
         const Outcome read =
             shell("/usr/bin/python3 -c 'import sys, yaml; yaml.safe_load(open(sys.argv[1]))' " + root + file);
         EXPECT_EQ(read.code, 0) << file << read.output;

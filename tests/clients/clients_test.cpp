@@ -1,6 +1,7 @@
 // The clients' lists of renderers can be read, and start what is there. Nothing is installed or rendered here: Chromium and
 // Blender run by the clients' own commands.
 #include "base/files.h"
+#include "harness/foreign/expected_failures.h"
 #include "harness/foreign/renderer.h"
 
 #include <algorithm>
@@ -55,6 +56,27 @@ TEST(Clients, SayWhoseTheyAre) {
             EXPECT_EQ(renderer.division == Division::EqualMaps, saysSize && renderer.division != Division::Tuned)
                 << renderer.id;
         }
+    }
+}
+
+/// Those of `check`, each of a row that is there.
+TEST(Clients, ExpectFailuresOfTheirRows) {
+    const std::set<std::string> scenes{"hands", "sun", "moving", "contact", "sheets", "soft"};
+    for (const fs::path& folder : clientFolders())
+        for (const ExpectedFailure& failure : readExpectedFailures(folder / "client.toml")) {
+            EXPECT_TRUE(scenes.contains(failure.scene)) << failure.where;
+            EXPECT_TRUE(std::ranges::any_of(renderersIn(folder), [&](const Renderer& renderer) {
+                return failure.covers(failure.scene, renderer.id);
+            })) << failure.where;
+        }
+}
+
+/// Their last scores stand with the reason why there are no newer ones.
+TEST(Clients, RulesNameTheRetiredOnes) {
+    const std::string rules = readFile(fs::path(SOURCE_FOLDER) / "docs" / "scoreboard.md");
+    for (const fs::path& folder : clientFolders()) {
+        const auto client = readClient(folder / "client.toml");
+        EXPECT_TRUE(!client || rules.find(client->retired) != std::string::npos) << folder;
     }
 }
 

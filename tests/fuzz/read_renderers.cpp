@@ -1,3 +1,4 @@
+#include "harness/foreign/expected_failures.h"
 #include "harness/foreign/renderer.h"
 #include "harness/foreign/timing_file.h"
 #include "tests/fuzz/readers.h"
@@ -6,6 +7,7 @@
 namespace shadowbench::fuzz {
 
 void readRendererList(std::string_view input) {
+    foreign::readExpectedFailures(kept("renderers.toml", input));
     for (const foreign::Renderer& renderer : foreign::readRenderers(kept("renderers.toml", input)))
         for (const std::string& word : renderer.command)
             foreign::filledIn(word, {{"scene", "/a folder's"}, {"frames", "59,60"}, {"out", "$HOME"}}, renderer.isShellLine);

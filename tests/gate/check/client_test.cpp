@@ -16,9 +16,9 @@ namespace {
 
 /// Of rows, each by the mistake that it makes, and by what its images mean; `argument` is told to all.
 std::vector<CheckResult> resultsOf(const std::vector<std::pair<std::string, std::string>>& rows,
-                                   const std::string& argument = "") {
+                                   const std::string& argument = "", const std::string& expected = "") {
     const TemporaryFolder folder;
-    std::string list;
+    std::string list = expected;
     for (const auto& [mistake, definition] : rows)
         list +=
             fmt::format("[[renderer]]\nid = \"{}\"\ndefinition = \"{}\"\ncommand = [\"{}\", \"{{scene}}\", \"{{frames}}\", "
@@ -154,6 +154,44 @@ TEST(ClientCheck, GivesFiguresOfWhatHolds) {
         const std::string says = result.what.starts_with("exact") ? "the rms error is 0" : "0 % of the pixels are wrong; ";
         EXPECT_TRUE(result.note.starts_with(says) && result.note.ends_with(" s")) << result.what << ": " << result.note;
     }
+}
+
+/// An entry of the list.
+std::string failure(const std::string& scene, const std::string& renderer, const std::string& says) {
+    return fmt::format(
+        "[[expect]]\nscene = \"{}\"\nfails = [{{ renderer = \"{}\", says = \"{}\", reason = \"its bias\" }}]\n", scene,
+        renderer, says);
+}
+
+TEST(ClientCheck, AFailureThatIsExpectedIsKnown) {
+    const auto results = resultsOf({{"wrong-bias", "hard"}}, "",
+                                   failure("contact", "wrong-*", "lit faces shadow themselves") +
+                                       failure("hands", "wrong-bias", "upside down"));
+    for (const CheckResult& result : results) {
+        EXPECT_EQ(result.isExpected, result.what == "wrong-bias on contact") << result.what;
+        EXPECT_EQ(result.isExpected, result.note == "its bias") << result.note;
+        if (result.what != "wrong-bias on hands") continue;
+        EXPECT_TRUE(result.wrong.ends_with("expects another failure: \"upside down\"")) << result.wrong;
+    }
+}
+
+TEST(ClientCheck, WhatHoldsAgainstItsListFails) {
+    const auto results = resultsOf({{"exact", "hard"}}, "", failure("contact", "exact", "lit faces"));
+    for (const CheckResult& result : results) {
+        if (result.what != "exact on contact") continue;
+        EXPECT_FALSE(result.isExpected);
+        EXPECT_TRUE(result.wrong.starts_with("it holds, and ")) << result.wrong;
+        EXPECT_TRUE(result.wrong.ends_with(" expects that it fails: its bias; take the entry away")) << result.wrong;
+    }
+}
+
+TEST(ClientCheck, RefusesExpectedFailuresOfNoRow) {
+    for (const auto& [scene, renderer] : {std::pair("hand", "exact"), std::pair("hands", "other-*")}) try {
+            resultsOf({{"exact", "hard"}}, "", failure(scene, renderer, "lit faces"));
+            ADD_FAILURE() << scene << renderer;
+        } catch (const BadInput& error) {
+            EXPECT_NE(std::string(error.what()).find("expect[1].fails[1]: no renderer"), std::string::npos) << error.what();
+        }
 }
 
 TEST(ClientCheck, ACommandThatFailsIsALine) {

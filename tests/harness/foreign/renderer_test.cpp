@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/temporary_folder.h"
+#include "harness/foreign/expected_failures.h"
 
 #include <gtest/gtest.h>
 
@@ -180,6 +181,26 @@ advice = "Use it."
     const auto client = readClient(file());
     ASSERT_TRUE(client);
     EXPECT_EQ(client->engine + client->version + client->maintainer, "Mine4.2me");
+    EXPECT_EQ(client->retired, "");
+}
+
+TEST_F(RenderersFile, SaysWhyItIsRetiredAndWhatIsExpectedToFail) {
+    const std::string entry = "[[renderer]]\nid = \"a\"\ncommand = [\"x\", \"{scene}\", \"{out}\"]\n";
+    const std::string client =
+        "[client]\nengine = \"Mine\"\nversion = \"4\"\nmaintainer = \"me\"\nretired = \"gone, 2027\"\n";
+    const std::string fails = "[[expect]]\nscene = \"sun\"\nfails = [{ renderer = \"a*\", says = \"no shadow\", reason = ";
+    read(client + entry + fails + "\"it ends\" }]\n");
+    EXPECT_EQ(readClient(file())->retired, "gone, 2027");
+    const auto failures = readExpectedFailures(file());
+    ASSERT_EQ(failures.size(), 1U);
+    EXPECT_EQ(failures[0].says + failures[0].reason, "no shadowit ends");
+    EXPECT_TRUE(failures[0].covers("sun", "a"));
+    EXPECT_FALSE(failures[0].covers("hands", "a"));
+    EXPECT_FALSE(failures[0].covers("sun", "b"));
+    read(entry);
+    EXPECT_TRUE(readExpectedFailures(file()).empty());
+    read(entry + fails + "\"\" }]\n");
+    EXPECT_THROW(readExpectedFailures(file()), BadInput);
 }
 
 TEST_F(RenderersFile, RefusesWhatCannotBeShared) {
