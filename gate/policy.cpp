@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace shadowbench::gate {
 namespace {
@@ -127,6 +129,23 @@ Policy policyFrom(const OrderedJson& json) {
     return policy;
 }
 
+/// Units as lists of words, so that no line of the text grows with the tree.
+OrderedJson reachJson(const Reach& reach) {
+    OrderedJson units = OrderedJson::array();
+    std::istringstream lines(reach.text());
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        units.push_back(std::vector<std::string>(std::istream_iterator<std::string>(words), {}));
+    }
+    return units;
+}
+
+Reach reachFrom(const OrderedJson& units) {
+    std::string text;
+    for (const OrderedJson& unit : units) text += fmt::format("{}\n", fmt::join(unit.get<std::vector<std::string>>(), " "));
+    return Reach(text);
+}
+
 Policy withScenes(GateConfig config, Profile profile) {
     Policy policy{standardScenes(), std::move(config), ownRules(), {}};
     if (profile != Profile::Gate) return policy; // what scenes expect, they expect of this profile
@@ -213,7 +232,7 @@ std::string toJson(const BuildInfo& build) {
     return OrderedJson{{"commit", build.commit},
                        {"dirty", build.dirty},
                        {"program", build.program},
-                       {"reach", build.reach.text()},
+                       {"reach", reachJson(build.reach)},
                        {"policy", policyJson(build.policy)}}
                .dump(1) +
            "\n";
@@ -223,7 +242,7 @@ BuildInfo buildInfoFrom(const std::string& text) {
     try {
         const OrderedJson json = OrderedJson::parse(boundedJson(text, "a program's policy"));
         return {json.at("commit").get<std::string>(), json.at("dirty").get<bool>(), json.at("program").get<std::string>(),
-                policyFrom(json.at("policy")), Reach(json.value("reach", ""))};
+                policyFrom(json.at("policy")), reachFrom(json.value("reach", OrderedJson::array()))};
     } catch (const OrderedJson::exception& error) {
         throw BadInput(fmt::format("a program's policy cannot be read: {}", error.what()));
     }

@@ -13,6 +13,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <set>
+#include <sstream>
 
 namespace shadowbench::gate {
 namespace {
@@ -117,6 +118,11 @@ TEST(GatePolicy, IsReadAsItIsWrittenAndMayNameWhatThisBuildLacks) {
     build.policy.time = {0.02, 0.07, 0.3, 0.002};
     const BuildInfo read = buildInfoFrom(toJson(build));
     EXPECT_EQ(toJson(read), toJson(build));
+    const BuildInfo own = buildInfoFrom(toJson(ownBuildInfo()));
+    EXPECT_EQ(own.reach.key("pcf", "trees"), Reach::own().key("pcf", "trees"));
+    std::istringstream lines(toJson(own));
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LT(line.size(), 4096U) << "what reads a program's lines cuts them";
     EXPECT_TRUE(toJson(build).starts_with("{\n \"commit\": \"c0ffee\",\n")) << "for people, too";
     EXPECT_THROW(buildInfoFrom("{}"), BadInput);
     EXPECT_EQ(read.policy.rules.limits.at("accuracy.to_come").of, "accuracy.pixels.lit");
