@@ -43,7 +43,7 @@ bool isExecutable(const fs::path& file) {
 TEST(Clients, AreThoseOfTheirPage) {
     std::vector<std::string> names;
     for (const fs::path& folder : clientFolders()) names.push_back(folder.filename());
-    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "filament", "godot", "ogre", "openscenegraph",
+    EXPECT_EQ(names, (std::vector<std::string>{"babylonjs", "blender", "filament", "godot", "ogl", "ogre", "openscenegraph",
                                                "playcanvas", "threejs", "vtk"}));
 }
 
