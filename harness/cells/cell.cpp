@@ -126,7 +126,7 @@ InternalError lostCell(const std::string& how) {
 }
 
 void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record,
-               CellImages& images) {
+               CellImages& images, CellWork work) {
     const Scene& scene = frames.scene();
     Stage& stage = frames.stage();
     const Truth kind = mainTruth(scene, variant);
@@ -146,7 +146,7 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     for (int frame = firstFrame(frames, *variant.entry); frame < scene.timeline.frames(); ++frame) {
         if (frame <= 1 || frame >= scored) frames.show(frame); // the still frames between are all the same
         tally.watchPeak();
-        if (memory.peak)
+        if (memory.peak || work == CellWork::LeftOut)
             stage.render(*technique, sequence.index++, seed);
         else if (variant.entry->temporal)
             timing::measureFirstWork(stage, sequence, record);
@@ -170,6 +170,8 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     if (images.wantsFlicker) images.flicker = scores.flickerMaps();
 
     frames.show(scored);
+    record.status = Status::Scored;
+    if (work == CellWork::LeftOut) return;
     if (scene.timeline.moving > 0) timing::settle(stage, sequence); // else the last frame showed the same
     timing::measureWork(stage, sequence, record);
     if (variant.entry->temporal) timing::measureMotionWork(stage, casters, sequence, record);
@@ -178,7 +180,6 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     for (PassRecord& pass : record.passes)
         if (const auto found = hashes.find(pass.name); found != hashes.end()) pass.drawnWith = found->second;
     setMemory(record, memory);
-    record.status = Status::Scored;
 }
 
 int renderScored(SceneFrames& frames, const techniques::Entry& entry, techniques::Technique& technique, std::uint32_t seed,

@@ -57,11 +57,14 @@ std::chrono::seconds longestFor(const Scene& scene, const techniques::Variant& v
 /// What a cell ends with whose process was lost (SharedWork::lost), with what to do where that is known.
 InternalError lostCell(const std::string& how);
 
+/// Whether a cell's work and memory are measured, too. It takes three more drawings, two of them from nothing kept.
+enum class CellWork { Counted, LeftOut };
+
 /// Fills in status, references, accuracy, stability and work of a blank record. Throws what rendering or the truth throws,
 /// and InternalError when more than 0.1 % of the primary hits disagree with the truth's: that is an error of the set-up, not
-/// a score.
+/// a score. All but the work is the same without it.
 void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record,
-               CellImages& images);
+               CellImages& images, CellWork work = CellWork::Counted);
 
 /// Renders the last still frame from an empty history. Returns the number of frames that the technique has rendered.
 /// `casters`: what casts in place of the scene's own, which are at rest until that frame.

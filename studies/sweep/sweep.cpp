@@ -250,7 +250,7 @@ private:
             measure.seed = options_.seed;
             record.cell = cellId(frames.truths(), scene, variant, measure);
             CellImages images;
-            scoreCell(frames, variant, options_.seed, record, images);
+            scoreCell(frames, variant, options_.seed, record, images, options_.work);
         } catch (const Error& error) {
             Record failed = blankRecord(scene, variant, options_.seed);
             failed.sweep = record.sweep;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "harness/cells/cell.h"
 #include "harness/records/record.h"
 #include "scene/scene.h"
 
@@ -21,6 +22,7 @@ struct SweepOptions {
     Profile profile = Profile::Gate;
     std::filesystem::path cache;
     std::uint32_t seed = 1;
+    CellWork work = CellWork::Counted;
     bool quiet = false;
 };
 

@@ -27,11 +27,11 @@ INSTANTIATE_TEST_SUITE_P(Gate, StandardScene, testing::ValuesIn(standardScenes()
 
 TEST(NoShadow, DrawsTheLeastAndMissesEveryShadow) {
     CellScene& scene = stillScene("dueling-frusta");
-    const Record& none = scene.scored("none");
+    const Record& none = scene.counted("none");
     EXPECT_EQ(*none.values["accuracy.leak"], 1);
     EXPECT_EQ(*none.values["accuracy.false_shadow"], 0);
     for (const char* variant : {"planar-hard", "volume-xor", "sm-dual-paraboloid", "sm-uniform"}) // the cheapest others
-        EXPECT_LT(*none.values["cost.work.draws"], *scene.scored(variant).values["cost.work.draws"]) << variant;
+        EXPECT_LT(*none.values["cost.work.draws"], *scene.counted(variant).values["cost.work.draws"]) << variant;
 }
 
 TEST(DuelingFrusta, WarpingIsNoBetterThanAUniformMap) {
@@ -79,7 +79,7 @@ TEST(OverlappingOccluders, SixtyFramesOfTemporalSamplingBeatBothPcss) { // disse
 TEST(Records, TheSameSeedGivesTheSameRecordTwice) {
     CellScene& scene = stillScene("dueling-frusta", 5);
     CellScene again(scene.scene());
-    EXPECT_EQ(toJson(again.scored("sm-history")), toJson(scene.scored("sm-history")));
+    EXPECT_EQ(toJson(again.counted("sm-history")), toJson(scene.counted("sm-history")));
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "tests/support/test_names.h"
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,10 +27,14 @@ std::vector<std::string> scenesWithAreaLights() {
 /// A point of the map, in texels, and the 1 / depth of what lies there, which is linear over the map on planes.
 using Seen = glm::dvec3;
 
+/// A triangle of which a near plane and the four sides of a texel cut a corner each. Millions are made.
+template <typename Point>
+using Polygon = boost::container::static_vector<Point, 3 + 1 + 4>;
+
 /// The part of a convex polygon on the side of a line that `inside` ≥ 0 says.
 template <typename Point, typename Inside>
-std::vector<Point> cut(const std::vector<Point>& polygon, Inside inside) {
-    std::vector<Point> kept;
+Polygon<Point> cut(const Polygon<Point>& polygon, Inside inside) {
+    Polygon<Point> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Point &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
         const double a = inside(from), b = inside(to);
@@ -40,7 +45,7 @@ std::vector<Point> cut(const std::vector<Point>& polygon, Inside inside) {
 }
 
 /// The part of it between two coordinates along an axis.
-std::vector<Seen> between(const std::vector<Seen>& polygon, int axis, double low, double high) {
+Polygon<Seen> between(const Polygon<Seen>& polygon, int axis, double low, double high) {
     return cut(cut(polygon, [&](const Seen& p) { return p[axis] - low; }), [&](const Seen& p) { return high - p[axis]; });
 }
 
@@ -53,7 +58,7 @@ public:
             for (const Placement& placement : batch.placements) {
                 const glm::dmat4 clipFromObject = view.clipFromWorld * placement.world;
                 for (const glm::uvec3& triangle : batch.mesh->triangles) {
-                    std::vector<glm::dvec4> corners;
+                    Polygon<glm::dvec4> corners;
                     for (int i = 0; i < 3; ++i)
                         corners.push_back(clipFromObject * glm::dvec4(batch.mesh->positions[triangle[i]], 1));
                     add(cut(corners, [&](const glm::dvec4& h) { return h.w - 1e-4 * view.far; })); // as casters are cut
@@ -66,12 +71,12 @@ public:
 private:
     static constexpr double rim = 1.0 / 64; // of a texel: four steps of the rasteriser's grid
 
-    void add(const std::vector<glm::dvec4>& corners) {
-        std::vector<Seen> polygon;
+    void add(const Polygon<glm::dvec4>& corners) {
+        Polygon<Seen> polygon;
         for (const glm::dvec4& h : corners)
             polygon.emplace_back((0.5 * glm::dvec2(h) / h.w + 0.5) * static_cast<double>(side_), 1 / h.w);
-        eachCell(polygon, 1, [&](const std::vector<Seen>& strip, int row) {
-            eachCell(strip, 0, [&](const std::vector<Seen>& part, int column) {
+        eachCell(polygon, 1, [&](const Polygon<Seen>& strip, int row) {
+            eachCell(strip, 0, [&](const Polygon<Seen>& part, int column) {
                 double& nearest = nearest_(column, side_ - 1 - row);
                 for (const Seen& p : part) nearest = std::max(nearest, p.z);
             });
@@ -79,7 +84,7 @@ private:
     }
 
     template <typename Action>
-    void eachCell(const std::vector<Seen>& polygon, int axis, Action action) const {
+    void eachCell(const Polygon<Seen>& polygon, int axis, Action action) const {
         if (polygon.empty()) return;
         const auto less = [axis](const Seen& a, const Seen& b) { return a[axis] < b[axis]; };
         const auto [low, high] = std::ranges::minmax_element(polygon, less);

@@ -3,6 +3,7 @@
 #include "scene/load/load.h"
 #include "scene/meshes/primitives.h"
 #include "scene/sky.h"
+#include "studies/sweep/variants.h"
 #include "tests/support/cell_stage.h"
 #include "tests/support/test_names.h"
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <string>
 #include <string_view>
 #include <tuple>
 
@@ -46,11 +48,21 @@ std::vector<std::string> shadowVariants() {
     return names;
 }
 
-/// With a small map if it has one: the size decides nothing of a cell's invariants.
-std::string withSmallMap(const std::string& name) {
-    const techniques::Entry& entry = *techniques::parseVariant(name).entry;
-    if (std::ranges::count(entry.parameters, "map", &techniques::Parameter::name) == 0) return name;
-    return techniques::parseVariant(name + (name.find(':') == std::string::npos ? ":map=128" : ",map=128")).name;
+bool has(const techniques::Variant& variant, const char* parameter) {
+    return std::ranges::count(variant.entry->parameters, parameter, &techniques::Parameter::name) > 0;
+}
+
+/// With an eighth of the light's samples if it has these: each is drawn as all are, so that their number decides nothing of
+/// what holds of every one.
+techniques::Variant withFewSamples(const std::string& name) {
+    const techniques::Variant variant = techniques::parseVariant(name);
+    return has(variant, "n") ? withParameter(variant, "n", std::to_string(variant.parameters.integer("n") / 8)) : variant;
+}
+
+/// And with a small map if it has one: the size decides nothing of a cell's invariants.
+std::string madeSmall(const std::string& name) {
+    const techniques::Variant variant = withFewSamples(name);
+    return has(variant, "map") ? withParameter(variant, "map", "128").name : variant.name;
 }
 
 /// Those that have an answer for lights other than environments.
@@ -59,6 +71,7 @@ std::vector<std::string> variantsForAreaLights() {
     std::erase_if(names, [](const std::string& name) {
         return techniques::parseVariant(name).entry->environment == techniques::EnvironmentAnswer::Only;
     });
+    for (std::string& name : names) name = withFewSamples(name).name;
     return names;
 }
 
@@ -68,7 +81,7 @@ std::vector<Case> everyCell() {
     for (const std::string& id : standardScenes()) {
         const Scene scene = smallScene(id);
         for (const std::string& variant : shadowVariants())
-            if (!notApplicable(scene, techniques::parseVariant(variant))) cases.push_back({id, withSmallMap(variant)});
+            if (!notApplicable(scene, techniques::parseVariant(variant))) cases.push_back({id, madeSmall(variant)});
     }
     return cases;
 }

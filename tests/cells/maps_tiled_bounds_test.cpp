@@ -36,7 +36,7 @@ TEST(AdaptiveMaps, ApproachTheTruthWithMoreTexelsAPixel) {
 }
 
 TEST(AdaptiveMaps, PayWithManyPasses) {
-    const Record& record = stillScene("windmills").scored("sm-adaptive:cache=off");
+    const Record& record = stillScene("windmills").counted("sm-adaptive:cache=off");
     ASSERT_TRUE(record.values["cost.work.passes"]);
     EXPECT_GE(record.figures.at("pages"), 200);
     EXPECT_LE(record.figures.at("pages"), 1024);

@@ -1,4 +1,5 @@
 // What a frame costs in motion and from cold.
+#include "harness/metrics/table.h"
 #include "harness/render/motion.h"
 
 #include "scene/meshes/primitives.h"
@@ -99,11 +100,24 @@ bool hasPass(const std::vector<PassRecord>& passes, const std::string& name) {
 
 CellScene& plates() { return stillScene("overlapping-occluders", 1); }
 
+TEST(CellWork, IsAllThatIsMissingWhereItIsLeftOut) {
+    for (const char* variant : {"sm-adaptive", "layered-attenuation:n=16,map=128", "pcf-jitter", "sm-history"}) {
+        const Record &counted = plates().counted(variant), &scored = plates().scored(variant);
+        EXPECT_EQ(scored.images, counted.images) << variant;
+        for (const char* group : {"accuracy", "stability", "aliasing"})
+            for (const metrics::Metric& line : metrics::linesOf(group))
+                EXPECT_EQ(scored.values[line], counted.values[line]) << variant << " " << line.path;
+        EXPECT_EQ(scored.figures, counted.figures) << variant;
+        EXPECT_TRUE(counted.values["cost.work.draws"]) << variant;
+        EXPECT_FALSE(scored.values["cost.work.draws"]) << variant;
+    }
+}
+
 TEST(CostInMotion, IsThatOfTheStandingFrameForTechniquesThatKeepNothing) {
     for (const char* variant :
          {"none", "sm-uniform", "sm-lispsm", "sm-cascaded", "sm-tiled", "sm-adaptive:cache=off", "sm-clipmap:cache=off",
           "pcf", "vsm", "pcss", "sampled-maps:n=4", "volume-zfail", "penumbra-wedge", "planar-soft:n=4"}) {
-        const Record& record = plates().scored(variant);
+        const Record& record = plates().counted(variant);
         EXPECT_EQ(workOf(record, Frame::Moving), workOf(record, Frame::Standing)) << variant;
         EXPECT_TRUE(record.motionPasses.empty()) << variant;
     }
@@ -153,7 +167,7 @@ TEST(WhatIsKept, IsDroppedWhereLightOrCastersAloneHaveMoved) {
 }
 
 TEST(CostInMotion, OfLayeredAttenuationHasItsMaps) {
-    const Record& record = plates().scored("layered-attenuation:n=64,map=64");
+    const Record& record = plates().counted("layered-attenuation:n=64,map=64");
     const Snapshot shown = snapshot(plates().scene(), 0);
     const double maps = 64, vertices = 3.0 * static_cast<double>(shown.triangles());
     EXPECT_GE(valueOf(record, "cost.motion.work.vertices") - valueOf(record, "cost.work.vertices"), maps * vertices);
@@ -164,15 +178,15 @@ TEST(CostInMotion, OfLayeredAttenuationHasItsMaps) {
 }
 
 TEST(CostInMotion, OfAnAdaptiveMapHasAPassAPage) {
-    const Record& kept = plates().scored("sm-adaptive");
-    const Record& drawn = plates().scored("sm-adaptive:cache=off");
+    const Record& kept = plates().counted("sm-adaptive");
+    const Record& drawn = plates().counted("sm-adaptive:cache=off");
     EXPECT_EQ(workOf(kept, Frame::Moving), workOf(drawn, Frame::Standing));
     EXPECT_EQ(valueOf(kept, "cost.motion.work.passes") - valueOf(kept, "cost.work.passes"), kept.figures.at("pages"));
 }
 
 TEST(CostInMotion, OfPrecomputedTransferIsTheLightsProjectionAndTheFirstFramesTheRest) {
     for (const char* variant : {"prt-sh:points=256,directions=64", "prt-haar:points=256,rays=1,resolution=16"}) {
-        const Record& record = smallSky().scored(variant);
+        const Record& record = smallSky().counted(variant);
         EXPECT_FALSE(hasPass(record.passes, "precomputation") || hasPass(record.passes, "light projection")) << variant;
         EXPECT_FALSE(hasPass(record.motionPasses, "precomputation")) << variant;
         EXPECT_TRUE(hasPass(record.motionPasses, "light projection")) << variant;
@@ -183,7 +197,7 @@ TEST(CostInMotion, OfPrecomputedTransferIsTheLightsProjectionAndTheFirstFramesTh
 
 TEST(CostInMotion, IsTimedBesideSmUniformInTheSameRounds) {
     CellScene& cells = plates();
-    Record layered = cells.scored("layered-attenuation:n=64,map=64"), uniform = cells.scored("sm-uniform");
+    Record layered = cells.counted("layered-attenuation:n=64,map=64"), uniform = cells.counted("sm-uniform");
     timeCell(cells.frames(), techniques::parseVariant("layered-attenuation:n=64,map=64"), 1, layered);
     timeCell(cells.frames(), techniques::parseVariant("sm-uniform"), 1, uniform);
     EXPECT_GT(valueOf(layered, "cost.motion.time.ratio"), 1.5 * valueOf(layered, "cost.time.ratio"));
@@ -196,7 +210,7 @@ TEST(CostInMotion, IsTimedBesideSmUniformInTheSameRounds) {
 
 TEST(PeakMemory, IsAtLeastWhatIsHeldBetweenFrames) {
     for (const char* variant : {"sm-uniform", "layered-attenuation:n=64,map=64", "sm-adaptive", "temporal-soft", "vsm"}) {
-        const Record& record = plates().scored(variant);
+        const Record& record = plates().counted(variant);
         EXPECT_GE(valueOf(record, "cost.work.peak_bytes"), valueOf(record, "cost.work.bytes")) << variant;
     }
     gl::Tally& tally = gl::Context::current().tally();

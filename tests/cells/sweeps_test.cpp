@@ -63,6 +63,7 @@ std::vector<Record> swept(const Case& tested, const std::vector<BreakExpectation
         options.techniques = together;
         options.values = values;
         options.cache = testCache().folder();
+        options.work = CellWork::LeftOut;
         options.quiet = true;
         std::ranges::move(sweep(options).records, std::back_inserter(records));
     }

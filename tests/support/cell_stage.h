@@ -31,20 +31,26 @@ public:
     Stage& stage() { return frames_.stage(); }
     Truths& truths() { return truths_; }
 
-    const Record& scored(const std::string& variant) {
-        if (const auto found = records_.find(variant); found != records_.end()) return found->second;
-        Record record;
-        CellImages images;
-        scoreCell(frames_, techniques::parseVariant(variant), 1, record, images);
-        return records_.emplace(variant, std::move(record)).first->second;
-    }
+    const Record& scored(const std::string& variant) { return kept(variant, CellWork::LeftOut); }
+
+    /// With its work.
+    const Record& counted(const std::string& variant) { return kept(variant, CellWork::Counted); }
 
 private:
+    const Record& kept(const std::string& variant, CellWork work) {
+        const std::pair key(variant, work);
+        if (const auto found = records_.find(key); found != records_.end()) return found->second;
+        Record record;
+        CellImages images;
+        scoreCell(frames_, techniques::parseVariant(variant), 1, record, images, work);
+        return records_.emplace(key, std::move(record)).first->second;
+    }
+
     Scene scene_;
     groundtruth::Cache cache_ = testCache();
     Truths truths_{scene_, cache_};
     SceneFrames frames_{scene_, truths_};
-    std::map<std::string, Record> records_;
+    std::map<std::pair<std::string, CellWork>, Record> records_;
 };
 
 /// A built-in scene at its gate size with still frames only, so that one reference of each kind is enough.
