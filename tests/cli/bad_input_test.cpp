@@ -102,7 +102,7 @@ TEST(BadCommand, WhereNoTechniqueAppliesTheReasonIsTheLastLine) {
     const Folder folder;
     const Outcome outcome =
         shell("shadowbench run --quiet --cost none --technique pcss --scene " + folder.write("point.toml", tinyScene()) +
-              " --cache " + folder / "cache" + " --out " + folder / "out");
+              " --cache " + folder.cache() + " --out " + folder / "out");
     EXPECT_EQ(outcome.code, 2);
     EXPECT_NE(outcome.output.find("no technique of this run applies to its scene; pcss on point: needs an area light"),
               std::string::npos)
@@ -153,7 +153,7 @@ TEST(FullDisk, ARunOntoAFullDiskEndsInOneLineAndLeavesNoPartialRecord) {
     if (shell("mount -t tmpfs -o size=16k tmpfs " + disk).code != 0) GTEST_SKIP() << "mounting a small disk needs root";
     shell("dd if=/dev/zero of=" + disk + "/full bs=1k count=12");
     const Outcome outcome = shell("shadowbench run --quiet --scene " + scene + " --technique 'sm-*' --cache " +
-                                  folder / "cache" + " --out " + disk);
+                                  folder.cache() + " --out " + disk);
     const bool partial = fs::exists(disk + "/results.jsonl") && fs::file_size(disk + "/results.jsonl") == 0;
     shell("umount " + disk);
     EXPECT_EQ(outcome.code, 1) << outcome.output;

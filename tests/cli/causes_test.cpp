@@ -13,8 +13,7 @@ namespace {
 class Causes : public testing::Test {
 protected:
     [[nodiscard]] Outcome causes(const std::string& options) const {
-        return shell("shadowbench causes --quiet --out " + folder_ / "out" + " --cache " + folder_ / "cache" + " " +
-                     options);
+        return shell("shadowbench causes --quiet --out " + folder_ / "out" + " --cache " + folder_.cache() + " " + options);
     }
 
     Folder folder_;

@@ -13,7 +13,7 @@ namespace {
 class CheckOfFolder : public testing::Test {
 protected:
     [[nodiscard]] std::string command() const {
-        return "shadowbench check " + mine_.path().string() + " --cache " + (out_ / "cache");
+        return "shadowbench check " + mine_.path().string() + " --cache " + out_.cache();
     }
     Outcome check(const std::string& before = "") const { return shell(before + " " + command()); }
     /// One of its lines.

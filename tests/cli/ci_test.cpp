@@ -23,22 +23,20 @@ std::size_t lines(const std::string& file) {
 
 class Ci : public testing::Test {
 protected:
-    /// Images that the engine copies, and truths, once.
+    /// Images that the engine copies, once.
     static void SetUpTestSuite() {
         shared_ = std::make_unique<Folder>();
         const std::string scene = shared_->write("tiny.toml", tinyScene());
         const Outcome own = shell("shadowbench run --quiet --cost none --images --technique pcf --technique pcf:map=64 "
                                   "--scene " +
-                                  scene + " --cache " + (*shared_ / "cache") + " --out " + (*shared_ / "own"));
+                                  scene + " --cache " + shared_->cache() + " --out " + (*shared_ / "own"));
         ASSERT_EQ(own.code, 0) << own.output;
-        fs::remove_all(*shared_ / "cache/shaders");
     }
     static void TearDownTestSuite() { shared_.reset(); }
 
     /// A repository whose branch main has one commit: an engine that draws as `pcf`.
     void SetUp() override {
         fs::create_directories(repository_ + "/shadows");
-        fs::copy(*shared_ / "cache", folder_ / "cache", fs::copy_options::recursive);
         write("shadows/tiny.toml", tinyScene());
         write("shadows/engine.toml",
               "[[renderer]]\nid = \"engine\"\ncommand = [\"sh\", \"render.sh\", \"{frames}\", \"{out}\", \"{scene}\"]\n");
@@ -65,7 +63,7 @@ protected:
     void commit(const std::string& what) const { ASSERT_EQ(git("commit -q -a -m '" + what + "'").code, 0); }
     [[nodiscard]] std::string command(const std::string& more) const {
         return "cd " + repository_ + " && unset GITHUB_BASE_REF CI_MERGE_REQUEST_DIFF_BASE_SHA; " + more +
-               " shadowbench ci --quiet --cache " + (folder_ / "cache") + " --out " + (folder_ / "out");
+               " shadowbench ci --quiet --cache " + folder_.cache() + " --out " + (folder_ / "out");
     }
     [[nodiscard]] Outcome ci(const std::string& options = "", const std::string& before = "") const {
         return shell(command(before) + " " + options);

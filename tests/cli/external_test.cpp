@@ -37,7 +37,7 @@ protected:
     static std::string own_() { return *shared_ / "own"; }
     static std::string images() { return own_() + "/images/tiny/pcf"; }
     static std::string scene() { return shared_->write("tiny.toml", tinyScene()); }
-    static std::string options() { return " --cache " + (*shared_ / "cache"); }
+    static std::string options() { return " --cache " + shared_->cache(); }
     static std::string copies() { return "cp " + images() + "/frame-*.exr {out}"; }
 
     [[nodiscard]] Outcome run(const std::string& more) const {

@@ -12,7 +12,7 @@ namespace {
 class Gate : public ::testing::Test {
 protected:
     [[nodiscard]] Outcome run(const std::string& out, const std::string& more) const {
-        return shell("shadowbench run --quiet --scene " + scene_ + " --cache " + (folder_ / "cache") + " --out " +
+        return shell("shadowbench run --quiet --scene " + scene_ + " --cache " + folder_.cache() + " --out " +
                      (folder_ / out) + " " + more);
     }
     [[nodiscard]] std::vector<Record> records(const std::string& out) const {
@@ -68,9 +68,8 @@ TEST_F(Gate, LevelsOfDetailAreCountedToo) {
 }
 
 TEST_F(Gate, WithoutValgrindAnInstructionCountIsInconclusive) {
-    const Outcome outcome =
-        shell("PATH=/nowhere " + std::string(PROGRAM) + " run --quiet --scene " + scene_ + " --cache " +
-              (folder_ / "cache") + " --out " + (folder_ / "out") + " --technique none --cost instructions");
+    const Outcome outcome = shell("PATH=/nowhere " + std::string(PROGRAM) + " run --quiet --scene " + scene_ + " --cache " +
+                                  folder_.cache() + " --out " + (folder_ / "out") + " --technique none --cost instructions");
     EXPECT_EQ(outcome.code, 5);
     EXPECT_NE(outcome.output.find("apt-get install valgrind"), std::string::npos) << outcome.output;
 }

@@ -18,7 +18,7 @@ class GateVerb : public ::testing::Test {
 protected:
     /// `--bounds` is empty unless `more` names another.
     [[nodiscard]] std::string command(const std::string& base, const std::string& more) const {
-        std::string words = "shadowbench gate --quiet --scene " + scene_ + " --cache " + (folder_ / "cache") + " --out " +
+        std::string words = "shadowbench gate --quiet --scene " + scene_ + " --cache " + cache_ + " --out " +
                             (folder_ / "out") + " --bounds " + bounds_ + " " + more;
         return base.empty() ? words : words + " --base " + base;
     }
@@ -26,13 +26,14 @@ protected:
 
     /// Records of a run, as a base.
     [[nodiscard]] std::string recorded(const std::string& techniques) const {
-        const Outcome outcome = shell("shadowbench run --quiet --cost none --scene " + scene_ + " --cache " +
-                                      (folder_ / "cache") + " --out " + (folder_ / "base") + " " + techniques);
+        const Outcome outcome = shell("shadowbench run --quiet --cost none --scene " + scene_ + " --cache " + cache_ +
+                                      " --out " + (folder_ / "base") + " " + techniques);
         EXPECT_EQ(outcome.code, 0) << outcome.output;
         return folder_ / "base/results.jsonl";
     }
 
     Folder folder_;
+    std::string cache_ = folder_.cache();
     std::string scene_ = folder_.write("tiny.toml", tinyScene());
     std::string bounds_ = folder_.write("bounds.toml", "");
 };
@@ -160,18 +161,19 @@ TEST_F(GateVerb, BoundsAndExpectedFailuresAreJudgedWhateverTheBaseIs) {
     folder_.write("broken.toml", bound + "below = 0.5\n");
     const std::string base = recorded("--technique none");
     const std::string more = "--technique none --cost none --bounds ";
-    EXPECT_EQ(shell("shadowbench gate --quiet --scene " + scene_ + " --cache " + (folder_ / "cache") + " --out " +
-                    (folder_ / "out") + " --same-program --base " + base + " " + more + (folder_ / "kept.toml"))
+    EXPECT_EQ(shell("shadowbench gate --quiet --scene " + scene_ + " --cache " + cache_ + " --out " + (folder_ / "out") +
+                    " --same-program --base " + base + " " + more + (folder_ / "kept.toml"))
                   .code,
               0);
     const Outcome broken =
-        shell("shadowbench gate --quiet --scene " + scene_ + " --cache " + (folder_ / "cache") + " --out " +
-              (folder_ / "out") + " --same-program --base " + base + " " + more + (folder_ / "broken.toml"));
+        shell("shadowbench gate --quiet --scene " + scene_ + " --cache " + cache_ + " --out " + (folder_ / "out") +
+              " --same-program --base " + base + " " + more + (folder_ / "broken.toml"));
     EXPECT_EQ(broken.code, 4) << broken.output;
     EXPECT_NE(broken.output.find("must be below 0.5: test"), std::string::npos) << broken.output;
 }
 
 TEST_F(GateVerb, WithoutABaseAToolOrATruthItIsInconclusive) {
+    cache_ = folder_ / "empty";
     for (const char* base : {"", "no-such-thing"}) {
         const Outcome outcome = gate(base, "--technique none --cost none");
         EXPECT_EQ(outcome.code, 5) << outcome.output;

@@ -21,7 +21,7 @@ protected:
     [[nodiscard]] Outcome run(const std::string& variables, const std::string& options,
                               const std::string& out = "out") const {
         return shell("LIBGL_ALWAYS_SOFTWARE=1 " + variables + "shadowbench run --quiet --cost none --scene " + scene_ +
-                     " --out " + folder_ / out + " --cache " + folder_ / "cache" + " " + options);
+                     " --out " + folder_ / out + " --cache " + folder_.cache() + " " + options);
     }
 
     [[nodiscard]] std::vector<Record> records(const std::string& out = "out") const {

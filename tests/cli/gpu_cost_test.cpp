@@ -14,14 +14,13 @@ namespace {
 class GpuCostVerb : public testing::Test {
 protected:
     void SetUp() override {
-        const Outcome outcome = shell("shadowbench shader-cost --quiet --technique none --cache " + folder_ / "cache" +
+        const Outcome outcome = shell("shadowbench shader-cost --quiet --technique none --cache " + folder_.cache() +
                                       " --out " + folder_ / "shaders");
         if (outcome.code == 5) GTEST_SKIP() << outcome.output;
     }
 
     [[nodiscard]] Outcome asked(const std::string& words) const {
-        return shell("shadowbench gpu-cost --quiet " + words + " --cache " + folder_ / "cache" + " --out " +
-                     folder_ / "out");
+        return shell("shadowbench gpu-cost --quiet " + words + " --cache " + folder_.cache() + " --out " + folder_ / "out");
     }
 
     /// The published record of a variant on `simple`.

@@ -15,7 +15,7 @@ protected:
     }
     [[nodiscard]] Outcome ran(const std::string& scene) const {
         return shell("shadowbench run --quiet --cost none --technique none --scene " + scene + " --out " + folder_ / "run" +
-                     " --cache " + folder_ / "cache");
+                     " --cache " + folder_.cache());
     }
 
     Folder folder_;

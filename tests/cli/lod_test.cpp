@@ -12,7 +12,7 @@ protected:
     Folder folder_;
     std::string scene_ = folder_.write("walk.toml", walkScene());
     std::string out_ = folder_ / "out";
-    std::string tail_ = " --quiet --out " + out_ + " --cache " + folder_ / "cache";
+    std::string tail_ = " --quiet --out " + out_ + " --cache " + folder_.cache();
 };
 
 TEST_F(LodRun, ScoresPicturesBesideShadowsAndKeepsTheTablesApart) {

@@ -12,7 +12,7 @@ TEST(Log, ARunWithoutATerminalIsShortAndThePageHasEveryTechnique) {
     const Folder folder;
     const std::string scene = folder.write("tiny.toml", tinyScene());
     const Outcome run = shell("shadowbench run --cost none --technique 'sm-*' --scene " + scene + " --out " +
-                              folder / "out" + " --cache " + folder / "cache");
+                              folder / "out" + " --cache " + folder.cache());
     ASSERT_EQ(run.code, 0) << run.output;
     EXPECT_LE(std::ranges::count(run.output, '\n'), 20) << run.output;
     EXPECT_NE(run.output.find("least errors: 5 of "), std::string::npos) << run.output;

@@ -20,7 +20,7 @@ std::string ballScene(const std::string& light = "{ kind = \"point\", centre = [
 class Recommend : public testing::Test {
 protected:
     [[nodiscard]] Outcome recommend(const std::string& options) const {
-        return shell("shadowbench recommend --quiet --out " + folder_ / "out" + " --cache " + folder_ / "cache" + " " +
+        return shell("shadowbench recommend --quiet --out " + folder_ / "out" + " --cache " + folder_.cache() + " " +
                      options);
     }
 

@@ -20,7 +20,7 @@ protected:
         scene_ = folder_->write("tiny.toml", tinyScene());
         const Outcome run =
             shell("shadowbench run --quiet --cost none --images --technique pcf --technique sm-uniform --scene " + scene_ +
-                  " --out " + own() + " --cache " + *folder_ / "cache");
+                  " --out " + own() + " --cache " + folder_->cache());
         ASSERT_EQ(run.code, 0) << run.output;
     }
     static void TearDownTestSuite() { delete folder_; }
@@ -30,7 +30,7 @@ protected:
         return own() + "/images/tiny/" + variant + "/" + file;
     }
     static Outcome score(const std::string& options, const std::string& out = "out") {
-        return shell("shadowbench score --quiet --definition hard --scene " + scene_ + " --cache " + *folder_ / "cache" +
+        return shell("shadowbench score --quiet --definition hard --scene " + scene_ + " --cache " + folder_->cache() +
                      " --out " + *folder_ / out + " " + options);
     }
     static std::vector<Record> records(const std::string& out = "out") {

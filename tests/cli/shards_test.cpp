@@ -55,7 +55,7 @@ protected:
 
     static std::unique_ptr<Folder> truths_; // what POV-Ray takes seconds for is computed once for all tests
     Folder folder_;
-    std::string cache_ = *truths_ / "cache";
+    std::string cache_ = truths_->cache();
     std::string point_ = folder_.write("point.toml", tinyScene());
     std::string area_ = folder_.write(
         "area.toml", tinyScene("{ kind = \"rectangle\", centre = [1.7, 6.1, -2.3], u = [0.9, 0, 0], v = [0, 0, 0.9] }"));

@@ -11,7 +11,7 @@ class Sweep : public testing::Test {
 protected:
     [[nodiscard]] Outcome sweep(const std::string& options) const {
         return shell("shadowbench sweep --quiet --scene " + scene_ + " --out " + folder_ / "out" + " --cache " +
-                     folder_ / "cache" + " " + options);
+                     folder_.cache() + " " + options);
     }
     [[nodiscard]] std::vector<Record> records() const { return readRecords(folder_ / "out/sweep.jsonl"); }
 

@@ -50,7 +50,7 @@ protected:
         return shell(there() + fmt::format("export PATH={}:$PATH FOLDER=. SCENES='--scene tiny.toml' BASE={} RUNNER_TEMP={} "
                                            "GITHUB_STEP_SUMMARY={} SHADOWBENCH_CACHE={}; bash -e {}",
                                            std::filesystem::path(PROGRAM).parent_path().string(), base, folder_ / "temp",
-                                           folder_ / "summary.md", folder_ / "cache", script));
+                                           folder_ / "summary.md", folder_.cache(), script));
     }
 
     Folder folder_;

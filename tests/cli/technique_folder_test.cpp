@@ -18,7 +18,7 @@ protected:
 
     [[nodiscard]] std::string command(const std::string& more) const {
         return "shadowbench run --scene " + out_ / "tiny.toml" + " --technique-folder " + mine_.path().string() +
-               " --cache " + out_ / "cache" + " --out " + out_ / "out" + " --quiet " + more;
+               " --cache " + out_.cache() + " --out " + out_ / "out" + " --quiet " + more;
     }
     Outcome run(const std::string& more = "") const { return shell(command(more)); }
     [[nodiscard]] std::vector<Record> records() const { return readRecords(out_ / "out/results.jsonl"); }
@@ -97,7 +97,7 @@ TEST_F(TechniqueFolderRun, TheGateJudgesItsRowsAgainstRecordsOfBefore) {
     EXPECT_EQ(run("--cost none").code, 0);
     const auto gate = [&] {
         return shell("shadowbench gate --same-program --cost none --scene " + out_ / "tiny.toml" + " --technique-folder " +
-                     mine_.path().string() + " --base " + out_ / "out/results.jsonl" + " --cache " + out_ / "cache" +
+                     mine_.path().string() + " --base " + out_ / "out/results.jsonl" + " --cache " + out_.cache() +
                      " --out " + out_ / "gate");
     };
     const Outcome same = gate();
@@ -144,7 +144,7 @@ TEST_F(TechniqueFolderRun, AShaderThatHangsAtSomeValuesOfASweepIsALineForEachAnd
     const Outcome outcome =
         shell("SHADOWBENCH_MAX_CELL_SECONDS=2 shadowbench sweep --quiet --scene " + out_ / "tiny.toml" +
               " --technique my:mine --technique sm-uniform --axis map --values 256,512 --technique-folder " +
-              mine_.path().string() + " --cache " + out_ / "cache" + " --out " + (out_ / "out"));
+              mine_.path().string() + " --cache " + out_.cache() + " --out " + (out_ / "out"));
     EXPECT_EQ(outcome.code, 1) << outcome.output;
     const std::vector<Record> swept = readRecords(out_ / "out/sweep.jsonl");
     ASSERT_EQ(swept.size(), 4U);

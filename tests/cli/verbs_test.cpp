@@ -105,12 +105,13 @@ TEST(CommandLine, ListWritesAPageForEachTechnique) {
 class Run : public testing::Test {
 protected:
     [[nodiscard]] std::string command(const std::string& options) const {
-        return "shadowbench run --quiet --scene " + scene_ + " --out " + folder_ / "out" + " --cache " + folder_ / "cache" +
-               " " + options;
+        return "shadowbench run --quiet --scene " + scene_ + " --out " + folder_ / "out" + " --cache " + cache_ + " " +
+               options;
     }
     [[nodiscard]] std::vector<Record> records() const { return readRecords(folder_ / "out/results.jsonl"); }
 
     Folder folder_;
+    std::string cache_ = folder_.cache();
     std::string scene_ = folder_.write("tiny.toml", tinyScene());
 };
 
@@ -221,9 +222,10 @@ TEST_F(Run, ScoresAreTheSameHoweverManyProcessesShareThem) {
 }
 
 TEST_F(Run, ADamagedCacheEntryIsReplaced) {
+    cache_ = folder_ / "own";
     ASSERT_EQ(shell(command("--technique none")).code, 0);
     const double mismatch = *records()[0].values["accuracy.mismatch"];
-    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "cache"))
+    for (const auto& entry : fs::recursive_directory_iterator(cache_))
         if (entry.is_regular_file()) fs::resize_file(entry.path(), fs::file_size(entry.path()) / 2);
     const Outcome again = shell(command("--technique none"));
     EXPECT_EQ(again.code, 0);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <sys/wait.h>
 
 namespace shadowbench {
@@ -38,6 +39,23 @@ inline Outcome shell(std::string command) {
 class Folder {
 public:
     [[nodiscard]] std::string operator/(const std::string& name) const { return (folder_.path() / name).string(); }
+
+    /// A cache of its own, but for truths and the machine code of shaders: those lie with what other tests have computed.
+    /// Tests of the cache itself, and of what is said while truths are computed, take an empty folder.
+    [[nodiscard]] std::string cache() const {
+        namespace fs = std::filesystem;
+        const fs::path own = folder_.path() / "cache", shared = fs::temp_directory_path();
+        const auto link = [&](const std::string& name, const fs::path& to) {
+            fs::create_directories(to);
+            if (!fs::is_symlink(own / name)) fs::create_directory_symlink(to, own / name);
+        };
+        fs::create_directories(own);
+        link("shaders", shared / "shadowbench-test-shaders");
+        constexpr std::string_view digits = "0123456789abcdef"; // of the folders of a cache (groundtruth/store/cache.cpp)
+        for (const char high : digits)
+            for (const char low : digits) link({high, low}, shared / "shadowbench-test-references" / std::string{high, low});
+        return own.string();
+    }
 
     std::string write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_.path() / name) << text;

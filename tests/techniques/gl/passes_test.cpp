@@ -9,9 +9,11 @@
 #include "tests/support/test_names.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace shadowbench {
 namespace {
@@ -87,14 +89,16 @@ TEST_P(EveryTechnique, HasPassesThatAddUpToItsFrame) {
     expectSum(passesOf(stage, GetParam()), whole);
 }
 
-/// All of the catalogue, with small maps where they have maps.
+/// All of the catalogue, with small maps and few points of a transfer where they have these.
 std::vector<std::string> shadowTechniques() {
     std::vector<std::string> variants;
     for (const techniques::Entry& entry : techniques::catalog()) {
         if (!entry.make) continue;
-        const bool mapped =
-            std::ranges::find(entry.parameters, "map", &techniques::Parameter::name) != entry.parameters.end();
-        variants.push_back(mapped ? entry.id + ":map=128" : entry.id);
+        std::string variant = entry.id;
+        for (const auto& [parameter, value] : {std::pair("map", 128), std::pair("points", 256)})
+            if (std::ranges::count(entry.parameters, parameter, &techniques::Parameter::name) > 0)
+                variant += fmt::format("{}{}={}", variant == entry.id ? ':' : ',', parameter, value);
+        variants.push_back(variant);
     }
     return variants;
 }
@@ -132,7 +136,7 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"sampled-maps", {"G-buffer", "depth map", "shadow test", "resolve"}},
         {"linear-visibility",
          {"G-buffer", "depth map", "depth discontinuities", "visibility map", "shadow test", "resolve"}},
-        {"layered-attenuation", {"G-buffer", "resolve"}}, // its map was built in an earlier frame
+        {"layered-attenuation:map=128", {"G-buffer", "resolve"}}, // its map was built in an earlier frame
         {"soft-alias-free", {"G-buffer", "pixel lists", "triangle tests", "resolve"}},
         {"temporal-soft", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}},
         {"temporal-sampling", {"G-buffer", "overscan G-buffer", "depth map", "temporal resolve", "crop"}}};
@@ -143,7 +147,7 @@ TEST(Passes, UnderASkyHaveTheNamesOfTheField) {
     const Scene scene = skyScene();
     Stage stage(scene);
     stage.show(0);
-    for (const std::string variant : {"prt-sh", "prt-sh:compression=clustered", "prt-haar:resolution=16"})
+    for (const std::string variant : {"prt-sh:points=256", "prt-sh:compression=clustered,points=256", "prt-haar:points=256"})
         EXPECT_EQ(namesOf(passesOf(stage, variant)), (std::vector<std::string>{"G-buffer", "dot products", "lookup"}));
 }
 
