@@ -132,8 +132,8 @@ private:
             for (const Renderer& renderer : renderers_)
                 if (failure.covers(scene.id, renderer.id) && fits(scene, renderer)) return;
         }
-        throw BadInput(fmt::format("{}: no renderer \"{}\" is called on a scene \"{}\"; the scenes are {}", failure.where,
-                                   failure.renderer, failure.scene, fmt::join(ids, ", ")));
+        throw BadInput(fmt::format("{}: no renderer {} is called on a scene \"{}\"; the scenes are {}", failure.where,
+                                   fmt::join(failure.renderers, ", "), failure.scene, fmt::join(ids, ", ")));
     }
 
     void judge(KnownScene& known, const Renderer& renderer) {

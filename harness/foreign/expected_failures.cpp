@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "base/toml_value.h"
 
+#include <algorithm>
 #include <fnmatch.h>
 
 namespace shadowbench::foreign {
@@ -18,7 +19,8 @@ std::string sentenceIn(const TomlValue& entry, const char* key) {
 } // namespace
 
 bool ExpectedFailure::covers(const std::string& on, const std::string& row) const {
-    return scene == on && fnmatch(renderer.c_str(), row.c_str(), 0) == 0;
+    const auto isMeant = [&](const std::string& id) { return fnmatch(id.c_str(), row.c_str(), 0) == 0; };
+    return scene == on && std::ranges::any_of(renderers, isMeant);
 }
 
 std::vector<ExpectedFailure> readExpectedFailures(const std::filesystem::path& file) {
@@ -27,13 +29,15 @@ std::vector<ExpectedFailure> readExpectedFailures(const std::filesystem::path& f
     const auto list = TomlValue(source, "", root).find("expect");
     std::vector<ExpectedFailure> all;
     if (!list) return all;
-    for (const TomlValue& of : list->list()) {
-        of.only({"scene", "fails"});
-        for (const TomlValue& entry : of.get("fails").list()) {
-            entry.only({"renderer", "says", "reason"});
-            all.push_back({of.get("scene").text(), sentenceIn(entry, "renderer"), sentenceIn(entry, "says"),
-                           sentenceIn(entry, "reason"), entry.where()});
-        }
+    for (const TomlValue& entry : list->list()) {
+        entry.only({"scene", "renderers", "says", "reason"});
+        ExpectedFailure failure{.scene = entry.get("scene").text(),
+                                .renderers = {},
+                                .says = sentenceIn(entry, "says"),
+                                .reason = sentenceIn(entry, "reason"),
+                                .where = entry.where()};
+        for (const TomlValue& id : entry.get("renderers").list()) failure.renderers.push_back(id.text());
+        all.push_back(std::move(failure));
     }
     return all;
 }

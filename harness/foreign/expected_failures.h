@@ -7,11 +7,11 @@
 
 namespace shadowbench::foreign {
 
-/// A row that fails on a scene of `check`.
+/// Rows that fail on a scene of `check`.
 struct ExpectedFailure {
     std::string scene;
-    std::string renderer; // an id, or a glob over ids
-    std::string says;     // part of what `check` says of it: another failure is none that is known
+    std::vector<std::string> renderers; // ids, or globs over ids
+    std::string says;                   // part of what `check` says of them: another failure is none that is known
     std::string reason;
     std::string where; // "file:line: key", for errors
 

@@ -188,8 +188,8 @@ TEST_F(RenderersFile, SaysWhyItIsRetiredAndWhatIsExpectedToFail) {
     const std::string entry = "[[renderer]]\nid = \"a\"\ncommand = [\"x\", \"{scene}\", \"{out}\"]\n";
     const std::string client =
         "[client]\nengine = \"Mine\"\nversion = \"4\"\nmaintainer = \"me\"\nretired = \"gone, 2027\"\n";
-    const std::string fails = "[[expect]]\nscene = \"sun\"\nfails = [{ renderer = \"a*\", says = \"no shadow\", reason = ";
-    read(client + entry + fails + "\"it ends\" }]\n");
+    const std::string fails = "[[expect]]\nscene = \"sun\"\nrenderers = [\"a*\"]\nsays = \"no shadow\"\nreason = ";
+    read(client + entry + fails + "\"it ends\"\n");
     EXPECT_EQ(readClient(file())->retired, "gone, 2027");
     const auto failures = readExpectedFailures(file());
     ASSERT_EQ(failures.size(), 1U);
@@ -199,7 +199,7 @@ TEST_F(RenderersFile, SaysWhyItIsRetiredAndWhatIsExpectedToFail) {
     EXPECT_FALSE(failures[0].covers("sun", "b"));
     read(entry);
     EXPECT_TRUE(readExpectedFailures(file()).empty());
-    read(entry + fails + "\"\" }]\n");
+    read(entry + fails + "\"\"\n");
     EXPECT_THROW(readExpectedFailures(file()), BadInput);
 }
 
