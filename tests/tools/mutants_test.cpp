@@ -4,8 +4,10 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/temporary_folder.h"
+#include "gate/reach.h"
 #include "scene/load/load.h"
 #include "techniques/catalog.h"
+#include "techniques/variant_name.h"
 #include "tests/support/records_examples.h"
 #include "tools/mutants/outcome.h"
 #include "tools/mutants/sources.h"
@@ -53,6 +55,29 @@ TEST(Mutants, EveryOneCanBePlantedAndChangesItsFile) {
     for (const Mutant& mutant : all()) {
         const std::string source = readFile(root / mutant.file);
         EXPECT_NO_THROW(EXPECT_NE(planted(mutant, source), source) << mutant.id) << mutant.id;
+    }
+}
+
+/// The unit that holds a file: the folder of a technique, the file itself, or "*".
+std::string unitOf(const std::string& file, const std::set<std::string>& units) {
+    const std::string name = file.starts_with("techniques/") ? file.substr(std::string("techniques/").size()) : file;
+    for (const std::string& unit : units)
+        if (name == unit || name.starts_with(unit + "/")) return unit;
+    return "*";
+}
+
+TEST(Mutants, EveryOneIsPlantedWhereTheGateMeasuresWhatFindsIt) {
+    std::set<std::string> units;
+    for (const techniques::Entry& entry : techniques::catalog())
+        for (const std::string& scene : builtinScenes()) units.merge(gate::Reach::own().units(entry.id, scene));
+    for (const Mutant& mutant : all()) {
+        if (mutant.means != Means::Gate && mutant.means != Means::Refusal) continue;
+        for (const std::string& variant : mutant.techniques) {
+            const std::string scene = mutant.scenes.empty() ? "trees" : mutant.scenes.front();
+            const std::set<std::string> reached =
+                gate::Reach::own().units(std::string(techniques::idOfVariant(variant)), scene);
+            EXPECT_TRUE(reached.contains(unitOf(mutant.file, units))) << mutant.id << ": " << variant;
+        }
     }
 }
 
