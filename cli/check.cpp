@@ -1,5 +1,6 @@
 #include "gate/check/check.h"
 
+#include "base/error.h"
 #include "base/one_line.h"
 #include "cli/command.h"
 #include "cli/options.h"
@@ -54,6 +55,9 @@ void addCheck(CLI::App& app, Action& action) {
             action = [list] { return gate::checkRenderers(list, print); };
             return;
         }
+        if (fs::is_directory(*folder) && !fs::exists(*folder / "technique.toml"))
+            throw BadInput(fmt::format("{} holds neither a technique.toml, of a technique, nor a client.toml, of renderers",
+                                       folder->string()));
         techniques::addTechniqueFolder(*folder);
         action = [folder, cache] {
             const ExitCode code =

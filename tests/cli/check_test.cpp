@@ -132,6 +132,9 @@ TEST_F(CheckOfFolder, WhatCannotBeReadOrCompiledIsOneLineBeforeAnythingIsDrawn) 
     std::filesystem::remove(mine_.path() / "expect.toml");
     mine_.write("resolve.frag", replaced(mapShader, "receiver.seen ?", "receiver.sen ?"));
     refused("resolve.frag:8: ");
+    std::filesystem::remove(mine_.path() / "technique.toml");
+    EXPECT_EQ(check().output, "shadowbench: " + mine_.path().string() +
+                                  " holds neither a technique.toml, of a technique, nor a client.toml, of renderers\n");
 }
 
 /// With the truths of the scenes that other tests have left.
