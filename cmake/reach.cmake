@@ -5,7 +5,7 @@
 # their ids. Needs digest_of() and ${rooms} of version.cmake.
 set(shader "\\.(comp|frag|glsl|vert)")
 # A cell is not measured by these; whatever is not named here counts for all cells.
-set(unmeasured "^(gate|history|report|site)/|^studies/(behaviour|causes|claims|develop|gpu_cost|papers|recommend|shader_cost)/"
+set(unmeasured "^(gate|gpu|history|report|site|harness/foreign)/|^studies/(behaviour|causes|claims|develop|gpu_cost|papers|recommend|shader_cost)/"
     "|^cli/(cache|causes|check|ci|claims|compare|completion|count_frames|develop|documents|export|figure|gate|gate_result|gpu_cost|history|inspect"
     "|list|manual_page|merge|new_technique|papers|recommend|reference[a-z_]*|report|score|shader_cost|time_frames|written_report)\\.")
 string(CONCAT unmeasured ${unmeasured})
