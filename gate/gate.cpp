@@ -102,7 +102,7 @@ private:
         const std::vector<Step> steps = cells_.steps(base, options_.instructions);
         const Measured measured = measureSteps(base, "base", steps);
         const std::vector<Record> before = measured.records();
-        const std::vector<Record> now = measureReached(head, KnownCells(base.build(), head.build(), steps, measured));
+        const std::vector<Record> now = measureReached(head, KnownCells(reachable(base), head.build(), steps, measured));
         judgeRecords(before, now, &base);
         if (const auto why = whyMeaningless(before, now, true)) result_.notCompared.push_back(*why);
         if (options_.time) judgeTimes(base, head);
@@ -157,6 +157,12 @@ private:
             fmt::format("commits {} and {} make the same program with the same policy: nothing was measured",
                         before->commit.substr(0, 12), now->commit.substr(0, 12)));
         return true;
+    }
+
+    /// What a head can differ in from the base. Where one program is meant on both sides nothing is taken for known: whether
+    /// it measures the same is the question.
+    std::optional<BuildInfo> reachable(const MeasuredProgram& base) const {
+        return options_.sameProgram ? std::nullopt : base.build();
     }
 
     void unitePolicies(const MeasuredProgram& base) {
@@ -252,7 +258,7 @@ private:
         std::vector<TimedCell> cells = cells_.timedCells(base, head);
         const std::size_t all = cells.size();
         std::erase_if(cells, [&](const TimedCell& cell) {
-            return isKnown(base.build(), head.build(), cell.variant, sceneId(cell.scene));
+            return isKnown(reachable(base), head.build(), cell.variant, sceneId(cell.scene));
         });
         if (all > cells.size())
             result_.notes.push_back(fmt::format(
