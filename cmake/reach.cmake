@@ -2,7 +2,7 @@
 #   NAME HASH USED …
 # A unit is the folder of a technique, a shader outside of these, or a built-in scene; "*" is everything else that a measurement is built from.
 # It uses the units whose names its files write out, as #include, shader and path do. "*" also uses the techniques that it asks for by
-# their ids. Needs digest_of() and ${rooms} of version.cmake.
+# their ids. Needs ROOT, COMPILER, and the rooms and `beside` of version.cmake.
 set(shader "\\.(comp|frag|glsl|vert)")
 # A cell is not measured by these; whatever is not named here counts for all cells.
 set(unmeasured "^(gate|gpu|history|report|site|harness/foreign)/|^studies/(behaviour|causes|claims|develop|gpu_cost|papers|recommend|shader_cost)/"
@@ -16,7 +16,7 @@ function(units_named result words)
   list(TRANSFORM words REPLACE "^techniques/" "")
   list(REMOVE_DUPLICATES words)
   foreach(word IN LISTS words)
-    if(word MATCHES "^([a-z]+/[a-z0-9-]+)/" AND CMAKE_MATCH_1 IN_LIST folders)
+    if(word MATCHES "^([a-z]+/[a-z0-9-]+)(/|$)" AND CMAKE_MATCH_1 IN_LIST folders)
       list(APPEND named ${CMAKE_MATCH_1})
     elseif(word IN_LIST shared)
       list(APPEND named ${word})

@@ -113,6 +113,14 @@ TEST_F(SmallTree, AChangeReachesTheTechniquesThatItsSourceCanDecide) {
     }
 }
 
+TEST_F(SmallTree, ATechniqueThatHasTheParametersOfAnotherUsesItsFolder) {
+    fs::remove(folder_.path() / "tree/techniques/filtered/pcf/pcf.cpp");
+    write("techniques/filtered/pcf/technique.toml", "parameters_of = \"maps/sm-two\"");
+    const Reach before = reach();
+    write("techniques/maps/sm-two/technique.toml", "another default");
+    EXPECT_EQ(changed(before, reach()), "sm-two pcf");
+}
+
 TEST_F(SmallTree, ASceneIsReachedByItsFileAndAllByTheCompilerAndANewRoom) {
     const Reach before = reach();
     EXPECT_EQ(changed(before, reach("gcc 13")), all);
