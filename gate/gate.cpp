@@ -199,10 +199,9 @@ private:
         if (split.known > 0) {
             const Measured measured = measureSteps(head, "head", split.steps);
             if (const auto cell = known.contradicted(split.steps, measured))
-                result_.notCompared.push_back(
-                    fmt::format("{} is another result than the base's though nothing that can decide it has changed: "
-                                "everything was measured",
-                                *cell));
+                result_.notCompared.push_back(fmt::format(
+                    "{} differs from the base, though nothing that can decide it has changed: everything was measured",
+                    *cell));
             else {
                 for (const Step& step : open) {
                     const std::vector<Record> records = known.whole(step, split.steps, measured);
@@ -210,8 +209,8 @@ private:
                         head.keep(step, records);
                 }
                 result_.notes.push_back(fmt::format(
-                    "{} of {} results of the head are the base's, for nothing that can decide them has changed; {} of these "
-                    "were measured all the same and are",
+                    "{} of {} results are taken from the base: nothing that can decide them has changed. Of these, {} were "
+                    "measured again as a check and equal the base's",
                     split.known, split.known + split.reached, split.sampled));
             }
         }

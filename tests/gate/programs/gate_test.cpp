@@ -36,8 +36,8 @@ TEST_F(GateOfStandIns, ResultsThatNoChangeCanHaveReachedAreTheBases) {
     head_.measures({headRecord(small), headRecord(large), leaking(headRecord("none"))});
     const GateResult result = gate(options_);
     EXPECT_EQ(result.code(), ExitCode::AccuracyRegression) << notCompared(result);
-    EXPECT_TRUE(has(result.notes, "2 of 3 results of the head are the base's")) << all(result.notes);
-    EXPECT_TRUE(has(result.notes, "1 of these were measured all the same"));
+    EXPECT_TRUE(has(result.notes, "2 of 3 results are taken from the base")) << all(result.notes);
+    EXPECT_TRUE(has(result.notes, "Of these, 1 were measured again as a check"));
     const std::string calls = readFile(folder_.path() / "head/calls");
     EXPECT_NE(calls.find("--technique none"), std::string::npos);
     EXPECT_NE(calls.find(small) == std::string::npos, calls.find(large) == std::string::npos) << "one of both is the sample";
@@ -59,7 +59,7 @@ TEST_F(GateOfStandIns, AKnownResultThatIsAnotherMakesTheGateInconclusiveAndAllIs
     head_.measures({leaking(headRecord(small)), leaking(headRecord(large))});
     const GateResult result = gate(options_);
     EXPECT_EQ(result.code(), ExitCode::Inconclusive);
-    EXPECT_TRUE(has(result.notCompared, "on tiny is another result than the base's")) << all(result.notCompared);
+    EXPECT_TRUE(has(result.notCompared, "on tiny differs from the base")) << all(result.notCompared);
     for (const Record& record : readRecords(path("out") + "/results.jsonl"))
         EXPECT_EQ(record.values["accuracy.leak"], 0.1) << record.variant;
 }
