@@ -5,6 +5,7 @@
 #include "base/faults.h"
 #include "base/interrupts.h"
 #include "base/parallel.h"
+#include "base/trace.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -172,6 +173,7 @@ public:
 
     /// Lets it end once it has left, and says how it did.
     std::string finish() {
+        const Span span("setup", "end of a worker");
         sendAll(socket(), &noMore, sizeof noMore);
         const int status = end(0);
         return WIFSIGNALED(status) ? fmt::format("was killed by signal {}", WTERMSIG(status))

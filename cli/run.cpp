@@ -1,6 +1,7 @@
 #include "harness/runs/run.h"
 
 #include "base/folder_lock.h"
+#include "base/trace.h"
 #include "cli/command.h"
 #include "cli/options.h"
 #include "cli/run_result.h"
@@ -72,7 +73,9 @@ bool namesRows(const std::vector<std::string>& techniques) {
 
 ExitCode runAndPrint(const RunOptions& options, bool standing) {
     const OutputLock alone(options.out); // the records of two runs at once would replace each other
-    return reportResult(run(options), options.out, {.standing = standing, .everyRow = namesRows(options.techniques)});
+    const RunResult result = run(options);
+    const Span span("files", "pages");
+    return reportResult(result, options.out, {.standing = standing, .everyRow = namesRows(options.techniques)});
 }
 
 } // namespace
@@ -86,6 +89,7 @@ void addRun(CLI::App& app, Action& action) {
     const auto external = std::make_shared<std::vector<std::filesystem::path>>();
     const auto revision = std::make_shared<std::string>();
     const auto part = std::make_shared<PartOptions>();
+    const auto traced = std::make_shared<std::filesystem::path>();
     CLI::App* verb = app.add_subcommand("run", "Renders and scores cells: scenes × techniques");
     verb->footer(
         "Examples:\n  shadowbench run\n  shadowbench run --scene dueling-frusta --technique 'sm-*' --technique "
@@ -149,9 +153,14 @@ void addRun(CLI::App& app, Action& action) {
         verb->add_flag("--manifest", part->manifest, "Measure nothing; write manifest.jsonl: what parts would measure");
     shard->excludes(cell, manifest);
     cell->excludes(manifest);
+    verb->add_option("--trace", *traced,
+                     "File that says where the run's time goes, by process and cell, for https://ui.perfetto.dev or "
+                     "chrome://tracing");
     verb->add_flag("--quiet", options->quiet, "No progress");
-    verb->callback([&action, options, profile, cost, images, standing, external, revision, part] {
-        action = [options, profile, cost, images, standing, external, revision, part] {
+    verb->callback([&action, options, profile, cost, images, standing, external, revision, part, traced] {
+        action = [options, profile, cost, images, standing, external, revision, part, traced] {
+            std::optional<Trace> trace;
+            if (!traced->empty()) trace.emplace(*traced);
             options->measure.external = foreign::renderersOf(*external, {options->out / "logs", *revision});
             options->profile = profileNamed(*profile);
             options->measure.time = std::find(cost->begin(), cost->end(), "time") != cost->end();

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/limits.h"
+#include "base/trace.h"
 #include "harness/cells/environment.h"
 #include "harness/cells/image_scores.h"
 #include "harness/measure/changed_cost.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <csignal>
 #include <fmt/format.h>
+#include <memory>
 
 namespace shadowbench {
 namespace {
@@ -29,10 +31,16 @@ int firstFrame(const SceneFrames& frames, const techniques::Entry& entry) {
 }
 
 void measureAliasing(const techniques::Technique& technique, SceneFrames& frames, const Mask& mask, Record& record) {
+    const Span span("metrics", "aliasing");
     const metrics::MapPoint mapPoint = [&](const glm::dvec3& world) { return technique.mapPoint(world); };
     const metrics::MappedFrame frame{frames.stage().shown().camera, frames.drawn().position, frames.stage().normals(), mask,
                                      mapPoint};
     metrics::compute<metrics::OfMap>(frame, record.values);
+}
+
+std::unique_ptr<techniques::Technique> made(const techniques::Variant& variant) {
+    const Span span("setup", "technique");
+    return variant.entry->make(variant.parameters);
 }
 
 /// By what the variant's images are scored.
@@ -135,7 +143,7 @@ void scoreCell(SceneFrames& frames, const techniques::Variant& variant, std::uin
     frames.show(firstFrame(frames, *variant.entry));
     gl::Tally& tally = gl::Context::current().tally();
     const std::uint64_t bytesBefore = tally.bytes;
-    const auto technique = variant.entry->make(variant.parameters);
+    const auto technique = made(variant);
 
     ImageScores scores(
         frames, scoringRuleOf(scene, variant), [&](Truth truth) -> const Mask& { return frames.mask(truth); }, variant.name);
@@ -198,7 +206,7 @@ int renderScored(SceneFrames& frames, const techniques::Entry& entry, techniques
 }
 
 std::optional<double> scoredError(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Truth truth) {
-    const auto technique = variant.entry->make(variant.parameters);
+    const auto technique = made(variant);
     renderScored(frames, *variant.entry, *technique, seed);
     return errorBy(truth, {frames.stage().visibility(), frames.truth(truth), frames.mask(truth)});
 }
@@ -207,7 +215,7 @@ void splitErrorOverSeeds(SceneFrames& frames, const techniques::Variant& variant
                          const Image<float>& v, Record& record) {
     std::vector<Image<float>> images{v};
     for (int i = 1; i < seeds; ++i) {
-        const auto technique = variant.entry->make(variant.parameters);
+        const auto technique = made(variant);
         renderScored(frames, *variant.entry, *technique, seed + static_cast<std::uint32_t>(i));
         images.push_back(frames.stage().visibility());
         if (i == 1 && std::ranges::equal(images[0], images[1])) return;

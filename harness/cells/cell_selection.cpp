@@ -1,6 +1,7 @@
 #include "harness/cells/cell_selection.h"
 
 #include "base/error.h"
+#include "base/trace.h"
 #include "base/words.h"
 #include "harness/cells/external_techniques.h"
 #include "harness/metrics/table.h"
@@ -44,6 +45,7 @@ std::vector<std::string> allPatterns(const ExternalTechniques* external) {
 
 std::vector<techniques::Variant> chosenVariants(const std::vector<std::string>& patterns,
                                                 const ExternalTechniques* external) {
+    const Span span("setup", "techniques");
     std::vector<techniques::Variant> variants;
     for (const std::string& pattern : patterns.empty() ? allPatterns(external) : patterns)
         for (techniques::Variant& variant : matching(pattern, external)) {
@@ -59,6 +61,7 @@ std::vector<std::string> chosenSceneNames(const std::vector<std::string>& names)
 }
 
 std::vector<Scene> chosenScenes(const std::vector<std::string>& names, Profile profile) {
+    const Span span("setup", "scenes");
     std::vector<Scene> scenes;
     for (const std::string& name : chosenSceneNames(names))
         scenes.push_back(loadScene(name, profile, metrics::boundedMetrics()));

@@ -1,6 +1,7 @@
 #include "harness/cells/image_scores.h"
 
 #include "base/error.h"
+#include "base/trace.h"
 #include "groundtruth/area_comparison.h"
 #include "harness/metrics/frames.h"
 #include "harness/metrics/pixels.h"
@@ -219,6 +220,7 @@ ImageScores::ImageScores(SceneFrames& frames, const ScoringRule& rule, Receivers
 ImageScores::~ImageScores() = default;
 
 void ImageScores::add(int frame, const Image<float>& v, Record& record) {
+    const Span span("metrics", "frame");
     shown_.add(v.data(), v.size() * sizeof(float));
     const Mask& mask = alignedMask(receivers_, rule_.truth, frame);
     requireAnswers(v, mask, variant_, frame);
@@ -245,12 +247,16 @@ void ImageScores::addTruths(int frame) {
 }
 
 void ImageScores::finish(Record& record) const {
+    const Span span("metrics", "sequence");
     sequences_->moving.finish<metrics::OfMovingFrames>(record.values);
     sequences_->movingAreas.finish<metrics::OfMovingAreas>(record.values);
     record.images = shown_.digest().text();
     record.truths = truths_.digest().text();
 }
 
-std::vector<Image<float>> ImageScores::flickerMaps() const { return sequences_->movingAreas.flickerMaps(); }
+std::vector<Image<float>> ImageScores::flickerMaps() const {
+    const Span span("metrics", "flicker");
+    return sequences_->movingAreas.flickerMaps();
+}
 
 } // namespace shadowbench

@@ -1,5 +1,6 @@
 #include "harness/cells/scene_cells.h"
 
+#include "base/trace.h"
 #include "harness/cells/cell_images.h"
 #include "harness/cells/external_techniques.h"
 #include "harness/cells/kept_images.h"
@@ -46,6 +47,7 @@ std::optional<std::string> SceneCells::notApplicable(const techniques::Variant& 
 }
 
 std::string SceneCells::id(const techniques::Variant& variant) const {
+    const Span span("truth", "keys");
     if (isExternal(variant)) return options_.external->cellId(truths_, scene_, variant);
     return variant.isLod() ? lod::lodCellId(scene_, variant) : cellId(truths_, scene_, variant, options_);
 }
@@ -87,17 +89,15 @@ std::vector<std::pair<Truth, int>> SceneCells::truthsOf(const techniques::Varian
     return truths;
 }
 
-bool SceneCells::isKept(Truth truth, int frame) const {
-    return std::filesystem::exists(cache_.entry(truths_.key(truth, frame), truths_.sources(truth, frame)));
-}
-
 void SceneCells::computeTruth(Truth truth, int frame, const Progress& progress) {
     const std::string what = fmt::format("{} truth of frame {}", name(truth), frame);
     truths_.at(truth, frame, [&](double share, std::string_view) { progress(share, what); });
 }
 
 SceneFrames& SceneCells::frames() {
-    if (!frames_) frames_.emplace(scene_, truths_);
+    if (frames_) return *frames_;
+    const Span span("setup", "scene");
+    frames_.emplace(scene_, truths_);
     return *frames_;
 }
 
@@ -116,6 +116,7 @@ void SceneCells::score(const techniques::Variant& variant, Record& record, const
 }
 
 void SceneCells::keepImages(const techniques::Variant& variant, const CellImages& images) {
+    const Span span("files", "images");
     keepCell(imageFolder(variant), images);
     if (!shading_) {
         shading_ = pictureShading(frames());
@@ -145,18 +146,22 @@ std::vector<Image<float>> SceneCells::truthSequence(Truth truth) {
 
 void SceneCells::scoreOwn(const techniques::Variant& variant, Record& record, CellImages& images) {
     scoreCell(frames(), variant, options_.seed, record, images);
-    if (options_.seeds > 1)
+    if (options_.seeds > 1) {
+        const Span span("extra", "seeds");
         splitErrorOverSeeds(frames(), variant, options_.seed, options_.seeds, images.visibility(), record);
+    }
     scoreBeside(variant, record);
 }
 
 /// What is asked for of the same row on copies of the scene.
 void SceneCells::scoreBeside(const techniques::Variant& variant, Record& record) {
     if (options_.neighbours) {
+        const Span span("extra", "neighbours");
         if (!neighbour_) neighbour_ = std::make_unique<ChangedScene>(withNeighbourImage(scene_), cache_);
         scoreNeighbours(frames(), neighbour_->frames(), variant, options_.seed, record);
     }
     if (options_.views < 2) return;
+    const Span span("extra", "views");
     if (otherViews_.empty())
         for (Scene& view : otherViews(scene_, options_.views))
             otherViews_.push_back(std::make_unique<ChangedScene>(std::move(view), cache_));
@@ -177,6 +182,7 @@ void SceneCells::scoreLod(const techniques::Variant& variant, Record& record, co
 
 void SceneCells::time(const techniques::Variant& variant, Record& record) {
     if (isExternal(variant)) return;
+    const Span span("cost", "times");
     if (variant.isLod()) {
         if (options_.time) timeLod(variant, record);
         if (options_.otherScreen) record.otherScreen = lod::measureOtherScreen(lodScene_, variant);

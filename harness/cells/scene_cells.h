@@ -48,7 +48,7 @@ public:
     [[nodiscard]] std::vector<std::pair<Truth, int>> truthsOf(const techniques::Variant& variant) const;
 
     /// Whether the cache holds a truth, which may be damaged.
-    [[nodiscard]] bool isKept(Truth truth, int frame) const;
+    [[nodiscard]] bool isKept(Truth truth, int frame) const { return truths_.isKept(truth, frame); }
 
     /// Makes sure that it does. Needs no GL context.
     void computeTruth(Truth truth, int frame, const Progress& progress);

@@ -1,9 +1,11 @@
 #include "harness/cells/truths.h"
 
 #include "base/error.h"
+#include "base/trace.h"
 #include "groundtruth/area_comparison.h"
 #include "groundtruth/store/golden.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace shadowbench {
@@ -36,9 +38,14 @@ const groundtruth::ReferenceKey& Truths::keyOf(Truth truth, int frame) const {
     return key;
 }
 
+bool Truths::isKept(Truth truth, int frame) const {
+    return std::filesystem::exists(cache_.entry(key(truth, frame), sources(truth, frame)));
+}
+
 const Truths::Known& Truths::known(Truth truth, int frame, const Progress& progress) {
     const auto found = known_.find({truth, frame});
     if (found != known_.end()) return found->second;
+    const Span span(isKept(truth, frame) ? "truth fetched" : "truth computed", name(truth), scene_.id);
     Known made{groundtruth::cached(cache_, request(truth, frame), keyOf(truth, frame), progress), ""};
     made.content = contentOf(contentHashes(made.reference));
     requireGolden(golden_, key(truth, frame), made.content);

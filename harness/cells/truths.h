@@ -47,6 +47,9 @@ public:
     /// groundtruth::sourcesOf that request.
     [[nodiscard]] const std::string& sources(Truth truth, int frame) const { return keyOf(truth, frame).sources; }
 
+    /// Whether the cache holds the reference, which may be damaged.
+    [[nodiscard]] bool isKept(Truth truth, int frame) const;
+
     /// The reference, valid as long as this object. Throws what computing throws, and Inconclusive for one that has the key
     /// of a golden reference and another content, and for the soft truth of an area light, in the last still frame, whose
     /// rms error against Area is not what its certificate says.

@@ -1,6 +1,7 @@
 #include "harness/measure/pass_cost.h"
 
 #include "base/error.h"
+#include "base/trace.h"
 #include "harness/measure/raster_clock.h"
 #include "harness/measure/statistics.h"
 #include "techniques/gl/context.h"
@@ -132,7 +133,10 @@ double FramePasses::processorShare() const {
     return all > 0 ? processor / all : 0;
 }
 
-FramePasses countPasses(const RenderFrame& render) { return measured<WorkSection>(render); }
+FramePasses countPasses(const RenderFrame& render) {
+    const Span span("frame", "counted");
+    return measured<WorkSection>(render);
+}
 
 FramePasses timeOnce(const RenderFrame& render) { return measured<WallSection>(render); }
 

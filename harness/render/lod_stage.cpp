@@ -1,5 +1,6 @@
 #include "harness/render/lod_stage.h"
 
+#include "base/trace.h"
 #include "techniques/gl/context.h"
 
 #include <cmath>
@@ -37,11 +38,13 @@ techniques::LodFrame LodStage::frame(techniques::PassListener* passes) {
 }
 
 void LodStage::render(techniques::LodTechnique& technique, techniques::PassListener* passes) {
+    const Span span("frame", "technique");
     technique.render(frame(passes), {colour_, depth_, target_});
     gl::Context::current().check("rendering the walk of scene " + scene_.id);
 }
 
 metrics::ColourImage LodStage::picture() const {
+    const Span span("frame", "read picture");
     const Image<glm::vec4> pixels = target_.readVec4(0);
     metrics::ColourImage picture(pixels.width(), pixels.height());
     for (std::size_t i = 0; i < pixels.size(); ++i) picture[i] = {byte(pixels[i].x), byte(pixels[i].y), byte(pixels[i].z)};

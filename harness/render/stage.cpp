@@ -1,5 +1,6 @@
 #include "harness/render/stage.h"
 
+#include "base/trace.h"
 #include "techniques/gl/context.h"
 
 namespace shadowbench {
@@ -23,6 +24,7 @@ Stage::Stage(const Scene& scene)
 void Stage::show(int index) { show(snapshot(scene_, index)); }
 
 void Stage::show(const Snapshot& shown) {
+    const Span span("frame", "scene and G-buffer");
     snapshot_ = shown;
     hardLight_ = snapshot_.light.centreOnly();
     buffers_.update(snapshot_);
@@ -39,9 +41,20 @@ void Stage::redraw(techniques::PassListener* passes) {
     gbuffer_.draw(buffers_, clipFromWorld(snapshot_.camera, scene_.size));
 }
 
-metrics::Drawn Stage::drawn() const { return {gbuffer_.readIds(), firstThree(gbuffer_.readPositions())}; }
+metrics::Drawn Stage::drawn() const {
+    const Span span("frame", "read G-buffer");
+    return {gbuffer_.readIds(), firstThree(gbuffer_.readPositions())};
+}
 
-Image<glm::vec3> Stage::normals() const { return firstThree(gbuffer_.readNormals()); }
+Image<glm::vec3> Stage::normals() const {
+    const Span span("frame", "read G-buffer");
+    return firstThree(gbuffer_.readNormals());
+}
+
+Image<float> Stage::visibility() const {
+    const Span span("frame", "read visibility");
+    return target_.readFloat(0);
+}
 
 techniques::Frame Stage::frame(int index, std::uint32_t seed, techniques::PassListener* passes) const {
     return {.snapshot = snapshot_,
@@ -57,6 +70,7 @@ techniques::Frame Stage::frame(int index, std::uint32_t seed, techniques::PassLi
 }
 
 void Stage::render(techniques::Technique& technique, int index, std::uint32_t seed, techniques::PassListener* passes) {
+    const Span span("frame", "technique");
     technique.render(frame(index, seed, passes), visibility_);
     gl::Context::current().check("rendering frame " + std::to_string(index) + " of scene " + scene_.id);
 }

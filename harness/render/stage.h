@@ -41,7 +41,7 @@ public:
     void render(techniques::Technique& technique, int index, std::uint32_t seed, techniques::PassListener* passes = nullptr);
 
     /// The visibility image of the last `render`.
-    [[nodiscard]] Image<float> visibility() const { return target_.readFloat(0); }
+    [[nodiscard]] Image<float> visibility() const;
 
 private:
     const Scene& scene_;

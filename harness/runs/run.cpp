@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress_line.h"
+#include "base/trace.h"
 #include "base/worker_processes.h"
 #include "harness/cells/cell_selection.h"
 #include "harness/cells/environment.h"
@@ -113,6 +114,7 @@ private:
     /// Fails before the long part where nothing draws. OSMesa needs no more than to be there; EGL is tried in a process of
     /// its own, since drivers of graphics processors do not outlive a fork.
     void requireContext() const {
+        const Span span("setup", "context");
         if (gl::drawsWithOsMesa()) return;
         try {
             checkInOwnProcess([this] {
@@ -126,6 +128,7 @@ private:
 
     /// Before the long part, of scenes that are not built in: a black picture scores as well as a right one.
     void warnOfScenes() const {
+        const Span span("setup", "warnings");
         const std::vector<std::string> names = chosenSceneNames(options_.scenes), known = builtinScenes();
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (std::ranges::find(known, names[i]) != known.end()) continue;
@@ -153,6 +156,19 @@ private:
             .second;
     }
 
+    /// Scene, truth, frame.
+    std::set<std::tuple<std::size_t, Truth, int>> missingTruths() {
+        const Span span("truth", "keys");
+        std::set<std::tuple<std::size_t, Truth, int>> missing;
+        for (const std::size_t cell : cells_) {
+            const SceneCells& cells = cellsOf(sceneOf(cell));
+            if (cells.notApplicable(variantOf(cell))) continue;
+            for (const auto& [truth, frame] : cells.truthsOf(variantOf(cell)))
+                if (!cells.isKept(truth, frame)) missing.emplace(cell / variants_.size(), truth, frame);
+        }
+        return missing;
+    }
+
     /// The long part of an empty cache: each truth by one process, while others compute others.
     void computeTruths() {
         struct Asked {
@@ -161,14 +177,7 @@ private:
             int frame;
         };
         std::vector<Asked> asked;
-        std::set<std::tuple<std::size_t, Truth, int>> missing;
-        for (const std::size_t cell : cells_) {
-            const SceneCells& cells = cellsOf(sceneOf(cell));
-            if (cells.notApplicable(variantOf(cell))) continue;
-            for (const auto& [truth, frame] : cells.truthsOf(variantOf(cell)))
-                if (!cells.isKept(truth, frame)) missing.emplace(cell / variants_.size(), truth, frame);
-        }
-        for (const auto& [scene, truth, frame] : missing) asked.push_back({&scenes_[scene], truth, frame});
+        for (const auto& [scene, truth, frame] : missingTruths()) asked.push_back({&scenes_[scene], truth, frame});
         shared_.reset();
         if (asked.empty()) return;
         sayNeed(asked.size());
@@ -210,6 +219,7 @@ private:
         work.items = cells_.size();
         work.work = [this](std::size_t i, const Progress& progress) { return shards::text(scored(cells_[i], progress)); };
         work.leave = [this] {
+            const Span span("setup", "release");
             shared_.reset();
             context_.reset();
         };
@@ -239,6 +249,7 @@ private:
 
     /// In a worker.
     MeasuredCell scored(std::size_t cell, const Progress& progress) {
+        const Span span("cell", variantOf(cell).name, sceneOf(cell).id);
         makeContext();
         SceneCells& cells = cellsOf(sceneOf(cell));
         const techniques::Variant& variant = variantOf(cell);
@@ -270,6 +281,7 @@ private:
         makeContext();
         ProgressLine line("times", static_cast<int>(untimed.size()), options_.quiet);
         for (int done = 0; const std::size_t cell : untimed) {
+            const Span span("cell", variantOf(cell).name, sceneOf(cell).id);
             line.show(done++, 0, nameOf(cell));
             SceneCells& cells = cellsOf(sceneOf(cell));
             const techniques::Variant& variant = variantOf(cell);
@@ -279,10 +291,13 @@ private:
     }
 
     void makeContext() {
-        if (!context_) context_ = contextOfRun(cache_.folder(), false);
+        if (context_) return;
+        const Span span("setup", "context");
+        context_ = contextOfRun(cache_.folder(), false);
     }
 
     void addInstructions() {
+        const Span span("cost", "instructions");
         InstructionOptions options{{}, options_.profile, options_.quiet};
         const std::vector<std::string> names = chosenSceneNames(options_.scenes);
         for (std::size_t i = 0; i < scenes_.size(); ++i) options.scenes[scenes_[i].id] = names[i];
@@ -302,6 +317,7 @@ private:
 
     /// It is on disk before the next one is.
     void keep(std::size_t cell, MeasuredCell measured) {
+        const Span span("files", "records");
         if (measured.code != ExitCode::Pass) {
             (measured.transient ? transient_ : errors_)
                 .push_back(fmt::format("{} on {}: {}", variantOf(cell).name, sceneOf(cell).id, measured.record.reason));

@@ -1,6 +1,7 @@
 #include "techniques/gl/program.h"
 
 #include "base/error.h"
+#include "base/trace.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
 #include "techniques/gl/texture.h"
@@ -87,6 +88,7 @@ Program::Program(const std::string& vertexFile, const std::string& fragmentFile,
                {GL_FRAGMENT_SHADER, fragmentFile, loadShader(fragmentFile, defines)}}) {}
 
 Program::Program(const std::vector<Stage>& stages) {
+    const Span span("setup", stages.back().name);
     std::vector<GLuint> shaders;
     try {
         for (const Stage& stage : stages) {
