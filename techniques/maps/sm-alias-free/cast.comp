@@ -1,5 +1,5 @@
 // Whether a triangle hides the light from a pixel.
-#include "maps/sm-alias-free/hides.glsl"
+#include "shared/maps/hides.glsl"
 #include "shared/maps/pixel_lists.glsl"
 
 uniform vec4 light;

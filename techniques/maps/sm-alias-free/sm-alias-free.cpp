@@ -17,7 +17,7 @@ class AliasFree final : public Technique {
 public:
     explicit AliasFree(const Parameters& p)
         : slack_(p.real("slack")), lists_("maps/sm-alias-free/cast.comp", {}, p.integer("grid"), 1),
-          resolve_(gl::Program::screen("maps/sm-alias-free/sm-alias-free.frag")) {}
+          resolve_(gl::Program::screen("shared/maps/unhidden.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const Bounds bounds = frame.snapshot.bounds();

@@ -1,5 +1,7 @@
 // The irregular z-buffer: two grids over the light's view, of what lies before and behind the light, whose cells hold lists of the pixels
 // that fall into them (shared/maps/pixel_lists.h).
+#include "shared/maps/pixel_point.glsl"
+
 uniform mat4 mapFromWorld;
 uniform int grid;         // cells per side
 uniform float nearest;    // |w| below which nothing is projected: too close to the light's plane
@@ -25,10 +27,4 @@ vec2 gridPosition(vec2 at) {
 
 int cellIndex(int whichGrid, ivec2 cell) {
     return (whichGrid * grid + cell.y) * grid + cell.x;
-}
-
-/// The surface point that a pixel sees; w = 0 for background.
-vec4 pointOf(sampler2D positions, uint pixel) {
-    int width = textureSize(positions, 0).x;
-    return texelFetch(positions, ivec2(int(pixel) % width, int(pixel) / width), 0);
 }

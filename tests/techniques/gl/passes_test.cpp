@@ -123,6 +123,7 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"sm-history", {"G-buffer", "depth map", "temporal resolve"}},
         {"sm-silhouette", {"G-buffer", "depth map", "silhouette edges", "silhouette map", "resolve"}},
         {"sm-alias-free", {"G-buffer", "pixel lists", "triangle tests", "resolve"}},
+        {"frustum-traced", {"G-buffer", "receiver bounds", "pixel lists", "triangle tests", "resolve"}},
         {"volume-zfail", {"G-buffer", "silhouette volumes", "stencil count", "resolve"}},
         {"volume-zfail:far=infinity", {"G-buffer", "depth prepass", "silhouette volumes", "stencil count", "resolve"}},
         {"vsm", {"G-buffer", "depth map", "blur", "resolve"}},

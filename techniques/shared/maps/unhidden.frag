@@ -1,3 +1,4 @@
+// One word a pixel: whether a triangle hides the light from it.
 layout(std430, binding = 5) readonly buffer Results { uint results[]; };
 
 uniform int width;

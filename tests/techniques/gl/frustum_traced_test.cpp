@@ -1,0 +1,150 @@
+// The rasterised irregular z-buffer against closed forms of shadows and of its lists, and against the one in compute
+// shaders.
+#include "tests/support/ground_score.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench {
+namespace {
+
+/// The ground alone, which fills the image, seen from `height` right above under a light from there: cells of a grid are
+/// squares of the image.
+Scene fromAbove(double height, bool withBox = false) {
+    Scene scene = groundScene(256);
+    scene.light = {LightKind::Directional, {}, {0, -1, 0}, {}, {}};
+    scene.camera = {{0.1, height, 0.2}, {0.1, 0, 0.2}, {0, 0, -1}, 45, 0.1, 40};
+    if (withBox) scene.objects.push_back(object(box({0.9, 0.01, 0.7}), {0.1, 1.2, 0.2}, 20));
+    return scene;
+}
+
+double longestList(const Scene& scene, const std::string& variant) {
+    Stage stage(scene);
+    stage.show(0);
+    return figuresOf(stage, variant).at("longest_list");
+}
+
+TEST(FrustumTraced, ABoxsShadowIsTheExactPolygonToATwentiethOfAPixel) {
+    for (const glm::dvec3& light : {glm::dvec3(1.7, 6.1, -2.3), glm::dvec3(9.5, 1.9, -8.3)}) { // the second one grazes
+        Scene scene = boxScene(256);
+        scene.light.centre = light;
+        Stage stage(scene);
+        stage.show(0);
+        EXPECT_EQ(scoreOnGround(scene, stage, rendered(stage, "frustum-traced"), 0.05).mismatch, 0);
+    }
+}
+
+TEST(FrustumTraced, HoldsUnderADirectionalLight) {
+    Scene scene = boxScene(256);
+    scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(-0.3, -1, 0.4)), {}, {}};
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> v = rendered(stage, "frustum-traced");
+    scene.light.centre = -1e6 * scene.light.direction; // for the closed form
+    EXPECT_EQ(scoreOnGround(scene, stage, v, 0.05).mismatch, 0);
+}
+
+TEST(FrustumTraced, TheGridChangesNothing) {
+    for (const Scene& scene : {boxScene(128), ringScene(), avenueScene(0.5)}) {
+        Stage stage(scene);
+        stage.show(0);
+        const Image<float> v = rendered(stage, "frustum-traced");
+        for (const char* variant : {"frustum-traced:grid=7", "frustum-traced:grid=1000"})
+            EXPECT_EQ(rendered(stage, variant), v) << variant;
+    }
+}
+
+TEST(FrustumTraced, ACellMayHaveMorePixelsThanAListHolds) { // 65,536 in one
+    const Scene scene = fromAbove(3, true);
+    Stage stage(scene);
+    stage.show(0);
+    EXPECT_EQ(rendered(stage, "frustum-traced:grid=1"), rendered(stage, "frustum-traced"));
+}
+
+TEST(FrustumTraced, HoldsAllAroundALightInsideTheScene) {
+    const Scene scene = ringScene();
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> exact = rendered(stage, "volume-zfail"), traced = rendered(stage, "frustum-traced");
+    const metrics::Drawn drawn = stage.drawn();
+    std::size_t wrong = 0, dark = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        if (drawn.id[i] != 1 || drawn.position[i].y < -0.001F) continue;
+        dark += exact[i] < 0.5F ? 1 : 0;
+        wrong += exact[i] != traced[i] ? 1 : 0;
+    }
+    EXPECT_GT(dark, 5000U);
+    EXPECT_LE(wrong, 3U); // on an edge, to rounding
+}
+
+TEST(FrustumTraced, NeedsNoClosedMeshes) {
+    Scene scene = groundScene(256);
+    Mesh averted = plane(0.7);
+    for (glm::uvec3& triangle : averted.triangles) std::swap(triangle.y, triangle.z);
+    scene.objects.push_back(object(averted, {0.13, 1.0, 0.21}));
+    Stage stage(scene);
+    stage.show(0);
+    EXPECT_EQ(rendered(stage, "frustum-traced"), rendered(stage, "sm-alias-free"));
+}
+
+TEST(FrustumTraced, TrianglesTheSizeOfPixelsReachAllPixelsOfTheCellsThatTheyTouch) {
+    Scene scene = groundScene(256);
+    scene.objects.push_back(object(bumpy(0.8, 0.3, 5000, 3), {0.13, 1.4, 0.21}));
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> exact = rendered(stage, "sm-alias-free");
+    for (const char* variant : {"frustum-traced:grid=64", "frustum-traced", "frustum-traced:grid=1024"})
+        EXPECT_LE(differing(rendered(stage, variant), exact), 3U) << variant; // their slacks differ
+}
+
+TEST(FrustumTraced, KeepsContactsThatAShareOfTheSceneLoses) {
+    Scene scene = groundScene(256);
+    scene.objects.push_back(object(plane(0.7), {0.13, 0.05, 0.21}));
+    scene.objects.push_back(object(box({100, 100, 100}), {0, -900, 0})); // a large scene, out of sight
+    scene.light.centre = {5.5, 1.5, -4.3};
+    Stage stage(scene);
+    stage.show(0);
+    const auto dark = [](const Image<float>& v) { return std::count(v.begin(), v.end(), 0.0F); };
+    const auto all = dark(rendered(stage, "frustum-traced"));
+    EXPECT_GT(all, 100);
+    EXPECT_EQ(dark(rendered(stage, "sm-alias-free:slack=1e-7")), all);
+    EXPECT_EQ(dark(rendered(stage, "sm-alias-free:slack=1e-4")), 0);
+    EXPECT_EQ(dark(rendered(stage, "frustum-traced:slack=1e-4")), all);
+}
+
+TEST(FrustumTraced, AGridOverTheVisiblePointsSharesThemOutEvenly) {
+    // Light and camera look the same way: a cell of 64 per side is a square of 256 / 64 · 1 / 0.98 pixels, 4.08, and holds
+    // 5² at most.
+    const Scene scene = fromAbove(3);
+    EXPECT_EQ(longestList(scene, "frustum-traced:grid=1"), 256 * 256);
+    EXPECT_GE(longestList(scene, "frustum-traced:grid=64"), 16);
+    EXPECT_LE(longestList(scene, "frustum-traced:grid=64"), 25);
+    // However little of the scene is seen.
+    EXPECT_LE(longestList(fromAbove(0.6), "frustum-traced:grid=64"), 25);
+}
+
+TEST(FrustumTraced, ListsAreLongWhereTheLightsViewCrowdsPixels) { // as a map has too few texels there
+    EXPECT_LE(longestList(fromAbove(3), "frustum-traced"), 4);
+    EXPECT_GT(longestList(avenueScene(0.5), "frustum-traced"), 200); // half of the image is a few of its 60 m
+    const Scene scene = avenueScene(0.5);
+    Stage stage(scene);
+    stage.show(0);
+    const double fine = figuresOf(stage, "frustum-traced:grid=2048").at("tests"),
+                 tests = figuresOf(stage, "frustum-traced").at("tests"),
+                 coarse = figuresOf(stage, "frustum-traced:grid=16").at("tests");
+    EXPECT_LT(fine, tests);
+    EXPECT_GT(coarse, 2 * tests);
+}
+
+TEST(FrustumTraced, FiguresLeaveTheImageAndTheNextOneAsTheyAre) {
+    const Scene scene = boxScene();
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> untouched = rendered(stage, "frustum-traced");
+    const auto figures = figuresOf(stage, "frustum-traced");
+    EXPECT_EQ(stage.visibility(), untouched);
+    EXPECT_EQ(rendered(stage, "frustum-traced"), untouched);
+    EXPECT_EQ(figuresOf(stage, "frustum-traced"), figures);
+}
+
+} // namespace
+} // namespace shadowbench
