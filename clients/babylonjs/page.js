@@ -85,7 +85,8 @@ function makePoint(frame, centre, scene) {
         throw new Error(`refused: Babylon.js has no ${settings.filter} on cube maps; give --map single`);
     if (settings.depths === "scene") {
         light.shadowMaxZ = 1.01 * cone.far;
-        light.shadowMinZ = Math.max(0.99 * cone.near, cone.far / 1000);
+        const nearest = isCube ? cone.near / Math.sqrt(3) : cone.near; // of a cube's side, whose axis is another
+        light.shadowMinZ = Math.max(0.99 * nearest, cone.far / 1000);
     }
     if (!isCube) {
         requireOneMap(cone, settings.filter);
