@@ -24,6 +24,7 @@ void setStencilOperations(VolumeTest test) {
         glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);
         return;
     case VolumeTest::DepthPass:
+    case VolumeTest::NearPlane:
         glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, GL_INCR_WRAP);
         glStencilOpSeparate(GL_BACK, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
         return;
@@ -31,6 +32,11 @@ void setStencilOperations(VolumeTest test) {
         glStencilOp(GL_KEEP, GL_KEEP, GL_INVERT);
         return;
     }
+}
+
+Caps capsFor(VolumeTest test, bool meetsNearPlane) {
+    if (test == VolumeTest::DepthFail) return Caps::Both;
+    return test == VolumeTest::NearPlane && meetsNearPlane ? Caps::Front : Caps::None;
 }
 
 } // namespace
@@ -60,12 +66,15 @@ StencilVolumes::VolumeMesh::VolumeMesh(std::shared_ptr<const Mesh> mesh) : sourc
 
 StencilVolumes::StencilVolumes(VolumeTest test, FarPlane far)
     : test_(test), far_(far), volume_("volumes/volume.vert", "gl/depth_only.frag"),
-      shadowed_(gl::Program::screen("volumes/shadowed.frag")) {}
+      shadowed_(gl::Program::screen("volumes/shadowed.frag")) {
+    if (test == VolumeTest::NearPlane) nearPlane_.emplace("volumes/near_plane.vert", "gl/depth_only.frag");
+}
 
 void StencilVolumes::render(const Frame& frame, const glm::dvec4& light, const gl::Texture& depthStencil,
                             const gl::Texture& visibility) {
     buildVolumes(frame, light);
     volume_.set("clipFromWorld", glm::mat4(clipFromWorld(frame, far_))).set("light", glm::vec4(light));
+    if (nearPlane_) setNearPlane(clipFromWorld(frame, far_), light);
 
     const gl::RenderTarget target({&visibility, &depthStencil});
     target.clearColour(0, glm::vec4(1));
@@ -92,13 +101,23 @@ const StencilVolumes::VolumeMesh& StencilVolumes::volumeMesh(const std::shared_p
     return *entry;
 }
 
+/// The light's view through the near plane's window is an image of the same pixels: each point is projected from the light
+/// onto the plane, and from there into the image.
+void StencilVolumes::setNearPlane(const glm::dmat4& clipFromWorld, const glm::dvec4& light) {
+    const glm::dmat4 rows = glm::transpose(clipFromWorld);
+    const glm::dvec4 plane = rows[3] + rows[2]; // dot(plane, p) ≥ 0 beyond it
+    const double side = glm::dot(plane, light) < 0 ? -1 : 1;
+    const glm::dmat4 projection = glm::dot(plane, light) * glm::dmat4(1) - glm::outerProduct(light, plane);
+    nearPlane_->set("clipFromWorld", glm::mat4(side * clipFromWorld * projection)).set("lightSide", glm::vec4(side * plane));
+}
+
 /// How a caster's volume is counted; nothing where no pixel's ray meets it, for then it changes no count. Depth-pass lacks
 /// what a ray crosses between eye and near plane, the caps above all, which it does not draw. An open mesh's volume is open
 /// at infinity, too, and depth-fail counts it beyond the far plane, where depth is clamped: the paper asks for closed models
 /// (its section 3.1), and how it fails on others is left as it is.
 std::optional<VolumeTest> StencilVolumes::testFor(const EdgeMesh& mesh, const VolumeBounds& volume, const View& view) const {
-    const bool fromTheEye = test_ == VolumeTest::DepthPass || test_ == VolumeTest::ExclusiveOr;
-    if (!mesh.mesh().closed && !fromTheEye) return VolumeTest::DepthFail;
+    const bool bySides = test_ != VolumeTest::DepthFail && test_ != VolumeTest::PerCaster;
+    if (!mesh.mesh().closed && !bySides) return VolumeTest::DepthFail;
     if (!volume.mayMeet(view.seen)) return std::nullopt;
     if (test_ != VolumeTest::PerCaster) return test_;
     return volume.mayMeet(view.beforeNear) ? VolumeTest::DepthFail : VolumeTest::DepthPass;
@@ -118,7 +137,8 @@ void StencilVolumes::buildVolumes(const Frame& frame, const glm::dvec4& light) {
         for (const Placement& placement : batch.placements) {
             const VolumeBounds volume(mesh.edges.bounds(), placement.world, {&light, 1});
             if (const auto test = testFor(mesh.edges, volume, view))
-                appendVolume(mesh, placements, *test, glm::inverse(placement.world) * light);
+                appendVolume(mesh, placements, *test, capsFor(*test, volume.mayMeet(view.beforeNear)),
+                             glm::inverse(placement.world) * light);
             ++placements;
         }
     }
@@ -127,9 +147,8 @@ void StencilVolumes::buildVolumes(const Frame& frame, const glm::dvec4& light) {
     indices_.upload(corners_.data(), corners_.size() * sizeof(std::uint32_t));
 }
 
-void StencilVolumes::appendVolume(const VolumeMesh& mesh, std::size_t placement, VolumeTest test,
+void StencilVolumes::appendVolume(const VolumeMesh& mesh, std::size_t placement, VolumeTest test, Caps caps,
                                   const glm::dvec4& objectLight) {
-    const Caps caps = test == VolumeTest::DepthFail ? Caps::Both : Caps::None;
     const std::size_t first = corners_.size();
     const std::size_t capCorners = appendShadowVolume(mesh.edges, objectLight, caps, corners_);
     draws_.push_back({&mesh, placement, test, first, capCorners, corners_.size() - first - capCorners});
@@ -151,6 +170,7 @@ void StencilVolumes::count(const Frame& frame, Draws draws) const {
 /// Each by its own test.
 void StencilVolumes::drawCounting(Draws draws) const {
     glEnable(GL_STENCIL_TEST);
+    if (nearPlane_) drawNearPlane(draws);
     glDepthFunc(GL_LESS);
     for (const Draws& part : byTest(draws)) {
         if (part.empty()) continue;
@@ -160,17 +180,37 @@ void StencilVolumes::drawCounting(Draws draws) const {
     glDisable(GL_STENCIL_TEST);
 }
 
-/// Depth is tested and clamped, not written.
+/// Adds to each pixel's count the facing triangles that lie between the light and its point of the near plane.
+void StencilVolumes::drawNearPlane(Draws draws) const {
+    glStencilMask(0xFF);
+    glStencilFunc(GL_ALWAYS, 0, 0xFF);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_INCR_WRAP);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_DEPTH_CLAMP); // all depths are the near plane's own
+    glEnable(GL_CLIP_DISTANCE0);
+    nearPlane_->use();
+    for (const Draw& draw : draws) {
+        if (draw.caps == 0) continue;
+        draw.mesh->layout.bind();
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
+        drawCorners(draw, draw.first, draw.caps);
+    }
+    glDisable(GL_CLIP_DISTANCE0);
+    glDisable(GL_DEPTH_CLAMP);
+}
+
+/// Depth is tested and not written. It is clamped, but where the near plane is where counts begin.
 void StencilVolumes::drawVolumes(Draws draws) const {
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
-    glEnable(GL_DEPTH_CLAMP);
+    if (!nearPlane_) glEnable(GL_DEPTH_CLAMP);
     glDisable(GL_CULL_FACE);
     volume_.use();
     for (const Draw& draw : draws) {
         draw.mesh->layout.bind();
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
-        drawCaps(draw);
+        if (!nearPlane_) drawCaps(draw);
         drawCorners(draw, draw.first + draw.caps, draw.sides);
     }
     glDisable(GL_DEPTH_CLAMP);
@@ -187,8 +227,16 @@ std::uint64_t StencilVolumes::fragmentsPassing(unsigned depthFunction, Draws dra
     return meter.finish();
 }
 
+std::uint64_t StencilVolumes::fragmentsOnNearPlane(Draws draws, const gl::Texture& depthStencil) const {
+    const gl::RenderTarget depthOnly({&depthStencil});
+    depthOnly.bind();
+    gl::FragmentMeter meter;
+    drawNearPlane(draws);
+    return meter.finish();
+}
+
 std::map<std::string, double> StencilVolumes::figures(const gl::Texture& depthStencil) const {
-    std::uint64_t fragments = 0, updates = 0;
+    std::uint64_t fragments = nearPlane_ ? fragmentsOnNearPlane(draws_, depthStencil) : 0, updates = fragments;
     for (const Draws& part : byTest(draws_)) {
         const std::uint64_t all = fragmentsPassing(GL_ALWAYS, part, depthStencil);
         const std::uint64_t passing = fragmentsPassing(GL_LESS, part, depthStencil);

@@ -23,6 +23,7 @@ enum class VolumeTest {
     DepthFail,   // those behind the pixel's surface: back faces + 1, front faces − 1; the volume is closed by caps
     DepthPass,   // those before it: front faces + 1, back faces − 1; needs no caps
     PerCaster,   // as DepthPass where that is certain to count the same, else as DepthFail (Everitt–Kilgard 3.4)
+    NearPlane,   // as DepthPass, from the near plane on, where the volumes around each pixel's own point are counted first
     ExclusiveOr, // those before it invert one bit
 };
 
@@ -78,7 +79,11 @@ private:
     void buildVolumes(const Frame& frame, const glm::dvec4& light);
     [[nodiscard]] std::optional<VolumeTest> testFor(const EdgeMesh& mesh, const VolumeBounds& volume,
                                                     const View& view) const;
-    void appendVolume(const VolumeMesh& mesh, std::size_t placement, VolumeTest test, const glm::dvec4& objectLight);
+    void appendVolume(const VolumeMesh& mesh, std::size_t placement, VolumeTest test, Caps caps,
+                      const glm::dvec4& objectLight);
+    void setNearPlane(const glm::dmat4& clipFromWorld, const glm::dvec4& light);
+    void drawNearPlane(Draws draws) const;
+    [[nodiscard]] std::uint64_t fragmentsOnNearPlane(Draws draws, const gl::Texture& depthStencil) const;
     [[nodiscard]] static std::array<Draws, 2> byTest(Draws draws);
     void count(const Frame& frame, Draws draws) const;
     void drawCounting(Draws draws) const;
@@ -91,6 +96,7 @@ private:
     VolumeTest test_;
     FarPlane far_;
     gl::Program volume_, shadowed_;
+    std::optional<gl::Program> nearPlane_;
     std::unordered_map<const Mesh*, std::unique_ptr<VolumeMesh>> meshes_;
     std::vector<Draw> draws_; // of the frame rendered last, those of one test together
     std::size_t culled_ = 0;  // volumes that it left out

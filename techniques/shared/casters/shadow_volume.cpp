@@ -69,7 +69,7 @@ std::size_t appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, Ca
     const auto vertexCount = static_cast<std::uint32_t>(mesh.mesh().positions.size());
     const bool endsInPoint = light.w == 0;
     const std::size_t before = indices.size();
-    if (caps == Caps::Both) appendCaps(mesh, facing, !endsInPoint, indices);
+    if (caps != Caps::None) appendCaps(mesh, facing, caps == Caps::Both && !endsInPoint, indices);
     const std::size_t capIndices = indices.size() - before;
     for (const auto& [a, b] : silhouette(mesh, facing)) {
         indices.insert(indices.end(), {b, a, a + vertexCount});

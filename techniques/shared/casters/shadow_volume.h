@@ -42,13 +42,13 @@ private:
 /// of a facing triangle is one too.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> silhouette(const EdgeMesh& mesh, const std::vector<bool>& facing);
 
-/// What closes a volume's sides at both ends.
-enum class Caps { None, Both };
+/// What closes a volume's sides: at the front facing triangles, at infinity averted ones.
+enum class Caps { None, Front, Both };
 
 /// Triangles of the shadow volume as indices into the mesh's vertices; index + vertexCount is the same vertex projected to
 /// infinity away from the light. With caps, facing triangles close it at the front; averted ones, projected, close it at
-/// infinity, except for a directional light, whose volume ends in a point there. The caps' indices come first; returns how
-/// many they are.
+/// infinity if both are asked for, except for a directional light, whose volume ends in a point there. The caps' indices
+/// come first; returns how many they are.
 std::size_t appendShadowVolume(const EdgeMesh& mesh, const glm::dvec4& light, Caps caps,
                                std::vector<std::uint32_t>& indices);
 

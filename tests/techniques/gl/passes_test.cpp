@@ -124,6 +124,7 @@ TEST(Passes, HaveTheNamesOfTheField) {
         {"sm-silhouette", {"G-buffer", "depth map", "silhouette edges", "silhouette map", "resolve"}},
         {"sm-alias-free", {"G-buffer", "pixel lists", "triangle tests", "resolve"}},
         {"frustum-traced", {"G-buffer", "receiver bounds", "pixel lists", "triangle tests", "resolve"}},
+        {"sm-zpp", {"G-buffer", "silhouette volumes", "stencil count", "resolve"}},
         {"volume-zfail", {"G-buffer", "silhouette volumes", "stencil count", "resolve"}},
         {"volume-zfail:far=infinity", {"G-buffer", "depth prepass", "silhouette volumes", "stencil count", "resolve"}},
         {"vsm", {"G-buffer", "depth map", "blur", "resolve"}},
