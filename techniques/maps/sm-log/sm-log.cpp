@@ -14,10 +14,10 @@
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
-#include "techniques/gl/context.h"
 #include "techniques/gl/program.h"
 #include "techniques/maps/sm-log/log_view.h"
 #include "techniques/shared/maps/depth_map.h"
+#include "techniques/shared/maps/triangle_rectangles.h"
 
 #include <cmath>
 #include <memory>
@@ -62,18 +62,8 @@ private:
         place(triangles_);
         triangles_.set("texel", 1.0F / static_cast<float>(side_))
             .set("factor", bias_.factor)
-            .set("units", static_cast<float>(bias_.units * depthStep))
-            .use();
-        gl::Context& context = gl::Context::current();
-        glBindVertexArray(context.noAttributes());
-        frame.scene.instances().bindStorage(2);
-        for (const gl::SceneBuffers::Batch& batch : frame.scene.batches()) {
-            batch.vertices.bindStorage(0);
-            batch.indices.bindStorage(1);
-            triangles_.set("baseInstance", static_cast<int>(batch.baseInstance));
-            glDrawArraysInstanced(GL_TRIANGLES, 0, 6 * batch.triangles, batch.instances);
-            ++context.tally().draws;
-        }
+            .set("units", static_cast<float>(bias_.units * depthStep));
+        drawTriangleRectangles(frame, triangles_);
     }
 
     int side_;

@@ -11,13 +11,13 @@
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/gl/api.h"
-#include "techniques/gl/context.h"
 #include "techniques/gl/read_buffer.h"
 #include "techniques/shared/light_views/cube_view.h"
 #include "techniques/shared/light_views/fitting.h"
 #include "techniques/shared/maps/depth_map.h"
 #include "techniques/shared/maps/receiver_bounds.h"
 #include "techniques/shared/maps/single_map.h"
+#include "techniques/shared/maps/triangle_rectangles.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -155,7 +155,7 @@ private:
             program.set("view", static_cast<int>(view)).set("mapFromWorld", mapsFromWorld_[view]);
             for (int part = 0; part < parts; ++part) {
                 program.set("part", part);
-                drawTriangles(frame, program);
+                drawTriangleRectangles(frame, program);
             }
         }
         glDepthMask(GL_TRUE);
@@ -170,20 +170,6 @@ private:
         glDepthFunc(GL_LESS);
         glDepthMask(GL_FALSE);
         glDisable(GL_CULL_FACE);
-    }
-
-    static void drawTriangles(const Frame& frame, gl::Program& program) {
-        program.use();
-        gl::Context& context = gl::Context::current();
-        glBindVertexArray(context.noAttributes());
-        frame.scene.instances().bindStorage(2);
-        for (const gl::SceneBuffers::Batch& batch : frame.scene.batches()) {
-            batch.vertices.bindStorage(0);
-            batch.indices.bindStorage(1);
-            program.set("baseInstance", static_cast<int>(batch.baseInstance));
-            glDrawArraysInstanced(GL_TRIANGLES, 0, 6 * batch.triangles, batch.instances);
-            ++context.tally().draws;
-        }
     }
 
     int grid_;
