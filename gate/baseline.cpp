@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <optional>
+#include <regex>
 #include <unistd.h>
 #include <vector>
 
@@ -61,19 +62,34 @@ public:
     Build(fs::path repository, std::string commit, const Progress& progress)
         : repository_(std::move(repository)), commit_(std::move(commit)), progress_(progress) {}
 
+    void configure() {
+        step("git",
+             {"-c", "safe.directory=*", "clone", "-q", "--shared", "--no-checkout", repository_.string(), source_.string()});
+        step("git", {"-c", "safe.directory=*", "-C", source_.string(), "checkout", "-q", "--detach", commit_});
+        step("cmake", {"-S", source_.string(), "-B", build_.string(), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                       "-DSHADOWBENCH_TESTS=OFF", "-DSHADOWBENCH_BENCHMARKS=OFF"});
+    }
+
+    /// The hash of what would be built, as it would say itself; "" of commits from before there was one.
+    std::string program() {
+        try {
+            step("cmake", {"--build", build_.string(), "--target", "commit"});
+        } catch (const Inconclusive&) {
+            return "";
+        }
+        const fs::path header = build_ / "embedded" / "embedded_commit.h";
+        const std::string text = fs::exists(header) ? readFile(header) : "";
+        std::smatch found;
+        return std::regex_search(text, found, std::regex("program = \"([0-9a-f]+)\"")) ? found[1].str() : "";
+    }
+
     /// Leaves the built program in `file`.
     void into(const fs::path& file) {
-        // Where `bench` builds, seen from the source: the compiler cache then knows what the head's build has compiled.
-        const fs::path source = folder_.path() / "source", build = source / "build" / "release";
-        step("git",
-             {"-c", "safe.directory=*", "clone", "-q", "--shared", "--no-checkout", repository_.string(), source.string()});
-        step("git", {"-c", "safe.directory=*", "-C", source.string(), "checkout", "-q", "--detach", commit_});
-        step("cmake", {"-S", source.string(), "-B", build.string(), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                       "-DSHADOWBENCH_TESTS=OFF", "-DSHADOWBENCH_BENCHMARKS=OFF"});
-        step("cmake", {"-E", "env", "CCACHE_DIR=" + compilerCache(), "CCACHE_NOHASHDIR=1", "CCACHE_SLOPPINESS=locale",
-                       "CCACHE_BASEDIR=" + source.string(), "cmake", "--build", build.string(), "--target", "shadowbench"});
+        step("cmake",
+             {"-E", "env", "CCACHE_DIR=" + compilerCache(), "CCACHE_NOHASHDIR=1", "CCACHE_SLOPPINESS=locale",
+              "CCACHE_BASEDIR=" + source_.string(), "cmake", "--build", build_.string(), "--target", "shadowbench"});
         writeFileWith(file, [&](const fs::path& path) { // with the permissions of what is copied
-            fs::copy_file(build / "shadowbench", path, fs::copy_options::overwrite_existing);
+            fs::copy_file(build_ / "shadowbench", path, fs::copy_options::overwrite_existing);
         });
     }
 
@@ -98,11 +114,14 @@ private:
     std::string commit_;
     const Progress& progress_;
     TemporaryFolder folder_;
+    // Where `bench` builds, seen from the source: the compiler cache then knows what the head's build has compiled.
+    fs::path source_ = folder_.path() / "source", build_ = source_ / "build" / "release";
 };
 
 } // namespace
 
-Baseline findBaseline(const std::string& text, const fs::path& cache, const Progress& progress) {
+Baseline findBaseline(const std::string& text, const fs::path& cache, const std::string& headsProgram,
+                      const Progress& progress) {
     if (text.empty())
         throw Inconclusive(
             "the gate has nothing to compare with; name a build folder, a git revision or records with --base");
@@ -122,12 +141,19 @@ Baseline findBaseline(const std::string& text, const fs::path& cache, const Prog
                         shallow ? "this clone is shallow: fetch the whole history (git fetch --unshallow, fetch-depth: 0)"
                                 : "name one of them with --base"));
     }
+    const std::string name = fmt::format("{} ({})", text, commit.substr(0, 12));
     const fs::path program = fs::absolute(cache) / "programs" / (commit + "-" + compilerHash()) / "shadowbench";
     if (!isProgram(program)) {
         const FolderLock alone(program.parent_path(), [&] { progress(0, "waiting for another gate that builds it"); });
-        if (!isProgram(program)) Build(repository, commit, progress).into(program);
+        if (!isProgram(program)) {
+            Build build(repository, commit, progress);
+            build.configure();
+            if (!headsProgram.empty() && build.program() == headsProgram)
+                return {Baseline::Kind::HeadsProgram, {}, name, commit};
+            build.into(program);
+        }
     }
-    return {Baseline::Kind::Program, program, fmt::format("{} ({})", text, commit.substr(0, 12))};
+    return {Baseline::Kind::Program, program, name};
 }
 
 } // namespace shadowbench::gate

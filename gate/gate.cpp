@@ -49,8 +49,8 @@ public:
     }
 
     GateResult judge() {
-        const Baseline base = findOrBuildBase();
         const MeasuredProgram head(fs::is_symlink(options_.head) ? fs::read_symlink(options_.head) : options_.head, cache_);
+        const Baseline base = findOrBuildBase(head);
         const Commit commit = builtFrom();
         result_.base = base.name;
         result_.head = commit.hash.substr(0, 12) + (commit.dirty ? " with changes" : "");
@@ -60,15 +60,26 @@ public:
             throw BadInput(fmt::format("--external needs records as --base, made by `run --external`: {} is a program, for "
                                        "which the same renderers would be called again",
                                        base.name));
-        else
+        else if (base.kind == Baseline::Kind::HeadsProgram) {
+            if (base.commit == commit.hash && !commit.dirty) refuseOneProgram();
+            noteOneProgram(base.commit, commit.hash);
+        } else
             judgeAgainstProgram(MeasuredProgram(base.file, cache_), head);
         return std::move(result_);
     }
 
 private:
-    Baseline findOrBuildBase() {
+    Baseline findOrBuildBase(const MeasuredProgram& head) {
         StageLine line("base", options_.quiet);
-        return timed("building the base", [&] { return findBaseline(options_.base, cache_, line.progress()); });
+        const bool isBuilt = options_.sameProgram || !head.build() || !isJudgedBy(head.build()->policy);
+        return timed("building the base", [&] {
+            return findBaseline(options_.base, cache_, isBuilt ? "" : head.build()->program, line.progress());
+        });
+    }
+
+    [[nodiscard]] bool isJudgedBy(const Policy& policy) const {
+        const Policy judged = readPolicy(options_.bounds, Profile::Gate);
+        return loosened(policy, judged).empty() && loosened(judged, policy).empty();
     }
 
     void judgeAgainstRecords(const Baseline& base, const MeasuredProgram& head) {
@@ -146,17 +157,22 @@ private:
         const auto &before = base.build(), &now = head.build();
         const bool same = base.content() == head.content() || (before && now && before->program == now->program);
         if (!same) return false;
-        if (!before || !now || (before->commit == now->commit && before->dirty == now->dirty))
-            throw Inconclusive(
-                fmt::format("base and head are one program ({}), so nothing would be judged; name another base, "
-                            "or say --same-program if that is meant",
-                            result_.head));
-        const Policy judged = readPolicy(options_.bounds, Profile::Gate);
-        if (!loosened(before->policy, judged).empty() || !loosened(judged, before->policy).empty()) return false;
+        if (!before || !now || (before->commit == now->commit && before->dirty == now->dirty)) refuseOneProgram();
+        if (!isJudgedBy(before->policy)) return false;
+        noteOneProgram(before->commit, now->commit);
+        return true;
+    }
+
+    void noteOneProgram(const std::string& before, const std::string& now) {
         result_.notes.push_back(
             fmt::format("commits {} and {} make the same program with the same policy: nothing was measured",
-                        before->commit.substr(0, 12), now->commit.substr(0, 12)));
-        return true;
+                        before.substr(0, 12), now.substr(0, 12)));
+    }
+
+    [[noreturn]] void refuseOneProgram() const {
+        throw Inconclusive(fmt::format("base and head are one program ({}), so nothing would be judged; name another base, "
+                                       "or say --same-program if that is meant",
+                                       result_.head));
     }
 
     /// What a head can differ in from the base. Where one program is meant on both sides nothing is taken for known: whether

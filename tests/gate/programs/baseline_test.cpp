@@ -34,8 +34,8 @@ protected:
         setenv("PATH", path_.c_str(), 1);
         fs::current_path(before_);
     }
-    [[nodiscard]] Baseline find(const std::string& text) {
-        return findBaseline(text, folder_.path() / "cache",
+    [[nodiscard]] Baseline find(const std::string& text, const std::string& headsProgram = "") {
+        return findBaseline(text, folder_.path() / "cache", headsProgram,
                             [&](double, std::string_view line) { lines_.emplace_back(line); });
     }
     [[nodiscard]] std::string complaint(const std::string& text) {
@@ -56,11 +56,13 @@ protected:
             {"tag", "v1"}};
         for (const auto& step : steps) ASSERT_TRUE(git(".", step)) << step[0];
     }
-    /// `build`: what it does in the folder that it builds in.
-    void makeCmake(const std::string& build) const {
+    /// `build`: what it does in the folder that it builds in. `program`: what the sources make, by their own hash.
+    void makeCmake(const std::string& build, const std::string& program = "") const {
         writeProgram(folder_.path() / "bin/cmake",
                      "echo \"cmake $1\"\necho \"$*\" >>" + (folder_.path() / "built").string() +
-                         "\n[ \"$1\" = -E ] || exit 0\n"
+                         "\nif [ \"$1\" = --build ]; then mkdir -p \"$2/embedded\"; echo 'program = \"" + program +
+                         "\"' >\"$2/embedded/embedded_commit.h\"; fi\n"
+                         "[ \"$1\" = -E ] || exit 0\n"
                          "while [ \"$1\" != --build ]; do shift; done\nmkdir -p \"$2\"; cd \"$2\"\n" +
                          build);
     }
@@ -121,6 +123,25 @@ TEST_F(ABaseline, ACommitIsBuiltOnce) {
     EXPECT_EQ(lines_, (std::vector<std::string>{"cmake -S", "cmake -E"})) << "once, and its lines are progress";
 }
 
+TEST_F(ABaseline, ACommitThatMakesTheHeadsProgramIsNotBuilt) {
+    makeRepository();
+    makeCmake("printf '#!/bin/sh\\n' >shadowbench; chmod +x shadowbench\n", "c0ffee");
+    const Baseline same = find("v1", "c0ffee");
+    EXPECT_EQ(same.kind, Baseline::Kind::HeadsProgram);
+    EXPECT_EQ(same.commit, firstLine(git(".", {"rev-parse", "v1"})));
+    EXPECT_TRUE(same.name.starts_with("v1 (")) << same.name;
+    EXPECT_EQ(lines_, (std::vector<std::string>{"cmake -S", "cmake --build"}));
+
+    EXPECT_EQ(find("v1", "decaf").kind, Baseline::Kind::Program) << "of another hash";
+    EXPECT_EQ(find("v1", "c0ffee").kind, Baseline::Kind::Program) << "one that is there need not be hashed";
+}
+
+TEST_F(ABaseline, ACommitFromBeforeProgramsHadAHashIsBuilt) {
+    makeRepository();
+    makeCmake("printf '#!/bin/sh\\n' >shadowbench; chmod +x shadowbench\n");
+    EXPECT_EQ(find("v1", "c0ffee").kind, Baseline::Kind::Program);
+}
+
 TEST_F(ABaseline, ThatAnotherGateBuildsIsWaitedForAndNotBuiltAgain) {
     makeRepository();
     makeCmake("printf '#!/bin/sh\\n' >shadowbench; chmod +x shadowbench\n");
@@ -128,7 +149,7 @@ TEST_F(ABaseline, ThatAnotherGateBuildsIsWaitedForAndNotBuiltAgain) {
     fs::rename(program, "built");
     std::optional<FolderLock> other(program.parent_path());
     std::vector<std::string> lines;
-    (void)findBaseline("v1", folder_.path() / "cache", [&](double, std::string_view line) {
+    (void)findBaseline("v1", folder_.path() / "cache", "", [&](double, std::string_view line) {
         lines.emplace_back(line);
         fs::rename("built", program);
         other.reset();
