@@ -77,6 +77,7 @@ void addGate(CLI::App& app, Action& action) {
     addSeedOption(*verb, options->seed);
     addGlOption(*verb);
     addGateFiles(*verb, *files);
+    verb->add_flag("--all", options->all, "Measure also what the change cannot have reached");
     verb->add_flag("--same-program", options->sameProgram,
                    "Base and head are one program, on purpose: does the gate stay silent?");
     verb->add_flag("--quiet", options->quiet, "No progress");

@@ -1,7 +1,8 @@
 # reach(result): which sources can decide the result of a cell, for the gate (gate/reach.h). One line a unit,
 #   NAME HASH USED …
 # A unit is the folder of a technique, a shader outside of these, or a built-in scene; "*" is everything else that a measurement is built from.
-# It uses the units whose names its files write out, as #include, shader and path do. "*" also uses the techniques that it asks for by
+# "shader-figures" is what makes figures of shaders, which decide no cell.
+# A unit uses the units whose names its files write out, as #include, shader and path do. "*" also uses the techniques that it asks for by
 # their ids. Needs ROOT, COMPILER, and the rooms and `beside` of version.cmake.
 set(shader "\\.(comp|frag|glsl|vert)")
 # A cell is not measured by these; whatever is not named here counts for all cells.
@@ -56,6 +57,9 @@ function(reach result)
   list(APPEND files ${more})
   list(REMOVE_ITEM files techniques/catalog.inc) # the list of techniques decides what there is, not what one of them gives …
   file(STRINGS ${ROOT}/techniques/catalog.inc catalog)
+  set(figures ${files})
+  list(FILTER figures INCLUDE REGEX "^(gpu|studies/shader_cost)/")
+  list(SORT figures)
   list(FILTER files EXCLUDE REGEX "${unmeasured}")
   list(SORT files)
   file(GLOB folders RELATIVE ${ROOT}/techniques ${ROOT}/techniques/*/*)
@@ -105,6 +109,7 @@ function(reach result)
       list(APPEND words ${found})
     endforeach()
   endforeach()
+  append_unit(shader-figures "" figures)
   append_unit("*" "${words}" files "${COMPILER}${beside}")
   set(${result} "${lines}" PARENT_SCOPE)
 endfunction()

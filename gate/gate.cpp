@@ -21,6 +21,8 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <set>
+#include <utility>
 
 namespace shadowbench::gate {
 namespace {
@@ -96,7 +98,7 @@ private:
         if (options_.instructions && !counted)
             result_.notes.emplace_back("instructions are not compared: the base's records hold none");
         leaveOutWhatNoRecordIsOf(before);
-        std::vector<Record> now = measure(head, "head", options_.instructions && counted, &before);
+        std::vector<Record> now = measure(head, "head", options_.instructions && counted, before);
         std::vector<Record> others = measureSteps(head, "head", cells_.externalSteps()).records();
         result_.logs = failureLogs(others, options_.out / "logs");
         std::ranges::move(others, std::back_inserter(now));
@@ -105,33 +107,80 @@ private:
         addPictures(nullptr, head);
     }
 
-    void judgeAgainstProgram(const MeasuredProgram& base, const MeasuredProgram& head) {
+    void judgeAgainstProgram(MeasuredProgram base, MeasuredProgram head) {
         if (isDecidedAlready(base, head)) return;
         unitePolicies(base);
         noteUnknownScenes();
+        leaveOutWhatIsKnown(base, head);
         if (options_.shader) judgeShadersOf(base, head);
-        const std::vector<Step> steps = cells_.steps(base, options_.instructions);
-        const Measured measured = measureSteps(base, "base", steps);
-        const std::vector<Record> before = measured.records();
-        const std::vector<Record> now = measureReached(head, KnownCells(reachable(base), head.build(), steps, measured));
+        const std::vector<Record> before = measure(base, "base"), now = measure(head, "head");
         judgeRecords(before, now, &base);
-        if (const auto why = whyMeaningless(before, now, true)) result_.notCompared.push_back(*why);
+        if (const auto why = whyMeaningless(before, now, true); why && leftOut_ == 0) result_.notCompared.push_back(*why);
         if (options_.time) judgeTimes(base, head);
         addPictures(&base, head);
     }
 
     void judgeShadersOf(const MeasuredProgram& base, const MeasuredProgram& head) {
-        StageLine line("shaders", options_.quiet);
         std::vector<std::string> variants; // none: all that shader-cost knows
-        if (!options_.techniques.empty())
+        if (options_.techniques.empty())
+            variants = head.variants();
+        else
             for (const techniques::Variant& variant : chosenVariants(options_.techniques, options_.external.get()))
                 if (base.knowsVariant(variant.name)) variants.push_back(variant.name);
-        if (variants.empty() && !options_.techniques.empty()) return;
+        const std::size_t all = variants.size(), known = std::erase_if(variants, [&](const std::string&variant) {
+                                                     return hasKnownShaders(reachable(base), head.build(), variant);
+                                                 });
+        noteKnown("shaders", known, all);
+        if (variants.empty()) return;
+        if (options_.techniques.empty() && known == 0) variants.clear();
+        StageLine line("shaders", options_.quiet);
         ShaderJudgement judged =
             timed("shaders", [&] { return judgeShaders(base, head, variants, shaderFolder(options_), line.progress()); });
         std::ranges::move(judged.changes, std::back_inserter(result_.changes));
         std::ranges::move(judged.notCompared, std::back_inserter(result_.notCompared));
         std::ranges::move(judged.notes, std::back_inserter(result_.notes));
+    }
+
+    void noteKnown(const char* what, std::size_t known, std::size_t all) {
+        if (known > 0)
+            result_.notes.push_back(
+                fmt::format("{} of {} of {} are the base's: nothing that can decide them has changed", what, known, all));
+    }
+
+    /// Of what no change can have reached a sample is measured on both sides; the rest is judged only where it is kept.
+    void leaveOutWhatIsKnown(MeasuredProgram& base, MeasuredProgram& head) {
+        const std::vector<Step> steps = cells_.steps(head, options_.instructions);
+        const std::vector<Step> sample = sampleOfKnown(reachable(base), head.build(), steps);
+        if (sample.empty()) return;
+        const Measured before = measureSteps(base, "base, check", sample), now = measureAgain(head, "head, check", sample);
+        if (const auto cell = contradicted(sample, before, now)) {
+            result_.notCompared.push_back(fmt::format(
+                "{} differs from the base, though nothing that can decide it has changed: everything was measured", *cell));
+            base.distrustReach();
+            head.distrustReach();
+            return;
+        }
+        std::size_t known = 0, all = 0, checked = 0;
+        std::set<std::pair<std::string, std::string>> open; // scene and variant
+        for (const Step& step : cells_.steps(base, options_.instructions))
+            for (const std::string& technique : step.techniques)
+                if (!base.isKept(step, technique)) open.emplace(step.scene, technique);
+        for (const Step& step : steps)
+            for (const std::string& technique : step.techniques) {
+                ++all;
+                known += isKnown(reachable(base), head.build(), technique, step.scene);
+            }
+        for (const Step& step : sample) checked += step.techniques.size();
+        if (!options_.all && isJudgedBy(base.build()->policy))
+            leftOut_ = cells_.leaveOut([&](const JudgedScene& scene, const std::string& variant) {
+                return isKnown(reachable(base), head.build(), variant, scene.id) && open.contains({scene.id, variant});
+            });
+        noteKnown("results", known, all);
+        result_.notes.push_back(fmt::format("{} of these were measured on both sides as a check and are equal", checked));
+        if (leftOut_ > 0)
+            result_.notes.push_back(
+                fmt::format("{} cells were measured on neither side, so {} is not written: --all measures them", leftOut_,
+                            (options_.out / "results.jsonl").string()));
     }
 
     /// Of what is judged beside the standard scenes, records as a base may hold nothing: a run makes none of it.
@@ -195,42 +244,23 @@ private:
 
     /// `only`: what these records are of, by scene, seed and whether it is a sweep.
     std::vector<Record> measure(const MeasuredProgram& program, const char* who, bool instructions,
-                                const std::vector<Record>* only = nullptr) {
+                                const std::vector<Record>& only) {
         std::vector<Step> steps = cells_.steps(program, instructions);
-        if (only != nullptr)
-            std::erase_if(steps, [&](const Step& step) {
-                return (step.isSweep() || step.seed != options_.seed) && std::ranges::none_of(*only, [&](const Record& r) {
-                           return r.scene == step.scene && r.seed == step.seed && r.sweep.has_value() == step.isSweep();
-                       });
-            });
+        std::erase_if(steps, [&](const Step& step) {
+            return (step.isSweep() || step.seed != options_.seed) && std::ranges::none_of(only, [&](const Record& r) {
+                       return r.scene == step.scene && r.seed == step.seed && r.sweep.has_value() == step.isSweep();
+                   });
+        });
         return measureSteps(program, who, steps).records();
     }
 
-    /// Runs of the head what a change can have reached, and takes the rest from its base.
-    std::vector<Record> measureReached(const MeasuredProgram& head, const KnownCells& known) {
-        const std::vector<Step> steps = cells_.steps(head, options_.instructions);
-        std::vector<Step> open = steps;
-        std::erase_if(open, [&](const Step& step) { return head.isKept(step); });
-        const KnownCells::Split split = known.split(open);
-        if (split.known > 0) {
-            const Measured measured = measureSteps(head, "head", split.steps);
-            if (const auto cell = known.contradicted(split.steps, measured))
-                result_.notCompared.push_back(fmt::format(
-                    "{} differs from the base, though nothing that can decide it has changed: everything was measured",
-                    *cell));
-            else {
-                for (const Step& step : open) {
-                    const std::vector<Record> records = known.whole(step, split.steps, measured);
-                    if (std::ranges::find(records, Status::Error, &Record::status) == records.end())
-                        head.keep(step, records);
-                }
-                result_.notes.push_back(fmt::format(
-                    "{} of {} results are taken from the base: nothing that can decide them has changed. Of these, {} were "
-                    "measured again as a check and equal the base's",
-                    split.known, split.known + split.reached, split.sampled));
-            }
-        }
-        return measureSteps(head, "head", steps).records();
+    std::vector<Record> measure(const MeasuredProgram& program, const char* who) {
+        return measureSteps(program, who, cells_.steps(program, options_.instructions)).records();
+    }
+
+    Measured measureAgain(const MeasuredProgram& program, const char* who, const std::vector<Step>& steps) {
+        StageLine line(who, options_.quiet);
+        return timed(who, [&] { return program.measureAgain(steps, line.progress()); });
     }
 
     Measured measureSteps(const MeasuredProgram& program, const char* who, const std::vector<Step>& steps) {
@@ -255,9 +285,16 @@ private:
         std::erase_if(bounds, [&](const Bound& bound) { // of scenes that this gate does not measure
             return std::ranges::find(cells_.scenes, bound.cells.scene, &JudgedScene::id) == cells_.scenes.end();
         });
-        std::ranges::move(judgeBounds(now, bounds, options_.techniques.empty()), std::back_inserter(result_.changes));
-        writeRecords(options_.out / "results.jsonl", now); // the base of a later gate, once this build is accepted
-        std::ranges::move(contradictedTruths(cells_.scenes, options_.profile, cache_, builtFrom().hash, options_.quiet),
+        std::ranges::move(judgeBounds(now, bounds, options_.techniques.empty() && leftOut_ == 0),
+                          std::back_inserter(result_.changes));
+        const fs::path records = options_.out / "results.jsonl"; // the base of a later gate, once this build is accepted
+        if (leftOut_ == 0)
+            writeRecords(records, now);
+        else
+            fs::remove(records);
+        std::vector<JudgedScene> scored = cells_.scenes;
+        std::erase_if(scored, [](const JudgedScene& scene) { return scene.variants.empty(); });
+        std::ranges::move(contradictedTruths(scored, options_.profile, cache_, builtFrom().hash, options_.quiet),
                           std::back_inserter(result_.notCompared));
     }
 
@@ -275,10 +312,8 @@ private:
         std::erase_if(cells, [&](const TimedCell& cell) {
             return isKnown(reachable(base), head.build(), cell.variant, sceneId(cell.scene));
         });
-        if (all > cells.size())
-            result_.notes.push_back(fmt::format(
-                "time of {} of {} cells is the base's: nothing that can decide it has changed", all - cells.size(), all));
-        if (all == 0) {
+        noteKnown("times", all - cells.size(), all);
+        if (all == 0 && leftOut_ == 0) {
             result_.notes.emplace_back("time is not compared: none of the chosen cells is timed");
             return;
         }
@@ -356,6 +391,7 @@ private:
     fs::path cache_;
     JudgedCells cells_;
     GateResult result_;
+    std::size_t leftOut_ = 0; // cells that are measured on neither side
 };
 
 } // namespace

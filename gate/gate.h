@@ -32,6 +32,7 @@ struct GateOptions {
     std::filesystem::path cache;                // empty: the default
     std::uint32_t seed = 1;
     bool instructions = true, time = true, shader = true; // which costs are judged
+    bool all = false;                                     // also what no change can have reached
     bool sameProgram = false;                             // base and head may be one program
     bool quiet = false;
 };

@@ -278,6 +278,13 @@ std::vector<TimedCell> JudgedCells::timedCells(const MeasuredProgram& base, cons
     return cells;
 }
 
+std::size_t JudgedCells::leaveOut(const std::function<bool(const JudgedScene& scene, const std::string& variant)>& isOut) {
+    std::size_t left = 0;
+    for (JudgedScene& scene : scenes)
+        left += std::erase_if(scene.variants, [&](const std::string& variant) { return isOut(scene, variant); });
+    return left;
+}
+
 bool JudgedCells::chooses(const std::string& scene, const std::string& variant) const {
     return std::ranges::any_of(scenes, [&](const JudgedScene& judged) {
         return judged.id == scene && std::ranges::find(judged.variants, variant) != judged.variants.end();

@@ -5,6 +5,8 @@
 #include "gate/paired_run.h"
 #include "gate/policy.h"
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +47,9 @@ struct JudgedCells {
     /// Cells that both programs have and whose time is compared: those that the config names, or all when it names none
     /// of the scenes.
     [[nodiscard]] std::vector<TimedCell> timedCells(const MeasuredProgram& base, const MeasuredProgram& head) const;
+
+    /// Leaves out cells; how many. Their scenes stay, for the policy's rules mean them.
+    std::size_t leaveOut(const std::function<bool(const JudgedScene& scene, const std::string& variant)>& isOut);
 
     [[nodiscard]] bool chooses(const std::string& scene, const std::string& variant) const;
 

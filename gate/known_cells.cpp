@@ -1,6 +1,7 @@
 #include "gate/known_cells.h"
 
 #include "base/hash.h"
+#include "scene/load/load.h"
 #include "techniques/variant_name.h"
 
 #include <algorithm>
@@ -13,24 +14,16 @@ namespace {
 
 constexpr std::size_t oneOf = 32; // known results is measured
 
-/// A step whatever its techniques are.
-std::string placeOf(const Step& step) {
-    return fmt::format("{}\n{}\n{}", step.name, fmt::join(step.arguments, "\n"), step.inputs);
-}
-
-const std::string& techniqueOf(const Record& record) { return record.sweep ? record.sweep->curve : record.variant; }
-
-std::map<std::string, std::vector<Record>> byTechnique(const std::vector<Record>& records) {
-    std::map<std::string, std::vector<Record>> all;
-    for (const Record& record : records) all[techniqueOf(record)].push_back(record);
-    return all;
-}
-
 std::string resultOf(Record record) {
     record.commit = record.program = record.time = "";
     record.dirty = false;
-    record.values["cost.instructions"].reset();
     return toJson(record);
+}
+
+std::size_t resultsIn(const std::vector<Step>& steps) {
+    std::size_t all = 0;
+    for (const Step& step : steps) all += step.techniques.size();
+    return all;
 }
 
 } // namespace
@@ -43,74 +36,44 @@ bool isKnown(const std::optional<BuildInfo>& base, const std::optional<BuildInfo
     return before && before == now;
 }
 
-KnownCells::KnownCells(const std::optional<BuildInfo>& base, const std::optional<BuildInfo>& head,
-                       const std::vector<Step>& steps, const Measured& measured)
-    : head_(head) {
-    for (std::size_t i = 0; i < steps.size(); ++i)
-        for (auto& [technique, records] : byTechnique(measured.ofSteps[i])) {
-            const bool failed = std::ranges::any_of(records, [](const Record& r) { return r.status == Status::Error; });
-            if (!failed && isKnown(base, head, technique, steps[i].scene))
-                known_[placeOf(steps[i])].emplace(technique, records);
-        }
+bool hasKnownShaders(const std::optional<BuildInfo>& base, const std::optional<BuildInfo>& head,
+                     const std::string& variant) {
+    if (!base || !head) return false;
+    const auto before = base->reach.hash(Reach::shaderFigures), now = head->reach.hash(Reach::shaderFigures);
+    return before && before == now && std::ranges::all_of(builtinScenes(), [&](const std::string& scene) {
+               return isKnown(base, head, variant, scene);
+           });
 }
 
-const std::vector<Record>* KnownCells::find(const Step& step, const std::string& technique) const {
-    const auto place = known_.find(placeOf(step));
-    if (place == known_.end()) return nullptr;
-    const auto records = place->second.find(technique);
-    return records == place->second.end() ? nullptr : &records->second;
-}
-
-KnownCells::Split KnownCells::split(const std::vector<Step>& steps) const {
-    Split split;
+std::vector<Step> sampleOfKnown(const std::optional<BuildInfo>& base, const std::optional<BuildInfo>& head,
+                                const std::vector<Step>& steps) {
+    std::vector<Step> sample = steps;
+    for (Step& step : sample) {
+        std::ranges::replace(step.arguments, std::string("instructions"), std::string("none"));
+        std::erase_if(step.techniques, [&](const std::string& t) { return !isKnown(base, head, t, step.scene); });
+    }
+    const std::size_t drawn = (resultsIn(sample) + oneOf - 1) / oneOf;
     std::vector<std::pair<std::string, std::pair<std::size_t, std::string>>> lots;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        split.steps.push_back(steps[i]);
-        split.steps[i].techniques.clear();
-        for (const std::string& technique : steps[i].techniques)
-            if (find(steps[i], technique) != nullptr)
-                lots.emplace_back(hash128(head_->commit + placeOf(steps[i]) + technique).text(), std::pair(i, technique));
-            else
-                split.steps[i].techniques.push_back(technique);
-        split.reached += split.steps[i].techniques.size();
-    }
-    split.known = lots.size();
-    split.sampled = (lots.size() + oneOf - 1) / oneOf;
+    for (std::size_t i = 0; i < sample.size(); ++i)
+        for (const std::string& technique : std::exchange(sample[i].techniques, {}))
+            lots.emplace_back(hash128(head->commit + sample[i].place() + technique).text(), std::pair(i, technique));
     std::ranges::sort(lots);
-    for (std::size_t i = 0; i < split.sampled; ++i)
-        split.steps[lots[i].second.first].techniques.push_back(lots[i].second.second);
-    std::erase_if(split.steps, [](const Step& step) { return step.techniques.empty(); });
-    return split;
+    for (std::size_t i = 0; i < drawn; ++i) sample[lots[i].second.first].techniques.push_back(lots[i].second.second);
+    std::erase_if(sample, [](const Step& step) { return step.techniques.empty(); });
+    return sample;
 }
 
-std::optional<std::string> KnownCells::contradicted(const std::vector<Step>& ran, const Measured& measured) const {
-    for (std::size_t i = 0; i < ran.size(); ++i)
-        for (const auto& [technique, records] : byTechnique(measured.ofSteps[i])) {
-            const std::vector<Record>* base = find(ran[i], technique);
-            if (base != nullptr && !std::ranges::equal(*base, records, {}, resultOf, resultOf))
-                return fmt::format("{} on {}", technique, ran[i].scene);
-        }
-    return std::nullopt;
-}
-
-std::vector<Record> KnownCells::whole(const Step& step, const std::vector<Step>& ran, const Measured& measured) const {
-    const auto same = std::ranges::find(ran, placeOf(step), placeOf);
-    const auto now = same == ran.end() ? std::map<std::string, std::vector<Record>>{}
-                                       : byTechnique(measured.ofSteps[static_cast<std::size_t>(same - ran.begin())]);
-    std::vector<Record> all;
-    for (const std::string& technique : step.techniques) {
-        if (const auto found = now.find(technique); found != now.end()) {
-            all.insert(all.end(), found->second.begin(), found->second.end());
-        } else if (const std::vector<Record>* base = find(step, technique)) {
-            for (Record record : *base) {
-                record.commit = head_->commit;
-                record.dirty = head_->dirty;
-                record.program = head_->program;
-                all.push_back(std::move(record));
-            }
+std::optional<std::string> contradicted(const std::vector<Step>& sample, const Measured& base, const Measured& head) {
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+        const auto before = byTechnique(base.ofSteps[i]), now = byTechnique(head.ofSteps[i]);
+        for (const std::string& technique : sample[i].techniques) {
+            const auto was = before.find(technique), is = now.find(technique);
+            const bool same = was != before.end() && is != now.end() &&
+                              std::ranges::equal(was->second, is->second, {}, resultOf, resultOf);
+            if (!same) return fmt::format("{} on {}", technique, sample[i].scene);
         }
     }
-    return all;
+    return std::nullopt;
 }
 
 } // namespace shadowbench::gate

@@ -3,8 +3,6 @@
 
 #include "gate/measured_program.h"
 
-#include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,32 +13,15 @@ namespace shadowbench::gate {
 bool isKnown(const std::optional<BuildInfo>& base, const std::optional<BuildInfo>& head, const std::string& variant,
              const std::string& scene);
 
-class KnownCells {
-public:
-    /// `measured`: of `steps` of the base.
-    KnownCells(const std::optional<BuildInfo>& base, const std::optional<BuildInfo>& head, const std::vector<Step>& steps,
-               const Measured& measured);
+/// Whether both give the same shaders and the same figures of them for a variant, whatever the built-in scene.
+bool hasKnownShaders(const std::optional<BuildInfo>& base, const std::optional<BuildInfo>& head, const std::string& variant);
 
-    struct Split {
-        std::vector<Step> steps; // that must be run, with what is known left out of their techniques, but for the sample
-        std::size_t known = 0, sampled = 0, reached = 0; // variants of steps; the sample is among those that are known
-    };
-    /// Every 32nd known result, one at least, is measured all the same: which, a hash of the head's commit draws.
-    [[nodiscard]] Split split(const std::vector<Step>& steps) const;
+/// Every 32nd known result of `steps`, one at least where any is known: which, a hash of the head's commit draws. They are
+/// to be measured on both sides as a check, without instructions, of which the comparison knows what is no change.
+std::vector<Step> sampleOfKnown(const std::optional<BuildInfo>& base, const std::optional<BuildInfo>& head,
+                                const std::vector<Step>& steps);
 
-    /// The first known result that was measured and is another one, as "pcf on trees": whatever is not of the program but
-    /// instructions, of which the comparison knows what is no change.
-    [[nodiscard]] std::optional<std::string> contradicted(const std::vector<Step>& ran, const Measured& measured) const;
-
-    /// All records of a step in the order of its techniques: those of `measured`, and the base's as the head's.
-    [[nodiscard]] std::vector<Record> whole(const Step& step, const std::vector<Step>& ran, const Measured& measured) const;
-
-private:
-    using Records = std::map<std::string, std::vector<Record>>; // by technique
-    [[nodiscard]] const std::vector<Record>* find(const Step& step, const std::string& technique) const;
-
-    std::optional<BuildInfo> head_;
-    std::map<std::string, Records> known_; // by step
-};
+/// The first result of the sample that the programs give otherwise, as "pcf on trees": in whatever is not of the program.
+std::optional<std::string> contradicted(const std::vector<Step>& sample, const Measured& base, const Measured& head);
 
 } // namespace shadowbench::gate

@@ -122,19 +122,10 @@ bool allows(const std::string& domain, const std::string& value) {
     return ("|" + domain + "|").find("|" + value + "|") != std::string::npos;
 }
 
-/// With the files of technique folders: what was measured of others is no answer.
-std::string text(const Step& step) {
-    std::string folders;
-    for (const std::string& name : step.techniques)
-        for (const techniques::Entry& entry : techniques::catalog())
-            if (entry.id == techniques::idOfVariant(name) && !entry.digest.empty()) folders += "\n" + entry.digest;
-    return fmt::format("{}\n{}\n{}{}", fmt::join(step.arguments, "\n"), fmt::join(step.techniques, "\n"), step.inputs,
-                       folders);
-}
-
-/// Whether kept records are still those whose hash was written beside them.
-bool isAsLeft(const fs::path& records, const fs::path& hash) {
-    return fs::exists(records) && hash128(readFile(records)).text() == readFile(hash);
+/// The files of a technique folder: what was measured of others is no answer.
+std::string digestOf(const std::string& variant) {
+    const auto entry = std::ranges::find(techniques::catalog(), techniques::idOfVariant(variant), &techniques::Entry::id);
+    return entry == techniques::catalog().end() ? "" : entry->digest;
 }
 
 } // namespace
@@ -144,7 +135,8 @@ MeasuredProgram::MeasuredProgram(const fs::path& file, const fs::path& cache)
     try {
         const std::string bytes = readFile(file_);
         content_ = hash128(bytes).text();
-        records_ = cache_ / "gate" / hash128(bytes + surroundings()).text();
+        surroundings_ = surroundings();
+        runs_ = cache_ / "gate" / hash128(bytes + surroundings_).text();
     } catch (const BadInput& error) {
         throw Inconclusive(error.what());
     }
@@ -213,21 +205,80 @@ std::vector<Record> Measured::records() const {
     return all;
 }
 
-fs::path MeasuredProgram::folderOf(const Step& step) const { return records_ / hash128(text(step)).text(); }
+std::string Step::place() const { return fmt::format("{}\n{}\n{}", name, fmt::join(arguments, "\n"), inputs); }
 
-bool MeasuredProgram::isKept(const Step& step) const {
-    const fs::path folder = folderOf(step), done = folder / "done";
-    return fs::exists(done) && isAsLeft(folder / step.records, done);
+std::map<std::string, std::vector<Record>> byTechnique(const std::vector<Record>& records) {
+    std::map<std::string, std::vector<Record>> all;
+    for (const Record& record : records) all[record.sweep ? record.sweep->curve : record.variant].push_back(record);
+    return all;
 }
 
-void MeasuredProgram::keep(const Step& step, const std::vector<Record>& records) const {
-    const FolderLock alone(records_, [] {});
-    const fs::path folder = folderOf(step);
-    writeRecords(folder / step.records, records);
-    writeFile(folder / "done", hash128(readFile(folder / step.records)).text());
+void MeasuredProgram::distrustReach() {
+    if (build_) build_->reach = {};
+}
+
+std::string MeasuredProgram::reachOf(const Step& step, const std::string& technique) const {
+    return build_ ? build_->reach.key(std::string(techniques::idOfVariant(technique)), step.scene).value_or("") : "";
+}
+
+fs::path MeasuredProgram::fileOf(const Step& step, const std::string& technique) const {
+    const std::string reach = reachOf(step, technique);
+    const std::string hash = hash128(fmt::format("{}\n{}\n{}\n{}\n{}", surroundings_, reach.empty() ? content_ : reach,
+                                                 step.place(), technique, digestOf(technique)))
+                                 .text();
+    return cache_ / "gate" / "results" / hash.substr(0, 2) / (hash + ".jsonl");
+}
+
+bool MeasuredProgram::isKept(const Step& step, const std::string& technique) const {
+    return kept(step, technique).has_value();
+}
+
+std::optional<std::vector<Record>> MeasuredProgram::kept(const Step& step, const std::string& technique) const {
+    const fs::path file = fileOf(step, technique), hash = fs::path(file).replace_extension(".hash");
+    if (!fs::exists(file) || !fs::exists(hash) || hash128(readFile(file)).text() != readFile(hash)) return std::nullopt;
+    std::vector<Record> records = readRecords(file);
+    if (!reachOf(step, technique).empty()) // another program with the same may have measured them
+        for (Record& record : records) {
+            record.commit = build_->commit;
+            record.dirty = build_->dirty;
+            record.program = build_->program;
+        }
+    return records;
+}
+
+void MeasuredProgram::keep(const Step& step, const std::string& technique, const std::vector<Record>& records) const {
+    const fs::path file = fileOf(step, technique);
+    writeRecords(file, records);
+    writeFile(fs::path(file).replace_extension(".hash"), hash128(readFile(file)).text());
+}
+
+fs::path MeasuredProgram::folderOf(const Step& step) const {
+    return runs_ / hash128(fmt::format("{}\n{}", step.place(), fmt::join(step.techniques, "\n"))).text();
+}
+
+MeasuredProgram::Results MeasuredProgram::results(Step step, bool again, int programs, const Progress& progress) const {
+    const Step whole = step;
+    const fs::path out = folderOf(step);
+    if (again || step.callsRenderers) fs::remove_all(out);
+    if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");
+    const int code = run(step, out, programs, progress);
+    Results all = byTechnique(readRecords(out / step.records));
+    if (step.callsRenderers) return all;
+    if (code == 0 && !again) // one with errors is tried again
+        for (const auto& [technique, records] : all) keep(whole, technique, records);
+    if (code == 0 || again) fs::remove_all(out);
+    return all;
 }
 
 Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress& progress) const {
+    return measured(steps, false, progress);
+}
+
+Measured MeasuredProgram::measureAgain(const std::vector<Step>& steps, const Progress& progress) const {
+    return measured(steps, true, progress);
+}
+
+Measured MeasuredProgram::measured(const std::vector<Step>& steps, bool again, const Progress& progress) const {
     using Clock = std::chrono::steady_clock;
     Measured measured;
     measured.ofSteps.resize(steps.size());
@@ -235,26 +286,31 @@ Measured MeasuredProgram::measure(const std::vector<Step>& steps, const Progress
     std::mutex mutex;
     std::size_t ended = 0;
     // Another gate that measures the same program does so for both.
-    const FolderLock alone(records_, [&] { progress(0, "waiting for another gate that measures this program"); });
+    const FolderLock alone(runs_, [&] { progress(0, "waiting for another gate that measures this program"); });
     const int programs = std::min(static_cast<int>(steps.size()), availableThreads());
     inParallel(static_cast<int>(steps.size()), programs, [&](int index) {
         const auto i = static_cast<std::size_t>(index);
-        Step step = steps[i];
-        const fs::path out = folderOf(step), done = out / "done";
-        if (step.callsRenderers || (fs::exists(done) && !isKept(step))) fs::remove_all(out);
-        if (!fs::exists(done)) {
+        Step open = steps[i];
+        Results all;
+        if (!again && !open.callsRenderers) {
+            for (const std::string& technique : open.techniques)
+                if (auto records = kept(open, technique)) all[technique] = std::move(*records);
+            std::erase_if(open.techniques, [&](const std::string& technique) { return all.contains(technique); });
+        }
+        if (!open.techniques.empty()) {
             const auto start = Clock::now();
-            if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");
-            const int code = run(step, out, programs, [&](double, std::string_view line) {
+            all.merge(results(open, again, programs, [&](double, std::string_view line) {
                 const std::scoped_lock lock(mutex);
                 progress(static_cast<double>(ended) / static_cast<double>(steps.size()), line);
-            });
-            if (code == 0) writeFile(done, hash128(readFile(out / step.records)).text()); // one with errors is tried again
-            times[i] = {step.name, std::chrono::duration<double>(Clock::now() - start).count()};
+            }));
+            times[i] = {open.name, std::chrono::duration<double>(Clock::now() - start).count()};
         }
-        measured.ofSteps[i] = readRecords(out / step.records);
+        for (const std::string& technique : steps[i].techniques)
+            if (const auto found = all.find(technique); found != all.end())
+                std::ranges::move(found->second, std::back_inserter(measured.ofSteps[i]));
+        const fs::path logs = folderOf(open) / "logs";
         const std::scoped_lock lock(mutex);
-        if (step.callsRenderers && fs::is_directory(out / "logs")) measured.logs.push_back(out / "logs");
+        if (open.callsRenderers && fs::is_directory(logs)) measured.logs.push_back(logs);
         ++ended;
     });
     for (const std::optional<StepTime>& time : times)

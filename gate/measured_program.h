@@ -28,6 +28,9 @@ struct Step {
     std::uint32_t seed = 1; // … and seed of its records
 
     [[nodiscard]] bool isSweep() const { return records == "sweep.jsonl"; }
+
+    /// The step whatever its techniques are.
+    [[nodiscard]] std::string place() const;
 };
 
 struct StepTime {
@@ -44,6 +47,9 @@ struct Measured {
     [[nodiscard]] std::vector<Record> records() const;
 };
 
+/// A step's records by its techniques.
+std::map<std::string, std::vector<Record>> byTechnique(const std::vector<Record>& records);
+
 /// What a program's `shader-cost` left.
 struct ShaderFigures {
     ExitCode code = ExitCode::Pass;
@@ -54,8 +60,9 @@ struct ShaderFigures {
 
 class MeasuredProgram {
 public:
-    /// `file`: the executable. Its records are kept in `cache`, under a hash of the program, Mesa, Valgrind and processor:
-    /// the same program is not measured twice. Throws Inconclusive when it cannot be read.
+    /// `file`: the executable. Its records are kept in `cache`, under a hash of what can decide them (gate/reach.h; of a
+    /// program that does not say, the program), Mesa, Valgrind and processor: nothing is measured twice. Throws Inconclusive
+    /// when it cannot be read.
     MeasuredProgram(const std::filesystem::path& file, const std::filesystem::path& cache);
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
@@ -73,14 +80,18 @@ public:
     /// The variants that it shows, in the order of its catalogue, as it lists them.
     [[nodiscard]] std::vector<std::string> variants() const;
 
-    /// Runs the steps that no earlier call has finished, or whose records somebody has changed since, on all cores, and
-    /// reads the records of all steps. A step that was killed is resumed. Throws Inconclusive when a step fails otherwise
-    /// than in some of its cells.
+    /// Runs of the steps what no earlier call has measured, or what somebody has changed since, on all cores, and returns
+    /// the records of all steps. A step that was killed is resumed. Throws Inconclusive when a step fails otherwise than in
+    /// some of its cells.
     Measured measure(const std::vector<Step>& steps, const Progress& progress) const;
 
-    /// Whether the step's records are kept, and keeps them without running it.
-    [[nodiscard]] bool isKept(const Step& step) const;
-    void keep(const Step& step, const std::vector<Record>& records) const;
+    /// The same whatever is kept. Of that, nothing is changed.
+    Measured measureAgain(const std::vector<Step>& steps, const Progress& progress) const;
+
+    [[nodiscard]] bool isKept(const Step& step, const std::string& technique) const;
+
+    /// From now on nothing counts that was measured of other programs.
+    void distrustReach();
 
     /// Runs one step in `out`, whatever was run before, and returns its exit code: not 0 when some of its cells failed,
     /// which have records that say so. Throws Inconclusive when it left no records.
@@ -92,7 +103,18 @@ public:
                                 const Progress& progress) const;
 
 private:
+    using Results = std::map<std::string, std::vector<Record>>; // by technique
+
+    Measured measured(const std::vector<Step>& steps, bool again, const Progress& progress) const;
+    /// What decides a result; "" where the program does not say.
+    [[nodiscard]] std::string reachOf(const Step& step, const std::string& technique) const;
+    [[nodiscard]] std::filesystem::path fileOf(const Step& step, const std::string& technique) const;
+    [[nodiscard]] std::optional<std::vector<Record>> kept(const Step& step, const std::string& technique) const;
+    void keep(const Step& step, const std::string& technique, const std::vector<Record>& records) const;
+    /// Where it runs.
     [[nodiscard]] std::filesystem::path folderOf(const Step& step) const;
+    /// Runs the step and keeps what it gives, unless `again` or it ends with errors.
+    Results results(Step step, bool again, int programs, const Progress& progress) const;
 
     struct Technique {
         std::string id;
@@ -100,8 +122,8 @@ private:
         std::vector<std::string> variants;             // parameter strings
     };
 
-    std::filesystem::path file_, cache_, records_;
-    std::string content_;
+    std::filesystem::path file_, cache_, runs_;
+    std::string content_, surroundings_;
     std::optional<BuildInfo> build_;
     std::vector<std::string> scenes_;
     std::vector<Technique> techniques_;

@@ -47,4 +47,9 @@ std::optional<std::string> Reach::key(const std::string& technique, const std::s
     return all.empty() ? std::nullopt : std::optional(hash128(all).text());
 }
 
+std::optional<std::string> Reach::hash(const std::string& unit) const {
+    const auto found = units_.find(unit);
+    return found == units_.end() ? std::nullopt : std::optional(found->second.hash);
+}
+
 } // namespace shadowbench::gate

@@ -30,6 +30,12 @@ public:
     /// Hash of these: where it is equal in two programs, so are their results.
     [[nodiscard]] std::optional<std::string> key(const std::string& technique, const std::string& scene) const;
 
+    /// Hash of the sources of one unit.
+    [[nodiscard]] std::optional<std::string> hash(const std::string& unit) const;
+
+    /// The unit of what makes figures of shaders, beside what draws.
+    static constexpr const char* shaderFigures = "shader-figures";
+
 private:
     struct Unit {
         std::string hash;

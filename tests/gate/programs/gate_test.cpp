@@ -24,29 +24,97 @@ TEST_F(GateOfStandIns, EqualRecordsPass) {
     EXPECT_TRUE(result.notCompared.empty());
 }
 
-TEST_F(GateOfStandIns, ResultsThatNoChangeCanHaveReachedAreTheBases) {
-    const auto reaches = [](const StandIn& program, const std::string& commit, const std::string& none) {
-        program.is({commit, false, commit, {}, Reach("* 1\nfiltered/pcf 2\nplanar/none " + none + "\n")});
-    };
-    const std::string small = "pcf:map=64", large = "pcf:map=128";
-    options_.techniques = {small, large, "none"};
-    reaches(base_, "c0ffee", "3");
-    reaches(head_, "decaf", "4");
-    base_.measures({standInRecord(small), standInRecord(large), standInRecord("none")});
-    head_.measures({headRecord(small), headRecord(large), leaking(headRecord("none"))});
+/// What `shader-cost` leaves, with these executed cycles of its one shader.
+std::string tellsOfShader(double executed) {
+    shaders::ShaderCost cost{};
+    cost.technique = "pcf";
+    cost.scene = "simple";
+    cost.pass = "resolve";
+    cost.stage = gpu::Stage::Fragment;
+    cost.source = "filtered/pcf/pcf.frag";
+    cost.architecture = "navi21";
+    cost.executed = gpu::Executed{executed, executed, 0, 0, 0, 0, 0};
+    return "while [ $# -gt 0 ]; do [ \"$1\" = --out ] && out=$2; shift; done\nmkdir -p \"$out\"\n"
+           "cat >\"$out/shader-cost.jsonl\" <<'END'\n" +
+           shaders::toLines({"radv", {cost}}) + "END\n";
+}
+
+/// A change of `none` alone, of which the head leaks, beside two variants of pcf.
+class GateByReach : public GateOfStandIns {
+protected:
+    GateByReach() {
+        options_.techniques = {small, large, "none"};
+        reaches(base_, "c0ffee", "3");
+        reaches(head_, "decaf", "4");
+        base_.measures({standInRecord(small), standInRecord(large), standInRecord("none")});
+        head_.measures({headRecord(small), headRecord(large), leaking(headRecord("none"))});
+    }
+
+    void reaches(const StandIn& program, const std::string& commit, const std::string& none) const {
+        program.is({commit, false, commit, readPolicy(options_.bounds, Profile::Gate),
+                    Reach("* 1\nfiltered/pcf 2\nplanar/none " + none + "\nshader-figures 5\n")});
+    }
+    [[nodiscard]] std::ptrdiff_t measurementsOf(const std::string& program, const std::string& variant) const {
+        const std::string calls = readFile(folder_.path() / program / "calls");
+        std::ptrdiff_t count = 0;
+        for (std::size_t at = 0; (at = calls.find("--technique " + variant + " ", at)) != std::string::npos; ++at) ++count;
+        return count;
+    }
+
+    static constexpr const char *small = "pcf:map=64", *large = "pcf:map=128";
+};
+
+TEST_F(GateByReach, OfResultsThatNoChangeCanHaveReachedASampleIsMeasured) {
     const GateResult result = gate(options_);
     EXPECT_EQ(result.code(), ExitCode::AccuracyRegression) << notCompared(result);
-    EXPECT_TRUE(has(result.notes, "2 of 3 results are taken from the base")) << all(result.notes);
-    EXPECT_TRUE(has(result.notes, "Of these, 1 were measured again as a check"));
-    const std::string calls = readFile(folder_.path() / "head/calls");
-    EXPECT_NE(calls.find("--technique none"), std::string::npos);
-    EXPECT_NE(calls.find(small) == std::string::npos, calls.find(large) == std::string::npos) << "one of both is the sample";
-    const std::vector<Record> records = readRecords(path("out") + "/results.jsonl");
+    EXPECT_TRUE(has(result.notes, "results of 2 of 3 are the base's")) << all(result.notes);
+    EXPECT_TRUE(has(result.notes, "1 of these were measured on both sides as a check and are equal"));
+    EXPECT_TRUE(has(result.notes, "1 cells were measured on neither side")) << all(result.notes);
+    for (const char* program : {"base", "head"})
+        EXPECT_EQ(measurementsOf(program, small) + measurementsOf(program, large), 1) << "the sample, by the " << program;
+    EXPECT_FALSE(fs::exists(path("out/results.jsonl"))) << "it would not be whole";
+    EXPECT_EQ(of(result, "accuracy.leak").size(), 2U) << "of none and the sample";
+}
+
+TEST_F(GateByReach, OnDemandAllIsMeasuredAndLaterGatesTakeWhatIsKept) {
+    options_.all = true;
+    const GateResult result = gate(options_);
+    EXPECT_EQ(result.code(), ExitCode::AccuracyRegression) << notCompared(result);
+    EXPECT_EQ(measurementsOf("base", small) + measurementsOf("base", large), 2);
+    EXPECT_EQ(measurementsOf("head", small) + measurementsOf("head", large), 1)
+        << "the sample: the rest is kept of the base";
+    const std::vector<Record> records = readRecords(path("out/results.jsonl"));
     ASSERT_EQ(records.size(), 3U);
     for (const Record& record : records) EXPECT_EQ(record.commit, "decaf") << record.variant;
-    EXPECT_EQ(head_.calls("run"), 2) << "one for pictures";
+
+    options_.all = false;
+    const std::ptrdiff_t before = base_.calls("run");
+    EXPECT_FALSE(has(gate(options_).notes, "on neither side"));
+    EXPECT_EQ(base_.calls("run"), before + 1) << "for pictures";
+    EXPECT_EQ(readRecords(path("out/results.jsonl")).size(), 3U);
+}
+
+TEST_F(GateByReach, WithAnotherPolicyNothingIsLeftOut) {
+    bounds("[[bound]]\nscene = \"tiny\"\ntechniques = [\"pcf\"]\nmetric = \"leak\"\nbelow = 1e-6\nreason = \"a test\"\n");
+    const GateResult result = gate(options_);
+    EXPECT_FALSE(has(result.notes, "on neither side")) << all(result.notes);
+    EXPECT_EQ(measurementsOf("base", small) + measurementsOf("base", large), 2);
+}
+
+TEST_F(GateByReach, ShadersThatNoChangeCanHaveReachedAreNotCompiled) {
+    options_.shader = true;
+    for (const StandIn* program : {&base_, &head_})
+        program->does("shader-cost", "echo \"$*\" >>\"$here/compiled\"\n" + tellsOfShader(1000) + "exit 0\n");
+    const GateResult result = gate(options_);
+    EXPECT_TRUE(has(result.notes, "shaders of 2 of 3 are the base's")) << all(result.notes);
+    const std::string compiled = readFile(folder_.path() / "head/compiled");
+    EXPECT_NE(compiled.find("--technique none"), std::string::npos);
+    EXPECT_EQ(compiled.find("--technique pcf"), std::string::npos) << compiled;
+    head_.is({"decaf", false, "decaf", readPolicy(options_.bounds, Profile::Gate),
+              Reach("* 1\nfiltered/pcf 2\nplanar/none 4\nshader-figures 6\n")});
     (void)gate(options_);
-    EXPECT_EQ(head_.calls("run"), 3) << "for pictures: all results are kept, as those of the next gate's base";
+    EXPECT_NE(readFile(folder_.path() / "head/compiled").find("--technique pcf"), std::string::npos)
+        << "by another model of a graphics processor";
 }
 
 TEST_F(GateOfStandIns, AKnownResultThatIsAnotherMakesTheGateInconclusiveAndAllIsMeasured) {
@@ -85,21 +153,6 @@ TEST_F(GateOfStandIns, AgainstRecordsOnlyTheHeadIsDrawnAndNoTimeJudged) {
     EXPECT_FALSE(result.pictures[0].baseRecord);
     EXPECT_TRUE(has(result.notes, "this build's policy alone judges"));
     EXPECT_TRUE(has(result.notes, "time is not compared: the base is a file of records"));
-}
-
-/// What `shader-cost` leaves, with these executed cycles of its one shader.
-std::string tellsOfShader(double executed) {
-    shaders::ShaderCost cost{};
-    cost.technique = "pcf";
-    cost.scene = "simple";
-    cost.pass = "resolve";
-    cost.stage = gpu::Stage::Fragment;
-    cost.source = "filtered/pcf/pcf.frag";
-    cost.architecture = "navi21";
-    cost.executed = gpu::Executed{executed, executed, 0, 0, 0, 0, 0};
-    return "while [ $# -gt 0 ]; do [ \"$1\" = --out ] && out=$2; shift; done\nmkdir -p \"$out\"\n"
-           "cat >\"$out/shader-cost.jsonl\" <<'END'\n" +
-           shaders::toLines({"radv", {cost}}) + "END\n";
 }
 
 TEST_F(GateOfStandIns, ASlowerShaderIsACostRegressionThatIsToldBeforeAnythingIsDrawn) {
@@ -286,6 +339,10 @@ TEST_F(GateOfStandIns, OfAllCellsAreThoseThatRecordsHaveOfTheStandardScenes) {
     step.sweep = SweepStep{"near-plane", "m", "gone", 1, 0.1};
     other.scene = "near-plane";
     compareWith({gone, other, step});
+    Record there = headRecord("none");
+    there.scene = "dueling-frusta";
+    head_.measures({there});
+    head_.lists("scenes", R"([{"id": "dueling-frusta"}])");
     options_.scenes.clear();
     options_.techniques.clear();
     options_.cache.clear();

@@ -7,6 +7,7 @@
 #include "base/temporary_folder.h"
 #include "tests/gate/programs/stand_in.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <gtest/gtest.h>
 
@@ -75,7 +76,7 @@ TEST_F(AMeasuredProgram, IsMeasuredOnce) {
 TEST_F(AMeasuredProgram, IsMeasuredAgainWhereSomebodyChangedOrRemovedItsRecords) {
     const auto kept = [&] {
         for (const auto& entry : fs::recursive_directory_iterator(folder_.path() / "cache"))
-            if (entry.path().filename() == "results.jsonl") return entry.path();
+            if (entry.path().extension() == ".jsonl") return entry.path();
         return fs::path();
     };
     (void)measure(step_);
@@ -87,6 +88,30 @@ TEST_F(AMeasuredProgram, IsMeasuredAgainWhereSomebodyChangedOrRemovedItsRecords)
     fs::remove(kept());
     EXPECT_EQ(measure(step_).records().size(), 1U);
     EXPECT_EQ(standIn_.calls("run"), 3);
+}
+
+TEST_F(AMeasuredProgram, TakesWhatAnotherOfTheSameReachHasMeasured) {
+    const StandIn other{folder_.path(), "other"};
+    const auto is = [](const StandIn& program, const std::string& commit, const std::string& pcf) {
+        program.is({commit, false, commit, {}, Reach("* 1\nfiltered/pcf " + pcf + "\n")});
+    };
+    is(standIn_, "one", "2");
+    is(other, "decaf", "2");
+    (void)measure(step_);
+    const MeasuredProgram same(other.program(), folder_.path() / "cache");
+    EXPECT_TRUE(same.isKept(step_, "pcf"));
+    const std::vector<Record> records = same.measure({step_}, [](double, std::string_view) {}).records();
+    EXPECT_EQ(other.calls("run"), 0);
+    ASSERT_EQ(records.size(), 1U);
+    EXPECT_EQ(records[0].commit, "decaf") << "as its own";
+    (void)same.measureAgain({step_}, [](double, std::string_view) {});
+    EXPECT_EQ(other.calls("run"), 1);
+
+    MeasuredProgram refuted = same;
+    refuted.distrustReach();
+    EXPECT_FALSE(refuted.isKept(step_, "pcf"));
+    is(other, "decaf", "3");
+    EXPECT_FALSE(MeasuredProgram(other.program(), folder_.path() / "cache").isKept(step_, "pcf"));
 }
 
 TEST_F(AMeasuredProgram, IsMeasuredAgainForOtherInputsAndWithOtherPrograms) {
@@ -122,15 +147,18 @@ TEST_F(AMeasuredProgram, SaysHowFarItIsInLinesOfTheirOwnForm) {
 }
 
 TEST_F(AMeasuredProgram, ThatAnotherGateMeasuresIsWaitedFor) {
-    (void)measure(step_); // makes the folder
+    standIn_.endsWith(5);
+    (void)measure(step_); // leaves its folder, to go on there
+    standIn_.endsWith(0);
     std::optional<FolderLock> other;
-    for (const auto& entry : fs::directory_iterator(folder_.path() / "cache/gate")) other.emplace(entry.path());
+    for (const auto& entry : fs::directory_iterator(folder_.path() / "cache/gate"))
+        if (entry.path().filename() != "results") other.emplace(entry.path());
     const Measured waited = measured().measure({step_}, [&](double, std::string_view line) {
         progress_.emplace_back(line);
         other.reset();
     });
     EXPECT_EQ(waited.records().size(), 1U);
-    EXPECT_EQ(progress_.back(), "waiting for another gate that measures this program");
+    EXPECT_EQ(std::ranges::count(progress_, "waiting for another gate that measures this program"), 1);
 }
 
 TEST_F(AMeasuredProgram, WithErrorsInSomeCellsIsTriedAgain) {
