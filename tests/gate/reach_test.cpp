@@ -24,13 +24,14 @@ protected:
         for (const auto& [file, text] : std::vector<std::pair<const char*, const char*>>{
                  {"CMakeLists.txt", "link a b"},
                  {"cmake/layers.txt",
-                  "# layers\nbase: |\nscene: base |\ntechniques: base |\nharness: techniques |\ngate: harness |\n"},
+                  "# layers\nbase: |\nscene: base |\ntechniques: base |\nharness: techniques |\ngate: harness |\ngpu: |\n"},
                  {"cmake/modules.cmake", "options"},
                  {"results/reference/lock.json", "{}"},
                  {"base/random.h", "constexpr int seed = 1;"},
                  {"harness/cost.cpp", "parseVariant(\"sm-one\"); parseVariant(name);"},
                  {"scene/library/trees.toml", "trees"},
                  {"gate/gate.cpp", "int gate;"},
+                 {"gpu/model.cpp", "int waves;"},
                  {"techniques/catalog.inc", "TECHNIQUE(smOne)\nTECHNIQUE(smTwo)\nFOLDER(\"filtered/pcf\")\n"},
                  {"techniques/shared/maps/map.h", "template <int N> struct Map {};"},
                  {"techniques/shared/maps/map.cpp", "load(\"shared/maps/map.vert\");"},
@@ -132,6 +133,17 @@ TEST_F(SmallTree, ASceneIsReachedByItsFileAndAllByTheCompilerAndANewRoom) {
     EXPECT_EQ(changed(before, reach()), "");
     write("cmake/layers.txt", readFile(folder_.path() / "tree/cmake/layers.txt") + "physics: |\n");
     EXPECT_EQ(changed(before, reach()), all);
+}
+
+TEST_F(SmallTree, AModelOfGraphicsProcessorsDecidesFiguresOfShadersAndNoCell) {
+    const Reach before = reach();
+    write("gpu/model.cpp", "int lanes;");
+    EXPECT_EQ(changed(before, reach()), "");
+    EXPECT_NE(before.hash(Reach::shaderFigures), reach().hash(Reach::shaderFigures));
+    write("gpu/model.cpp", "int waves;");
+    write("base/random.h", "constexpr int seed = 2;");
+    EXPECT_EQ(before.hash(Reach::shaderFigures), reach().hash(Reach::shaderFigures)) << "a key of a cell has the rest";
+    EXPECT_FALSE(before.hash("nothing-of-this-name"));
 }
 
 TEST(OwnReach, NamesWhatDecidesEveryBuiltInTechnique) {
