@@ -43,10 +43,11 @@ struct Motion {
     [[nodiscard]] bool still() const { return degreesPerFrame == 0 && shift.keys.empty(); }
 };
 
-/// One placement of an object: world from object, and the turn (degrees about Motion::axis) it starts with.
+/// One placement of an object: world from object, the turn (degrees about Motion::axis) and the pose it starts with.
 struct Instance {
     glm::dmat4 place{1};
     double phase = 0;
+    int pose = 0;
 };
 
 /// A level of detail: used from the previous level's `until` up to this one's (metres between eye and instance origin).
@@ -62,6 +63,12 @@ struct Object {
     std::vector<Level> levels; // finest first, never empty
     std::vector<Instance> instances;
     Motion motion;
+    /// Of a mesh that deforms: one cycle, a mesh for each moving frame, all with the same triangles. The first is that of
+    /// the one level. Empty: it is rigid.
+    std::vector<std::shared_ptr<const Mesh>> poses{};
+
+    [[nodiscard]] bool still() const { return motion.still() && poses.empty(); }
+    [[nodiscard]] glm::vec3 shown(std::size_t level) const { return levels[level].colour.value_or(colour); }
 };
 
 /// The frames a cell renders: `still` ones with everything at rest (history techniques converge over them; the last is the

@@ -1,6 +1,7 @@
 // A scene at one frame.
 #include "scene/scene.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -26,10 +27,30 @@ Light lightAt(const Scene& scene, double frame) {
     return light;
 }
 
+/// `frames` are whole, and negative ones come before the cycle.
+std::size_t poseAt(const Object& object, const Instance& instance, double frames) {
+    const auto count = static_cast<long>(object.poses.size());
+    const long pose = (instance.pose + std::lround(frames)) % count;
+    return static_cast<std::size_t>(pose < 0 ? pose + count : pose);
+}
+
 std::size_t levelAt(const Object& object, double distance) {
     for (std::size_t level = 0; level + 1 < object.levels.size(); ++level)
         if (distance <= object.levels[level].until) return level;
     return object.levels.size() - 1;
+}
+
+std::vector<Batch> byLevel(const Object& object) {
+    std::vector<Batch> batches;
+    for (std::size_t i = 0; i < object.levels.size(); ++i)
+        batches.push_back({object.levels[i].mesh, object.shown(i), false, {}});
+    return batches;
+}
+
+std::vector<Batch> byPose(const Object& object) {
+    std::vector<Batch> batches;
+    for (const auto& mesh : object.poses) batches.push_back({mesh, object.shown(0), false, {}});
+    return batches;
 }
 
 } // namespace
@@ -80,17 +101,20 @@ Snapshot snapshot(const Scene& scene, int frame) {
 
     std::uint32_t id = 0;
     for (const Object& object : scene.objects) {
-        std::vector<Batch> byLevel(object.levels.size());
-        for (std::size_t i = 0; i < object.levels.size(); ++i)
-            byLevel[i] = {object.levels[i].mesh, object.levels[i].colour.value_or(object.colour), false, {}};
+        std::vector<Batch> batches = object.poses.empty() ? byLevel(object) : byPose(object);
         for (const Instance& instance : object.instances) {
             const Placement placement{placeAt(object, instance, now), placeAt(object, instance, before), ++id};
             const double distance = glm::distance(result.camera.eye, glm::dvec3(placement.world[3]));
-            Batch& batch = byLevel[levelAt(object, distance)];
-            batch.moving = batch.moving || placement.world != placement.previous;
+            const std::size_t shown = object.poses.empty() ? levelAt(object, distance) : poseAt(object, instance, now);
+            Batch& batch = batches[shown];
+            if (!object.poses.empty()) {
+                const std::size_t was = poseAt(object, instance, before); // in a batch, all were in the same one
+                if (was != shown) batch.previousMesh = object.poses[was];
+            }
+            batch.moving = batch.moving || batch.moves(placement);
             batch.placements.push_back(placement);
         }
-        for (Batch& batch : byLevel)
+        for (Batch& batch : batches)
             if (!batch.placements.empty()) result.batches.push_back(std::move(batch));
     }
     return result;

@@ -24,8 +24,13 @@ struct Placement {
 struct Batch {
     std::shared_ptr<const Mesh> mesh;
     glm::vec3 colour;
-    bool moving; // some placement differs from its previous one
+    bool moving; // some placement differs from its previous one, or the mesh deforms
     std::vector<Placement> placements;
+    std::shared_ptr<const Mesh> previousMesh{}; // of a mesh that deforms: its vertices one frame earlier, the same triangles
+
+    [[nodiscard]] bool moves(const Placement& placement) const {
+        return previousMesh != nullptr || placement.world != placement.previous;
+    }
 };
 
 struct Snapshot {

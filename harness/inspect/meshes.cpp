@@ -13,6 +13,11 @@ namespace {
 /// One instance, at rest, stands for all of its object.
 glm::dmat4 firstPlace(const Object& object) { return placeAt(object, object.instances.front(), 0); }
 
+std::string nameOf(const Object& object, std::size_t level) {
+    if (!object.poses.empty()) return fmt::format("{}, the first of {} poses", object.name, object.poses.size());
+    return object.levels.size() == 1 ? object.name : fmt::format("{}, level {}", object.name, level + 1);
+}
+
 } // namespace
 
 std::vector<MeshReport> meshReports(const Scene& scene) {
@@ -23,8 +28,7 @@ std::vector<MeshReport> meshReports(const Scene& scene) {
             const Mesh& mesh = *object.levels[level].mesh;
             const auto [faults, isNew] = known.try_emplace(&mesh);
             if (isNew) faults->second = faultsOf(mesh);
-            reports.push_back({object.levels.size() == 1 ? object.name : fmt::format("{}, level {}", object.name, level + 1),
-                               object.instances.size(), mesh.triangles.size(),
+            reports.push_back({nameOf(object, level), object.instances.size(), mesh.triangles.size(),
                                transformed(mesh.bounds(), firstPlace(object)), mesh.closed, faults->second});
         }
     return reports;

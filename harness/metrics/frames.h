@@ -105,8 +105,9 @@ struct SeedFrames {
 };
 
 /// Where each pixel of `now` was in the previous frame, by exact reprojection of the truth's primary hits (moving placements
-/// by their own motion): image position in pixels, NaN where it left the image or was disoccluded, that is where none of the
-/// 2 × 2 pixels of `before` around it shows the same surface at the same distance from the eye within 0.5 %.
+/// by their own motion, on meshes that deform with their triangle): image position in pixels, NaN where it left the image or
+/// was disoccluded, that is where none of the 2 × 2 pixels of `before` around it shows the same surface at the same distance
+/// from the eye within 0.5 %.
 Image<glm::vec2> warp(const Snapshot& now, glm::ivec2 size, const groundtruth::Reference& truth,
                       const groundtruth::Reference& before);
 

@@ -26,16 +26,17 @@ glm::dvec3 towards(const Light& light, const glm::dvec3& point) {
     return glm::dvec3(place) - place.w * point;
 }
 
-/// The largest angle at `point` that a corner of a moving mesh's bounds turns.
+/// The largest angle at `point` that a corner of a moving mesh's bounds turns, by its placement or as it deforms.
 double ofCasters(const Snapshot& now, const glm::dvec3& point) {
     double largest = 0;
     for (const Batch& batch : now.batches) {
         if (!batch.moving) continue;
-        const std::array<glm::dvec3, 8> corners = batch.mesh->bounds().corners();
+        const std::array<glm::dvec3, 8> corners = batch.mesh->bounds().corners(),
+                                        were = (batch.previousMesh ? batch.previousMesh : batch.mesh)->bounds().corners();
         for (const Placement& placement : batch.placements)
-            for (const glm::dvec3& corner : corners) {
-                const glm::dvec3 here(placement.world * glm::dvec4(corner, 1));
-                const glm::dvec3 before(placement.previous * glm::dvec4(corner, 1));
+            for (std::size_t i = 0; i < corners.size(); ++i) {
+                const glm::dvec3 here(placement.world * glm::dvec4(corners[i], 1));
+                const glm::dvec3 before(placement.previous * glm::dvec4(were[i], 1));
                 largest = std::max(largest, degreesBetween(here - point, before - point));
             }
     }

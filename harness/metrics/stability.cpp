@@ -1,14 +1,13 @@
 // Stability over time: reprojection, flicker, flips, convergence.
 #include "base/error.h"
 #include "harness/metrics/pixels.h"
+#include "harness/metrics/surface_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <limits>
-#include <unordered_map>
 
 namespace shadowbench::metrics {
 namespace {
@@ -16,16 +15,6 @@ namespace {
 constexpr double sameDistance = 5e-3; // relative difference of eye distances of one surface point in two frames
 constexpr double leastMotion = 1e-3;  // degrees a frame: below this, positions in 32 bits seem to move
 const glm::vec2 nowhere(std::numeric_limits<float>::quiet_NaN());
-
-/// World position in the previous frame from the one in this frame, for every surface that moved.
-std::unordered_map<std::uint32_t, glm::dmat4> motions(const Snapshot& now) {
-    std::unordered_map<std::uint32_t, glm::dmat4> result;
-    for (const Batch& batch : now.batches)
-        for (const Placement& placement : batch.placements)
-            if (placement.world != placement.previous)
-                result[placement.id] = placement.previous * glm::inverse(placement.world);
-    return result;
-}
 
 bool showsSurface(const groundtruth::Reference& before, glm::ivec2 pixel, std::uint32_t id, const glm::dvec3& point,
                   const glm::dvec3& eye) {
@@ -103,13 +92,12 @@ Image<glm::vec2> warp(const Snapshot& now, glm::ivec2 size, const groundtruth::R
     if (truth.id.width() != size.x || truth.id.height() != size.y || !truth.position.sameSize(truth.id) ||
         !before.id.sameSize(truth.id) || !before.position.sameSize(truth.id))
         throw InternalError("reprojecting between references of different sizes; compute both at one size");
-    const std::unordered_map<std::uint32_t, glm::dmat4> moved = motions(now);
+    const SurfaceMotion motion(now);
     Image<glm::vec2> result(size.x, size.y, nowhere);
     for (std::size_t i = 0; i < result.size(); ++i) {
         const std::uint32_t id = truth.id[i];
         if (id == 0) continue;
-        glm::dvec3 point(truth.position[i]);
-        if (const auto motion = moved.find(id); motion != moved.end()) point = motion->second * glm::dvec4(point, 1);
+        const glm::dvec3 point = motion.before(id, glm::dvec3(truth.position[i]));
         result[i] = previousPosition(point, id, now.previousCamera, before);
     }
     return result;

@@ -57,10 +57,11 @@ Snapshot after(const Snapshot& before, Snapshot now) {
     now.previousCamera = before.camera;
     for (std::size_t b = 0; b < now.batches.size(); ++b) {
         Batch& batch = now.batches[b];
+        batch.previousMesh.reset(); // a pose is kept
         batch.moving = false;
         for (std::size_t i = 0; i < batch.placements.size(); ++i) {
             batch.placements[i].previous = before.batches[b].placements[i].world;
-            batch.moving = batch.moving || batch.placements[i].world != batch.placements[i].previous;
+            batch.moving = batch.moving || batch.moves(batch.placements[i]);
         }
     }
     return now;

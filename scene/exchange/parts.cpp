@@ -23,16 +23,17 @@ Parts::Parts(const Scene& scene) {
     for (const Object& object : scene.objects) {
         const std::string name = plain(object.name);
         for (std::size_t i = 0; i < object.levels.size(); ++i)
-            add(object.levels[i], object.colour, object.levels.size() == 1 ? name : fmt::format("{}-level{}", name, i));
+            add(object.levels[i].mesh, object.shown(i),
+                object.levels.size() == 1 ? name : fmt::format("{}-level{}", name, i));
+        for (std::size_t i = 1; i < object.poses.size(); ++i)
+            add(object.poses[i], object.shown(0), fmt::format("{}-pose{}", name, i));
         for (std::size_t i = 0; i < object.instances.size(); ++i) instanceNames_.push_back(fmt::format("{}-{}", name, ++id));
     }
 }
 
-void Parts::add(const Level& level, const glm::vec3& colour, const std::string& name) {
-    const glm::vec3 shown = level.colour.value_or(colour);
-    const auto [known, isNew] = index_.try_emplace({level.mesh.get(), shown.x, shown.y, shown.z}, list_.size());
-    if (!isNew) return;
-    list_.push_back({names_.add(name), level.mesh, shown});
+void Parts::add(const std::shared_ptr<const Mesh>& mesh, const glm::vec3& colour, const std::string& name) {
+    const auto [known, isNew] = index_.try_emplace({mesh.get(), colour.x, colour.y, colour.z}, list_.size());
+    if (isNew) list_.push_back({names_.add(name), mesh, colour});
 }
 
 std::size_t Parts::indexOf(const Mesh* mesh, const glm::vec3& colour) const {

@@ -19,8 +19,8 @@ struct Part {
     glm::vec3 colour;
 };
 
-/// All levels of detail of all objects, whether a scored frame shows them or not, and all instances. Names have letters,
-/// digits, '.', '_' and '-', and are not empty.
+/// All levels of detail and poses of all objects, whether a scored frame shows them or not, and all instances. Names have
+/// letters, digits, '.', '_' and '-', and are not empty.
 class Parts {
 public:
     explicit Parts(const Scene& scene);
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] const std::string& instanceName(std::uint32_t id) const { return instanceNames_.at(id - 1); }
 
 private:
-    void add(const Level& level, const glm::vec3& colour, const std::string& name);
+    void add(const std::shared_ptr<const Mesh>& mesh, const glm::vec3& colour, const std::string& name);
 
     using Key = std::tuple<const Mesh*, float, float, float>;
     std::vector<Part> list_;

@@ -99,10 +99,16 @@ toml::table lightOf(const Scene& scene) {
     return table;
 }
 
-toml::table levelOf(const Object& object, const Level& level, const Parts& parts) {
-    const glm::vec3 shown = level.colour.value_or(object.colour);
-    toml::table mesh{
-        {"file", "scene.gltf"}, {"part", parts.nameOf(level.mesh.get(), shown)}, {"closed", level.mesh->closed}};
+toml::table levelOf(const Object& object, std::size_t number, const Parts& parts) {
+    const Level& level = object.levels[number];
+    const auto nameOf = [&](const auto& mesh) { return parts.nameOf(mesh.get(), object.shown(number)); };
+    toml::table mesh{{"file", "scene.gltf"}, {"closed", level.mesh->closed}};
+    toml::array poses;
+    for (const auto& pose : object.poses) poses.push_back(nameOf(pose));
+    if (poses.empty())
+        mesh.insert("part", nameOf(level.mesh));
+    else
+        mesh.insert("poses", std::move(poses));
     toml::table table{{"mesh", onOneLine(std::move(mesh))}};
     if (std::isfinite(level.until)) table.insert("until", level.until);
     if (level.colour) table.insert("colour", listOf(glm::dvec3(*level.colour)));
@@ -122,9 +128,16 @@ void addSpin(const Object& object, toml::table& table) {
                                      {"phase", std::move(phases)}});
 }
 
+void addStartPoses(const Object& object, toml::table& table) {
+    if (object.poses.empty()) return;
+    toml::array poses;
+    for (const Instance& instance : object.instances) poses.push_back(instance.pose);
+    table.insert("pose", std::move(poses));
+}
+
 toml::table objectOf(const Object& object, const Parts& parts) {
     toml::array levels, places;
-    for (const Level& level : object.levels) levels.push_back(levelOf(object, level, parts));
+    for (std::size_t i = 0; i < object.levels.size(); ++i) levels.push_back(levelOf(object, i, parts));
     for (const Instance& instance : object.instances)
         places.push_back(onOneLine(toml::table{{"matrix", listOf(instance.place)}}));
     toml::table table{{"name", object.name},
@@ -132,6 +145,7 @@ toml::table objectOf(const Object& object, const Parts& parts) {
                       {"levels", std::move(levels)},
                       {"place", std::move(places)}};
     addSpin(object, table);
+    addStartPoses(object, table);
     Path path;
     path.add(object.motion.shift, "shift");
     path.addTo(table);

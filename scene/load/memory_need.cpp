@@ -12,13 +12,17 @@ std::uint64_t coarsest(const Object& object) {
     return least;
 }
 
-/// Of all levels of all objects, each mesh counted once.
+/// Of all levels and poses of all objects, each mesh counted once.
 std::uint64_t bytesOfMeshes(const Scene& scene) {
     std::set<const Mesh*> counted;
     std::uint64_t bytes = 0;
-    for (const Object& object : scene.objects)
-        for (const Level& level : object.levels)
-            if (counted.insert(level.mesh.get()).second) bytes += bytesOf(*level.mesh);
+    const auto add = [&](const Mesh& mesh) {
+        if (counted.insert(&mesh).second) bytes += bytesOf(mesh);
+    };
+    for (const Object& object : scene.objects) {
+        for (const Level& level : object.levels) add(*level.mesh);
+        for (const auto& pose : object.poses) add(*pose);
+    }
     return bytes;
 }
 

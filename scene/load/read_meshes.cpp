@@ -6,6 +6,7 @@
 #include "scene/meshes/import.h"
 #include "scene/meshes/primitives.h"
 #include "scene/meshes/procedural.h"
+#include "scene/meshes/walker.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -17,8 +18,9 @@ namespace shadowbench {
 namespace {
 
 constexpr int kMostSides = 4096;
+constexpr int kMostPoses = 1000;
 
-const std::vector<std::string> kKeysOfFiles{"file", "part", "closed", "simplify", "unit", "up", "flip", "matrix"};
+const std::vector<std::string> kKeysOfFiles{"file", "part", "poses", "closed", "simplify", "unit", "up", "flip", "matrix"};
 
 /// A mesh to be made, and the words by which an equal one is found again.
 struct Recipe {
@@ -93,6 +95,15 @@ Recipe cardsRecipe(const TomlValue& value) {
             [=] { return leafCards(count, size, texels, cutoff, seed); }};
 }
 
+/// How many poses a cycle of a procedural figure has.
+int posesOf(const TomlValue& value) { return value.get("poses").integer(2, kMostPoses); }
+
+Recipe walkerRecipe(const TomlValue& value, int pose) {
+    value.only({"triangles", "poses"});
+    const int triangles = trianglesOf(value, 0), poses = posesOf(value);
+    return {fmt::format("walker {} {} {}", triangles, pose, poses), [=] { return walker(triangles, pose, poses); }};
+}
+
 Recipe plainRecipe(const TomlValue& value) {
     if (value.lastKey() == "leaf_cards") return cardsRecipe(value);
     if (value.lastKey() == "plane") {
@@ -109,14 +120,14 @@ Recipe plainRecipe(const TomlValue& value) {
     return {fmt::format("column {} {} {}", radius, height, sides), [=] { return column(radius, height, sides); }};
 }
 
-Recipe recipe(const TomlValue& value, int level) {
+Recipe recipe(const TomlValue& value, int level, int pose) {
     const std::string_view kind = value.lastKey();
     if (kind == "sphere") return sphereRecipe(value, level);
     if (kind == "bumpy") return bumpyRecipe(value, level);
     if (kind == "tree") return treeRecipe(value, level);
     if (kind == "windmill_tower" || kind == "windmill_rotor") return windmillRecipe(value, level);
     if (level > 0) value.fail("has no levels of detail; use levels = [{ mesh, until }, …] instead of lod");
-    return plainRecipe(value);
+    return kind == "walker" ? walkerRecipe(value, pose) : plainRecipe(value);
 }
 
 /// How the positions and windings of a mesh file become those of the scene: metres, +y up, counter-clockwise from outside.
@@ -135,6 +146,18 @@ glm::dmat3 readAxes(const TomlValue& value) {
     for (std::size_t i = 0; i < numbers.size(); ++i)
         axes[static_cast<int>(i / 3)][static_cast<int>(i % 3)] = numbers[i].number();
     return axes;
+}
+
+/// Parts of a file that are one mesh in the poses of a cycle; none where it is rigid.
+std::vector<TomlValue> poseNames(const TomlValue& value) {
+    const auto poses = value.find("poses");
+    if (!poses) return {};
+    if (const auto part = value.find("part")) part->fail("give either part or poses");
+    if (const auto simplify = value.find("simplify")) simplify->fail("would simplify each pose in its own way");
+    std::vector<TomlValue> names = poses->list();
+    if (names.size() < 2 || names.size() > kMostPoses)
+        poses->fail(fmt::format("expected 2 to {} names of meshes, got {}", kMostPoses, names.size()));
+    return names;
 }
 
 Conventions conventionsOf(const TomlValue& value) {
@@ -170,17 +193,32 @@ bool isZUp(const TomlValue& up) { return up.oneOf({"y", "z"}) == "z"; }
 
 std::shared_ptr<const Mesh> MeshStore::get(const TomlValue& value, int triangles) {
     value.only({"plane", "box", "sphere", "column", "bumpy", "windmill_tower", "windmill_rotor", "tree", "leaf_cards",
-                "file", "part", "closed", "simplify", "unit", "up", "flip", "matrix"});
-    if (value.find("file")) return imported(value.only(kKeysOfFiles), triangles);
+                "walker", "file", "part", "poses", "closed", "simplify", "unit", "up", "flip", "matrix"});
+    if (value.find("file")) {
+        const auto poses = poseNames(value.only(kKeysOfFiles));
+        return imported(value, poses.empty() ? value.find("part") : poses.front(), triangles);
+    }
     const std::vector<TomlValue> members = value.members();
     if (members.size() != 1) value.fail(fmt::format("expected one kind of mesh, got {}", members.size()));
     if (std::ranges::find(kKeysOfFiles, members[0].lastKey()) != kKeysOfFiles.end())
         members[0].fail("belongs to a mesh from a file");
-    return generated(members[0], triangles);
+    return generated(members[0], triangles, 0);
 }
 
-std::shared_ptr<const Mesh> MeshStore::generated(const TomlValue& generator, int triangles) {
-    const Recipe wanted = recipe(generator, triangles);
+std::vector<std::shared_ptr<const Mesh>> MeshStore::poses(const TomlValue& value) {
+    std::vector<std::shared_ptr<const Mesh>> poses;
+    if (const auto figure = value.find("walker"))
+        for (int pose = 0; pose < posesOf(*figure); ++pose) poses.push_back(generated(*figure, 0, pose));
+    for (const TomlValue& name : poseNames(value)) {
+        poses.push_back(imported(value, name, 0));
+        if (poses.back()->triangles != poses.front()->triangles)
+            name.fail("has other triangles than the first pose; expected one mesh with its vertices moved");
+    }
+    return poses;
+}
+
+std::shared_ptr<const Mesh> MeshStore::generated(const TomlValue& generator, int triangles, int pose) {
+    const Recipe wanted = recipe(generator, triangles, pose);
     std::shared_ptr<const Mesh>& mesh = meshes_[wanted.words];
     if (mesh == nullptr) {
         mesh = std::make_shared<const Mesh>(wanted.make());
@@ -210,13 +248,13 @@ const Mesh& MeshStore::partOf(const std::filesystem::path& file, const TomlValue
     throw BadInput(fmt::format("{} has no mesh \"{}\"{}", file.string(), wanted, didYouMean(wanted, names)));
 }
 
-std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, int triangles) {
+std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, const std::optional<TomlValue>& part,
+                                                int triangles) {
     const TomlValue name = value.get("file");
     const auto closed = value.find("closed");
     const auto simplify = value.find("simplify");
     if (simplify && triangles > 0) simplify->fail("the levels of lod state the triangles; leave this one out");
     const int wanted = simplify ? simplify->integer(4, kMostTriangles) : triangles;
-    const auto part = value.find("part");
     const Conventions conventions = conventionsOf(value);
     const std::filesystem::path file = folder_ / name.text();
     std::string words =

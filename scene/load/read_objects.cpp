@@ -75,6 +75,18 @@ std::vector<Level> readLevels(const TomlValue& value, MeshStore& meshes) {
     return {{meshes.get(value.get("mesh"))}};
 }
 
+/// Of an object whose one mesh deforms; else none.
+std::vector<std::shared_ptr<const Mesh>> readPoses(const TomlValue& value, MeshStore& meshes) {
+    const auto levels = value.find("levels"), lod = value.find("lod");
+    const std::vector<TomlValue> entries = levels ? levels->list() : std::vector{value};
+    std::vector<std::shared_ptr<const Mesh>> poses;
+    for (const TomlValue& entry : entries) {
+        poses = meshes.poses(entry.get("mesh"));
+        if (!poses.empty() && (lod || entries.size() > 1)) entry.fail("deforms; levels of detail are of rigid meshes");
+    }
+    return poses;
+}
+
 /// World from object, 16 numbers column by column: a shift, a turn and one scale, so that a spin never shears the object.
 glm::dmat4 readMatrix(const TomlValue& value) {
     const std::vector<TomlValue> numbers = value.list();
@@ -177,6 +189,20 @@ std::vector<double> readPhases(const TomlValue& spin, std::size_t count) {
     return phases;
 }
 
+/// Each instance's pose at rest: one for all, a list of them, or its own at random.
+void readStartPoses(const TomlValue& value, Object& object) {
+    if (object.poses.empty()) value.fail("is of a mesh that deforms: walker, or a file with poses");
+    const int last = static_cast<int>(object.poses.size()) - 1;
+    if (value.isText()) value.oneOf({"random"});
+    if (value.isList() && value.list().size() != object.instances.size())
+        value.fail(
+            fmt::format("expected {} numbers, one for each instance, got {}", object.instances.size(), value.list().size()));
+    for (std::size_t i = 0; i < object.instances.size(); ++i)
+        object.instances[i].pose = value.isText()   ? std::min(last, static_cast<int>(hashed(i) * (last + 1)))
+                                   : value.isList() ? value.list()[i].integer(0, last)
+                                                    : value.integer(0, last);
+}
+
 void readSpin(const TomlValue& spin, Object& object) {
     spin.only({"axis", "degrees_per_frame", "phase"});
     object.motion.axis = readDirection(spin.get("axis"));
@@ -188,16 +214,18 @@ void readSpin(const TomlValue& spin, Object& object) {
 } // namespace
 
 Object readObject(const TomlValue& value, int number, const glm::dvec3& eye, MeshStore& meshes) {
-    value.only({"name", "colour", "mesh", "lod", "levels", "place", "scatter", "offset", "spin", "path", "profile"});
+    value.only({"name", "colour", "mesh", "lod", "levels", "place", "scatter", "offset", "spin", "path", "pose", "profile"});
     Object object;
     const auto name = value.find("name");
     object.name = name ? name->text() : fmt::format("object {}", number);
     if (const auto colour = value.find("colour")) object.colour = readColour(*colour);
     object.levels = readLevels(value, meshes);
+    object.poses = readPoses(value, meshes);
     const auto offset = value.find("offset");
     const glm::dmat4 shift = glm::translate(glm::dmat4(1), offset ? offset->vector() : glm::dvec3(0));
     for (const glm::dmat4& place : readPlaces(value, eye)) object.instances.push_back({place * shift, 0});
     if (const auto spin = value.find("spin")) readSpin(*spin, object);
+    if (const auto pose = value.find("pose")) readStartPoses(*pose, object);
     if (const auto path = value.find("path")) {
         for (const TomlValue& key : path->list()) key.only({"frame", "shift"}).get("shift");
         object.motion.shift = readTrack(*path, "shift");

@@ -136,6 +136,12 @@ LodWalk readLodWalk(const TomlValue& value, const Camera& camera) {
     return walk;
 }
 
+/// The walk shows meshes as levels, not as poses.
+void requireRigid(const Scene& scene, const TomlValue& lod) {
+    for (const Object& object : scene.objects)
+        if (!object.poses.empty()) lod.fail(fmt::format("{} deforms; a walk is past rigid meshes", object.name));
+}
+
 /// The text of the first line that is a comment.
 std::string firstComment(std::string_view toml) {
     while (!toml.empty()) {
@@ -209,6 +215,7 @@ Scene sceneOf(toml::table& table, const std::string& shows, const fs::path& file
     readObjects(root, scene, file);
     if (const auto lod = root.find("lod")) {
         scene.lod = readLodWalk(*lod, scene.camera);
+        requireRigid(scene, *lod);
         requireSeparateTransitions(scene, lod->get("band"));
     }
     requireMemory(root, scene);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,12 @@ public:
     /// own count.
     std::shared_ptr<const Mesh> get(const TomlValue& value, int triangles = 0);
 
+    /// Of a mesh that deforms: Object::poses, the first of which is the mesh; else none.
+    std::vector<std::shared_ptr<const Mesh>> poses(const TomlValue& value);
+
 private:
-    std::shared_ptr<const Mesh> generated(const TomlValue& generator, int triangles);
-    std::shared_ptr<const Mesh> imported(const TomlValue& value, int triangles);
+    std::shared_ptr<const Mesh> generated(const TomlValue& generator, int triangles, int pose);
+    std::shared_ptr<const Mesh> imported(const TomlValue& value, const std::optional<TomlValue>& part, int triangles);
     const Mesh& partOf(const std::filesystem::path& file, const TomlValue& part);
     /// Throws at the key once the meshes so far cannot be in memory.
     void requireRoom(const Mesh& another, const TomlValue& key);

@@ -20,6 +20,7 @@ Snapshot heldStill(const Scene& scene, int scored) {
     still.previousCamera = still.camera;
     for (Batch& batch : still.batches) {
         batch.moving = false;
+        batch.previousMesh.reset();
         for (Placement& placement : batch.placements) placement.previous = placement.world;
     }
     return still;

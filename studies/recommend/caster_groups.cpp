@@ -146,6 +146,8 @@ Scene withChains(const Scene& scene, const Chains& chains) {
         if (triangles.size() < 2 || !std::ranges::is_sorted(triangles, std::greater_equal<>()) || triangles.back() < 4)
             throw BadInput(fmt::format("levels are at least 2 falling numbers of triangles, 4 or more, not {}",
                                        fmt::join(triangles, ", ")));
+        if (!object.poses.empty())
+            throw BadInput(fmt::format("{} deforms; levels of detail are of rigid meshes", object.name));
         object.levels = simplifiedChain(object.levels.front().mesh, triangles);
         if (object.levels.size() < 2)
             throw BadInput(fmt::format("the mesh of {} cannot be simplified below {} triangles", object.name,

@@ -162,9 +162,14 @@ void setTurn(Scene& scene, double degrees) {
 /// Shapes stay the same, so the truth does.
 void setTessellation(Scene& scene, double times) {
     if (times < 0 || times > 6) throw BadInput(fmt::format("triangles can be quartered 0 to 6 times, not {:g}", times));
-    for (Object& object : scene.objects)
-        for (Level& level : object.levels)
-            level.mesh = std::make_shared<const Mesh>(quartered(*level.mesh, static_cast<int>(times)));
+    const auto refine = [&](std::shared_ptr<const Mesh>& mesh) {
+        mesh = std::make_shared<const Mesh>(quartered(*mesh, static_cast<int>(times)));
+    };
+    for (Object& object : scene.objects) {
+        for (Level& level : object.levels) refine(level.mesh);
+        for (auto& pose : object.poses) refine(pose);
+        if (!object.poses.empty()) object.levels.front().mesh = object.poses.front();
+    }
 }
 
 const std::array allAxes{

@@ -6,7 +6,7 @@
 namespace shadowbench::techniques {
 
 std::optional<std::string> movingSurfaces(const Scene& scene) {
-    const auto moving = std::ranges::find_if(scene.objects, [](const Object& object) { return !object.motion.still(); });
+    const auto moving = std::ranges::find_if(scene.objects, [](const Object& object) { return !object.still(); });
     if (moving == scene.objects.end()) return std::nullopt;
     return fmt::format("precomputes the transfer of surfaces that stand still; in {} one moves", scene.id);
 }

@@ -32,7 +32,10 @@ void GBuffer::draw(const SceneBuffers& scene, const glm::dmat4& clipFromWorld) {
     glDisable(GL_CULL_FACE);
     program.set("clipFromWorld", glm::mat4(widened(clipFromWorld)));
     program.use();
-    scene.draw();
+    if (moving_)
+        scene.drawWithMotion();
+    else
+        scene.draw();
 }
 
 } // namespace shadowbench::gl

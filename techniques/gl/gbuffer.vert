@@ -12,7 +12,7 @@ void main() {
     world = worldPosition(objectPosition);
     surfaceId = idAndMoving.x;
 #ifdef MOTION
-    previousWorld = previousWorldPosition(objectPosition);
+    previousWorld = previousWorldPosition(previousObjectPosition);
 #endif
     gl_Position = clipFromWorld * vec4(world, 1.0);
 }

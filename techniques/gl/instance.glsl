@@ -8,6 +8,7 @@ layout(location = 4) in vec4 previousRow0;
 layout(location = 5) in vec4 previousRow1;
 layout(location = 6) in vec4 previousRow2;
 layout(location = 7) in uvec2 idAndMoving;
+layout(location = 8) in vec3 previousObjectPosition;
 
 invariant gl_Position;
 

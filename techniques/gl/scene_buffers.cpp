@@ -91,11 +91,13 @@ void SceneBuffers::update(const Snapshot& snapshot) {
     for (const shadowbench::Batch& batch : snapshot.batches) {
         const auto base = static_cast<unsigned>(instances.size());
         for (const Placement& placement : batch.placements) {
-            const bool moved = placement.world != placement.previous;
+            const bool moved = batch.moves(placement);
             moving_ = moving_ || moved;
             instances.push_back({rows(placement.world), rows(placement.previous), {placement.id, moved ? 1U : 0U}});
         }
-        draws_.push_back({&meshOnGpu(batch.mesh), static_cast<int>(batch.placements.size()), base});
+        const GpuMesh& mesh = meshOnGpu(batch.mesh); // a reference into the map outlives what is added to it
+        const GpuMesh& previous = batch.previousMesh ? meshOnGpu(batch.previousMesh) : mesh;
+        draws_.push_back({&mesh, &previous, static_cast<int>(batch.placements.size()), base});
     }
     instances_.upload(instances.data(), instances.size() * sizeof(InstanceData));
 }
@@ -108,11 +110,27 @@ std::vector<SceneBuffers::Batch> SceneBuffers::batches() const {
     return result;
 }
 
+void SceneBuffers::draw(const Draw& draw) {
+    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, draw.mesh->indexCount, GL_UNSIGNED_INT, nullptr, draw.instances,
+                                        draw.baseInstance);
+}
+
 void SceneBuffers::draw() const {
-    for (const Draw& draw : draws_) {
-        draw.mesh->layout.bind();
-        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, draw.mesh->indexCount, GL_UNSIGNED_INT, nullptr, draw.instances,
-                                            draw.baseInstance);
+    for (const Draw& one : draws_) {
+        one.mesh->layout.bind();
+        draw(one);
+    }
+    Context::current().tally().draws += draws_.size();
+}
+
+void SceneBuffers::drawWithMotion() const {
+    constexpr GLuint attribute = 8;
+    for (const Draw& one : draws_) {
+        one.mesh->layout.bind();
+        glBindBuffer(GL_ARRAY_BUFFER, one.previousMesh->vertices.id());
+        glEnableVertexAttribArray(attribute);
+        glVertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+        draw(one);
     }
     Context::current().tally().draws += draws_.size();
 }

@@ -48,7 +48,7 @@ private:
 };
 
 /// Vertex attributes (gl/instance.glsl): 0 position; 1–3 rows of world-from-object; 4–6 the same one frame earlier; 7
-/// surface id and whether the placement moves.
+/// surface id and whether the placement moves; 8 position one frame earlier, of drawWithMotion() alone.
 class SceneBuffers {
 public:
     /// Uploads meshes not seen before and this frame's placements.
@@ -56,6 +56,9 @@ public:
 
     /// Draws every batch, instanced, with the program that is in use.
     void draw() const;
+
+    /// The same for a program that reads where vertices were one frame earlier, too.
+    void drawWithMotion() const;
 
     /// Draws the placements, counted through the snapshot's batches in order, for which `shown` is true.
     void draw(const std::vector<bool>& shown) const;
@@ -86,10 +89,12 @@ private:
     };
     struct Draw {
         const GpuMesh* mesh;
+        const GpuMesh* previousMesh; // the same but where it deforms
         int instances;
         unsigned baseInstance;
     };
 
+    static void draw(const Draw& draw); // with its mesh's layout bound
     GpuMesh& meshOnGpu(const std::shared_ptr<const Mesh>& mesh);
 
     std::unordered_map<const Mesh*, GpuMesh> meshes_;

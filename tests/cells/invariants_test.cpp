@@ -242,6 +242,18 @@ TEST_P(EveryVariant, LeavesAFullyLitSceneLit) {
     EXPECT_GT(top, 2000U);
 }
 
+TEST_P(EveryVariant, DrawsCastersThatDeformAsFromTheBeginning) {
+    const techniques::Variant variant = techniques::parseVariant(GetParam());
+    CellScene& cells = smallCells("skinned-crowd"); // its transforms stand still
+    if (variant.entry->temporal || notApplicable(cells.scene(), variant)) return;
+    const auto make = [&] { return variant.entry->make(variant.parameters); };
+    const auto kept = make();
+    for (int frame = 0; frame < cells.scene().timeline.frames(); ++frame) {
+        const Image<float> image = drawnBy(cells.stage(), *kept, snapshot(cells.scene(), frame), frame);
+        EXPECT_EQ(image, drawnBy(cells.stage(), *make(), snapshot(cells.scene(), frame), frame)) << "frame " << frame;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(variantsForAreaLights()), nameOfText);
 
 } // namespace

@@ -287,6 +287,24 @@ const std::vector<Mistake>& mistakes() {
          withObject("mesh = { sphere = { radius = 1 } }\nlod = { triangles = [320, 80, 20], until = [4, 5] }\n[lod]\n"
                     "frames = 4\nband = 0.5"),
          "scenes/x.toml:9: lod.band: object 1 would be in two transitions at once; make the band narrower"},
+        {"PoseOfARigidMesh", withObject("mesh = { plane = { half = 2 } }\npose = 1"),
+         "scenes/x.toml:6: object[1].pose: is of a mesh that deforms"},
+        {"PoseBeyondTheLast", withObject("mesh = { walker = { triangles = 400, poses = 4 } }\npose = 4"),
+         "scenes/x.toml:6: object[1].pose: expected a whole number from 0 to 3, got 4"},
+        {"TooFewStartPoses", withObject("mesh = { walker = { triangles = 400, poses = 4 } }\npose = [1, 2]"),
+         "scenes/x.toml:6: object[1].pose: expected 1 numbers, one for each instance, got 2"},
+        {"LevelsOfDetailOfAMeshThatDeforms",
+         withObject(
+             "levels = [{ mesh = { walker = { triangles = 400, poses = 4 } }, until = 4 }, { mesh = { plane = { half = 1 "
+             "} } }]"),
+         "scenes/x.toml:5: object[1].levels[1]: deforms; levels of detail are of rigid meshes"},
+        {"WalkPastAMeshThatDeforms",
+         withObject("mesh = { walker = { triangles = 400, poses = 4 } }\n[lod]\nframes = 4\nband = 0.5"),
+         "scenes/x.toml:6: lod: object 1 deforms; a walk is past rigid meshes"},
+        {"PartAndPoses", withObject("mesh = { file = \"x.gltf\", part = \"a\", poses = [\"a\", \"b\"] }"),
+         "scenes/x.toml:5: object[1].mesh.part: give either part or poses"},
+        {"OnePose", withObject("mesh = { file = \"x.gltf\", poses = [\"a\"] }"),
+         "scenes/x.toml:5: object[1].mesh.poses: expected 2 to 1000 names of meshes, got 1"},
         {"NoPixels", withTop("size = 0"), "scenes/x.toml:1: size: expected a whole number from 1 to 8192, got 0"},
     };
     return all;

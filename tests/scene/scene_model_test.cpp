@@ -2,6 +2,7 @@
 #include "base/random.h"
 #include "scene/load/load.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -165,6 +166,36 @@ TEST(SceneSnapshot, KeepsIdsOverFramesAndLevels) {
     EXPECT_EQ(far.batches.size(), 2U);
     // The coarse level's mesh is the very one that the other object asks for only if radius and count are the same.
     EXPECT_NE(far.batches[0].mesh, far.batches[1].mesh);
+}
+
+TEST(SceneSnapshot, AMeshThatDeformsIsInThePoseOfItsFrame) {
+    std::string text = kMoving;
+    text +=
+        "[[object]]\nmesh = { walker = { triangles = 400, poses = 3 } }\nplace = [{ at = [1, 0, 0] }, { at = [2, 0, 0] }]\n"
+        "pose = [0, 2]\n";
+    const Scene scene = parseScene(text, "moving.toml", Profile::Gate);
+    const Object& walkers = scene.objects.back();
+    ASSERT_EQ(walkers.poses.size(), 3U);
+    EXPECT_EQ(walkers.poses[0], walkers.levels[0].mesh);
+    EXPECT_FALSE(walkers.still());
+    const auto batchOf = [](const Snapshot& frame, std::uint32_t id) {
+        for (const Batch& batch : frame.batches)
+            if (std::ranges::count(batch.placements, id, &Placement::id) > 0) return batch;
+        throw std::logic_error("no such placement");
+    };
+    for (int frame = 0; frame < scene.timeline.frames(); ++frame) {
+        const Snapshot now = snapshot(scene, frame);
+        const int moved = std::max(0, frame - 4);
+        for (const auto& [id, start] : {std::pair(4U, 0), std::pair(5U, 2)}) {
+            const Batch batch = batchOf(now, id);
+            EXPECT_EQ(batch.mesh, walkers.poses[static_cast<std::size_t>((start + moved) % 3)]) << frame;
+            EXPECT_EQ(batch.moving, moved > 0);
+            EXPECT_EQ(batch.previousMesh,
+                      moved == 0 ? nullptr : walkers.poses[static_cast<std::size_t>((start + moved + 2) % 3)]);
+            EXPECT_EQ(placementOf(now, id).world, placementOf(now, id).previous) << "the transform stands still";
+        }
+        EXPECT_EQ(batchOf(now, 1).previousMesh, nullptr);
+    }
 }
 
 TEST(SceneSnapshot, PreviousIsTheFrameBefore) {

@@ -104,13 +104,26 @@ TEST(CasterChanges, AreTheBoxesOfWhatHasMoved) {
     EXPECT_EQ(changes.since(twoCubes(mesh, 5))->size(), 0U);
 }
 
-TEST(CasterChanges, SayNothingWhereCastersCameOrGo) {
-    const auto mesh = std::make_shared<const Mesh>(box({1, 1, 1})), other = std::make_shared<const Mesh>(box({1, 1, 1}));
+TEST(CasterChanges, AreTheBoxesBeforeAndAfterOfWhatDeforms) {
+    const auto mesh = std::make_shared<const Mesh>(box({1, 1, 1})), wider = std::make_shared<const Mesh>(box({2, 1, 1}));
     CasterChanges changes;
     changes.since(twoCubes(mesh, 3));
-    EXPECT_FALSE(changes.since(twoCubes(other, 3)));
-    Snapshot three = twoCubes(other, 3);
-    three.batches.push_back(three.batches[0]);
+    Snapshot deformed = twoCubes(mesh, 3); // the second in a batch of its own, before that of the first
+    deformed.batches.push_back(deformed.batches[0]);
+    deformed.batches[0].mesh = wider;
+    std::erase_if(deformed.batches[0].placements, [](const Placement& placement) { return placement.id == 1; });
+    std::erase_if(deformed.batches[1].placements, [](const Placement& placement) { return placement.id == 2; });
+    const auto changed = changes.since(deformed);
+    ASSERT_TRUE(changed && changed->size() == 16);
+    for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(std::abs((*changed)[i].x - 3), i < 8 ? 0.5 : 1);
+}
+
+TEST(CasterChanges, SayNothingWhereCastersCameOrGo) {
+    const auto mesh = std::make_shared<const Mesh>(box({1, 1, 1}));
+    CasterChanges changes;
+    changes.since(twoCubes(mesh, 3));
+    Snapshot three = twoCubes(mesh, 3);
+    three.batches.push_back({mesh, {}, false, {{glm::dmat4(1), glm::dmat4(1), 3}}});
     EXPECT_FALSE(changes.since(three));
     EXPECT_TRUE(changes.since(three));
     changes.forget();

@@ -9,7 +9,7 @@ namespace {
 std::vector<bool> moving(const Snapshot& snapshot) {
     std::vector<bool> result;
     for (const Batch& batch : snapshot.batches)
-        for (const Placement& placement : batch.placements) result.push_back(placement.world != placement.previous);
+        for (const Placement& placement : batch.placements) result.push_back(batch.moves(placement));
     return result;
 }
 

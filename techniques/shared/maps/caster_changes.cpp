@@ -6,20 +6,20 @@
 namespace shadowbench::techniques {
 
 std::optional<std::vector<glm::dvec3>> CasterChanges::since(const Snapshot& snapshot) {
-    std::vector<Caster> now;
+    std::map<std::uint32_t, Caster> now;
     for (const Batch& batch : snapshot.batches)
-        for (const Placement& placement : batch.placements) now.push_back({batch.mesh, placement.world});
-    const std::optional<std::vector<Caster>> before = std::exchange(casters_, std::move(now));
-    const auto sameMesh = [](const Caster& a, const Caster& b) { return a.mesh == b.mesh; };
-    if (!before || !std::ranges::equal(*before, *casters_, sameMesh)) return std::nullopt;
+        for (const Placement& placement : batch.placements) now[placement.id] = {batch.mesh, placement.world};
+    const auto before = std::exchange(casters_, std::move(now));
+    const auto sameId = [](const auto& a, const auto& b) { return a.first == b.first; };
+    if (!before || !std::ranges::equal(*before, *casters_, sameId)) return std::nullopt;
 
     std::vector<glm::dvec3> corners;
-    for (std::size_t i = 0; i < before->size(); ++i) {
-        const Caster &was = (*before)[i], &is = (*casters_)[i];
-        if (was.world == is.world) continue;
-        const auto box = is.mesh->bounds().corners();
-        for (const glm::dmat4& world : {was.world, is.world})
-            for (const glm::dvec3& corner : box) corners.emplace_back(world * glm::dvec4(corner, 1));
+    for (const auto& [id, is] : *casters_) {
+        const Caster& was = before->at(id);
+        if (was.mesh == is.mesh && was.world == is.world) continue;
+        for (const Caster* caster : {&was, &is})
+            for (const glm::dvec3& corner : caster->mesh->bounds().corners())
+                corners.emplace_back(caster->world * glm::dvec4(corner, 1));
     }
     return corners;
 }

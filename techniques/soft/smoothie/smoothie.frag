@@ -10,6 +10,6 @@ void main() {
     vec2 smoothie = texture(smoothies, r.at).rg;
     visibility = 1.0;
     if (r.unseen) return;
-    if (isForemost(r) && r.depth > smoothie.x) visibility = min(smoothie.y, 1.0);
+    if (isForemost(r) && r.depth > smoothie.x) visibility = clamp(smoothie.y, 0.0, 1.0);
     if (blocked(r)) visibility = 0.0;
 }

@@ -80,6 +80,13 @@ TEST(Motion, OfCastersIsTheLargestAngleOfACornerOfTheirBounds) {
     EXPECT_NEAR(wall.motion(), glm::degrees(std::atan(1 / distance)), 1e-3) << "to the axis";
 }
 
+TEST(Motion, OfACasterThatDeformsIsThatOfItsBounds) {
+    const auto meshTo = [](float x) { return std::make_shared<const Mesh>(Mesh{{{0, 0, 0}, {x, 0, 0}, {0, 1, 0}}, {}}); };
+    Wall wall;
+    wall.now.batches.push_back({meshTo(2), {1, 1, 1}, true, {{glm::dmat4(1), glm::dmat4(1), 1}}, meshTo(1)});
+    EXPECT_NEAR(wall.motion(), glm::degrees(std::atan(2 / distance) - std::atan(1 / distance)), 1e-3);
+}
+
 TEST(Motion, OfNothingIsNone) {
     Wall wall;
     EXPECT_LT(wall.motion(), 1e-4) << "but for floats";

@@ -94,6 +94,26 @@ TEST(Warp, FollowsAMovingSurface) {
     EXPECT_NEAR(warp(30, 30).y, 30.5 - std::sin(glm::radians(30.0)), 1e-4);
 }
 
+TEST(Warp, FollowsAMeshThatDeforms) {
+    const Camera camera = cameraAt(0);
+    const Reference truth = frameOf(camera, litDisk);
+    const auto wall = [](double stretched) { // the plane, stretched along x from where the image has its left edge
+        const auto x = static_cast<float>(20 * stretched - 10);
+        return std::make_shared<const Mesh>(
+            Mesh{{{-10, -10, 0}, {x, -10, 0}, {x, 10, 0}, {-10, 10, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+    };
+    Snapshot now = snapshotOf(camera, camera);
+    const glm::dmat4 place = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -10));
+    now.batches[0].mesh = wall(1);
+    now.batches[0].previousMesh = wall(0.5);
+    now.batches[0].placements[0] = {place, place, 1};
+    const Image<glm::vec2> warp = metrics::warp(now, size, truth, truth);
+    for (const int x : {1, 20, 40, 62}) {
+        EXPECT_NEAR(warp(x, 30).x, 0.5 * (x + 0.5), 1e-4);
+        EXPECT_NEAR(warp(x, 30).y, 30.5, 1e-4);
+    }
+}
+
 TEST(Warp, LeavesOutWhatAnotherSurfaceOrDepthHidBefore) {
     const Camera camera = cameraAt(0);
     const Reference truth = frameOf(camera, litDisk);

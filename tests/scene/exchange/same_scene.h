@@ -35,6 +35,8 @@ inline void expectSameSnapshot(const Snapshot& a, const Snapshot& b) {
         expectSameMesh(*one.mesh, *other.mesh);
         EXPECT_EQ(one.colour, other.colour);
         EXPECT_EQ(one.moving, other.moving);
+        ASSERT_EQ(one.previousMesh != nullptr, other.previousMesh != nullptr);
+        if (one.previousMesh) expectSameMesh(*one.previousMesh, *other.previousMesh);
         ASSERT_EQ(one.placements.size(), other.placements.size());
         for (std::size_t j = 0; j < one.placements.size(); ++j) {
             EXPECT_EQ(one.placements[j].id, other.placements[j].id);

@@ -226,6 +226,34 @@ TEST(GBuffer, IdsAreThePlacements) {
     }
 }
 
+TEST(GBuffer, KnowsWhereVerticesThatDeformWereBefore) {
+    const Scene scene = boxScene();
+    Snapshot shown = snapshot(scene, 0);
+    const auto stretched = std::make_shared<Mesh>(*shown.batches[1].mesh);
+    for (glm::vec3& position : stretched->positions) position *= glm::vec3(2, 1, 0.5F);
+    shown.batches[1].previousMesh = stretched;
+    gl::SceneBuffers buffers;
+    buffers.update(shown);
+    EXPECT_TRUE(buffers.moving());
+    gl::GBuffer gbuffer(scene.size);
+    gbuffer.draw(buffers, shown.camera.projection(1) * shown.camera.view());
+    const auto now = gbuffer.readPositions(), before = gl::RenderTarget({&gbuffer.previousPosition()}).readVec4(0);
+    const auto ids = gbuffer.readIds();
+    const glm::dmat4& world = shown.batches[1].placements[0].world;
+    int pixels = 0;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (ids[i] == 0) continue;
+        glm::dvec4 expected(now[i]);
+        if (ids[i] == 2) expected = world * (glm::inverse(world) * expected * glm::dvec4(2, 1, 0.5, 1));
+        EXPECT_LT(glm::distance(glm::dvec4(before[i]), expected), 1e-4);
+        pixels += ids[i] == 2 ? 1 : 0;
+    }
+    EXPECT_GT(pixels, 200);
+    shown.batches[1].previousMesh.reset();
+    buffers.update(shown);
+    EXPECT_FALSE(buffers.moving());
+}
+
 TEST(GBuffer, OverscanLeavesTheInnerPixelsWhereTheyAre) {
     const Scene scene = boxScene();
     const Snapshot shown = snapshot(scene, 0);
