@@ -56,10 +56,10 @@ ExitCode sweepAndPrint(const SweepOptions& options, const std::filesystem::path&
 std::string axesHelp() {
     std::string text = "Axes, with their own values in the order in which a break is looked for:\n";
     for (const Axis& axis : axes())
-        text += fmt::format("  {:<17} {}{}\n{:20}{}\n", axis.id, axis.meaning, axis.unit.empty() ? "" : ", in " + axis.unit,
+        text += fmt::format("  {:<20} {}{}\n{:23}{}\n", axis.id, axis.meaning, axis.unit.empty() ? "" : ", in " + axis.unit,
                             "", fmt::join(axis.values, ", "));
     return text +
-           fmt::format("  {:<17} side of the picture of lod-* techniques, in pixels: their cost\n", lod::viewportAxis);
+           fmt::format("  {:<20} side of the picture of lod-* techniques, in pixels: their cost\n", lod::viewportAxis);
 }
 
 } // namespace

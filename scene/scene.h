@@ -6,6 +6,7 @@
 #include "scene/snapshot.h"
 
 #include <cstdint>
+#include <functional>
 #include <glm/mat4x4.hpp>
 #include <map>
 #include <memory>
@@ -55,6 +56,8 @@ struct Level {
     std::shared_ptr<const Mesh> mesh;
     double until = std::numeric_limits<double>::infinity();
     std::optional<glm::vec3> colour{}; // instead of the object's, in pictures and for level-of-detail techniques
+    std::function<Mesh(double)>
+        cutAt{}; // the mesh at another cut-off of its alpha test, between 0 and 1; of leaf cards alone
 };
 
 struct Object {
@@ -127,6 +130,9 @@ struct Scene {
     int movingReferenceSamples = 256;        // … and on the moving frames
     glm::dvec3 moved{0};                     // what was added to all places of the file: moveToOrigin()
 };
+
+/// Adds `by`, in metres, to all that has a place in the world.
+void translate(Scene& scene, const glm::dvec3& by);
 
 /// World from object of an instance after `frames` frames of its object's motion.
 glm::dmat4 placeAt(const Object& object, const Instance& instance, double frames);

@@ -82,17 +82,26 @@ Recipe treeRecipe(const TomlValue& value, int level) {
     return {fmt::format("tree {} {}", triangles, seed), [=] { return tree(triangles, seed); }};
 }
 
-Recipe cardsRecipe(const TomlValue& value) {
+struct Cards {
+    int count, texels;
+    double size, cutoff;
+    std::uint32_t seed;
+};
+
+Cards cardsOf(const TomlValue& value) {
     value.only({"count", "size", "texels", "cutoff", "seed"});
-    const int count = value.get("count").integer(1, 100'000), texels = value.get("texels").integer(2, 4096);
     const double size = value.get("size").positive();
     if (!(size < 1)) value.get("size").fail("expected less than the crown's radius, 1");
     const auto given = value.find("cutoff");
     const double cutoff = given ? given->positive() : 0.5;
     if (!(cutoff < 1)) given->fail("expected less than 1, the alpha of a leaf's middle");
-    const std::uint32_t seed = seedOf(value);
-    return {fmt::format("leaf cards {} {} {} {} {}", count, size, texels, cutoff, seed),
-            [=] { return leafCards(count, size, texels, cutoff, seed); }};
+    return {value.get("count").integer(1, 100'000), value.get("texels").integer(2, 4096), size, cutoff, seedOf(value)};
+}
+
+Recipe cardsRecipe(const TomlValue& value) {
+    const Cards c = cardsOf(value);
+    return {fmt::format("leaf cards {} {} {} {} {}", c.count, c.size, c.texels, c.cutoff, c.seed),
+            [c] { return leafCards(c.count, c.size, c.texels, c.cutoff, c.seed); }};
 }
 
 /// How many poses a cycle of a procedural figure has.
@@ -179,6 +188,12 @@ void convert(Mesh& mesh, const Conventions& file) {
 }
 
 } // namespace
+
+std::function<Mesh(double)> cutterOf(const TomlValue& value) {
+    const auto cards = value.find("leaf_cards");
+    if (!cards) return {};
+    return [c = cardsOf(*cards)](double cutoff) { return leafCards(c.count, c.size, c.texels, cutoff, c.seed); };
+}
 
 double metresOf(const TomlValue& unit) {
     static const std::vector<std::pair<std::string, double>> units{

@@ -39,7 +39,7 @@ std::vector<Level> levelsFromList(const TomlValue& list, MeshStore& meshes) {
     if (entries.empty()) list.fail("expected at least one level");
     for (std::size_t i = 0; i < entries.size(); ++i) {
         entries[i].only({"mesh", "until", "colour"});
-        Level level{meshes.get(entries[i].get("mesh"))};
+        Level level{.mesh = meshes.get(entries[i].get("mesh")), .cutAt = cutterOf(entries[i].get("mesh"))};
         if (const auto colour = entries[i].find("colour")) level.colour = readColour(*colour);
         if (const auto until = entries[i].find("until"))
             level.until = until->positive();
@@ -72,7 +72,7 @@ std::vector<Level> readLevels(const TomlValue& value, MeshStore& meshes) {
     if (list && lod) lod->fail("give either levels or lod");
     if (list) return levelsFromList(*list, meshes);
     if (lod) return levelsFromLod(value.get("mesh"), *lod, meshes);
-    return {{meshes.get(value.get("mesh"))}};
+    return {{.mesh = meshes.get(value.get("mesh")), .cutAt = cutterOf(value.get("mesh"))}};
 }
 
 /// Of an object whose one mesh deforms; else none.

@@ -6,6 +6,7 @@
 #include "scene/sky.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -44,6 +45,9 @@ private:
     std::uint64_t bytes_ = 0;                                            // of meshes_
     std::map<std::filesystem::path, std::map<std::string, Mesh>> parts_; // of glTF files, by name
 };
+
+/// What Level::cutAt is, of a `mesh = { … }` value that MeshStore::get() has read.
+std::function<Mesh(double)> cutterOf(const TomlValue& value);
 
 /// Of the texts that `unit` and `up` may be.
 double metresOf(const TomlValue& unit);

@@ -4,12 +4,14 @@
 #include "base/words.h"
 #include "scene/sky.h"
 #include "studies/sweep/tessellate.h"
+#include "studies/sweep/variants.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fnmatch.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
@@ -159,6 +161,74 @@ void setTurn(Scene& scene, double degrees) {
     }
 }
 
+/// The track run through in reverse at `speed` times its pace, from its last key to where it is at rest, in frame 0. A track
+/// that ends there, since the camera approaches, is run through as it is.
+Track towardsRest(const Track& track, double speed) {
+    Track result;
+    const bool approaches = !track.keys.empty() && track.keys.front().frame < 0;
+    for (const Track::Key& key : track.keys)
+        if (!approaches || key.frame <= 0) result.keys.push_back({-std::abs(key.frame) / speed, key.value});
+    if (!approaches) std::ranges::reverse(result.keys);
+    return result;
+}
+
+/// The whole way is then one frame.
+double fastestCamera(const Scene& scene) {
+    double frames = 1;
+    for (const Track* track : {&scene.eye, &scene.target})
+        for (const Track::Key& key : track->keys) frames = std::max(frames, std::abs(key.frame));
+    return frames;
+}
+
+/// The frame that is scored is the last of the way, and shows the same at every speed.
+void setCameraSpeed(Scene& scene, double factor) {
+    if (scene.eye.keys.empty() && scene.target.keys.empty())
+        throw BadInput(fmt::format("the camera of scene {} stands still; choose a scene with a [camera] path, such as "
+                                   "moving-camera",
+                                   scene.id));
+    if (!(factor > 0))
+        throw BadInput(fmt::format("a camera at {:g} times its speed is none that moves; give factors above 0", factor));
+    for (Track* track : {&scene.eye, &scene.target}) *track = towardsRest(*track, factor);
+    scene.timeline.approach = 30;
+    scene.timeline.still = 1;
+}
+
+/// Across the ground, along no axis of coordinates. Distances within the scene stay as they are, to the rounding of double
+/// precision.
+void setWorldOffset(Scene& scene, double metres) { translate(scene, metres * glm::dvec3(0.8, 0, -0.6)); }
+
+void setAlphaCutoff(Scene& scene, double cutoff) {
+    if (!(cutoff > 0) || cutoff >= 1)
+        throw BadInput(fmt::format(
+            "a cut-off of alpha lies between 0, where all is solid, and 1, where nothing is, not at {:g}", cutoff));
+    bool found = false;
+    for (Object& object : scene.objects)
+        for (Level& level : object.levels) {
+            if (!level.cutAt) continue;
+            found = true;
+            level.mesh = std::make_shared<const Mesh>(level.cutAt(cutoff));
+            if (level.mesh->triangles.empty())
+                throw BadInput(
+                    fmt::format("a cut-off of {:g} leaves nothing of {} in scene {}", cutoff, object.name, scene.id));
+        }
+    if (!found)
+        throw BadInput(fmt::format("no mesh of scene {} is cut out by an alpha test that can be moved; choose a scene with "
+                                   "leaf_cards, such as alpha-foliage",
+                                   scene.id));
+}
+
+/// A pool of square maps; the axis counts pages.
+double mapOfPages(double pages, const techniques::Parameters& others) {
+    const double side = std::sqrt(pages);
+    if (side != std::floor(side))
+        throw BadInput(fmt::format("a pool with a square map has a square number of pages, such as {:g} or {:g}, not {:g}",
+                                   std::pow(std::floor(side), 2), std::pow(std::ceil(side), 2), pages));
+    return side * others.integer("page");
+}
+
+/// Of the newest frame in a mean whose memory is so many frames long.
+double shareOf(double frames, const techniques::Parameters&) { return 1 / frames; }
+
 /// Shapes stay the same, so the truth does.
 void setTessellation(Scene& scene, double times) {
     if (times < 0 || times > 6) throw BadInput(fmt::format("triangles can be quartered 0 to 6 times, not {:g}", times));
@@ -248,21 +318,77 @@ const std::array allAxes{
          false,
          false,
          setTurn},
-    Axis{"map", "texels", "side of the shadow map", {4096, 2048, 1024, 512, 256, 128, 64}, true, true, {}},
-    Axis{"units",
-         "",
-         "constant depth bias of the shadow map (with bias=constant, or beside a slope bias), in 2⁻²⁴ of the depth range",
-         {0, 4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1048576, 4194304},
+    Axis{"camera-speed",
+         "×",
+         "speed at which the camera comes along its path, from the end to the start, as a multiple of the scene's own; the "
+         "frame in which it arrives is scored",
+         {0.125, 0.25, 0.5, 1, 2, 4, 8},
          true,
          false,
-         {}},
-    Axis{"factor",
+         setCameraSpeed,
+         fastestCamera},
+    Axis{"world-offset",
+         "m",
+         "distance by which the whole scene is moved across the ground, away from where it was loaded",
+         {10, 100, 1000, 2000, 4000, 8000, 16'000},
+         true,
+         false,
+         setWorldOffset},
+    Axis{"alpha-cutoff",
          "",
-         "slope depth bias of the shadow map, in depth slopes per texel",
-         {0, 0.25, 0.5, 1, 2, 4, 8, 16, 32, 64},
+         "least alpha that is solid, of leaf_cards",
+         {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9},
          false,
          false,
-         {}},
+         setAlphaCutoff},
+    Axis{.id = "map",
+         .unit = "texels",
+         .meaning = "side of the shadow map",
+         .values = {4096, 2048, 1024, 512, 256, 128, 64},
+         .logarithmic = true,
+         .whole = true,
+         .parameters = {{"*", "map"}}},
+    Axis{.id = "units",
+         .unit = "",
+         .meaning =
+             "constant depth bias of the shadow map (with bias=constant, or beside a slope bias), in 2⁻²⁴ of the depth "
+             "range",
+         .values = {0, 4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1048576, 4194304},
+         .logarithmic = true,
+         .parameters = {{"*", "units"}}},
+    Axis{.id = "factor",
+         .unit = "",
+         .meaning = "slope depth bias of the shadow map, in depth slopes per texel",
+         .values = {0, 0.25, 0.5, 1, 2, 4, 8, 16, 32, 64},
+         .parameters = {{"*", "factor"}}},
+    Axis{.id = "cascades",
+         .unit = "",
+         .meaning = "number of cascades, which share the texels of one map",
+         .values = {8, 6, 4, 3, 2, 1},
+         .whole = true,
+         .parameters = {{"*", "cascades"}, {"sm-*", "slices"}, {"sdsm", "slices"}}},
+    Axis{.id = "page-budget",
+         .unit = "",
+         .meaning =
+             "pages of a virtual shadow map that there is memory for (sm-clipmap), or that a frame uses (sm-adaptive), at "
+             "most",
+         .values = {1024, 256, 64, 16, 4, 1},
+         .logarithmic = true,
+         .whole = true,
+         .parameters = {{"sm-clipmap", "map", mapOfPages}, {"*", "pages"}}},
+    Axis{.id = "rays",
+         .unit = "",
+         .meaning = "rays a pixel and frame",
+         .values = {16, 8, 4, 2, 1},
+         .logarithmic = true,
+         .whole = true,
+         .parameters = {{"ray-*", "rays"}, {"my:*", "rays"}}},
+    Axis{.id = "accumulation-length",
+         .unit = "frames",
+         .meaning = "memory of a mean over frames, of which the newest has one part in so many",
+         .values = {32, 16, 8, 4, 2, 1},
+         .logarithmic = true,
+         .parameters = {{"accumulated", "share", shareOf}, {"ray-*", "share", shareOf}}},
 };
 
 } // namespace
@@ -273,6 +399,20 @@ std::vector<double> Axis::valuesFor(const Scene& scene) const {
     std::erase_if(result, [largest = most(scene)](double value) { return value >= largest; });
     result.push_back(most(scene));
     return result;
+}
+
+const AxisParameter* Axis::parameterOf(const techniques::Variant& variant) const {
+    const auto found = std::ranges::find_if(parameters, [&](const AxisParameter& parameter) {
+        return fnmatch(parameter.techniques.c_str(), variant.entry->id.c_str(), 0) == 0 &&
+               shadowbench::parameterOf(variant, parameter.name) != nullptr;
+    });
+    return found == parameters.end() ? nullptr : &*found;
+}
+
+techniques::Variant Axis::at(const techniques::Variant& variant, double value) const {
+    const AxisParameter& parameter = *parameterOf(variant);
+    const double own = parameter.of ? parameter.of(value, variant.parameters) : value;
+    return withParameter(variant, parameter.name, fmt::format("{}", own));
 }
 
 std::span<const Axis> axes() { return allAxes; }

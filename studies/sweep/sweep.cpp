@@ -9,7 +9,6 @@
 #include "harness/render/shared_shaders.h"
 #include "scene/load/load.h"
 #include "studies/sweep/axis.h"
-#include "studies/sweep/variants.h"
 #include "techniques/catalog.h"
 #include "techniques/gl/context.h"
 
@@ -17,8 +16,10 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <functional>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -27,17 +28,31 @@ namespace {
 
 using techniques::Variant;
 
+std::set<std::string> parameterNames(const Axis& axis) {
+    std::set<std::string> names;
+    for (const AxisParameter& parameter : axis.parameters) names.insert(parameter.name);
+    return names;
+}
+
+/// By their ids, unless they are many.
+std::string othersThatHave(const Axis& axis) {
+    std::vector<std::string> ids;
+    for (const techniques::Entry& entry : techniques::catalog())
+        if (axis.parameterOf(techniques::parseVariant(entry.id))) ids.push_back(entry.id);
+    return ids.size() <= 8 ? fmt::format("{}", fmt::join(ids, ", ")) : "other techniques";
+}
+
 std::vector<Variant> chosenVariants(const SweepOptions& options, const Axis& axis) {
     std::vector<Variant> variants;
     for (const std::string& pattern : options.techniques.empty() ? std::vector<std::string>{"*"} : options.techniques)
         for (Variant& variant : techniques::matchVariants(pattern)) {
-            if (variant.isLod() || (axis.isParameter() && !parameterOf(variant, axis.id))) continue;
+            if (variant.isLod() || (axis.isParameter() && !axis.parameterOf(variant))) continue;
             if (std::ranges::none_of(variants, [&](const Variant& v) { return v.name == variant.name; }))
                 variants.push_back(std::move(variant));
         }
     if (variants.empty())
-        throw BadInput(fmt::format(
-            "none of the chosen techniques has a parameter \"{}\": choose other techniques, or another axis", axis.id));
+        throw BadInput(fmt::format("none of the chosen techniques has a parameter \"{}\": choose {}, or another axis",
+                                   fmt::join(parameterNames(axis), "\" or \""), othersThatHave(axis)));
     return variants;
 }
 
@@ -140,7 +155,7 @@ private:
     /// parameters go together.
     std::string setParameter(Variant& variant, double value) const {
         try {
-            variant = withParameter(variant, axis_.id, fmt::format("{}", value));
+            variant = axis_.at(variant, value);
             variant.entry->make(variant.parameters);
             return "";
         } catch (const BadInput& error) {
@@ -188,7 +203,7 @@ private:
         if (!context_) context_ = contextOfRun(cache_.folder(), false);
         const Variant& curve = variants_[part.variants.front()];
         const double value = values_[part.value];
-        const Variant variant = axis_.isParameter() ? withParameter(curve, axis_.id, fmt::format("{}", value)) : curve;
+        const Variant variant = axis_.isParameter() ? axis_.at(curve, value) : curve;
         const InternalError error = lostCell(how);
         Record& record = curves_[part.variants.front()][part.value] =
             blankRecord(sceneAt(part.value), variant, options_.seed);

@@ -83,7 +83,7 @@ TEST(Axes, RunFromWhatIsEasyToWhatIsHardAndSayHowTheyAreDrawn) {
             EXPECT_TRUE(std::ranges::all_of(axis.values, [](double v) { return v == std::floor(v); })) << axis.id;
         }
         EXPECT_TRUE(axis.logarithmic || least >= 0) << axis.id;
-        EXPECT_EQ(axis.isParameter(), axis.id == "map" || axis.id == "units" || axis.id == "factor") << axis.id;
+        EXPECT_EQ(axis.isParameter(), !axis.move) << axis.id << ": of scenes, or of techniques";
     }
 }
 

@@ -235,6 +235,9 @@ TEST(Sweep, IsOfTechniquesThatHaveTheParameter) {
     const std::string refused = test::messageOf([&] { sweep(options); });
     EXPECT_NE(refused.find("map"), std::string::npos) << refused;
     EXPECT_EQ(refused.find("none of"), std::string::npos) << refused;
+    options.axis = "rays";
+    EXPECT_EQ(test::messageOf<BadInput>([&] { sweep(options); }),
+              "none of the chosen techniques has a parameter \"rays\": choose ray-traced, ray-denoised, or another axis");
     options.axis = "near-plane"; // of the scene: for every technique
     EXPECT_EQ(test::messageOf([&] { sweep(options); }).find("none of"), std::string::npos);
 }

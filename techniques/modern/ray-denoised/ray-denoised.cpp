@@ -1,9 +1,9 @@
-// Ray-traced soft shadows under a denoiser guided by variance (Schied et al. 2017): 1. a ray a pixel  2. means over frames
-// of visibility and its moments, where the pixel's point was seen before  3. its variance  4. iterations of an à-trous
-// filter, ever wider, that keep to the surface and to what visibilities may differ by; what the first has filtered is the
-// next frame's history. The row of all defaults has the paper's figures; the second is AnKi's: three iterations that no
-// variance guides. Departures: visibility is filtered in place of radiance; surfaces are compared by their planes, where the
-// paper has the slope of depth.
+// Ray-traced soft shadows under a denoiser guided by variance (Schied et al. 2017): 1. a ray a pixel, or a few  2. means
+// over frames of visibility and its moments, where the pixel's point was seen before  3. its variance  4. iterations of an
+// à-trous filter, ever wider, that keep to the surface and to what visibilities may differ by; what the first has filtered
+// is the next frame's history. The row of all defaults has the paper's figures; the second is AnKi's: three iterations that
+// no variance guides. Departures: visibility is filtered in place of radiance; surfaces are compared by their planes, where
+// the paper has the slope of depth.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/modern/traced_rays.h"
@@ -28,8 +28,9 @@ gl::Defines guidance(const Parameters& p) { return p.text("guided") == "on" ? gl
 class RayDenoised final : public Technique {
 public:
     explicit RayDenoised(const Parameters& p)
-        : iterations_(p.integer("iterations")), rays_("1"), accumulate_(screen("accumulate", {{"SHARE", p.text("share")}})),
-          variance_(screen("variance", {})), atrous_(screen("atrous", guidance(p))), shown_(screen("shown", {})) {}
+        : iterations_(p.integer("iterations")), rays_(p.text("rays")),
+          accumulate_(screen("accumulate", {{"SHARE", p.text("share")}})), variance_(screen("variance", {})),
+          atrous_(screen("atrous", guidance(p))), shown_(screen("shown", {})) {}
 
     void reset() override {
         rays_.forget();
@@ -106,7 +107,9 @@ Entry rayDenoised() {
                         "Schied et al. 2017: 5; AnKi: 3"},
                        {"guided", "on", OneOf{{"on", "off"}}, "keep visibilities apart that differ by more than their noise",
                         "Schied et al. 2017, eq. 5; AnKi: off"},
-                       {"share", "0.2", RealRange{0.01, 1}, "of the newest frame in the means", "Schied et al. 2017: 0.2"}},
+                       {"share", "0.2", RealRange{0.01, 1}, "of the newest frame in the means", "Schied et al. 2017: 0.2"},
+                       {"rays", "1", IntegerRange{1, 16}, "a pixel and frame, each to another point of the light",
+                        "Schied et al. 2017: 1"}},
         .variants = {"", "iterations=3,guided=off"},
         .make = [](const Parameters& p) { return std::make_unique<RayDenoised>(p); }};
 }
