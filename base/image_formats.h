@@ -29,7 +29,7 @@ namespace png {
 ImageHeader headerOf(std::string_view bytes);
 Image<float> channelOf(std::string_view bytes, int channel);
 
-/// 8 bits a number; `channels` (1: grey, 3: RGB) of each pixel side by side.
+/// 8 bits a number; `channels` (1: grey, 3: RGB, 4: RGBA) of each pixel side by side.
 std::string encoded(int width, int height, int channels, const std::vector<std::uint8_t>& pixels);
 
 } // namespace png

@@ -154,7 +154,9 @@ std::string encoded(int width, int height, int channels, const std::vector<std::
     library.run([&] {
         const png_structp png = library.png();
         png_set_write_fn(png, &bytes, append, nullptr);
-        const int colours = channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
+        const int colours = channels == 1   ? PNG_COLOR_TYPE_GRAY
+                            : channels == 3 ? PNG_COLOR_TYPE_RGB
+                                            : PNG_COLOR_TYPE_RGB_ALPHA;
         png_set_IHDR(png, library.info(), static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8, colours,
                      PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
         png_write_info(png, library.info());

@@ -7,6 +7,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,12 +35,15 @@ struct Fault {
     }
 };
 
+struct MaskedMesh; // scene/masked_mesh.h
+
 /// Positions are 32-bit floats so that the rasteriser and the exact ground truth start from the very same numbers.
 struct Mesh {
     std::vector<glm::vec3> positions;
-    std::vector<glm::uvec3> triangles; // indices into positions
-    bool closed = false;               // 2-manifold without border, consistently wound, outward
-    Fault flat{};                      // triangles of no area that have been left out
+    std::vector<glm::uvec3> triangles;         // indices into positions
+    bool closed = false;                       // 2-manifold without border, consistently wound, outward
+    Fault flat{};                              // triangles of no area that have been left out
+    std::shared_ptr<const MaskedMesh> cards{}; // of which an alpha test leaves this; none of most meshes
 
     [[nodiscard]] Bounds bounds() const;
 };

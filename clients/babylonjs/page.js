@@ -36,30 +36,47 @@ class ExportedCamera extends BABYLON.Camera {
     }
 }
 
-function makeMaterial(scene, doubleSided) {
+const modes = { repeat: "WRAP_ADDRESSMODE", mirror: "MIRROR_ADDRESSMODE", clamp: "CLAMP_ADDRESSMODE" };
+
+/// The engine's shadow generator takes the alpha test of a mesh's material over.
+function addMask(material, { png, cutoff, nearest, wrap }, scene) {
+    const filter = nearest ? BABYLON.Texture.NEAREST_SAMPLINGMODE : BABYLON.Texture.BILINEAR_SAMPLINGMODE;
+    const texture = new BABYLON.Texture(`data:image/png;base64,${png}`, scene,
+                                        { noMipmap: true, invertY: false, samplingMode: filter });
+    texture.hasAlpha = true;
+    [texture.wrapU, texture.wrapV] = wrap.map((name) => BABYLON.Texture[modes[name]]);
+    material.diffuseTexture = texture;
+    material.useAlphaFromDiffuseTexture = true; // of which the image's pass tests it
+    material.transparencyMode = BABYLON.Material.MATERIAL_ALPHATEST;
+    material.alphaCutOff = cutoff;
+}
+
+function makeMaterial(scene, { doubleSided, mask }) {
     const material = new BABYLON.StandardMaterial("white", scene);
     material.specularColor = BABYLON.Color3.Black();
     material.sideOrientation = BABYLON.Material.ClockWiseSideOrientation; // as the engine's glTF loader has it
     material.backFaceCulling = !doubleSided;
     material.twoSidedLighting = doubleSided;
+    if (mask) addMask(material, mask, scene);
     return material;
 }
 
-function makeGeometry(name, { positions, normals }, scene) {
+function makeGeometry(name, { positions, normals, uv }, scene) {
     const data = new BABYLON.VertexData();
     data.positions = positions;
     data.normals = normals;
+    if (uv) data.uvs = uv;
     data.indices = Uint32Array.from({ length: positions.length / 3 }, (_, i) => i);
     return new BABYLON.Geometry(name, scene, data);
 }
 
 function addNodes(frame, scene) {
-    const materials = [false, true].map((doubleSided) => makeMaterial(scene, doubleSided));
+    const materials = new Map([...meshes].map(([name, mesh]) => [name, makeMaterial(scene, mesh)]));
     const geometries = new Map([...meshes].map(([name, mesh]) => [name, makeGeometry(name, mesh, scene)]));
     return frame.nodes.map(({ name, mesh, matrix }) => {
         const drawn = new BABYLON.Mesh(name, scene);
         geometries.get(mesh).applyToMesh(drawn);
-        drawn.material = materials[Number(meshes.get(mesh).doubleSided)];
+        drawn.material = materials.get(mesh);
         drawn.rotationQuaternion = new BABYLON.Quaternion();
         matrixOf(mirrorRow(matrix)).decompose(drawn.scaling, drawn.rotationQuaternion, drawn.position);
         drawn.computeWorldMatrix(true);

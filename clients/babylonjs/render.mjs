@@ -1,7 +1,7 @@
 // The command line of Babylon.js' shadows: settings with the engine's own defaults.
 import { fileURLToPath } from "node:url";
 import puppeteer from "puppeteer-core";
-import { run } from "../browser/run.mjs";
+import { cards, run } from "../browser/run.mjs";
 
 await run(puppeteer, fileURLToPath(new URL(".", import.meta.url)), {
     filter: { values: ["none", "poisson", "pcf", "pcss", "esm", "blur-esm", "close-esm"], standard: "none",
@@ -18,4 +18,5 @@ await run(puppeteer, fileURLToPath(new URL(".", import.meta.url)), {
            help: "of a point light; auto: a cube where the filter allows it, else one map around the scene" },
     depths: { values: ["camera", "scene"], standard: "camera",
               help: "of a point light's map: left to the engine, which takes the camera's, or the scene's" },
+    cards,
 });

@@ -14,8 +14,9 @@ function readAccessor(gltf, buffer, number) {
     const start = (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
     if (accessor.componentType !== floatComponent)
         return new indexReaders[accessor.componentType](buffer.slice(start), 0, accessor.count);
-    if ((view.byteStride ?? 12) !== 12) throw new Error("refused: positions of scene.gltf are interleaved");
-    return new Float32Array(buffer.slice(start, start + 12 * accessor.count));
+    const bytes = accessor.type === "VEC2" ? 8 : 12;
+    if ((view.byteStride ?? bytes) !== bytes) throw new Error("refused: vertices of the scene's glTF are interleaved");
+    return new Float32Array(buffer.slice(start, start + bytes * accessor.count));
 }
 
 /// Three vertices for each triangle, with the triangle's normal.
@@ -35,15 +36,40 @@ function flatTriangles(positions, indices) {
     return flat;
 }
 
-/// Meshes by name: `positions` and `normals` of unindexed triangles, and whether they are seen from both sides.
-export function readMeshes({ gltf, buffer }) {
+const nearestFilter = 9728;
+const wraps = { 33071: "clamp", 33648: "mirror" };
+
+/// The alpha test of a material: `png` (base64), `cutoff`, whether the `nearest` texel counts, `wrap` along u and v.
+function maskOf({ gltf, images }, { alphaMode, alphaCutoff, pbrMetallicRoughness }) {
+    if (alphaMode !== "MASK") return undefined;
+    const texture = gltf.textures[pbrMetallicRoughness.baseColorTexture.index];
+    const { magFilter, wrapS, wrapT } = gltf.samplers[texture.sampler];
+    return { png: images[texture.source], cutoff: alphaCutoff, nearest: magFilter === nearestFilter,
+             wrap: [wrapS, wrapT].map((wrap) => wraps[wrap] ?? "repeat") };
+}
+
+/// A mask's PNG as an image whose colours stay as they are.
+export function imageOf({ png }) {
+    const blob = new Blob([bytesOf(png)], { type: "image/png" });
+    return createImageBitmap(blob, { premultiplyAlpha: "none", colorSpaceConversion: "none" });
+}
+
+/// Meshes by name: `positions` and `normals` of unindexed triangles, whether they are seen from both sides, and of cards
+/// their `mask` and places in it (`uv`, v downwards).
+export function readMeshes(exported) {
+    const { gltf, buffer } = exported;
     const bytes = bytesOf(buffer);
     return new Map(gltf.meshes.map((mesh) => {
         const [primitive] = mesh.primitives;
         const accessors = [primitive.attributes.POSITION, primitive.indices];
         const [positions, indices] = accessors.map((number) => readAccessor(gltf, bytes, number));
-        const doubleSided = gltf.materials?.[primitive.material]?.doubleSided === true;
-        return [mesh.name, { ...flatTriangles(positions, indices), doubleSided }];
+        const material = gltf.materials?.[primitive.material] ?? {};
+        const triangles = { ...flatTriangles(positions, indices), doubleSided: material.doubleSided === true };
+        const mask = maskOf(exported, material);
+        if (!mask) return [mesh.name, triangles];
+        const places = readAccessor(gltf, bytes, primitive.attributes.TEXCOORD_0);
+        const uv = Float32Array.from({ length: 2 * indices.length }, (_, i) => places[2 * indices[i >> 1] + i % 2]);
+        return [mesh.name, { ...triangles, mask, uv }];
     }));
 }
 

@@ -72,14 +72,17 @@ async function readJson(file) {
     }
 }
 
-async function readExported(folder) {
+/// With `cards`: where the scene has any, the glTF whose leaves are cards with a mask.
+async function readExported(folder, cards) {
     const scene = await readJson(path.join(folder, "scene.json"));
     if (scene.format !== "shadowbench-scene" || scene.version !== 1)
         throw new Failure(badInput, `${folder}/scene.json is not a shadowbench-scene of version 1`);
-    const gltf = await readJson(path.join(folder, scene.gltf ?? "scene.gltf"));
+    const gltf = await readJson(path.join(folder, (cards && scene.cards) || (scene.gltf ?? "scene.gltf")));
     const file = path.join(folder, gltf.buffers[0].uri);
     await access(file).catch(() => { throw new Failure(badInput, `${file} is missing; export the scene again`); });
-    return { scene, gltf, buffer: (await readFile(file)).toString("base64") };
+    const base64 = async (name) => (await readFile(path.join(folder, name))).toString("base64");
+    const images = await Promise.all((gltf.images ?? []).map(({ uri }) => base64(uri)));
+    return { scene, gltf, images, buffer: await base64(gltf.buffers[0].uri) };
 }
 
 function framesToRender(scene, list) {
@@ -128,7 +131,7 @@ async function renderAll(page, exported, frames, { out, settings }) {
 async function render(puppeteer, folder, client, settings) {
     const command = readCommandLine(settings);
     if (command.help) return console.log(helpOf(client, settings));
-    const exported = await readExported(command.scene);
+    const exported = await readExported(command.scene, command.settings.cards === "yes");
     const frames = framesToRender(exported.scene, command.frames);
     const browser = await launch(puppeteer);
     try {
@@ -155,6 +158,10 @@ async function render(puppeteer, folder, client, settings) {
         await browser.close();
     }
 }
+
+/// The setting of clients that test alpha.
+export const cards = { values: ["no", "yes"], standard: "no",
+                       help: "leaves as cards, of which the engine tests the texture's alpha, in its shadow maps, too" };
 
 /// Renders as the command line says and ends the process with its exit code. `folder` has page.html; `settings` maps an
 /// option to its `values`, or none for a number (`whole`: its bounds, if it is whole), its `standard` value and `help`.

@@ -1,13 +1,13 @@
 // Draws an exported scene with PlayCanvas, its shadow code unmodified: a white diffuse scene is drawn twice, with and without
 // `receiveShadows`, into floats; what is written is the quotient.
 import * as pc from "./node_modules/playcanvas/build/playcanvas.mjs";
-import { coneFrom, depthOf, hardLight, readMeshes, requireOneMap, visibilityOf } from "../browser/exported_scene.js";
+import { coneFrom, depthOf, hardLight, imageOf, readMeshes, requireOneMap, visibilityOf } from "../browser/exported_scene.js";
 
 const types = { pcf1: pc.SHADOW_PCF1_32F, pcf3: pc.SHADOW_PCF3_32F, pcf5: pc.SHADOW_PCF5_32F, vsm16: pc.SHADOW_VSM_16F,
                 vsm32: pc.SHADOW_VSM_32F, pcss: pc.SHADOW_PCSS_32F };
 const isVariance = () => settings.type.startsWith("vsm");
 
-let app, settings, exported, meshes, target;
+let app, settings, exported, meshes, materials, target;
 
 const vector = (numbers) => new pc.Vec3(...numbers);
 
@@ -26,29 +26,43 @@ function place(entity, matrix) {
     if (Math.max(...differences) > 1e-4) throw new Error(`refused: ${entity.name} is mirrored, which PlayCanvas lacks`);
 }
 
-function makeGeometry({ positions, normals }) {
+function makeGeometry({ positions, normals, uv }) {
     const mesh = new pc.Mesh(app.graphicsDevice);
     mesh.setPositions(positions);
     mesh.setNormals(normals);
+    if (uv) mesh.setUvs(0, uv);
     mesh.update();
     return mesh;
 }
 
-function makeMaterial(doubleSided) {
+const modes = { repeat: pc.ADDRESS_REPEAT, mirror: pc.ADDRESS_MIRRORED_REPEAT, clamp: pc.ADDRESS_CLAMP_TO_EDGE };
+
+/// The engine's shadow pass takes the alpha test of a mesh's material over.
+async function addMask(material, mask) {
+    const image = await imageOf(mask), filter = mask.nearest ? pc.FILTER_NEAREST : pc.FILTER_LINEAR;
+    const [addressU, addressV] = mask.wrap.map((name) => modes[name]);
+    const texture = new pc.Texture(app.graphicsDevice, {
+        width: image.width, height: image.height, format: pc.PIXELFORMAT_RGBA8, mipmaps: false, flipY: false,
+        minFilter: filter, magFilter: filter, addressU, addressV });
+    texture.setSource(image);
+    Object.assign(material, { opacityMap: texture, opacityMapChannel: "a", alphaTest: mask.cutoff });
+}
+
+async function makeMaterial({ doubleSided, mask }) {
     const material = new pc.StandardMaterial(); // white and without highlights, as the engine has it
     material.cull = doubleSided ? pc.CULLFACE_NONE : pc.CULLFACE_BACK;
     material.twoSidedLighting = doubleSided;
+    if (mask) await addMask(material, mask);
     material.update();
     return material;
 }
 
 function addNodes(frame, root) {
-    const materials = [false, true].map(makeMaterial);
     const geometries = new Map([...meshes].map(([name, mesh]) => [name, makeGeometry(mesh)]));
     return frame.nodes.map(({ name, mesh, matrix }) => {
         const entity = new pc.Entity(name);
         place(entity, matrixOf(matrix));
-        const drawn = new pc.MeshInstance(geometries.get(mesh), materials[Number(meshes.get(mesh).doubleSided)]);
+        const drawn = new pc.MeshInstance(geometries.get(mesh), materials.get(mesh));
         entity.addComponent("render", { meshInstances: [drawn], castShadows: true });
         root.addChild(entity);
         return entity.render;
@@ -127,6 +141,7 @@ globalThis.start = async (input, chosen) => {
     if (settings.type.startsWith("pcf")) app.scene.lighting.shadowType = types[settings.type]; // clusters have no other
     app.scene.lighting.shadowAtlasResolution = settings["atlas-size"];
     meshes = readMeshes(exported);
+    materials = new Map(await Promise.all([...meshes].map(async ([name, mesh]) => [name, await makeMaterial(mesh)])));
     const [width, height] = exported.scene.size;
     const colorBuffer = new pc.Texture(device, { width, height, format: pc.PIXELFORMAT_RGBA32F, mipmaps: false,
                                                  minFilter: pc.FILTER_NEAREST, magFilter: pc.FILTER_NEAREST });

@@ -1,7 +1,7 @@
 // The command line of PlayCanvas' shadows: settings with the engine's own defaults.
 import { fileURLToPath } from "node:url";
 import puppeteer from "puppeteer-core";
-import { run } from "../browser/run.mjs";
+import { cards, run } from "../browser/run.mjs";
 
 await run(puppeteer, fileURLToPath(new URL(".", import.meta.url)), {
     type: { values: ["pcf1", "pcf3", "pcf5", "vsm16", "vsm32", "pcss"], standard: "pcf3", help: "light.shadowType" },
@@ -14,4 +14,5 @@ await run(puppeteer, fileURLToPath(new URL(".", import.meta.url)), {
     cascades: { standard: 1, whole: [1, 4], help: "light.numCascades, of a directional light" },
     distance: { values: ["engine", "scene"], standard: "engine",
                 help: "light.shadowDistance of a directional light: the engine's 40, or as far as the scene is" },
+    cards,
 });

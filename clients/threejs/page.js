@@ -1,18 +1,34 @@
 // Draws an exported scene with three.js, its shadow code unmodified: a white diffuse scene is drawn twice, with and without
 // `receiveShadow`, into floats; what is written is the quotient.
 import {
-    boundsAlong, coneFrom, hardLight, middleOf, readMeshes, requireOneMap, visibilityOf,
+    boundsAlong, coneFrom, hardLight, imageOf, middleOf, readMeshes, requireOneMap, visibilityOf,
 } from "../browser/exported_scene.js";
 
 const types = { basic: "BasicShadowMap", pcf: "PCFShadowMap", pcfsoft: "PCFSoftShadowMap", vsm: "VSMShadowMap" };
 
-let three, renderer, settings, exported, meshes, geometries, light, target;
+let three, renderer, settings, exported, meshes, geometries, materials, light, target;
 
-function makeGeometry({ positions, normals }) {
+function makeGeometry({ positions, normals, uv }) {
     const geometry = new three.BufferGeometry();
     geometry.setAttribute("position", new three.BufferAttribute(positions, 3));
     geometry.setAttribute("normal", new three.BufferAttribute(normals, 3));
+    if (uv) geometry.setAttribute("uv", new three.BufferAttribute(uv, 2));
     return geometry;
+}
+
+const wrapOf = (wrap) => ({ repeat: three.RepeatWrapping, mirror: three.MirroredRepeatWrapping,
+                            clamp: three.ClampToEdgeWrapping })[wrap];
+
+/// White; the engine's shadow pass takes the alpha test of a mesh's material over.
+async function makeMaterial({ doubleSided, mask }) {
+    const material = new three.MeshLambertMaterial({ color: 0xffffff,
+                                                     side: doubleSided ? three.DoubleSide : three.FrontSide });
+    if (!mask) return material;
+    const filter = mask.nearest ? three.NearestFilter : three.LinearFilter;
+    const texture = new three.Texture(await imageOf(mask), three.UVMapping, ...mask.wrap.map(wrapOf), filter, filter);
+    texture.flipY = texture.generateMipmaps = false;
+    texture.needsUpdate = true;
+    return Object.assign(material, { map: texture, alphaTest: mask.cutoff });
 }
 
 function makeLight({ direction }) {
@@ -53,10 +69,8 @@ function fitSpot(frame, { centre }) {
 
 function makeScene(frame) {
     const scene = new three.Scene();
-    const white = (side) => new three.MeshLambertMaterial({ color: 0xffffff, side });
-    const materials = [three.FrontSide, three.DoubleSide].map(white);
     for (const { mesh, matrix } of frame.nodes) {
-        const drawn = new three.Mesh(geometries.get(mesh), materials[Number(meshes.get(mesh).doubleSided)]);
+        const drawn = new three.Mesh(geometries.get(mesh), materials.get(mesh));
         drawn.matrixAutoUpdate = false;
         drawn.matrix.fromArray(matrix);
         drawn.matrixWorldNeedsUpdate = true;
@@ -113,6 +127,7 @@ globalThis.start = async (input, chosen) => {
     if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("refused: this WebGL cannot draw into floats");
     meshes = readMeshes(exported);
     geometries = new Map([...meshes].map(([name, mesh]) => [name, makeGeometry(mesh)]));
+    materials = new Map(await Promise.all([...meshes].map(async ([name, mesh]) => [name, await makeMaterial(mesh)])));
     light = makeLight(hardLight(exported.scene.light));
     target = new three.WebGLRenderTarget(...exported.scene.size, { type: three.FloatType, samples: 0,
                                          minFilter: three.NearestFilter, magFilter: three.NearestFilter });

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace shadowbench::exchange {
@@ -127,18 +128,23 @@ std::vector<std::string> exportedFiles(std::string_view description) {
 Exported exportScene(const Scene& scene, const fs::path& folder) {
     const Parts parts(scene);
     const std::vector<int> frames = scoredFrames(scene);
-    const GltfFiles gltf = gltfOf(scene, snapshot(scene, frames.front()), parts);
+    const Snapshot scored = snapshot(scene, frames.front());
+    GltfFiles gltf = gltfOf(scene, scored, parts, "scene", Holes::Cut);
     const std::string sceneFile = scene.id + ".toml";
     const Image<float>* sky = skyImageOf(scene);
-    FileNames names{sceneFile, {"scene.bin", "scene.gltf", "scene.mtl", "scene.obj", sceneFile}};
+    FileNames names{sceneFile, {}, {"scene.mtl", "scene.obj", sceneFile}};
+    if (std::ranges::any_of(parts.list(), [](const Part& part) { return part.mesh->cards != nullptr; })) {
+        names.cards = "cards.gltf";
+        std::ranges::move(gltfOf(scene, scored, parts, "cards", Holes::Masked), std::back_inserter(gltf));
+    }
+    for (const auto& [name, content] : gltf) names.all.push_back(name);
     if (sky != nullptr) names.all.emplace_back("sky.exr");
     names.all.emplace_back(kDescription);
 
     const std::vector<std::string> earlier = replaceable(folder);
     Files files(folder);
     files.replace(earlier, names.all);
-    files.add("scene.bin", gltf.bin);
-    files.add("scene.gltf", gltf.gltf);
+    for (const auto& [name, content] : gltf) files.add(name, content);
     files.add("scene.mtl", mtlOf(parts));
     files.add("scene.obj", objOf(parts));
     files.add(sceneFile, tomlOf(scene, parts));

@@ -6,16 +6,21 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace shadowbench::exchange {
 
-/// A .gltf and the buffer that it names, `scene.bin`.
-struct GltfFiles {
-    std::string gltf, bin;
-};
+/// The files of a glTF, by name.
+using GltfFiles = std::vector<std::pair<std::string, std::string>>;
 
-/// The scene at `frame`: a mesh for each part, a node for each instance, the camera and the light.
-GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts);
+/// Meshes that an alpha test leaves of cards: as the triangles that are left, or as the cards, for engines that test alpha
+/// themselves.
+enum class Holes { Cut, Masked };
+
+/// The scene at `frame`: a mesh for each part, a node for each instance, the camera and the light. `name`.bin, the PNGs of
+/// masks, and `name`.gltf.
+GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts, const std::string& name, Holes holes);
 
 /// What a scene file that names a glTF file says of it.
 struct GltfUse {

@@ -66,6 +66,7 @@ std::string sceneJsonOf(const Scene& scene, const Parts& parts, const std::vecto
               {"conventions", conventions()}};
     Json list = Json::array();
     for (const int frame : frames) list.push_back(frameOf(scene, parts, frame));
+    if (!files.cards.empty()) json["cards"] = files.cards;
     json["camera"] = list.front()["camera"];
     json["light"] = list.front()["light"];
     json["meshes"] = meshesOf(parts);

@@ -15,6 +15,7 @@ std::string mtlOf(const Parts& parts);
 /// The names of an export's files that scene.json mentions.
 struct FileNames {
     std::string toml;
+    std::string cards; // the glTF file with cards and their masks; empty where no mesh has any
     std::vector<std::string> all;
 };
 

@@ -1,8 +1,11 @@
 // The writer: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html and its extension KHR_lights_punctual.
+#include "base/image_formats.h"
 #include "scene/exchange/gltf.h"
 #include "scene/exchange/json_values.h"
+#include "scene/masked_mesh.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,8 +14,10 @@
 namespace shadowbench::exchange {
 namespace {
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125;  // glTF's numbers for the types of components …
-constexpr int kVertices = 34962, kIndices = 34963; // … and the uses of buffer views
+constexpr int kFloat = 5126, kUnsignedInt = 5125;               // glTF's numbers for the types of components …
+constexpr int kVertices = 34962, kIndices = 34963;              // … the uses of buffer views …
+constexpr int kNearest = 9728, kLinear = 9729;                  // … filters, neither of which has mipmaps …
+constexpr int kRepeat = 10497, kMirror = 33648, kClamp = 33071; // … and what is beyond a texture's border
 
 /// One after the other in one buffer; a mesh that several parts show is there once.
 class Buffer {
@@ -22,6 +27,13 @@ public:
         const auto [known, isNew] = places_.try_emplace(&mesh);
         if (isNew) known->second = {addPositions(mesh), addIndices(mesh)};
         return known->second;
+    }
+
+    /// Accessor of places in a texture.
+    std::size_t add(const std::vector<glm::vec2>& uv) {
+        static_assert(sizeof(glm::vec2) == 8, "places are written as they lie in memory");
+        return add(uv.data(), uv.size() * sizeof(glm::vec2), kVertices,
+                   {{"componentType", kFloat}, {"count", uv.size()}, {"type", "VEC2"}});
     }
 
     Json views = Json::array(), accessors = Json::array();
@@ -68,11 +80,38 @@ Json materialOf(const Part& part) {
             {"doubleSided", !part.mesh->closed}};
 }
 
-Json meshOf(const Part& part, std::size_t material, Buffer& buffer) {
-    const auto [positions, indices] = buffer.accessorsOf(*part.mesh);
+Json meshOf(const Part& part, const MaskedMesh* cards, std::size_t material, Buffer& buffer) {
+    const auto [positions, indices] = buffer.accessorsOf(cards != nullptr ? cards->mesh : *part.mesh);
+    Json attributes{{"POSITION", positions}};
+    if (cards != nullptr) attributes["TEXCOORD_0"] = buffer.add(cards->uv);
     return {{"name", part.name},
-            {"primitives",
-             Json::array({{{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", material}}})}};
+            {"primitives", Json::array({{{"attributes", attributes}, {"indices", indices}, {"material", material}}})}};
+}
+
+/// White, with the mask as its alpha.
+std::string pngOf(const Image<float>& alpha) {
+    std::vector<std::uint8_t> pixels;
+    for (const float a : alpha)
+        pixels.insert(pixels.end(), {255, 255, 255, static_cast<std::uint8_t>(std::lround(255 * a))});
+    return png::encoded(alpha.width(), alpha.height(), 4, pixels);
+}
+
+int numberOf(AlphaMask::Wrap wrap) {
+    if (wrap == AlphaMask::Wrap::Clamp) return kClamp;
+    return wrap == AlphaMask::Wrap::Mirror ? kMirror : kRepeat;
+}
+
+/// The mask as a texture of the file, with an image and a sampler of its own, named by the material.
+void addMask(const AlphaMask& mask, const std::string& image, Json& material, Json& gltf) {
+    const int filter = mask.nearest ? kNearest : kLinear;
+    gltf["samplers"].push_back(
+        {{"magFilter", filter}, {"minFilter", filter}, {"wrapS", numberOf(mask.u)}, {"wrapT", numberOf(mask.v)}});
+    gltf["images"].push_back({{"uri", image}});
+    const std::size_t number = gltf["textures"].size();
+    gltf["textures"].push_back({{"sampler", number}, {"source", number}});
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", number}};
+    material["alphaMode"] = "MASK";
+    material["alphaCutoff"] = mask.cutoff;
 }
 
 /// An identity is left out: glTF calls for it.
@@ -153,7 +192,8 @@ Json instanceNodes(const Snapshot& frame, const Parts& parts) {
 
 } // namespace
 
-GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts) {
+GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts, const std::string& name, Holes holes) {
+    GltfFiles files;
     Json gltf{{"asset", assetOf(scene, frame)}};
     gltf["extensionsUsed"] = Json::array({"KHR_lights_punctual"});
     gltf["extensions"]["KHR_lights_punctual"]["lights"] = lightsOf(frame);
@@ -161,8 +201,15 @@ GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts) 
 
     Buffer buffer;
     for (const Part& part : parts.list()) {
-        gltf["materials"].push_back(materialOf(part));
-        gltf["meshes"].push_back(meshOf(part, gltf["materials"].size() - 1, buffer));
+        const MaskedMesh* cards = holes == Holes::Masked ? part.mesh->cards.get() : nullptr;
+        Json material = materialOf(part);
+        if (cards != nullptr) {
+            const std::string image = fmt::format("{}-{}.png", name, part.name);
+            addMask(cards->mask, image, material, gltf);
+            files.emplace_back(image, pngOf(cards->mask.alpha));
+        }
+        gltf["materials"].push_back(std::move(material));
+        gltf["meshes"].push_back(meshOf(part, cards, gltf["materials"].size() - 1, buffer));
     }
     Json nodes = instanceNodes(frame, parts);
     nodes.push_back(cameraNode(frame.camera));
@@ -174,8 +221,10 @@ GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts) 
     gltf["scene"] = 0;
     gltf["accessors"] = std::move(buffer.accessors);
     gltf["bufferViews"] = std::move(buffer.views);
-    gltf["buffers"] = Json::array({{{"uri", "scene.bin"}, {"byteLength", buffer.bytes.size()}}});
-    return {textOf(gltf, 2), std::move(buffer.bytes)};
+    gltf["buffers"] = Json::array({{{"uri", name + ".bin"}, {"byteLength", buffer.bytes.size()}}});
+    files.emplace_back(name + ".bin", std::move(buffer.bytes));
+    files.emplace_back(name + ".gltf", textOf(gltf, 2));
+    return files;
 }
 
 } // namespace shadowbench::exchange

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
+#include <span>
 #include <vector>
 
 namespace shadowbench {
@@ -186,11 +187,11 @@ private:
 
 } // namespace
 
-Mesh cutByMask(const Mesh& mesh, std::span<const glm::vec2> uv, const AlphaMask& mask) {
-    const Cells cells(mask);
+Mesh cutByMask(const MaskedMesh& cards) {
+    const Cells cells(cards.mask);
     Mesh left;
-    Cutter cutter(mesh, uv, cells, left);
-    for (const glm::uvec3& triangle : mesh.triangles) cutter.cut(triangle);
+    Cutter cutter(cards.mesh, cards.uv, cells, left);
+    for (const glm::uvec3& triangle : cards.mesh.triangles) cutter.cut(triangle);
     return left;
 }
 

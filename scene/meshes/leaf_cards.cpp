@@ -43,6 +43,12 @@ std::vector<Ellipse> spray() {
     return parts;
 }
 
+/// As a texture of 8 bits has it, read as scene/meshes/gltf_masks.cpp reads one: exported cards have the very same outline.
+float inBytes(double alpha) {
+    constexpr float scale = 1.0F / 255.0F;
+    return scale * static_cast<float>(std::lround(255 * alpha));
+}
+
 AlphaMask sprayMask(int texels, double cutoff) {
     AlphaMask mask{Image<float>(texels, texels), cutoff, false, AlphaMask::Wrap::Clamp, AlphaMask::Wrap::Clamp};
     const std::vector<Ellipse> parts = spray();
@@ -51,7 +57,7 @@ AlphaMask sprayMask(int texels, double cutoff) {
             const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / static_cast<double>(texels);
             double alpha = 0;
             for (const Ellipse& part : parts) alpha = std::max(alpha, part.alphaAt(place));
-            mask.alpha(x, y) = static_cast<float>(alpha);
+            mask.alpha(x, y) = inBytes(alpha);
         }
     return mask;
 }
@@ -66,17 +72,19 @@ glm::dvec3 nextDirection(Random& random) {
 Mesh leafCards(int count, double size, int texels, double cutoff, std::uint32_t seed) {
     const Mesh card{{{-0.5, 0, 0}, {0.5, 0, 0}, {0.5, 1, 0}, {-0.5, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
     constexpr std::array<glm::vec2, 4> corners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-    const Mesh leaves = weld(cutByMask(card, corners, sprayMask(texels, cutoff)));
-    Mesh crown;
+    MaskedMesh cards{{}, {}, sprayMask(texels, cutoff)};
     Random random(seed);
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 outward = nextDirection(random), foot = (1 - size) * std::cbrt(random.uniform(0.1, 1)) * outward;
         const glm::dvec3 up = glm::normalize(outward + 0.6 * nextDirection(random));
         const glm::dvec3 right = glm::normalize(glm::cross(up, nextDirection(random)));
-        append(crown, leaves,
+        append(cards.mesh, card,
                glm::dmat4(glm::dvec4(size * right, 0), glm::dvec4(size * up, 0), glm::dvec4(size * glm::cross(right, up), 0),
                           glm::dvec4(foot, 1)));
+        cards.uv.insert(cards.uv.end(), corners.begin(), corners.end());
     }
+    Mesh crown = weld(cutByMask(cards));
+    crown.cards = std::make_shared<const MaskedMesh>(std::move(cards));
     return crown;
 }
 

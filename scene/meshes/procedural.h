@@ -22,7 +22,7 @@ Mesh tree(int triangles, std::uint32_t seed);
 
 /// The leaves on `count` cards with sides of `size` < 1 in a ball of radius 1 around the origin, turned outwards at random:
 /// of each card what an alpha test at `cutoff` leaves of one picture of a spray of leaves with `texels`² texels, whose alpha
-/// falls from 1 in the middle of a leaf to ½ at its border (cutByMask()). Open.
+/// falls from 1 in the middle of a leaf to ½ at its border (cutByMask()). Open, with its cards.
 Mesh leafCards(int count, double size, int texels, double cutoff, std::uint32_t seed);
 
 } // namespace shadowbench

@@ -147,14 +147,14 @@ private:
 
     Mesh cut(const Mesh& mesh, const GltfMask& mask, const GltfJson& primitive, const std::vector<std::uint32_t>& used) {
         requireNumbers(mesh, "its mesh"); // which may have no area otherwise
-        std::vector<glm::vec2> coordinates(used.size());
+        MaskedMesh cards{mesh, std::vector<glm::vec2>(used.size()), mask.mask};
         if (!mask.coordinates.empty()) {
             const auto number = wholeNumber<std::size_t>(primitive.at("attributes").at(mask.coordinates));
-            coordinates = coordinatesOf(buffers_.elements(number, "VEC2"), used);
+            cards.uv = coordinatesOf(buffers_.elements(number, "VEC2"), used);
         }
-        const Mesh left = cutByMask(mesh, coordinates, mask.mask);
+        const Mesh left = cutByMask(cards);
         if (left.triangles.empty()) throw BadInput("its mask leaves nothing of it; is its alphaCutoff as it should be?");
-        return compacted(left);
+        return weld(compacted(left));
     }
 
     /// Of all parts together.

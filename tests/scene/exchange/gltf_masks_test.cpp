@@ -28,7 +28,7 @@ struct Card {
     Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}};
     std::vector<glm::vec2> uv{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
-    [[nodiscard]] Mesh cutBy(const AlphaMask& mask) const { return cutByMask(mesh, uv, mask); }
+    [[nodiscard]] Mesh cutBy(const AlphaMask& mask) const { return cutByMask({mesh, uv, mask}); }
 };
 
 AlphaMask maskOf(int size, double cutoff, const std::function<double(double, double)>& alpha) {

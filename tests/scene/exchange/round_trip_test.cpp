@@ -1,6 +1,8 @@
 // Every built-in scene, exported: loaded again it is the same scene, and its files say, to who reads them by their
 // description, what the truth is computed from.
 #include "groundtruth/contract/reference_key.h"
+#include "scene/masked_mesh.h"
+#include "scene/meshes/import.h"
 #include "scene/sky.h"
 #include "tests/scene/exchange/exported_folder.h"
 #include "tests/scene/exchange/same_scene.h"
@@ -11,6 +13,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace shadowbench {
 namespace {
@@ -58,6 +61,30 @@ void expectLight(const Json& json, const Light& light) {
     if (light.isEnvironment()) {
         EXPECT_EQ(json["suns"].size(), light.environment->suns.size());
         EXPECT_EQ(json["sky"].size(), 1U);
+    }
+}
+
+/// Cards that a mask cuts holes into are written as such, too, and what our reader leaves of them is the mesh.
+TEST_P(EveryScene, ItsCardsAndMasksReadAgainAreTheSameTriangles) {
+    std::set<std::string> masked;
+    for (const Object& object : scene.objects)
+        if (object.levels[0].mesh->cards) masked.insert(object.name);
+    EXPECT_EQ(!masked.empty(), folder.json("scene.json").contains("cards"));
+    EXPECT_EQ(!masked.empty(), std::filesystem::exists(folder.path() / "cards.gltf"));
+    if (masked.empty()) return;
+    const std::map<std::string, Mesh> parts = importParts(folder.path() / "cards.gltf");
+    for (const Object& object : scene.objects) {
+        const Mesh &mesh = *object.levels[0].mesh, &read = parts.at(object.name);
+        EXPECT_EQ(read.positions, mesh.positions) << object.name;
+        EXPECT_EQ(read.triangles, mesh.triangles) << object.name;
+    }
+    const Json gltf = folder.json("cards.gltf");
+    for (const Json& material : gltf.at("materials")) {
+        EXPECT_EQ(material.value("alphaMode", "OPAQUE") == "MASK", masked.contains(material.at("name"))) << material;
+        if (!masked.contains(material.at("name"))) continue;
+        const Json& texture = gltf.at("textures").at(material.at("pbrMetallicRoughness").at("baseColorTexture").at("index"));
+        const Json& sampler = gltf.at("samplers").at(texture.at("sampler"));
+        EXPECT_EQ(sampler.at("magFilter"), sampler.at("minFilter")) << "no mipmaps, of which the truth has none";
     }
 }
 
