@@ -1,5 +1,5 @@
 // Means over frames of visibility and of its first two moments (Schied et al. 2017, 4.1 and 4.2).
-#include "modern/ray-denoised/surface.glsl"
+#include "modern/surface.glsl"
 
 uniform sampler2D noisy;
 uniform sampler2D previousPositions;

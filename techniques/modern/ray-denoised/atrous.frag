@@ -1,5 +1,5 @@
 // One iteration of an edge-avoiding à-trous filter (Dammertz et al. 2010; Schied et al. 2017, 4.3 and 4.4).
-#include "modern/ray-denoised/surface.glsl"
+#include "modern/surface.glsl"
 
 uniform sampler2D source;  // mean and variance
 uniform int spacing;       // pixels between taps

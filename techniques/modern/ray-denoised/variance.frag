@@ -1,5 +1,5 @@
 // Variance of visibility: over frames, and over neighbours where there are too few of these (Schied et al. 2017, 4.2).
-#include "modern/ray-denoised/surface.glsl"
+#include "modern/surface.glsl"
 
 uniform sampler2D mean;
 uniform sampler2D moments;
