@@ -41,6 +41,17 @@ CellScene& smallCells(const std::string& id) {
     return scenes.try_emplace(id, smallScene(id)).first->second;
 }
 
+/// The first figure of a crowd, which a technique draws as it draws all.
+CellScene& oneWalker() {
+    testContext();
+    static CellScene cells = [] {
+        Scene scene = smallScene("skinned-crowd");
+        for (Object& object : scene.objects) object.instances.resize(1);
+        return CellScene(std::move(scene));
+    }();
+    return cells;
+}
+
 std::vector<std::string> shadowVariants() {
     std::vector<std::string> names;
     for (const techniques::Variant& variant : techniques::matchVariants("*"))
@@ -242,16 +253,17 @@ TEST_P(EveryVariant, LeavesAFullyLitSceneLit) {
     EXPECT_GT(top, 2000U);
 }
 
-TEST_P(EveryVariant, DrawsCastersThatDeformAsFromTheBeginning) {
-    const techniques::Variant variant = techniques::parseVariant(GetParam());
-    CellScene& cells = smallCells("skinned-crowd"); // its transforms stand still
+TEST_P(EveryVariant, DrawsACasterThatDeformsAsFromTheBeginning) {
+    const techniques::Variant variant = techniques::parseVariant(madeSmall(GetParam()));
+    CellScene& cells = oneWalker(); // whose transform stands still
     if (variant.entry->temporal || notApplicable(cells.scene(), variant)) return;
-    const auto make = [&] { return variant.entry->make(variant.parameters); };
-    const auto kept = make();
-    for (int frame = 0; frame < cells.scene().timeline.frames(); ++frame) {
-        const Image<float> image = drawnBy(cells.stage(), *kept, snapshot(cells.scene(), frame), frame);
-        EXPECT_EQ(image, drawnBy(cells.stage(), *make(), snapshot(cells.scene(), frame), frame)) << "frame " << frame;
-    }
+    const int moving = cells.scene().timeline.still;
+    const auto draw = [&](techniques::Technique& technique, int frame) {
+        return drawnBy(cells.stage(), technique, snapshot(cells.scene(), frame), frame);
+    };
+    const auto kept = variant.entry->make(variant.parameters);
+    draw(*kept, moving - 1);
+    EXPECT_EQ(draw(*kept, moving), draw(*variant.entry->make(variant.parameters), moving));
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(variantsForAreaLights()), nameOfText);
