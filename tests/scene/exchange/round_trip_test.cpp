@@ -82,8 +82,9 @@ TEST_P(EveryScene, ItsCardsAndMasksReadAgainAreTheSameTriangles) {
     for (const Json& material : gltf.at("materials")) {
         EXPECT_EQ(material.value("alphaMode", "OPAQUE") == "MASK", masked.contains(material.at("name"))) << material;
         if (!masked.contains(material.at("name"))) continue;
-        const Json& texture = gltf.at("textures").at(material.at("pbrMetallicRoughness").at("baseColorTexture").at("index"));
-        const Json& sampler = gltf.at("samplers").at(texture.at("sampler"));
+        const Json& base = material.at("pbrMetallicRoughness").at("baseColorTexture");
+        const Json& texture = gltf.at("textures").at(base.at("index").get<std::size_t>());
+        const Json& sampler = gltf.at("samplers").at(texture.at("sampler").get<std::size_t>());
         EXPECT_EQ(sampler.at("magFilter"), sampler.at("minFilter")) << "no mipmaps, of which the truth has none";
     }
 }
