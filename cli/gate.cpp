@@ -50,11 +50,8 @@ void addGate(CLI::App& app, Action& action) {
         "  shadowbench gate --base engine-before/results.jsonl --technique 'external:*' --external engine.toml --cost none\n"
         "Exits with 5 when something could not be judged or base and head are one program, else with 4 when accuracy or "
         "stability\nis worse, 3 when only cost is, and 0 when nothing is. The stricter of both sides' policies judges. "
-        "A killed gate goes on\nwhere it was; nothing is measured twice, and what the change cannot have reached is not "
-        "measured "
-        "but for a sample.\nWith --all the head's records are left in --out: as the --base of later gates they accept what "
-        "this "
-        "one found.");
+        "A killed gate goes on\nwhere it was. What the change cannot have reached is not measured but for a sample.\n"
+        "With --all the head's records are left in --out: as the --base of later gates they accept what this one found.");
     verb->add_option("--base", options->base,
                      "A build folder or program, a git revision (built once and kept), or records (then neither time nor "
                      "shaders are judged)");

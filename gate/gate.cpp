@@ -147,7 +147,8 @@ private:
                 fmt::format("{} of {} of {} are the base's: nothing that can decide them has changed", what, known, all));
     }
 
-    /// Of what no change can have reached a sample is measured on both sides; the rest is judged only where it is kept.
+    /// Of what no change can have reached the head measures a sample, which must equal what the base has or measures; the
+    /// rest is judged only where it is kept.
     void leaveOutWhatIsKnown(MeasuredProgram& base, MeasuredProgram& head) {
         const std::vector<Step> steps = cells_.steps(head, options_.instructions);
         const std::vector<Step> sample = sampleOfKnown(reachable(base), head.build(), steps);
@@ -176,7 +177,7 @@ private:
                 return isKnown(reachable(base), head.build(), variant, scene.id) && open.contains({scene.id, variant});
             });
         noteKnown("results", known, all);
-        result_.notes.push_back(fmt::format("{} of these were measured on both sides as a check and are equal", checked));
+        result_.notes.push_back(fmt::format("{} of these were measured as a check and are equal", checked));
         if (leftOut_ > 0)
             result_.notes.push_back(
                 fmt::format("{} cells were measured on neither side, so {} is not written: --all measures them", leftOut_,
