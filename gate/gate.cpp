@@ -155,8 +155,10 @@ private:
         if (sample.empty()) return;
         const Measured before = measureSteps(base, "base, check", sample), now = measureAgain(head, "head, check", sample);
         if (const auto cell = contradicted(sample, before, now)) {
-            result_.notCompared.push_back(fmt::format(
-                "{} differs from the base, though nothing that can decide it has changed: everything was measured", *cell));
+            result_.notCompared.push_back(fmt::format("{} differs from the base, though nothing that can decide it has "
+                                                      "changed: everything was measured. Remove {}, "
+                                                      "where other results may depend on the same",
+                                                      *cell, (cache_ / "gate" / "results").string()));
             base.distrustReach();
             head.distrustReach();
             return;
