@@ -211,8 +211,8 @@ void JudgedCells::addSteps(const MeasuredProgram& program, const JudgedScene& sc
     const auto add = [&](const std::string& name, std::uint32_t with, const char* cost,
                          const std::vector<std::string>& variants) {
         if (!variants.empty())
-            steps.push_back({name, arguments("run", scene, profile, with, {"--cost", cost}), variants, "results.jsonl",
-                             scene.content + scene.truths, false, scene.id, with});
+            steps.push_back({name, arguments("run", scene, profile, with, {"--cost", cost, "--shard", "1/1"}), variants,
+                             "cells", scene.content + scene.truths, false, scene.id, with});
     };
     add(scene.id, seed, "none",
         select(known, [&](const auto& v) { return std::ranges::find(counted, v) == counted.end(); }));

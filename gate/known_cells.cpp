@@ -12,7 +12,7 @@
 namespace shadowbench::gate {
 namespace {
 
-constexpr std::size_t oneOf = 32; // known results is measured
+constexpr std::size_t oneOf = 64; // known results is measured
 
 std::string resultOf(Record record) {
     record.commit = record.program = record.time = "";

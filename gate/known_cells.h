@@ -16,7 +16,7 @@ bool isKnown(const std::optional<BuildInfo>& base, const std::optional<BuildInfo
 /// Whether both give the same shaders and the same figures of them for a variant, whatever the built-in scene.
 bool hasKnownShaders(const std::optional<BuildInfo>& base, const std::optional<BuildInfo>& head, const std::string& variant);
 
-/// Every 32nd known result of `steps`, one at least where any is known: which, a hash of the head's commit draws. They are
+/// Every 64th known result of `steps`, one at least where any is known: which, a hash of the head's commit draws. They are
 /// to be measured as a check, without instructions, of which the comparison knows what is no change.
 std::vector<Step> sampleOfKnown(const std::optional<BuildInfo>& base, const std::optional<BuildInfo>& head,
                                 const std::vector<Step>& steps);

@@ -10,6 +10,7 @@
 #include "harness/cells/environment.h"
 #include "harness/measure/callgrind.h"
 #include "harness/records/comparability.h"
+#include "harness/runs/cell_file.h"
 #include "techniques/catalog.h"
 #include "techniques/variant_name.h"
 
@@ -49,12 +50,23 @@ void asThisProcess(Command& command) {
     command.inherited.clear();
 }
 
+/// Of each of `programs` that run at once.
+int threadsOf(int programs) { return std::max(1, availableThreads() / programs); }
+
+/// What a step has left in `out`.
+std::vector<Record> recordsIn(const fs::path& out, const Step& step) {
+    if (!step.isPart()) return readRecords(out / step.records);
+    std::vector<Record> records;
+    for (shards::MeasuredCell& cell : shards::readCells(out)) records.push_back(std::move(cell.record));
+    return records;
+}
+
 /// The exit code and the last line; `onLine` sees all of them. It is one of `programs` that run at once.
 std::pair<int, std::string> runToEnd(const fs::path& program, const std::vector<std::string>& arguments,
                                      const OnLine& onLine, int programs = 1, bool callsRenderers = false) {
     const TemporaryFolder folder;
     Command command{program, arguments, folder.path()};
-    command.threads = std::max(1, availableThreads() / programs);
+    command.threads = threadsOf(programs);
     command.limit = longestStep;
     command.cpuLimit = longestStep;
     command.memoryLimit = std::uintmax_t{64} << 30U; // of addresses: Valgrind reserves far more than it uses
@@ -168,17 +180,17 @@ std::vector<std::string> MeasuredProgram::variants() const {
     return variants;
 }
 
-int MeasuredProgram::run(const Step& step, const fs::path& out, int programs, const Progress& progress) const {
+void MeasuredProgram::run(const Step& step, const fs::path& out, int programs, const Progress& progress) const {
     std::vector<std::string> arguments = step.arguments;
+    if (step.isPart()) arguments.insert(arguments.end(), {"--jobs", std::to_string(threadsOf(programs))});
     for (const std::string& technique : step.techniques) arguments.insert(arguments.end(), {"--technique", technique});
     arguments.insert(arguments.end(), {"--out", fs::absolute(out).string(), "--cache", cache_.string()});
     const auto showProgress = [&](std::string_view line) {
         if (isProgress(line)) progress(0, line);
     };
     const auto [code, last] = runToEnd(file_, arguments, showProgress, programs, step.callsRenderers);
-    if (code < 0 || !fs::exists(out / step.records))
+    if (code < 0 || code == static_cast<int>(ExitCode::Transient) || !fs::exists(out / step.records))
         throw Inconclusive(fmt::format("{} failed at {}: {}", file_.string(), step.name, last));
-    return code;
 }
 
 ShaderFigures MeasuredProgram::shaderFigures(const std::vector<std::string>& variants, const fs::path& out,
@@ -256,17 +268,18 @@ fs::path MeasuredProgram::folderOf(const Step& step) const {
     return runs_ / hash128(fmt::format("{}\n{}", step.place(), fmt::join(step.techniques, "\n"))).text();
 }
 
-MeasuredProgram::Results MeasuredProgram::results(Step step, bool again, int programs, const Progress& progress) const {
-    const Step whole = step;
+MeasuredProgram::Results MeasuredProgram::results(const Step& step, bool again, int programs,
+                                                  const Progress& progress) const {
     const fs::path out = folderOf(step);
     if (again || step.callsRenderers) fs::remove_all(out);
-    if (step.arguments.front() == "run") step.arguments.emplace_back("--resume");
-    const int code = run(step, out, programs, progress);
-    Results all = byTechnique(readRecords(out / step.records));
+    run(step, out, programs, progress);
+    Results all = byTechnique(recordsIn(out, step));
     if (step.callsRenderers) return all;
-    if (code == 0 && !again) // one with errors is tried again
-        for (const auto& [technique, records] : all) keep(whole, technique, records);
-    if (code == 0 || again) fs::remove_all(out);
+    if (!again)
+        for (const auto& [technique, records] : all)
+            if (std::ranges::find(records, Status::Error, &Record::status) == records.end()) // else it is tried again
+                keep(step, technique, records);
+    fs::remove_all(out);
     return all;
 }
 

@@ -19,7 +19,7 @@ struct Step {
     std::string name;                    // as reports name it: "overlapping-occluders, instructions"
     std::vector<std::string> arguments;  // without --technique, --out, --cache and --quiet
     std::vector<std::string> techniques; // canonical names
-    std::string records;                 // the file that it leaves in --out
+    std::string records;                 // file or, of a part of a run, folder that it leaves in --out
     std::string inputs = {};             // content of the files that `arguments` name, and keys of truths
     /// It calls renderers that are not ours, which nobody can hash: nothing of it is kept. They see the environment and the
     /// limits of this process, as with the verb `run`.
@@ -28,6 +28,7 @@ struct Step {
     std::uint32_t seed = 1; // … and seed of its records
 
     [[nodiscard]] bool isSweep() const { return records == "sweep.jsonl"; }
+    [[nodiscard]] bool isPart() const { return records == "cells"; } // makes no pages
 
     /// The step whatever its techniques are.
     [[nodiscard]] std::string place() const;
@@ -93,9 +94,9 @@ public:
     /// From now on nothing counts that was measured of other programs.
     void distrustReach();
 
-    /// Runs one step in `out`, whatever was run before, and returns its exit code: not 0 when some of its cells failed,
-    /// which have records that say so. Throws Inconclusive when it left no records.
-    int run(const Step& step, const std::filesystem::path& out, int programs, const Progress& progress) const;
+    /// Runs one step in `out`, whatever was run before. Cells that fail have records that say so. Throws Inconclusive when
+    /// it left no records, or a cell of a part is worth a retry.
+    void run(const Step& step, const std::filesystem::path& out, int programs, const Progress& progress) const;
 
     /// Runs `shader-cost` in `out`, which keeps itself what it drew and compiled: of those of `variants` that the program
     /// has, of all if there are none.
@@ -113,8 +114,8 @@ private:
     void keep(const Step& step, const std::string& technique, const std::vector<Record>& records) const;
     /// Where it runs.
     [[nodiscard]] std::filesystem::path folderOf(const Step& step) const;
-    /// Runs the step and keeps what it gives, unless `again` or it ends with errors.
-    Results results(Step step, bool again, int programs, const Progress& progress) const;
+    /// Runs the step and keeps what it gives without error, unless `again`.
+    Results results(const Step& step, bool again, int programs, const Progress& progress) const;
 
     struct Technique {
         std::string id;

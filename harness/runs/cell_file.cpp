@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace shadowbench::shards {
 namespace {
@@ -51,6 +52,15 @@ std::filesystem::path cellFile(const std::filesystem::path& folder, const std::s
 
 void writeCell(const std::filesystem::path& folder, const MeasuredCell& cell) {
     writeFile(cellFile(folder, cell.id), text(cell) + "\n");
+}
+
+std::vector<MeasuredCell> readCells(const std::filesystem::path& folder) {
+    std::set<std::string> ids;
+    for (const auto& file : std::filesystem::directory_iterator(cellFile(folder, "").parent_path()))
+        if (file.path().extension() == ".json") ids.insert(file.path().stem());
+    std::vector<MeasuredCell> cells;
+    for (const std::string& id : ids) cells.push_back(*readCell(folder, id));
+    return cells;
 }
 
 std::optional<MeasuredCell> readCell(const std::filesystem::path& folder, const std::string& id) {

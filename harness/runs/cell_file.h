@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace shadowbench::shards {
 
@@ -25,6 +26,9 @@ std::filesystem::path cellFile(const std::filesystem::path& folder, const std::s
 
 /// Throws InternalError naming the file when it cannot be written, and leaves no partial one.
 void writeCell(const std::filesystem::path& folder, const MeasuredCell& cell);
+
+/// All of a folder, by their ids. Throws BadInput naming the first that is damaged.
+std::vector<MeasuredCell> readCells(const std::filesystem::path& folder);
 
 /// Nothing if there is no such file. Throws BadInput naming the file when it is damaged or another cell's.
 std::optional<MeasuredCell> readCell(const std::filesystem::path& folder, const std::string& id);

@@ -3,12 +3,14 @@
 
 #include "base/error.h"
 #include "base/folder_lock.h"
+#include "base/parallel.h"
 #include "base/process.h"
 #include "base/temporary_folder.h"
 #include "tests/gate/programs/stand_in.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace shadowbench::gate {
@@ -32,10 +34,17 @@ protected:
         return "none";
     }
 
+    /// Once it has written a file.
+    void isKilled() const {
+        standIn_.does("run", findOut_ + "mkdir -p \"$out\"\necho >\"$out/left\"\nkill -9 $$\n");
+        EXPECT_NE(complaint().find("signal 9"), std::string::npos);
+    }
+
+    const std::string findOut_ = "for word; do\n[ \"${before-}\" != --out ] || out=$word\nbefore=$word\ndone\n";
     TemporaryFolder folder_;
     StandIn standIn_{folder_.path(), "one"};
     mutable std::vector<std::string> progress_;
-    Step step_{"tiny", {"run", "--scene", "tiny.toml", "--seed", "1"}, {"pcf"}, "results.jsonl"};
+    Step step_{"tiny", {"run", "--scene", "tiny.toml", "--seed", "1", "--shard", "1/1"}, {"pcf"}, "cells"};
 };
 
 TEST_F(AMeasuredProgram, KnowsItsScenesAndEachParametersValues) {
@@ -147,9 +156,8 @@ TEST_F(AMeasuredProgram, SaysHowFarItIsInLinesOfTheirOwnForm) {
 }
 
 TEST_F(AMeasuredProgram, ThatAnotherGateMeasuresIsWaitedFor) {
-    standIn_.endsWith(5);
-    (void)measure(step_); // leaves its folder, to go on there
-    standIn_.endsWith(0);
+    isKilled();
+    standIn_.does("run", "");
     std::optional<FolderLock> other;
     for (const auto& entry : fs::directory_iterator(folder_.path() / "cache/gate"))
         if (entry.path().filename() != "results") other.emplace(entry.path());
@@ -161,26 +169,42 @@ TEST_F(AMeasuredProgram, ThatAnotherGateMeasuresIsWaitedFor) {
     EXPECT_EQ(std::ranges::count(progress_, "waiting for another gate that measures this program"), 1);
 }
 
-TEST_F(AMeasuredProgram, WithErrorsInSomeCellsIsTriedAgain) {
-    standIn_.endsWith(5);
-    EXPECT_EQ(measure(step_).records().size(), 1U);
-    EXPECT_EQ(measure(step_).records().size(), 1U);
+TEST_F(AMeasuredProgram, IsTriedAgainWhereACellFailed) {
+    Record failed = standInRecord("none");
+    failed.status = Status::Error;
+    failed.reason = "the driver was lost";
+    standIn_.measures({standInRecord("pcf"), failed});
+    step_.techniques.emplace_back("none");
+    EXPECT_EQ(measure(step_).records().size(), 2U);
+    EXPECT_TRUE(measured().isKept(step_, "pcf"));
+    EXPECT_FALSE(measured().isKept(step_, "none"));
+    EXPECT_EQ(measure(step_).records().size(), 2U);
     EXPECT_EQ(standIn_.calls("run"), 2);
 }
 
-TEST_F(AMeasuredProgram, ARunIsResumedASweepIsNot) {
-    standIn_.does("run", "echo \"$*\" >\"$here/words\"\n");
-    standIn_.does("sweep", "echo \"$*\" >\"$here/words\"\n");
+TEST_F(AMeasuredProgram, GoesOnWhereItWasKilled) {
+    isKilled();
+    standIn_.does("run", findOut_ + "[ -e \"$out/left\" ] || exit 1\n");
+    EXPECT_EQ(measure(step_).records().size(), 1U);
+}
+
+/// Of a run alone, which otherwise takes one process and makes pages.
+TEST_F(AMeasuredProgram, RunsAPartWithAllProcessors) {
+    for (const char* verb : {"run", "sweep"}) standIn_.does(verb, "echo \"$*\" >\"$here/words\"\n");
     const auto words = [&] { return readFile(standIn_.program().parent_path() / "words"); };
     (void)measure(step_);
-    EXPECT_NE(words().find(" --resume"), std::string::npos) << words();
-    step_.arguments[0] = "sweep";
-    step_.records = "sweep.jsonl";
+    EXPECT_NE(words().find(fmt::format(" --shard 1/1 --jobs {} ", availableThreads())), std::string::npos) << words();
     Record swept = standInRecord("pcf");
     swept.sweep = SweepStep{"near-plane", "m", "pcf", 1, 0.1};
     standIn_.measures({swept});
-    EXPECT_TRUE(measure(step_).records().at(0).sweep);
-    EXPECT_EQ(words().find(" --resume"), std::string::npos) << words();
+    const Step sweep{"tiny", {"sweep", "--scene", "tiny.toml", "--seed", "1"}, {"pcf"}, "sweep.jsonl"};
+    EXPECT_TRUE(measure(sweep).records().at(0).sweep);
+    EXPECT_EQ(words().find(" --jobs"), std::string::npos) << words();
+}
+
+TEST_F(AMeasuredProgram, WithACellThatIsWorthARetryIsInconclusive) {
+    standIn_.endsWith(75);
+    EXPECT_NE(complaint().find("one/shadowbench failed at tiny"), std::string::npos) << complaint();
 }
 
 TEST_F(AMeasuredProgram, ThatFailsIsNamedWithItsLastLine) {

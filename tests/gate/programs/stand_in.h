@@ -55,6 +55,7 @@ while [ $# -gt 0 ]; do
     --scene) scene=$(basename "$2" .toml) ;;
     --seed) seed=$2 ;;
     --images) images=yes ;;
+    --shard) part=yes ;;
     --technique) printf '"variant":"%s",\n' "$2" >>variants; [ -z "${images-}" ] || echo "$2" >>drawn ;;
     esac
     shift
@@ -66,8 +67,16 @@ for variant in $(cat drawn 2>/dev/null); do
     echo >"$out/images/$scene/$variant/visibility.png"
 done
 of_scene() { grep -F "\"scene\":\"$scene\"," "$here/records.jsonl" | grep -F "\"seed\":$seed,"; }
+of_run() { of_scene | grep -vF '"sweep":' | grep -F -f variants; }
 if [ "$verb" = sweep ]; then of_scene | grep -F '"sweep":' >"$out/sweep.jsonl"
-else of_scene | grep -vF '"sweep":' | grep -F -f variants >"$out/results.jsonl"; fi
+elif [ -n "${part-}" ]; then
+    mkdir -p "$out/cells"
+    i=0
+    of_run | while read -r record; do
+        i=$((i + 1))
+        echo "{\"id\":\"$i\",\"exit_code\":0,\"record\":$record}" >"$out/cells/$i.json"
+    done
+else of_run >"$out/results.jsonl"; fi
 exit "$(cat "$here/code")"
 )sh");
         std::filesystem::permissions(program(), std::filesystem::perms::owner_all);
