@@ -19,7 +19,7 @@ pid_t speaker = 0;
 
 /// Without allocating: there may be no memory, or a library may hold the allocator's lock.
 void say(std::string_view words) {
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, words.data(), words.size());
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, words.data(), words.size());
 }
 
 void sayError(const std::exception& error) {

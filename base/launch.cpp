@@ -102,7 +102,7 @@ void Launch::exec(pid_t parent, int input, int output, int error, int failure) c
     if (dup2(input, 0) >= 0 && dup2(output, 1) >= 0 && dup2(error, 2) >= 0 && chdir(command.folder.c_str()) == 0)
         execve(argv[0], argv.data(), envp.data());
     const int cause = errno;
-    [[maybe_unused]] const ssize_t written = write(failure, &cause, sizeof cause);
+    [[maybe_unused]] const ssize_t written = ::write(failure, &cause, sizeof cause);
     _exit(127);
 }
 

@@ -5,6 +5,7 @@
 # Headers that many files of a module include, compiled once: pch_common for all, pch_<package> for the modules that link it.
 function(shadowbench_precompiled name)
   add_library(pch_${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
   target_link_libraries(pch_${name} PRIVATE shadowbench_options)
   target_precompile_headers(pch_${name} PRIVATE ${ARGN})
 endfunction()
@@ -35,11 +36,11 @@ function(shadowbench_library target pch sources)
   shadowbench_counted(${target} ${target} counted)
   if(SHADOWBENCH_PRECOMPILE AND NOT counted)
     target_precompile_headers(${target} REUSE_FROM pch_${pch})
-    if(target MATCHES "^(harness_|report|studies|gate|history|site|cli)")  # mostly templates of the JSON and format libraries, which a compilation instantiates once
+    if(NOT target MATCHES "^groundtruth")  # most of a compilation is headers and their templates, which files together need once
       set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     endif()
   endif()
-  if(target MATCHES "^(harness_(foreign|records|runs)|report|studies|gate|history|site|cli)")  # what they take decides no figure: they need only compile fast
+  if(target MATCHES "^(scene_exchange|harness_(foreign|records|runs)|report|studies|gate|history|site|cli)")  # what they take decides no figure: they need only compile fast
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()

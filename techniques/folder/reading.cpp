@@ -60,8 +60,8 @@ bool holds(const std::optional<FolderCondition>& condition, const Parameters& va
 
 bool isLeftOut(const TechniqueFolder& folder, const FolderTarget& target, const Parameters& values) {
     const auto writes = [&](const FolderPass& pass) { return std::ranges::count(pass.to, target.name) > 0; };
-    const auto draws = [&](const FolderPass& pass) { return writes(pass) && holds(pass.when, values); };
-    return std::ranges::any_of(folder.passes, writes) && std::ranges::none_of(folder.passes, draws);
+    const auto isDrawn = [&](const FolderPass& pass) { return writes(pass) && holds(pass.when, values); };
+    return std::ranges::any_of(folder.passes, writes) && std::ranges::none_of(folder.passes, isDrawn);
 }
 
 std::string macroOf(std::string name) {

@@ -15,8 +15,8 @@
 namespace shadowbench::techniques {
 namespace {
 
-constexpr int cells = 256;       // per side of a plane: where cuts may be
-constexpr int longestTexel = 16; // pixels that a texel of the whole plane's map counts at most
+constexpr int cellsPerSide = 256; // per side of a plane: where cuts may be
+constexpr int longestTexel = 16;  // pixels that a texel of the whole plane's map counts at most
 
 /// How a tile's part of its plane lies in the atlas, as sm-tiled.frag reads it.
 struct Place {
@@ -27,9 +27,9 @@ struct Place {
 Place placeOf(const PlaneTile& tile, int side) {
     const glm::dvec2 low = glm::dvec2(tile.texels.at) / static_cast<double>(side);
     const glm::dvec2 size = glm::dvec2(tile.texels.size) / static_cast<double>(side);
-    const glm::dvec2 scale = size * static_cast<double>(cells) / glm::dvec2(tile.size);
+    const glm::dvec2 scale = size * static_cast<double>(cellsPerSide) / glm::dvec2(tile.size);
     const glm::dvec2 half(0.5 / side);
-    return {glm::vec2(low - scale * glm::dvec2(tile.at) / static_cast<double>(cells)), glm::vec2(scale),
+    return {glm::vec2(low - scale * glm::dvec2(tile.at) / static_cast<double>(cellsPerSide)), glm::vec2(scale),
             glm::vec4(low + half, low + size - half)};
 }
 
@@ -40,7 +40,7 @@ public:
           demands_(
               static_cast<float>(longestTexel * side_),
               PlaneDemands::Discontinuity{static_cast<float>(p.real("discontinuity")), p.integer("analysis"), biasFrom(p)}),
-          tiles_(cells), atlas_(side_, biasFrom(p)), test_(gl::Program::screen("maps/sm-tiled/sm-tiled.frag")) {}
+          tiles_(cellsPerSide), atlas_(side_, biasFrom(p)), test_(gl::Program::screen("maps/sm-tiled/sm-tiled.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         chooseTiles(frame, demands_.of(frame, visibility));
@@ -64,7 +64,7 @@ private:
     void chooseTiles(const Frame& frame, const std::vector<Demand>& demands) {
         const auto pass = frame.pass("tile choice");
         const std::size_t planes = demands_.planes().size();
-        tiles_.set(tilesFor(demands, static_cast<int>(planes), cells, side_, most_), planes);
+        tiles_.set(tilesFor(demands, static_cast<int>(planes), cellsPerSide, side_, most_), planes);
         std::vector<Place> places;
         for (const PlaneTile& tile : tiles_.tiles()) places.push_back(placeOf(tile, side_));
         placeBuffer_.upload(places.data(), places.size() * sizeof(Place));
