@@ -18,6 +18,14 @@ std::optional<double> errorIn(const Record& record, Truth truth) {
     return truth == Truth::Hard ? record.values["accuracy.mismatch"] : record.values["accuracy.rmse"];
 }
 
+/// From the record's error to the neighbour's.
+std::optional<double> stepTo(SceneFrames& there, const techniques::Variant& neighbour, std::uint32_t seed,
+                             const Record& record) {
+    const Truth truth = mainTruth(there.scene(), neighbour);
+    const std::optional<double> own = errorIn(record, truth), error = scoredError(there, neighbour, seed, truth);
+    return own && error ? std::optional(stepBetween(truth, *own, *error)) : std::nullopt;
+}
+
 } // namespace
 
 std::optional<techniques::Variant> withNeighbourMap(const techniques::Variant& variant) {
@@ -41,16 +49,13 @@ double stepBetween(Truth truth, double error, double neighbour) {
     return high / low;
 }
 
-void scoreNeighbours(SceneFrames& frames, SceneFrames& larger, const techniques::Variant& variant, std::uint32_t seed,
-                     Record& record) {
-    const Truth truth = mainTruth(frames.scene(), variant);
-    const std::optional<double> own = errorIn(record, truth);
-    const auto step = [&](SceneFrames& there, const techniques::Variant& neighbour) -> std::optional<double> {
-        const std::optional<double> error = scoredError(there, neighbour, seed, truth);
-        return own && error ? std::optional(stepBetween(truth, *own, *error)) : std::nullopt;
-    };
-    if (const auto neighbour = withNeighbourMap(variant)) record.values["sanity.map_step"] = step(frames, *neighbour);
-    record.values["sanity.image_step"] = step(larger, variant);
+void scoreNeighbourMap(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record) {
+    if (const auto neighbour = withNeighbourMap(variant))
+        record.values["sanity.map_step"] = stepTo(frames, *neighbour, seed, record);
+}
+
+void scoreNeighbourImage(SceneFrames& larger, const techniques::Variant& variant, std::uint32_t seed, Record& record) {
+    record.values["sanity.image_step"] = stepTo(larger, variant, seed, record);
 }
 
 void scoreViews(const Scene& scene, const std::vector<std::unique_ptr<ChangedScene>>& others,

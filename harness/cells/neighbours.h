@@ -19,10 +19,11 @@ std::optional<techniques::Variant> withNeighbourMap(const techniques::Variant& v
 /// light, counts as that: so little rests on single pixels.
 double stepBetween(Truth truth, double error, double neighbour);
 
-/// Fills in `sanity.map_step` and `sanity.image_step` of a record that scoreCell filled in with that seed. `frames` are the
-/// scene's own, `larger` those of its neighbour.
-void scoreNeighbours(SceneFrames& frames, SceneFrames& larger, const techniques::Variant& variant, std::uint32_t seed,
-                     Record& record);
+/// Fills in `sanity.map_step` of a record that scoreCell filled in with that seed, if the variant has a neighbour.
+void scoreNeighbourMap(SceneFrames& frames, const techniques::Variant& variant, std::uint32_t seed, Record& record);
+
+/// Fills in `sanity.image_step` of such a record. `larger` are the frames of the scene's neighbour.
+void scoreNeighbourImage(SceneFrames& larger, const techniques::Variant& variant, std::uint32_t seed, Record& record);
 
 /// Fills in the error from each view, the scene's own first, their mean and the worst, of a record that scoreCell filled in
 /// with that seed; nothing of a variant with a history, whose still frames are a sequence.

@@ -158,7 +158,8 @@ void SceneCells::scoreBeside(const techniques::Variant& variant, Record& record)
     if (options_.neighbours) {
         const Span span("extra", "neighbours");
         if (!neighbour_) neighbour_ = std::make_unique<ChangedScene>(withNeighbourImage(scene_), cache_);
-        scoreNeighbours(frames(), neighbour_->frames(), variant, options_.seed, record);
+        scoreNeighbourMap(frames(), variant, options_.seed, record);
+        scoreNeighbourImage(neighbour_->frames(), variant, options_.seed, record);
     }
     if (options_.views < 2) return;
     const Span span("extra", "views");

@@ -40,11 +40,13 @@ TEST(SanityOfACell, StepsLittleWhereAMethodIsSound) {
     const groundtruth::Cache cache = testCache();
     ChangedScene larger(withNeighbourImage(cells.scene()), cache);
     Record record = cells.scored("sm-uniform");
-    scoreNeighbours(cells.frames(), larger.frames(), techniques::parseVariant("sm-uniform"), 1, record);
+    scoreNeighbourMap(cells.frames(), techniques::parseVariant("sm-uniform"), 1, record);
+    scoreNeighbourImage(larger.frames(), techniques::parseVariant("sm-uniform"), 1, record);
     EXPECT_LT(record.values["sanity.map_step"].value(), 2);
     EXPECT_LT(record.values["sanity.image_step"].value(), 2);
     record = cells.scored("none");
-    scoreNeighbours(cells.frames(), larger.frames(), techniques::parseVariant("none"), 1, record);
+    scoreNeighbourMap(cells.frames(), techniques::parseVariant("none"), 1, record);
+    scoreNeighbourImage(larger.frames(), techniques::parseVariant("none"), 1, record);
     EXPECT_FALSE(record.values["sanity.map_step"].has_value());
     EXPECT_LT(record.values["sanity.image_step"].value(), 1.1); // the shadow's share of the receivers is the scene's
 }
