@@ -10,6 +10,10 @@ namespace shadowbench::techniques {
 
 class TracedRays {
 public:
+    /// For the entries of techniques that do nothing else once.
+    static constexpr const char* computed =
+        "the tree over all triangles once, and again in each frame in which a caster moves; the rest in each frame";
+
     explicit TracedRays(const std::string& raysOfAPixel);
 
     /// The tree is that of other casters next time.

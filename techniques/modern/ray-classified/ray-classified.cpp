@@ -9,6 +9,7 @@
 // nearest of four.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
+#include "techniques/modern/surface.h"
 #include "techniques/modern/traced_rays.h"
 
 #include <optional>
@@ -67,30 +68,19 @@ private:
         resolve(frame, {&images_->rows}, rows_, "rows");
     }
 
-    void bindSurfaces(const Frame& frame, gl::Program& program) {
-        const glm::dmat4& clip = frame.clipFromWorld;
-        program.set("tiles", images_->tiles)
-            .set("positions", frame.gbuffer.position())
-            .set("normals", frame.gbuffer.normal())
-            .set("eyeDepth", glm::vec4(clip[0].w, clip[1].w, clip[2].w, clip[3].w));
-    }
-
     void accumulate(const Frame& frame, bool hasHistory) {
         bindSurfaces(frame, accumulate_);
-        accumulate_.set("noisy", images_->noisy)
+        bindHistory(frame, accumulate_, images_->history, images_->previousMoments, hasHistory);
+        accumulate_.set("tiles", images_->tiles)
+            .set("noisy", images_->noisy)
             .set("rows", images_->rows)
-            .set("previousPositions", frame.gbuffer.previousPosition())
-            .set("previousMean", images_->history)
-            .set("previousMoments", images_->previousMoments)
-            .set("previousClipFromWorld", glm::mat4(frame.previousClipFromWorld))
-            .set("eye", glm::vec3(frame.snapshot.camera.eye))
-            .set("hasHistory", hasHistory ? 1 : 0);
+            .set("eye", glm::vec3(frame.snapshot.camera.eye));
         resolve(frame, {&images_->filtered, &images_->moments}, accumulate_, "accumulate");
     }
 
     void filter(const Frame& frame, const gl::Texture& from, const gl::Texture& to, int spacing) {
         bindSurfaces(frame, filter_);
-        filter_.set("source", from).set("spacing", spacing);
+        filter_.set("tiles", images_->tiles).set("source", from).set("spacing", spacing);
         resolve(frame, {&to}, filter_, "filter");
     }
 
@@ -108,8 +98,7 @@ Entry rayClassified() {
         .source = {Document::Other, "AMD FidelityFX SDK, Denoiser 1.2"},
         .answer = Answer::Soft,
         .temporal = true,
-        .computed =
-            "the tree over all triangles once, and again in each frame in which a caster moves; the rest in each frame",
+        .computed = TracedRays::computed,
         .parameters = {{"share", "0.05", RealRange{0.01, 1}, "of the newest frame in the means, once eight are in them",
                         "FidelityFX: 0.05"},
                        {"contrast", "1.2", RealRange{1, 2},

@@ -6,6 +6,7 @@
 // the paper has the slope of depth.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
+#include "techniques/modern/surface.h"
 #include "techniques/modern/traced_rays.h"
 
 #include <optional>
@@ -55,21 +56,10 @@ private:
         return gl::Program::screen("modern/ray-denoised/" + file + ".frag", defines);
     }
 
-    static void bindSurfaces(const Frame& frame, gl::Program& program) {
-        const glm::dmat4& clip = frame.clipFromWorld;
-        program.set("positions", frame.gbuffer.position());
-        if (program.uses("normals")) program.set("normals", frame.gbuffer.normal());
-        program.set("eyeDepth", glm::vec4(clip[0].w, clip[1].w, clip[2].w, clip[3].w));
-    }
-
     void accumulate(const Frame& frame, bool hasHistory) {
-        accumulate_.set("noisy", images_->noisy)
-            .set("previousPositions", frame.gbuffer.previousPosition())
-            .set("previousMean", images_->history)
-            .set("previousMoments", images_->previousMoments)
-            .set("previousClipFromWorld", glm::mat4(frame.previousClipFromWorld))
-            .set("hasHistory", hasHistory ? 1 : 0);
+        accumulate_.set("noisy", images_->noisy);
         bindSurfaces(frame, accumulate_);
+        bindHistory(frame, accumulate_, images_->history, images_->previousMoments, hasHistory);
         resolve(frame, {&images_->mean, &images_->moments}, accumulate_, "accumulate");
     }
 
@@ -101,8 +91,7 @@ Entry rayDenoised() {
         .source = {Document::Other, "Schied et al. 2017; AnKi"},
         .answer = Answer::Soft,
         .temporal = true,
-        .computed =
-            "the tree over all triangles once, and again in each frame in which a caster moves; the rest in each frame",
+        .computed = TracedRays::computed,
         .parameters = {{"iterations", "5", IntegerRange{1, 8}, "of the à-trous filter, each twice as wide as the one before",
                         "Schied et al. 2017: 5; AnKi: 3"},
                        {"guided", "on", OneOf{{"on", "off"}}, "keep visibilities apart that differ by more than their noise",

@@ -28,8 +28,7 @@ Entry rayTraced() {
             .title = "Ray-traced soft shadows, a few rays a pixel",
             .source = {Document::Other, "Schied et al. 2017, 3; AnKi"},
             .answer = Answer::Soft,
-            .computed =
-                "the tree over all triangles once, and again in each frame in which a caster moves; the rest in each frame",
+            .computed = TracedRays::computed,
             // llvmpipe ends a shader's loops after 65,535 rounds: 16 rays may take 4,000 nodes each.
             .parameters = {{"rays", "1", IntegerRange{1, 16}, "rays a pixel and frame, each to another point of the light",
                             "Schied et al. 2017: 1"}},

@@ -1,47 +1,43 @@
-// The irregular z-buffer against the closed form and against stencil volumes.
+// Irregular z-buffers against the closed form and against stencil volumes.
 #include "tests/support/ground_score.h"
+#include "tests/support/test_names.h"
 
 #include <algorithm>
 #include <chrono>
 #include <gtest/gtest.h>
+#include <string>
 
 namespace shadowbench {
 namespace {
 
-TEST(SmAliasFree, ABoxsShadowIsTheExactPolygonToATwentiethOfAPixel) {
+/// In compute shaders and rasterised.
+class EveryIrregularZBuffer : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryIrregularZBuffer, HasABoxsShadowAsTheExactPolygonToATwentiethOfAPixel) {
     for (const glm::dvec3& light : {glm::dvec3(1.7, 6.1, -2.3), glm::dvec3(9.5, 1.9, -8.3)}) { // the second one grazes
         Scene scene = boxScene(256);
         scene.light.centre = light;
         Stage stage(scene);
         stage.show(0);
-        EXPECT_EQ(scoreOnGround(scene, stage, rendered(stage, "sm-alias-free"), 0.05).mismatch, 0);
+        EXPECT_EQ(scoreOnGround(scene, stage, rendered(stage, GetParam()), 0.05).mismatch, 0);
     }
 }
 
-TEST(SmAliasFree, HoldsUnderADirectionalLight) {
+TEST_P(EveryIrregularZBuffer, HoldsUnderADirectionalLight) {
     Scene scene = boxScene(256);
     scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(-0.3, -1, 0.4)), {}, {}};
     Stage stage(scene);
     stage.show(0);
-    const Image<float> v = rendered(stage, "sm-alias-free");
+    const Image<float> v = rendered(stage, GetParam());
     scene.light.centre = -1e6 * scene.light.direction; // for the closed form
     EXPECT_EQ(scoreOnGround(scene, stage, v, 0.05).mismatch, 0);
 }
 
-TEST(SmAliasFree, TheGridChangesNothing) {
-    const Scene scene = boxScene(128);
-    Stage stage(scene);
-    stage.show(0);
-    const Image<float> v = rendered(stage, "sm-alias-free");
-    for (const char* variant : {"sm-alias-free:grid=1", "sm-alias-free:grid=7", "sm-alias-free:grid=1000"})
-        EXPECT_EQ(rendered(stage, variant), v) << variant;
-}
-
-TEST(SmAliasFree, HoldsAllAroundALightInsideTheScene) {
+TEST_P(EveryIrregularZBuffer, HoldsAllAroundALightInsideTheScene) {
     const Scene scene = ringScene();
     Stage stage(scene);
     stage.show(0);
-    const Image<float> exact = rendered(stage, "volume-zfail"), free = rendered(stage, "sm-alias-free");
+    const Image<float> exact = rendered(stage, "volume-zfail"), free = rendered(stage, GetParam());
     const metrics::Drawn drawn = stage.drawn();
     std::size_t wrong = 0, dark = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -51,6 +47,17 @@ TEST(SmAliasFree, HoldsAllAroundALightInsideTheScene) {
     }
     EXPECT_GT(dark, 5000U);
     EXPECT_LE(wrong, 3U); // on an edge, to rounding
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, EveryIrregularZBuffer, testing::Values("sm-alias-free", "frustum-traced"), nameOfText);
+
+TEST(SmAliasFree, TheGridChangesNothing) {
+    const Scene scene = boxScene(128);
+    Stage stage(scene);
+    stage.show(0);
+    const Image<float> v = rendered(stage, "sm-alias-free");
+    for (const char* variant : {"sm-alias-free:grid=1", "sm-alias-free:grid=7", "sm-alias-free:grid=1000"})
+        EXPECT_EQ(rendered(stage, variant), v) << variant;
 }
 
 TEST(SmAliasFree, NeedsNoClosedMeshes) {

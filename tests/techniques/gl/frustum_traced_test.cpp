@@ -1,5 +1,5 @@
-// The rasterised irregular z-buffer against closed forms of shadows and of its lists, and against the one in compute
-// shaders.
+// The rasterised irregular z-buffer against closed forms of its lists, and against the one in compute shaders; against the
+// closed form of a shadow: alias_free_test.cpp.
 #include "tests/support/ground_score.h"
 
 #include <gtest/gtest.h>
@@ -22,26 +22,6 @@ double longestList(const Scene& scene, const std::string& variant) {
     return figuresOf(stage, variant).at("longest_list");
 }
 
-TEST(FrustumTraced, ABoxsShadowIsTheExactPolygonToATwentiethOfAPixel) {
-    for (const glm::dvec3& light : {glm::dvec3(1.7, 6.1, -2.3), glm::dvec3(9.5, 1.9, -8.3)}) { // the second one grazes
-        Scene scene = boxScene(256);
-        scene.light.centre = light;
-        Stage stage(scene);
-        stage.show(0);
-        EXPECT_EQ(scoreOnGround(scene, stage, rendered(stage, "frustum-traced"), 0.05).mismatch, 0);
-    }
-}
-
-TEST(FrustumTraced, HoldsUnderADirectionalLight) {
-    Scene scene = boxScene(256);
-    scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(-0.3, -1, 0.4)), {}, {}};
-    Stage stage(scene);
-    stage.show(0);
-    const Image<float> v = rendered(stage, "frustum-traced");
-    scene.light.centre = -1e6 * scene.light.direction; // for the closed form
-    EXPECT_EQ(scoreOnGround(scene, stage, v, 0.05).mismatch, 0);
-}
-
 TEST(FrustumTraced, TheGridChangesNothing) {
     for (const Scene& scene : {boxScene(128), ringScene(), avenueScene(0.5)}) {
         Stage stage(scene);
@@ -59,22 +39,6 @@ TEST(FrustumTraced, ACellMayHaveMorePixelsThanAListHolds) {
     stage.show(0);
     const Image<float> v = rendered(stage, "frustum-traced:grid=1");
     EXPECT_EQ(std::count(v.begin(), v.end(), 0.0F), 256 * 256);
-}
-
-TEST(FrustumTraced, HoldsAllAroundALightInsideTheScene) {
-    const Scene scene = ringScene();
-    Stage stage(scene);
-    stage.show(0);
-    const Image<float> exact = rendered(stage, "volume-zfail"), traced = rendered(stage, "frustum-traced");
-    const metrics::Drawn drawn = stage.drawn();
-    std::size_t wrong = 0, dark = 0;
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-        if (drawn.id[i] != 1 || drawn.position[i].y < -0.001F) continue;
-        dark += exact[i] < 0.5F ? 1 : 0;
-        wrong += exact[i] != traced[i] ? 1 : 0;
-    }
-    EXPECT_GT(dark, 5000U);
-    EXPECT_LE(wrong, 3U); // on an edge, to rounding
 }
 
 TEST(FrustumTraced, NeedsNoClosedMeshes) {

@@ -1,7 +1,6 @@
 // A denoiser guided by variance over one ray a pixel: how much noise it removes, what it keeps apart, and what it is slow to
 // forget.
-#include "tests/support/rows_over_frames.h"
-#include "tests/support/soft_scenes.h"
+#include "tests/support/leaving_shadow.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -45,19 +44,7 @@ TEST(RayDenoised, VarianceKeepsAnEdgeThatHasNone) {
 }
 
 TEST(RayDenoised, ShadowsOfWhatHasGoneFade) { // Graphics#2482: ghosts
-    Scene scene = halfPlaneScene();
-    scene.light.u.x = scene.light.v.z = 0.2;
-    scene.timeline = {10, 2};
-    scene.objects[1].motion.shift.keys = {{0, {0, 0, 0}}, {1, {1.2, 0, 0}}, {2, {1.2, 0, 0}}};
-    Stage stage(scene);
-    const auto row = rowOf("ray-denoised");
-    double left = 0;
-    for (int frame = 0; frame < 12; ++frame) {
-        stage.show(frame);
-        stage.render(*row, frame, 1);
-        left = 1 - visibilityAt(slabPoints(stage, stage.visibility()), 0.8, 0.1);
-    }
-    EXPECT_NEAR(left, 0.8 * 0.8, 0.1); // two frames later: the umbra was there, and light is
+    EXPECT_NEAR(leftOfTheUmbra("ray-denoised", 1.2, 2), 0.8 * 0.8, 0.1);
 }
 
 } // namespace
