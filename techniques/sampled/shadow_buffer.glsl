@@ -37,6 +37,7 @@ struct Remembered {
     vec2 at;      // where the last frame's buffer showed the pixel's surface point
     bool inside;  // it had such a place
     bool known;   // and showed that point there: values holds
+    float depth;  // of that point from the last frame's eye, as the buffer's depths are
     vec4 values;
 };
 
@@ -46,8 +47,9 @@ Remembered remembered() {
     vec2 at = h.xy / h.w * 0.5 + 0.5;
     bool inside = hasHistory == 1 && all(greaterThanEqual(at, vec2(0.0))) && all(lessThanEqual(at, vec2(1.0)));
     vec4 values = texture(shadowBuffer, at);
-    bool known = inside && values.y > 0.5 && sameDepth(dot(previousEyeDepth, vec4(before, 1.0)), values.z);
-    return Remembered(at, inside, known, values);
+    float depth = dot(previousEyeDepth, vec4(before, 1.0));
+    bool known = inside && values.y > 0.5 && sameDepth(depth, values.z);
+    return Remembered(at, inside, known, depth, values);
 }
 
 void showBackground() {

@@ -1,6 +1,7 @@
 // Every scene's expectations in the gate profile: techniques that it breaks must break, and the others hold.
 #include "harness/cells/neighbours.h"
 #include "scene/load/load.h"
+#include "techniques/gl/api.h"
 #include "tests/support/cell_stage.h"
 #include "tests/support/expected_techniques.h"
 #include "tests/support/test_names.h"
@@ -9,6 +10,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
 
 namespace shadowbench {
 namespace {
@@ -85,6 +89,47 @@ TEST_P(FailureScene, BreaksAndSparesTheTechniquesThatItLists) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gate, FailureScene, testing::ValuesIn(scenesWithExpectations()), nameOfText);
+
+/// A row that keeps the image of its first frame.
+class Frozen final : public techniques::Technique {
+public:
+    explicit Frozen(std::unique_ptr<techniques::Technique> row) : row_(std::move(row)) {}
+
+    void render(const techniques::Frame& frame, const gl::Texture& visibility) override {
+        if (kept_) return copy(*kept_, visibility);
+        row_->render(frame, visibility);
+        copy(visibility, kept_.emplace(gl::Format::R32F, frame.size));
+    }
+
+private:
+    static void copy(const gl::Texture& from, const gl::Texture& to) {
+        const glm::ivec2 size = from.size();
+        glCopyImageSubData(from.id(), GL_TEXTURE_2D, 0, 0, 0, 0, to.id(), GL_TEXTURE_2D, 0, 0, 0, 0, size.x, size.y, 1);
+    }
+
+    std::unique_ptr<techniques::Technique> row_;
+    std::optional<gl::Texture> kept_;
+};
+
+double movingErrorOfFrozen(CellScene& cells, const std::string& name) {
+    techniques::Variant variant = techniques::parseVariant(name);
+    techniques::Entry entry = *variant.entry;
+    entry.make = [&](const techniques::Parameters& p) { return std::make_unique<Frozen>(variant.entry->make(p)); };
+    const techniques::Variant frozen{&entry, variant.parameters, "frozen:" + variant.name};
+    Record record;
+    CellImages images;
+    scoreCell(cells.frames(), frozen, 1, record, images, CellWork::LeftOut);
+    return metrics::bounded(record.values, "moving_rmse").value();
+}
+
+TEST(SkinnedCrowd, NoFrozenRowHolds) {
+    testContext();
+    CellScene cells(loadScene("skinned-crowd", Profile::Gate));
+    for (const Expectation& expected : cells.scene().holds) {
+        ASSERT_EQ(expected.metric, "moving_rmse");
+        EXPECT_GT(movingErrorOfFrozen(cells, expected.technique), expected.bound) << expected.technique;
+    }
+}
 
 TEST(TechniquesToCome, AreNotBuiltYet) {
     for (const std::string_view id : techniquesToCome)

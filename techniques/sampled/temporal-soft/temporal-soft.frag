@@ -9,16 +9,16 @@ uniform vec2 neighbourTaps[NEIGHBOUR_TAPS];  // in the unit disk
 uniform float threshold;
 uniform float start;
 
-/// Smoothed ψ over a disk of the penumbra's projected width (eq. 4.6) around `at`, over those of the first `taps` neighbours that have
-/// the same depth.
-float neighbourhoodFilter(vec2 at, float own, float depth, float lightDepth, float blockerDepth, int taps) {
-    float penumbra = lightSizeInPixels / depth * (lightDepth - blockerDepth) / blockerDepth;
+/// Smoothed ψ over a disk of the penumbra's projected width (eq. 4.6) around where the last frame had the point, over those of the first
+/// `taps` neighbours that had the same depth there.
+float neighbourhoodFilter(Remembered old, float own, float lightDepth, float blockerDepth, int taps) {
+    float penumbra = lightSizeInPixels / old.depth * (lightDepth - blockerDepth) / blockerDepth;
     vec2 radius = 0.5 * penumbra / vec2(textureSize(shadowBuffer, 0));
     float sum = own;
     float taken = 1.0;
     for (int i = 0; i < taps; ++i) {
-        vec4 neighbour = texture(shadowBuffer, at + neighbourTaps[min(i, NEIGHBOUR_TAPS - 1)] * radius);
-        if (neighbour.y < 0.5 || !sameDepth(depth, neighbour.z)) continue;
+        vec4 neighbour = texture(shadowBuffer, old.at + neighbourTaps[min(i, NEIGHBOUR_TAPS - 1)] * radius);
+        if (neighbour.y < 0.5 || !sameDepth(old.depth, neighbour.z)) continue;
         sum += neighbour.x / neighbour.y;
         taken += 1.0;
     }
@@ -67,5 +67,5 @@ void main() {
     }
     newShadowBuffer = toHalf(vec4(counts, depth, blocker));
     int neighbours = smoothed && blocker > 0.0 ? NEIGHBOUR_TAPS : 0;
-    visibility = 1.0 - neighbourhoodFilter(old.at, psi, depth, r.depth, blocker, neighbours);
+    visibility = 1.0 - neighbourhoodFilter(old, psi, r.depth, blocker, neighbours);
 }

@@ -1,4 +1,5 @@
 // One light sample a frame, averaged: n still frames are the mean of n maps.
+#include "tests/support/rows_over_frames.h"
 #include "tests/support/soft_scenes.h"
 
 #include <cmath>
@@ -94,12 +95,11 @@ TEST(TemporalSampling, DragsTrailsBehindWhatMoves) {              // 4.1.4 is te
 }
 
 /// What the last frame of a scene's timeline shows.
-Image<float> afterAllFrames(const Scene& scene, Stage& stage) {
-    const techniques::Variant variant = techniques::parseVariant("temporal-sampling");
-    const auto technique = variant.entry->make(variant.parameters);
+Image<float> afterAllFrames(const Scene& scene, Stage& stage, const std::string& variant = "temporal-sampling") {
+    const auto row = rowOf(variant);
     for (int frame = 0; frame < scene.timeline.frames(); ++frame) {
         stage.show(frame);
-        stage.render(*technique, frame, 1);
+        stage.render(*row, frame, 1);
     }
     return stage.visibility();
 }
@@ -113,6 +113,19 @@ TEST(TemporalSampling, KeepsItsHistoryWhileTheCameraMoves) {
     const double kept = rmsError(slabPoints(stage, afterAllFrames(scene, stage)));
     const double anew = rmsError(slabPoints(stage, rendered(stage, "temporal-sampling", 1)));
     EXPECT_LT(kept, 0.2 * anew);
+}
+
+TEST(TemporalSoft, SmoothsAsWidelyWhereTheCameraComesNearer) { // eq. 4.8 asks for depths of one frame
+    Scene standing = halfPlaneScene();
+    standing.timeline = {9, 1}; // few samples: smoothed
+    Scene nearing = standing;
+    const glm::dvec3 eye = standing.camera.eye, target = standing.camera.target;
+    nearing.eye.keys = {{0, target + 1.05 * (eye - target)}, {1, eye}}; // by more than epsilon of each distance
+    Stage stage(standing), moving(nearing);
+    const Image<float> smoothed = afterAllFrames(standing, stage, "temporal-soft"),
+                       plain = afterAllFrames(standing, stage, "temporal-soft:threshold=1"),
+                       after = afterAllFrames(nearing, moving, "temporal-soft");
+    EXPECT_LT(rmsDifference(after, smoothed), rmsDifference(smoothed, plain));
 }
 
 TEST(TemporalSampling, BeginsAnewWhatAPlateHasHidden) { // eq. 4.8
