@@ -166,6 +166,28 @@ TEST(WhatIsKept, IsDroppedWhereLightOrCastersAloneHaveMoved) {
         expectNothingStale(smallSky(), variant);
 }
 
+TEST(WhatIsKept, IsDroppedWhereACasterHasMovedThatLeavesTheLightsViewAsItIs) {
+    testContext();
+    Scene scene;
+    scene.size = {64, 64};
+    scene.timeline = {1, 0};
+    scene.camera = {{0.3, 3.1, 5.2}, {0.1, 0, 0}, {0, 1, 0}, 40, 0.1, 50};
+    scene.light = {LightKind::Directional, {}, glm::normalize(glm::dvec3(0, -1, 0.4)), {}, {}}; // across x
+    Object ground, caster;
+    ground.levels.push_back({std::make_shared<const Mesh>(box({8, 0.2, 8}))});
+    ground.instances = {{}};
+    caster.levels.push_back({std::make_shared<const Mesh>(box({0.5, 2, 0.5}))});
+    caster.instances = {{}};
+    scene.objects = {ground, caster};
+    CellScene cells(scene);
+    Snapshot away = snapshot(scene, 0);
+    away.batches.back().placements[0].world[3].x += 0.7;
+    for (const char* variant : {"sm-adaptive", "sm-clipmap"}) {
+        const auto [kept, fresh] = keptAndNew(cells, variant, away);
+        EXPECT_EQ(kept, fresh) << variant;
+    }
+}
+
 TEST(CostInMotion, OfLayeredAttenuationHasItsMaps) {
     const Record& record = plates().counted("layered-attenuation:n=64,map=64");
     const Snapshot shown = snapshot(plates().scene(), 0);
