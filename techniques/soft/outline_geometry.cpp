@@ -25,8 +25,8 @@ OutlineGeometry::OutlineGeometry() {
                               reinterpret_cast<const void*>(offset));
     };
     attribute(0, 3, offsetof(AttachedVertex, point));
-    attribute(8, 3, offsetof(AttachedVertex, offset));
-    attribute(9, 1, offsetof(AttachedVertex, value));
+    attribute(9, 3, offsetof(AttachedVertex, offset));
+    attribute(10, 1, offsetof(AttachedVertex, value));
 }
 
 void OutlineGeometry::build(const Frame& frame, const LightView& view, const Attach& attach) {

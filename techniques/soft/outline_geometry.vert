@@ -1,8 +1,8 @@
 // A vertex of the triangles that are attached to outlines (soft/outline_geometry.h).
 #include "gl/instance.glsl"
 
-layout(location = 8) in vec3 offset; // light space
-layout(location = 9) in float value;
+layout(location = 9) in vec3 offset; // light space
+layout(location = 10) in float value;
 
 uniform mat4 clipFromWorld;
 uniform mat4 worldFromLight;
