@@ -5,7 +5,8 @@
 # Headers that many files of a module include, compiled once: pch_common for all, pch_<package> for the modules that link it.
 function(shadowbench_precompiled name)
   add_library(pch_${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
-  set_source_files_properties(${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp PROPERTIES
+    COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)  # nothing of it runs but what headers initialise
   target_link_libraries(pch_${name} PRIVATE shadowbench_options)
   target_precompile_headers(pch_${name} PRIVATE ${ARGN})
 endfunction()

@@ -100,7 +100,8 @@ TEST(RayClassified, AStillPenumbraEndsAtTheShareButForItsContrast) {
     const double reach = 0.05; // of the edge, in metres
     const auto pixels =
         std::ranges::count_if(plain, [&](const SlabPoint& point) { return std::abs(point.at.x - hardEdge) <= reach; });
-    const double noise = fourDeviations(0.05, static_cast<double>(pixels));
+    const double share = techniques::parseVariant("ray-classified").parameters.real("share");
+    const double noise = fourDeviations(share, static_cast<double>(pixels));
     EXPECT_NEAR(visibilityAt(plain, hardEdge, reach), 0.5, noise);
     // An exponent of 1.2 takes ½ to 0.435, and noise times its slope there.
     EXPECT_NEAR(visibilityAt(contrasted, hardEdge, reach), std::pow(0.5, 1.2), 1.2 * std::pow(0.5, 0.2) * noise);
