@@ -35,7 +35,7 @@ ProgressLine::ProgressLine(std::string title, int total, bool quiet)
 
 ProgressLine::~ProgressLine() {
     if (quiet_ || !terminal_) return;
-    std::fputs("\r\033[K", stderr);
+    clear();
     fmt::print(stderr, "{:<24}{} {}/{}  {}\n", title_, bar(static_cast<double>(lastDone_) / std::max(1, total_)), lastDone_,
                total_, clock(seconds(Clock::now() - start_)));
 }
@@ -49,6 +49,13 @@ void ProgressLine::show(int done, double share, std::string_view what) {
         draw(now, finished, what);
     else
         log(now, finished, what);
+}
+
+void ProgressLine::clear() {
+    if (quiet_ || !terminal_) return;
+    std::fputs("\r\033[K", stderr);
+    std::fflush(stderr);
+    lastShown_ = start_;
 }
 
 void ProgressLine::draw(Clock::time_point now, double finished, std::string_view what) {

@@ -22,6 +22,9 @@ public:
     /// `done` whole steps, `share` of the current one in [0, 1], and what it is.
     void show(int done, double share, std::string_view what);
 
+    /// Takes the line off a terminal, for other text to be printed; the next `show` draws it again.
+    void clear();
+
 private:
     using Clock = std::chrono::steady_clock;
 

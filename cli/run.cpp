@@ -73,9 +73,16 @@ bool namesRows(const std::vector<std::string>& techniques) {
 
 ExitCode runAndPrint(const RunOptions& options, bool standing) {
     const OutputLock alone(options.out); // the records of two runs at once would replace each other
-    const RunResult result = run(options);
+    const bool costs = options.measure.timed() || options.instructions;
+    const bool everyRow = namesRows(options.techniques);
+    RunOptions told = options;
+    if (!costs || !everyRow) // else the few rows are printed once, with what they cost
+        told.sceneScored = [&](const std::vector<Record>& scene) {
+            printTables(scene, options.out, {.standing = standing, .everyRow = everyRow});
+        };
+    const RunResult result = run(told);
     const Span span("files", "pages");
-    return reportResult(result, options.out, {.standing = standing, .everyRow = namesRows(options.techniques)});
+    return reportResult(result, options.out, {.standing = standing, .everyRow = everyRow, .printed = !costs});
 }
 
 } // namespace

@@ -37,21 +37,25 @@ void requireApplicable(const std::vector<Record>& records) {
 
 } // namespace
 
-ExitCode reportResult(const RunResult& result, const std::filesystem::path& out, const ResultOptions& options) {
-    const bool standing = options.standing;
+void printTables(const std::vector<Record>& records, const std::filesystem::path& out, const ResultOptions& options) {
     const report::Rows rows = options.everyRow ? report::Rows::All : report::Rows::Front;
-    const std::vector<Record> shown = standing ? report::standing(result.records) : result.records;
+    const std::vector<Record> shown = options.standing ? report::standing(records) : records;
     for (const std::string& scene : report::scenes(shown)) {
         for (const std::string& table : {report::terminalSummary(shown, scene, (out / "index.html").string(), rows),
                                          report::lodTerminalTable(shown, scene)})
             if (!table.empty()) fmt::print("{}\n", table);
     }
+    std::fflush(stdout);
+}
+
+ExitCode reportResult(const RunResult& result, const std::filesystem::path& out, const ResultOptions& options) {
+    if (!options.printed) printTables(result.records, out, options);
     for (const Record& record : result.records)
         if (record.status == Status::Error) printError(record, out);
     fmt::print("records: {}\n", (out / "results.jsonl").string());
     std::fflush(stdout); // pages take a while, and need a program that may be missing
     const std::filesystem::path page =
-        site::writeSite({.records = result.records, .images = out / "images", .standing = standing}, out);
+        site::writeSite({.records = result.records, .images = out / "images", .standing = options.standing}, out);
     fmt::print("page: {}\n", page.string());
     requireApplicable(result.records);
     return result.code;

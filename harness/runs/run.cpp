@@ -30,6 +30,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -106,8 +107,21 @@ private:
     void measure(const std::vector<std::size_t>& cells, KeptCells& kept) {
         cells_ = cells;
         kept_ = &kept;
-        computeTruths();
-        scoreCells();
+        for (const std::size_t cell : cells_) ++unscored_[sceneIndex(cell)];
+        const MissingTruths missing = missingTruths();
+        if (!missing.empty()) sayNeed(missing.size());
+        // What the first scene scores is told before the truths of others are computed.
+        const std::span whole(cells_);
+        const auto others =
+            std::ranges::find_if(cells_, [&](auto cell) { return sceneIndex(cell) != sceneIndex(cells_[0]); });
+        const bool othersWait =
+            others != cells_.end() && !missing.empty() && std::get<0>(*missing.rbegin()) >= sceneIndex(*others);
+        const std::size_t first = othersWait ? others - cells_.begin() : 0;
+        for (const auto part : {whole.first(first), whole.subspan(first)}) {
+            computeTruths(missing, part);
+            scoreCells(part);
+        }
+        for (const auto& [cell, how] : lost_) keepScored(cell, lost(cell, how));
         if (options_.measure.timed()) timeCells();
     }
 
@@ -141,7 +155,8 @@ private:
     }
 
     [[nodiscard]] std::size_t cellCount() const { return scenes_.size() * variants_.size(); }
-    [[nodiscard]] const Scene& sceneOf(std::size_t cell) const { return scenes_[cell / variants_.size()]; }
+    [[nodiscard]] std::size_t sceneIndex(std::size_t cell) const { return cell / variants_.size(); }
+    [[nodiscard]] const Scene& sceneOf(std::size_t cell) const { return scenes_[sceneIndex(cell)]; }
     [[nodiscard]] const techniques::Variant& variantOf(std::size_t cell) const { return variants_[cell % variants_.size()]; }
     [[nodiscard]] std::string nameOf(std::size_t cell) const { return sceneOf(cell).id + " " + variantOf(cell).name; }
     [[nodiscard]] int workers() const { return options_.jobs > 0 ? options_.jobs : availableThreads(); }
@@ -156,31 +171,34 @@ private:
             .second;
     }
 
-    /// Scene, truth, frame.
-    std::set<std::tuple<std::size_t, Truth, int>> missingTruths() {
+    using MissingTruths = std::set<std::tuple<std::size_t, Truth, int>>; // scene, truth, frame
+
+    MissingTruths missingTruths() {
         const Span span("truth", "keys");
-        std::set<std::tuple<std::size_t, Truth, int>> missing;
+        MissingTruths missing;
         for (const std::size_t cell : cells_) {
             const SceneCells& cells = cellsOf(sceneOf(cell));
             if (cells.notApplicable(variantOf(cell))) continue;
             for (const auto& [truth, frame] : cells.truthsOf(variantOf(cell)))
-                if (!cells.isKept(truth, frame)) missing.emplace(cell / variants_.size(), truth, frame);
+                if (!cells.isKept(truth, frame)) missing.emplace(sceneIndex(cell), truth, frame);
         }
+        shared_.reset();
         return missing;
     }
 
-    /// The long part of an empty cache: each truth by one process, while others compute others.
-    void computeTruths() {
+    /// Of the scenes of `cells`. The long part of an empty cache: each truth by one process, while others compute others.
+    void computeTruths(const MissingTruths& missing, std::span<const std::size_t> cells) {
         struct Asked {
             const Scene* scene;
             Truth truth;
             int frame;
         };
+        if (cells.empty()) return;
         std::vector<Asked> asked;
-        for (const auto& [scene, truth, frame] : missingTruths()) asked.push_back({&scenes_[scene], truth, frame});
-        shared_.reset();
+        for (const auto& [scene, truth, frame] : missing)
+            if (scene >= sceneIndex(cells.front()) && scene <= sceneIndex(cells.back()))
+                asked.push_back({&scenes_[scene], truth, frame});
         if (asked.empty()) return;
-        sayNeed(asked.size());
         ProgressLine line("truths", static_cast<int>(asked.size()), options_.quiet);
         int done = 0;
         SharedWork work;
@@ -212,34 +230,46 @@ private:
     }
 
     /// Everything but costs that other programs would disturb, in as many processes as the machine runs at once.
-    void scoreCells() {
-        ProgressLine line("cells", static_cast<int>(cells_.size()), options_.quiet);
+    void scoreCells(std::span<const std::size_t> cells) {
+        ProgressLine line("cells", static_cast<int>(cells.size()), options_.quiet);
         int done = 0;
         SharedWork work;
-        work.items = cells_.size();
-        work.work = [this](std::size_t i, const Progress& progress) { return shards::text(scored(cells_[i], progress)); };
+        work.items = cells.size();
+        work.work = [&](std::size_t i, const Progress& progress) { return shards::text(scored(cells[i], progress)); };
         work.leave = [this] {
             const Span span("setup", "release");
             shared_.reset();
             context_.reset();
         };
         work.progress = [&](std::size_t i, double share, std::string_view what) {
-            const std::size_t cell = cells_[i];
+            const std::size_t cell = cells[i];
             line.show(done, share, what.empty() ? nameOf(cell) : fmt::format("{} {}", sceneOf(cell).id, what));
         };
         work.finished = [&](std::size_t i, const std::string& answer) {
             ++done;
-            keep(cells_[i], shards::measuredCell(answer));
+            keepScored(cells[i], shards::measuredCell(answer), &line);
         };
-        std::map<std::size_t, std::string> lostCells;
         work.lost = [&](std::size_t i, const std::string& how) {
             ++done;
-            lostCells.emplace(cells_[i], how);
+            lost_.emplace(cells[i], how);
         };
-        work.limit = [this](std::size_t i) { return longestFor(sceneOf(cells_[i]), variantOf(cells_[i])) * drawings(); };
+        work.limit = [&](std::size_t i) { return longestFor(sceneOf(cells[i]), variantOf(cells[i])) * drawings(); };
         shareAmongProcesses(workers(), work);
         line.show(done, 0, "");
-        for (const auto& [cell, how] : lostCells) keep(cell, lost(cell, how));
+    }
+
+    /// Tells of its scene, too, if that was its last cell, and all before are told; `line` is what is shown meanwhile.
+    void keepScored(std::size_t cell, MeasuredCell measured, ProgressLine* line = nullptr) {
+        keep(cell, std::move(measured));
+        for (--unscored_[sceneIndex(cell)]; !unscored_.empty() && unscored_.begin()->second == 0;
+             unscored_.erase(unscored_.begin())) {
+            if (!options_.sceneScored) continue;
+            std::vector<Record> records;
+            for (const std::size_t other : cells_)
+                if (sceneIndex(other) == unscored_.begin()->first) records.push_back(*known_[other]);
+            if (line != nullptr) line->clear();
+            options_.sceneScored(records);
+        }
     }
 
     /// How often a cell is drawn, at most.
@@ -339,7 +369,9 @@ private:
     std::vector<techniques::Variant> variants_;
     std::vector<Scene> scenes_;
     groundtruth::Cache cache_;
-    std::vector<std::size_t> cells_; // that are measured, rising
+    std::vector<std::size_t> cells_;              // that are measured, rising
+    std::map<std::size_t, std::size_t> unscored_; // cells, by the scene's index, of what was not told of
+    std::map<std::size_t, std::string> lost_;     // cells whose worker ended, with how it did
     KeptCells* kept_ = nullptr;
     std::vector<std::optional<Record>> known_; // of each cell, once it is known
     ExitCode code_ = ExitCode::Pass;
