@@ -33,13 +33,16 @@ glm::dmat4 Camera::view() const { return glm::lookAt(eye, target, up); }
 
 glm::dmat4 Camera::projection(double aspect) const { return glm::perspective(glm::radians(fovy), aspect, near, far); }
 
-glm::dvec3 Camera::ray(glm::dvec2 pixel, glm::ivec2 size) const {
-    const Basis b = basis();
-    const double tangent = std::tan(0.5 * glm::radians(fovy));
-    const double aspect = static_cast<double>(size.x) / size.y;
-    const double x = (2.0 * pixel.x / size.x - 1.0) * tangent * aspect;
-    const double y = (1.0 - 2.0 * pixel.y / size.y) * tangent;
-    return b.forward + x * b.right + y * b.up;
+glm::dvec3 Camera::ray(glm::dvec2 pixel, glm::ivec2 size) const { return CameraRays(*this, size).at(pixel); }
+
+CameraRays::CameraRays(const Camera& camera, glm::ivec2 size)
+    : basis_(camera.basis()), eye_(camera.eye), size_(size), tangent_(std::tan(0.5 * glm::radians(camera.fovy))),
+      aspect_(static_cast<double>(size.x) / size.y) {}
+
+glm::dvec3 CameraRays::at(glm::dvec2 pixel) const {
+    const double x = (2.0 * pixel.x / size_.x - 1.0) * tangent_ * aspect_;
+    const double y = (1.0 - 2.0 * pixel.y / size_.y) * tangent_;
+    return basis_.forward + x * basis_.right + y * basis_.up;
 }
 
 glm::dvec3 Camera::project(const glm::dvec3& world, glm::ivec2 size) const {

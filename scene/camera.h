@@ -37,6 +37,20 @@ struct Camera {
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
+/// `Camera::ray` of many pixels: the same directions to the bit.
+class CameraRays {
+public:
+    CameraRays(const Camera& camera, glm::ivec2 size);
+    [[nodiscard]] const glm::dvec3& eye() const { return eye_; }
+    [[nodiscard]] glm::dvec3 at(glm::dvec2 pixel) const;
+
+private:
+    Camera::Basis basis_;
+    glm::dvec3 eye_;
+    glm::ivec2 size_;
+    double tangent_, aspect_;
+};
+
 struct EnvironmentLight; // scene/sky.h
 
 enum class LightKind { Point, Directional, Rectangle, Disk, Line, Environment };

@@ -1,11 +1,11 @@
-// A bounding volume hierarchy over float boxes. It only proposes candidates: every box test errs on the side of a visit, and
-// exact predicates decide afterwards.
+// A bounding volume hierarchy over float boxes, four children to a node. It only proposes candidates: every box test errs on
+// the side of a visit, and exact predicates decide afterwards.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
-#include <utility>
 #include <vector>
 
 namespace shadowbench::groundtruth::geometry {
@@ -15,91 +15,142 @@ struct FloatBox {
     glm::vec3 low, high;
 };
 
-/// The points from + s · (to − from), 0 ≤ s ≤ `last`, each known to within `pad` per axis.
-class PaddedSegment {
-public:
-    PaddedSegment(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& pad);
-
-    /// First parameter at which the padded segment may enter `box`; above `last` if it cannot.
-    [[nodiscard]] double entry(const FloatBox& box) const {
-        const glm::dvec3 a = (glm::dvec3(box.low) - padded_[0]) * inverse_;
-        const glm::dvec3 b = (glm::dvec3(box.high) - padded_[1]) * inverse_;
-        const glm::dvec3 near = glm::min(a, b), far = glm::max(a, b);
-        const double enter = glm::max(glm::max(near.x, near.y), glm::max(near.z, 0.0));
-        const double leave = glm::min(glm::min(far.x, far.y), glm::min(far.z, last));
-        return enter <= leave ? enter : outside;
-    }
-
-    static constexpr double outside = 2; // parameters end at 1
+/// The points from + s · (to − from), 0 ≤ s ≤ `last` ≤ 1, each known to within `pad` per axis.
+struct PaddedSegment {
+    glm::dvec3 from, to, pad;
     double last = 1;
-
-private:
-    glm::dvec3 padded_[2]; // from + pad, from − pad
-    glm::dvec3 inverse_;   // of the direction
 };
+
+/// Whether the segment may meet the box.
+bool mayMeet(const PaddedSegment& segment, const FloatBox& box);
+
+/// Four numbers at a time, as compilers make one instruction of.
+using Four = float __attribute__((vector_size(16)));
 
 class Bvh {
 public:
     Bvh() = default;
     explicit Bvh(const std::vector<FloatBox>& boxes);
 
-    [[nodiscard]] bool empty() const { return nodes_.empty(); }
-    [[nodiscard]] const FloatBox& bounds() const { return nodes_.front().box; }
+    [[nodiscard]] bool empty() const { return order_.empty(); }
+    [[nodiscard]] const FloatBox& bounds() const { return bounds_; }
 
     /// Calls `visit(primitive)` for every box that the segment may meet, roughly front to back, until it returns true.
     /// `visit` may shorten `segment.last`. True if stopped.
     template <typename Visit>
     bool visit(const PaddedSegment& segment, Visit&& visit) const {
-        if (nodes_.empty() || segment.entry(nodes_.front().box) > segment.last) return false;
-        std::pair<double, std::uint32_t> pending[maxDepth];
-        int count = 0;
-        pending[count++] = {0.0, 0};
+        if (root_.count > 0) return visitLeaf(root_, visit);
+        if (empty()) return false;
+        const FloatSegment floats(segment, bounds_);
+        std::array<Pending, maxPending> pending;
+        std::size_t count = 0;
+        pending[count++] = {root_, 0};
         while (count > 0) {
-            const auto [entry, index] = pending[--count];
-            if (entry > segment.last) continue;
-            const Node& node = nodes_[index];
-            if (node.count > 0) {
-                for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-                    if (visit(order_[i])) return true;
+            const auto [part, entry] = pending[--count];
+            if (entry > rounded(segment.last)) continue;
+            if (part.count > 0) {
+                if (visitLeaf(part, visit)) return true;
                 continue;
             }
-            const double left = segment.entry(nodes_[node.first].box), right = segment.entry(nodes_[node.first + 1].box);
-            const bool leftFirst = left <= right;
-            const std::pair<double, std::uint32_t> near{leftFirst ? left : right, node.first + (leftFirst ? 0U : 1U)};
-            const std::pair<double, std::uint32_t> far{leftFirst ? right : left, node.first + (leftFirst ? 1U : 0U)};
-            if (far.first <= segment.last) pending[count++] = far;
-            if (near.first <= segment.last) pending[count++] = near;
+            const Node& node = nodes_[part.first];
+            const Four entries = floats.entries(node, rounded(segment.last));
+            const std::size_t farther = count; // those after it are of this node, the nearest last
+            for (std::uint32_t child = 0; child < node.children; ++child) {
+                if (!(entries[child] < FloatSegment::outside)) continue;
+                std::size_t at = count++;
+                for (; at > farther && pending[at - 1].entry < entries[child]; --at) pending[at] = pending[at - 1];
+                pending[at] = {node.parts[child], entries[child]};
+            }
         }
         return false;
     }
 
-    /// Calls `visit(primitive)` for every leaf whose box passes `meets(box)`, as do those of all nodes above it.
+    /// Calls `visit(primitive)` for every leaf whose box passes `meets(box)`, which no box may that lies in one that does
+    /// not.
     template <typename Meets, typename Visit>
     void visitBoxes(const Meets& meets, Visit&& visit) const {
-        if (nodes_.empty() || !meets(nodes_.front().box)) return;
-        std::uint32_t pending[maxDepth];
-        int count = 0;
-        pending[count++] = 0;
+        if (empty() || !meets(bounds_)) return;
+        std::array<Part, maxPending> pending;
+        std::size_t count = 0;
+        pending[count++] = root_;
         while (count > 0) {
-            const Node& node = nodes_[pending[--count]];
-            if (node.count > 0) {
-                for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(order_[i]);
+            const Part part = pending[--count];
+            if (part.count > 0) {
+                for (std::uint32_t i = part.first; i < part.first + part.count; ++i) visit(order_[i]);
                 continue;
             }
-            for (std::uint32_t child = node.first; child < node.first + 2; ++child)
-                if (meets(nodes_[child].box)) pending[count++] = child;
+            const Node& node = nodes_[part.first];
+            for (std::uint32_t child = 0; child < node.children; ++child)
+                if (meets(node.box(child))) pending[count++] = node.parts[child];
         }
     }
 
 private:
-    struct Node {
-        FloatBox box;
-        std::uint32_t first; // first primitive of a leaf, else the first of two neighbouring children
-        std::uint32_t count; // primitives; 0 for an inner node
+    struct Part {
+        std::uint32_t first; // first primitive of a leaf, else a node
+        std::uint32_t count; // primitives; 0 for a node
     };
-    class Builder;
-    static constexpr int maxDepth = 128; // the builder halves by count below depth 64, so 64 + 32 levels suffice
 
+    struct Node {
+        std::array<Four, 3> low, high; // of the children, by axis
+        std::array<Part, 4> parts;
+        std::uint32_t children;
+
+        [[nodiscard]] FloatBox box(std::uint32_t child) const {
+            return {{low[0][child], low[1][child], low[2][child]}, {high[0][child], high[1][child], high[2][child]}};
+        }
+    };
+
+    template <typename Visit>
+    bool visitLeaf(Part leaf, Visit&& visit) const {
+        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
+            if (visit(order_[i])) return true;
+        return false;
+    }
+
+    /// The part that a segment still has to visit, and where it enters it.
+    struct Pending {
+        Part part;
+        float entry;
+    };
+
+    /// The segment as floats, padded by what their rounding can change.
+    class FloatSegment {
+    public:
+        FloatSegment(const PaddedSegment& segment, const FloatBox& bounds);
+
+        /// First parameters at which it may enter the children's boxes; `outside` where it cannot before `last`.
+        [[nodiscard]] Four entries(const Node& node, float last) const {
+            Four enter{}, leave = all(last);
+            for (int axis = 0; axis < 3; ++axis) {
+                const Four a = (node.low[axis] - low_[axis]) * inverse_[axis];
+                const Four b = (node.high[axis] - high_[axis]) * inverse_[axis];
+                const Four near = a < b ? a : b, far = a < b ? b : a;
+                enter = near > enter ? near : enter;
+                leave = far < leave ? far : leave;
+            }
+            return enter <= leave ? enter : all(outside);
+        }
+
+        static constexpr float outside = 2; // parameters end at 1
+
+    private:
+        static Four all(float value) { return Four{value, value, value, value}; }
+
+        std::array<Four, 3> low_, high_; // from + pad, from − pad
+        std::array<Four, 3> inverse_;    // of the direction
+    };
+
+    /// Not below `last`.
+    static float rounded(double last) { return static_cast<float>(last) * (1 + 0x1p-22F); }
+
+    class Builder;
+    // The builder halves by count below depth 64, so a binary tree has at most 64 + 32 levels. A node holds two of them, and
+    // leaves three of its children behind.
+    static constexpr std::size_t maxPending = 48 * 3 + 4;
+
+    FloatBox bounds_{};
+    Part root_{};
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> order_;
 };

@@ -34,21 +34,51 @@ DepthBounds depthBounds(const Ray& ray, const Triangle& triangle) {
     return {t.inf(), t.sup()};
 }
 
-/// Side of the plane in rounded arithmetic; 0 where rounding could have changed it. Bound: Shewchuk, "Adaptive Precision
-/// Floating-Point Arithmetic and Fast Robust Geometric Predicates" (1997), orient3d, stage A; (7 + 56 ε) ε rounded up.
-int roundedSide(const Triangle& t, const glm::dvec4& point) {
-    const glm::dvec3 u = t[1] - t[0], v = t[2] - t[0];
-    const glm::dvec3 p = point.w == 0 ? glm::dvec3(point) : glm::dvec3(point) - t[0];
-    const glm::dvec3 plus(u.y * v.z, u.z * v.x, u.x * v.y), minus(u.z * v.y, u.x * v.z, u.y * v.x);
-    const double determinant = glm::dot(plus - minus, p);
-    const double bound = 8 * 0x1p-53 * glm::dot(glm::abs(plus) + glm::abs(minus), glm::abs(p));
+/// Of a determinant of three vectors, as a share of the same with every term positive. Shewchuk, "Adaptive Precision
+/// Floating-Point Arithmetic and Fast Robust Geometric Predicates" (1997), orient3d, stage A: (7 + 56 ε) ε, rounded up, and
+/// twice that, for whoever asks may have rounding directed.
+constexpr double determinantError = 16 * 0x1p-53;
+constexpr double sumsRoundedUp = 1 + 0x1p-20;
+
+/// u × v in rounded arithmetic, and with every term positive.
+struct RoundedCross {
+    RoundedCross(const glm::dvec3& u, const glm::dvec3& v) {
+        const glm::dvec3 plus(u.y * v.z, u.z * v.x, u.x * v.y), minus(u.z * v.y, u.x * v.z, u.y * v.x);
+        value = plus - minus;
+        magnitude = glm::abs(plus) + glm::abs(minus);
+    }
+    glm::dvec3 value, magnitude;
+};
+
+/// Sign of a determinant of three vectors, each given or a rounded difference of two points; 0 where rounding could have
+/// changed it. `magnitude`: with every term positive; `more`: what else the value can be wrong by.
+int certainSign(double determinant, double magnitude, double more = 0) {
+    const double bound = determinantError * magnitude + sumsRoundedUp * more;
     constexpr double underflow = 1e-200; // far above what lost subnormal products can add up to
     if (!(bound > underflow && std::abs(determinant) > bound)) return 0;
     return determinant > 0 ? 1 : -1;
 }
 
+int roundedSign(const glm::dvec3& u, const glm::dvec3& v, const glm::dvec3& p) {
+    const RoundedCross n(u, v);
+    return certainSign(glm::dot(n.value, p), glm::dot(n.magnitude, glm::abs(p)));
+}
+
+/// Side of the plane in rounded arithmetic; 0 where rounding could have changed it.
+int roundedSide(const Triangle& t, const glm::dvec4& point) {
+    return roundedSign(t[1] - t[0], t[2] - t[0], point.w == 0 ? glm::dvec3(point) : glm::dvec3(point) - t[0]);
+}
+
+int roundedSide(const Triangle& t, const ReceiverPoint& point) {
+    const RoundedCross n(t[1] - t[0], t[2] - t[0]);
+    const glm::dvec3 p = point.near() - t[0];
+    // As the point moves by the error, the determinant does by the normal times that.
+    return certainSign(glm::dot(n.value, p), glm::dot(n.magnitude, glm::abs(p)), glm::dot(n.magnitude, point.nearError()));
+}
+
 /// Side on which the ray passes the directed edge from a to b.
 int passes(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b) {
+    if (const int sign = roundedSign(a - ray.origin, b - ray.origin, ray.direction)) return sign;
     return filteredSign([&](auto tag) {
         using Number = typename decltype(tag)::type;
         const Vector<Number> origin = vector<Number>(ray.origin);
@@ -65,9 +95,22 @@ bool meets(const Ray& ray, const Triangle& t) {
     return s0 != 0 || s1 != 0 || s2 != 0; // all zero: the triangle is seen edge-on
 }
 
-/// Seen from the point along the segment to the light: 1 if y lies to the left of x, as the orientation of (point, light, x,
-/// y).
-int turn(const ReceiverPoint& point, const glm::dvec4& light, const glm::dvec3& x, const glm::dvec3& y) {
+/// From the point along the segment to the light, in rounded arithmetic.
+glm::dvec3 roundedAxis(const ReceiverPoint& point, const glm::dvec4& light) {
+    return light.w == 0 ? glm::dvec3(light) : glm::dvec3(light) - point.near();
+}
+
+/// `turn` from x to y in rounded arithmetic; 0 where rounding could have changed it. `u` and `v` are x and y minus the
+/// point.
+int roundedTurn(const ReceiverPoint& point, const glm::dvec3& axis, const glm::dvec3& u, const glm::dvec3& v) {
+    const RoundedCross n(u, v);
+    // As the point moves by δ, the determinant does by δ · (u × v + v × axis + axis × u), of a direction without the first.
+    const glm::dvec3 a = glm::abs(axis), sum = glm::abs(u) + glm::abs(v);
+    const glm::dvec3 others(a.y * sum.z + a.z * sum.y, a.z * sum.x + a.x * sum.z, a.x * sum.y + a.y * sum.x);
+    return certainSign(glm::dot(axis, n.value), glm::dot(a, n.magnitude), glm::dot(point.nearError(), others + n.magnitude));
+}
+
+int exactTurn(const ReceiverPoint& point, const glm::dvec4& light, const glm::dvec3& x, const glm::dvec3& y) {
     return filteredSign([&](auto tag) {
         using Number = typename decltype(tag)::type;
         const auto& p = homogeneous(point, tag);
@@ -75,6 +118,13 @@ int turn(const ReceiverPoint& point, const glm::dvec4& light, const glm::dvec3& 
         const Vector<Number> axis = light.w == 0 ? l : p.w * l - p.xyz;
         return dot(axis, cross(p.w * vector<Number>(x) - p.xyz, p.w * vector<Number>(y) - p.xyz));
     });
+}
+
+/// Seen from the point along the segment to the light: 1 if y lies to the left of x, as the orientation of (point, light, x,
+/// y).
+int turn(const ReceiverPoint& point, const glm::dvec4& light, const glm::dvec3& x, const glm::dvec3& y) {
+    if (const int sign = roundedTurn(point, roundedAxis(point, light), x - point.near(), y - point.near())) return sign;
+    return exactTurn(point, light, x, y);
 }
 
 /// The part of the view along a segment that a touching triangle covers next to it: from `start` to the left up to `end`,
@@ -134,17 +184,47 @@ Triangle facing(Triangle triangle, const glm::dvec4& light) {
 }
 
 ReceiverPoint::ReceiverPoint(const Ray& ray, const Triangle& triangle) : ray_(ray), triangle_(triangle) {
-    const DepthBounds t = depthBounds(ray, triangle);
-    const Interval::Protector rounding;
-    const Interval depth(t.low, t.high);
-    for (int axis = 0; axis < 3; ++axis) {
-        const Interval x = Interval(ray.origin[axis]) + depth * Interval(ray.direction[axis]);
-        low_[axis] = x.inf();
-        high_[axis] = x.sup();
-    }
+    if (roundNear()) return;
+    near_ = rounded();
+    nearError_ = high() - low();
 }
 
 ReceiverPoint::~ReceiverPoint() = default;
+
+bool ReceiverPoint::roundNear() {
+    const RoundedCross n(triangle_[1] - triangle_[0], triangle_[2] - triangle_[0]);
+    const glm::dvec3 &origin = ray_.origin, &direction = ray_.direction;
+    const glm::dvec3 way = triangle_[0] - origin;
+    const double numerator = glm::dot(n.value, way), denominator = glm::dot(n.value, direction);
+    const double numeratorError = determinantError * glm::dot(n.magnitude, glm::abs(way));
+    const double denominatorError = determinantError * glm::dot(n.magnitude, glm::abs(direction));
+    constexpr double underflow = 1e-200;
+    if (!(std::abs(denominator) > 2 * denominatorError && numeratorError > underflow && denominatorError > underflow))
+        return false;
+    const double depth = numerator / denominator;
+    const double depthError =
+        (numeratorError + std::abs(depth) * denominatorError) / (std::abs(denominator) - denominatorError) +
+        0x1p-53 * std::abs(depth);
+    near_ = origin + depth * direction;
+    const glm::dvec3 rounding = 0x1p-52 * (glm::abs(origin) + 2 * std::abs(depth) * glm::abs(direction));
+    nearError_ = sumsRoundedUp * (depthError * glm::abs(direction) + rounding);
+    return std::isfinite(nearError_.x + nearError_.y + nearError_.z);
+}
+
+const ReceiverPoint::Bounds& ReceiverPoint::bounds() const {
+    if (bounds_) return *bounds_;
+    const CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST); // whatever it is while this is asked
+    const DepthBounds t = depthBounds(ray_, triangle_);
+    const Interval::Protector rounding;
+    const Interval depth(t.low, t.high);
+    bounds_.emplace();
+    for (int axis = 0; axis < 3; ++axis) {
+        const Interval x = Interval(ray_.origin[axis]) + depth * Interval(ray_.direction[axis]);
+        bounds_->low[axis] = x.inf();
+        bounds_->high[axis] = x.sup();
+    }
+    return *bounds_;
+}
 
 const ReceiverPoint::Exact& ReceiverPoint::exact() const {
     if (exact_) return *exact_;
@@ -175,6 +255,7 @@ ReceiverPoint::Remainder ReceiverPoint::remainder() const {
 }
 
 int side(const Triangle& triangle, const ReceiverPoint& point) {
+    if (const int sign = roundedSide(triangle, point)) return sign;
     return filteredSign([&](auto tag) {
         using Number = typename decltype(tag)::type;
         const auto& p = homogeneous(point, tag);
@@ -183,10 +264,16 @@ int side(const Triangle& triangle, const ReceiverPoint& point) {
 }
 
 Blocking blocking(const ReceiverPoint& point, const glm::dvec4& light, const Triangle& t) {
-    const int s0 = turn(point, light, t[0], t[1]);
-    const int s1 = turn(point, light, t[1], t[2]);
+    const glm::dvec3 axis = roundedAxis(point, light);
+    const Triangle from{t[0] - point.near(), t[1] - point.near(), t[2] - point.near()};
+    const auto turnBetween = [&](int x, int y) {
+        const int sign = roundedTurn(point, axis, from[x], from[y]);
+        return sign != 0 ? sign : exactTurn(point, light, t[x], t[y]);
+    };
+    const int s0 = turnBetween(0, 1);
+    const int s1 = turnBetween(1, 2);
     if (s0 * s1 < 0) return Blocking::None;
-    const int s2 = turn(point, light, t[2], t[0]);
+    const int s2 = turnBetween(2, 0);
     if (s0 * s2 < 0 || s1 * s2 < 0) return Blocking::None;
     const int lightSide = side(t, light);
     if (lightSide == 0 || lightSide * side(t, point) >= 0) return Blocking::None;

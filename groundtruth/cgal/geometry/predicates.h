@@ -47,9 +47,15 @@ public:
     ReceiverPoint(const ReceiverPoint&) = delete;
     ReceiverPoint& operator=(const ReceiverPoint&) = delete;
 
-    [[nodiscard]] const glm::dvec3& low() const { return low_; } // certain bounds, some units in the last place apart
-    [[nodiscard]] const glm::dvec3& high() const { return high_; }
-    [[nodiscard]] glm::dvec3 rounded() const { return 0.5 * (low_ + high_); }
+    /// A point that is no farther away than `nearError` per axis.
+    [[nodiscard]] const glm::dvec3& near() const { return near_; }
+    [[nodiscard]] const glm::dvec3& nearError() const { return nearError_; }
+
+    [[nodiscard]] const glm::dvec3& low() const {
+        return bounds().low;
+    } // certain bounds, some units in the last place apart
+    [[nodiscard]] const glm::dvec3& high() const { return bounds().high; }
+    [[nodiscard]] glm::dvec3 rounded() const { return 0.5 * (low() + high()); }
 
     /// Certain bounds of the exact point minus `rounded()`, relatively some units in the last place apart.
     struct Remainder {
@@ -61,9 +67,16 @@ public:
     [[nodiscard]] const Exact& exact() const; // made when first needed
 
 private:
+    struct Bounds {
+        glm::dvec3 low, high;
+    };
+    const Bounds& bounds() const; // made when first needed
+    bool roundNear();             // whether rounded arithmetic can bound its error
+
     Ray ray_;
     Triangle triangle_;
-    glm::dvec3 low_, high_;
+    glm::dvec3 near_{}, nearError_{};
+    mutable std::optional<Bounds> bounds_;
     mutable std::unique_ptr<Exact> exact_;
 };
 

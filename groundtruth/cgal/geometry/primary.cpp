@@ -34,7 +34,8 @@ bool inView(const Camera& camera, const Ray& ray, const Hit& hit) {
 std::optional<Hit> nearest(const SceneTriangles& scene, const Camera& camera, const Ray& ray) {
     const ApproximateSegment segment{ray.origin, ray.origin + camera.far * ray.direction, glm::dvec3(0)};
     std::optional<Hit> best;
-    scene.visit(segment, [&](TriangleName name, const Triangle& triangle, double& last) {
+    scene.visit(segment, [&](TriangleName name, double& last) {
+        const Triangle triangle = scene.triangle(name);
         const std::optional<DepthBounds> depth = crossing(ray, triangle);
         if (!depth) return false;
         const Hit hit{name, scene.instances()[name.instance].id, triangle, *depth};
@@ -68,9 +69,9 @@ Surface classify(const Triangle& triangle, const glm::dvec3& eye, const std::vec
 
 } // namespace
 
-Ray pixelRay(const Camera& camera, int x, int y, glm::ivec2 size) {
-    return {camera.eye, camera.ray({x + 0.5, y + 0.5}, size)};
-}
+Ray pixelRay(const Camera& camera, int x, int y, glm::ivec2 size) { return pixelRay(CameraRays(camera, size), x, y); }
+
+Ray pixelRay(const CameraRays& rays, int x, int y) { return {rays.eye(), rays.at({x + 0.5, y + 0.5})}; }
 
 std::optional<SeenPoint> seenAlong(const SceneTriangles& scene, const Camera& camera, const Light& light, const Ray& ray) {
     const std::optional<Hit> hit = nearest(scene, camera, ray);
@@ -83,9 +84,10 @@ PrimaryHits tracePrimary(const SceneTriangles& scene, const Camera& camera, cons
     PrimaryHits hits{Image<std::uint32_t>(size.x, size.y), Image<glm::vec3>(size.x, size.y, glm::vec3(0)),
                      Image<Surface>(size.x, size.y, Surface::Background), Image<std::uint32_t>(size.x, size.y)};
     const std::vector<glm::dvec4> corners = lightCorners(light);
+    const CameraRays rays(camera, size);
     inParallel(size.y, threads, progress, "primary hits", [&](int y) {
         for (int x = 0; x < size.x; ++x) {
-            const Ray ray = pixelRay(camera, x, y, size);
+            const Ray ray = pixelRay(rays, x, y);
             const std::optional<Hit> hit = nearest(scene, camera, ray);
             if (!hit) continue;
             hits.id(x, y) = hit->id;

@@ -11,6 +11,7 @@ namespace shadowbench::groundtruth::geometry {
 
 /// The ray through a pixel's centre; its parameter is the distance along the camera's forward axis.
 Ray pixelRay(const Camera& camera, int x, int y, glm::ivec2 size);
+Ray pixelRay(const CameraRays& rays, int x, int y); // the same
 
 /// What a ray of the camera hits: Surface::FacesAway or Receiver.
 struct SeenPoint {

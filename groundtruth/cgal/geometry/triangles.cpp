@@ -70,16 +70,18 @@ FloatBox meshBox(const Mesh& mesh) {
 }
 
 TriangleInstance makeInstance(const Batch& batch, const Placement& placement, std::size_t tree, const FloatBox& box) {
-    TriangleInstance instance{batch.mesh,
-                              tree,
-                              placement.world,
-                              placement.id,
-                              glm::inverse(glm::dmat3(placement.world)),
-                              {},
-                              {},
-                              worldBox(box, placement.world)};
-    instance.shift = -(instance.toObject * glm::dvec3(placement.world[3]));
-    instance.slack = inverseSlack(instance, largestCoordinates(box));
+    const glm::dmat3 toObject = glm::inverse(glm::dmat3(placement.world));
+    TriangleInstance instance{.mesh = batch.mesh,
+                              .tree = tree,
+                              .world = placement.world,
+                              .id = placement.id,
+                              .toObject = toObject,
+                              .magnitude = absolute(toObject),
+                              .largest = largestCoordinates(box),
+                              .shift = -(toObject * glm::dvec3(placement.world[3])),
+                              .slack = {},
+                              .box = worldBox(box, placement.world)};
+    instance.slack = inverseSlack(instance, instance.largest);
     if (!std::isfinite(instance.slack.x + instance.slack.y + instance.slack.z))
         throw BadInput("The placement of surface " + std::to_string(placement.id) +
                        " flattens its mesh or is not finite; give it a scale that is not zero.");
@@ -144,9 +146,9 @@ PaddedSegment SceneTriangles::padded(const ApproximateSegment& segment) const {
 PaddedSegment SceneTriangles::padded(const ApproximateSegment& segment, const TriangleInstance& instance) const {
     const glm::dvec3 from = instance.toObject * segment.from + instance.shift;
     const glm::dvec3 to = instance.toObject * segment.to + instance.shift;
-    const glm::dmat3 magnitude = absolute(instance.toObject);
+    const glm::dmat3& magnitude = instance.magnitude;
     const glm::dvec3 mapping = magnitude * (glm::abs(segment.from) + glm::abs(segment.to)) + 2.0 * glm::abs(instance.shift);
-    const glm::dvec3 reach = glm::abs(from) + glm::abs(to) + largestCoordinates(trees_[instance.tree].box);
+    const glm::dvec3 reach = glm::abs(from) + glm::abs(to) + instance.largest;
     return {from, to, instance.slack + 2.0 * (magnitude * segment.error) + 32 * unit * (mapping + reach)};
 }
 

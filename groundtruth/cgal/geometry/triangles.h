@@ -40,6 +40,8 @@ struct TriangleInstance {
     glm::dmat4 world;
     std::uint32_t id;
     glm::dmat3 toObject;
+    glm::dmat3 magnitude; // |toObject|
+    glm::dvec3 largest;   // |coordinate| of a mesh position, by axis
     glm::dvec3 shift;
     glm::dvec3 slack;
     FloatBox box;
@@ -62,19 +64,19 @@ public:
     [[nodiscard]] Triangle triangle(TriangleName name) const;
     [[nodiscard]] double reachFrom(const glm::dvec3& point) const; // all of the scene lies nearer to the point than this
 
-    /// Calls `visit(name, triangle, last)` for every triangle that the segment may meet, roughly front to back, until it
-    /// returns true; `visit` may lower `last`, the parameter in [0, 1] beyond which nothing is wanted. True if stopped.
+    /// Calls `visit(name, last)` for every triangle that the segment may meet, roughly front to back, until it returns true;
+    /// `visit` may lower `last`, the parameter in [0, 1] beyond which nothing is wanted. True if stopped.
     template <typename Visit>
     bool visit(const ApproximateSegment& segment, Visit&& visit) const {
         if (top_.empty()) return false;
         PaddedSegment top = padded(segment);
         return top_.visit(top, [&](std::uint32_t i) {
             const TriangleInstance& instance = instances_[i];
+            if (!mayMeet(top, instance.box)) return false; // of several in a leaf
             PaddedSegment local = padded(segment, instance);
             local.last = top.last;
             const bool stopped = tree(instance.tree).visit(local, [&](std::uint32_t index) {
-                const TriangleName name{i, index};
-                return visit(name, triangle(name), local.last);
+                return visit(TriangleName{i, index}, local.last);
             });
             top.last = local.last;
             return stopped;

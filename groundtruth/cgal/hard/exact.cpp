@@ -79,7 +79,7 @@ void ExactScene::labelByRays(glm::ivec2 size, const PrimaryHits& primary, Refere
     requireHardLight(data_->light);
     prepare(primary, out);
     traceShadows(*data_->triangles, data_->camera, data_->light.homogeneous(), size, primary, data_->threads, out, progress);
-    edgeDistanceFromLabels(out);
+    edgeDistanceFromLabels(out, data_->threads);
 }
 
 std::vector<PlanarReceiver> ExactScene::planarReceivers(const PrimaryHits& primary, std::size_t minimumPixels) const {

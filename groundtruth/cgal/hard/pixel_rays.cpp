@@ -9,10 +9,11 @@
 namespace shadowbench::groundtruth::hard {
 AreaShares sharesByRays(const SceneTriangles& scene, const Camera& camera, const Light& light, glm::ivec2 size,
                         glm::ivec2 pixel, std::uint32_t surface, int side, std::uint16_t set) {
+    const CameraRays rays(camera, size);
     std::size_t cast = 0, seen = 0, lit = 0;
     const auto castThrough = [&](glm::dvec2 inside) {
         ++cast;
-        const Ray ray{camera.eye, camera.ray(glm::dvec2(pixel) + inside, size)};
+        const Ray ray{camera.eye, rays.at(glm::dvec2(pixel) + inside)};
         const std::optional<SeenPoint> hit = seenAlong(scene, camera, light, ray);
         if (!hit || hit->surface != Surface::Receiver) return;
         if (scene.instances()[hit->name.instance].id != surface) return;

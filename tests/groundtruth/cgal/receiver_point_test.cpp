@@ -1,0 +1,68 @@
+#include "base/random.h"
+#include "groundtruth/cgal/geometry/predicates.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace shadowbench::groundtruth::geometry {
+namespace {
+
+glm::dvec3 somewhere(Random& random, double reach) {
+    return {random.uniform(-reach, reach), random.uniform(-reach, reach), random.uniform(-reach, reach)};
+}
+
+/// Whether what is near the point to within its error can be the point.
+void expectNear(const ReceiverPoint& point) {
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_GE(point.near()[axis] + point.nearError()[axis], point.low()[axis]);
+        EXPECT_LE(point.near()[axis] - point.nearError()[axis], point.high()[axis]);
+    }
+}
+
+TEST(ReceiverPoint, IsNoFartherFromItsRoundedPointThanTheError) {
+    Random random(1);
+    for (int round = 0; round < 20'000; ++round) {
+        const double reach = std::pow(10.0, random.uniform(-6, 6));
+        const Triangle triangle{somewhere(random, reach), somewhere(random, reach), somewhere(random, reach)};
+        const glm::dvec3 origin = somewhere(random, reach);
+        // Towards the triangle, but for one round in four, in which it is nearly in the plane.
+        const glm::dvec3 towards = random.uniform() * triangle[0] + random.uniform() * triangle[1];
+        const double lift = round % 4 == 0 ? 1e-14 : 1;
+        const glm::dvec3 direction = lift * (towards - origin) + (1 - lift) * (triangle[1] - triangle[0]);
+        const ReceiverPoint point({origin, direction}, triangle);
+        expectNear(point);
+        if (round % 4 != 0) {
+            EXPECT_LT(glm::length(point.nearError()), 1e-6 * (reach + glm::length(point.near())));
+        }
+    }
+}
+
+TEST(ReceiverPoint, IsExactlyThereWhereNothingIsRounded) {
+    const Triangle ground{glm::dvec3(0, 0, 0), glm::dvec3(0, 0, 8), glm::dvec3(8, 0, 0)};
+    const ReceiverPoint point({{1, 4, 1}, {0.25, -1, 0.5}}, ground);
+    EXPECT_EQ(point.low(), glm::dvec3(2, 0, 3));
+    EXPECT_EQ(point.high(), glm::dvec3(2, 0, 3));
+    expectNear(point);
+    EXPECT_EQ(side(ground, point), 0);
+}
+
+TEST(Blocking, OfPointsBesideAnEdgeIsThatOfTheEdgesSide) {
+    // The light's shadow of the edge x = 1 at height 1 lies at x = 2 of the ground, to the bit.
+    const Triangle ground{glm::dvec3(-9, 0, -9), glm::dvec3(-9, 0, 9), glm::dvec3(9, 0, 0)};
+    const Triangle blocker{glm::dvec3(1, 1, -4), glm::dvec3(1, 1, 4), glm::dvec3(-3, 1, 0)};
+    const glm::dvec4 light(0, 2, 0, 1);
+    const auto blocked = [&](double x) {
+        const ReceiverPoint point({{x, 1, 0}, {0, -1, 0}}, ground);
+        return blocking(point, light, blocker);
+    };
+    EXPECT_EQ(blocked(2), Blocking::Touches);
+    EXPECT_EQ(blocked(std::nextafter(2.0, 0)), Blocking::Blocks);
+    EXPECT_EQ(blocked(std::nextafter(2.0, 3)), Blocking::None);
+    EXPECT_EQ(blocked(1.9), Blocking::Blocks);
+    EXPECT_EQ(blocked(2.1), Blocking::None);
+}
+
+} // namespace
+} // namespace shadowbench::groundtruth::geometry
