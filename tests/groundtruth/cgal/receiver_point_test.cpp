@@ -64,5 +64,38 @@ TEST(Blocking, OfPointsBesideAnEdgeIsThatOfTheEdgesSide) {
     EXPECT_EQ(blocked(2.1), Blocking::None);
 }
 
+/// A multiple of 1/1024.
+glm::dvec3 dyadic(Random& random, double reach) { return glm::round(1024.0 * somewhere(random, reach)) / 1024.0; }
+
+/// Calls `test` with points that rays meet at `exact` to the bit, a third of the way on, in planes that some of them nearly
+/// lie in: there rounded arithmetic knows the point to some digits only.
+template <typename Test>
+void forPointsAt(const glm::dvec3& exact, const Test& test) {
+    Random random(2);
+    int uncertain = 0;
+    for (int round = 0; round < 4'000; ++round) {
+        const glm::dvec3 third = dyadic(random, 1), across = std::ldexp(1.0, -round % 24) * dyadic(random, 1);
+        const glm::dvec3 u = third + across, v = dyadic(random, 1);
+        if (std::abs(glm::dot(glm::cross(u, v), third)) == 0) continue;
+        const ReceiverPoint point({exact - third, 3.0 * third}, {exact + u, exact - u, exact + v});
+        uncertain += glm::length(point.nearError()) > 1e-12;
+        test(point);
+    }
+    EXPECT_GT(uncertain, 1000);
+}
+
+TEST(Blocking, OfAPointExactlyBelowAnEdgeTouchesHoweverTheReceiverLies) {
+    const Triangle blocker{glm::dvec3(1, 1, -4), glm::dvec3(1, 1, 4), glm::dvec3(-3, 1, 0)};
+    forPointsAt({2, 0, 0.75}, [&](const ReceiverPoint& point) {
+        EXPECT_EQ(blocking(point, {0, 2, 0, 1}, blocker), Blocking::Touches);
+        EXPECT_EQ(blocking(point, {-1, 1, 0, 0}, blocker), Blocking::Touches); // a direction
+    });
+}
+
+TEST(Side, OfAPointInThePlaneIsZeroHoweverTheReceiverLies) {
+    const Triangle plane{glm::dvec3(0, 2, 0), glm::dvec3(1, 1, -4), glm::dvec3(1, 1, 4)};
+    forPointsAt({2, 0, 0.75}, [&](const ReceiverPoint& point) { EXPECT_EQ(side(plane, point), 0); });
+}
+
 } // namespace
 } // namespace shadowbench::groundtruth::geometry
