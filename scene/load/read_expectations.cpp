@@ -21,14 +21,24 @@ std::string readMetric(const TomlValue& value, const std::vector<std::string>& m
     return metrics.empty() ? readSentence(value) : value.oneOf(metrics);
 }
 
+/// One variant, or a list of them.
+std::vector<std::string> readVariants(const TomlValue& value) {
+    if (!value.isList()) return {readSentence(value)};
+    std::vector<std::string> variants;
+    for (const TomlValue& one : value.list()) variants.push_back(readSentence(one));
+    if (variants.empty()) value.fail("is empty; name a variant");
+    return variants;
+}
+
 /// `bound` is the key of the bound: "above" or "below".
 std::vector<Expectation> readExpectationList(const TomlValue& list, const std::string& bound,
                                              const std::vector<std::string>& metrics) {
     std::vector<Expectation> expectations;
     for (const TomlValue& entry : list.list()) {
         entry.only({"technique", "metric", bound, "reason"});
-        expectations.push_back({readSentence(entry.get("technique")), readMetric(entry.get("metric"), metrics),
-                                entry.get(bound).positive(), readSentence(entry.get("reason"))});
+        for (const std::string& technique : readVariants(entry.get("technique")))
+            expectations.push_back({technique, readMetric(entry.get("metric"), metrics), entry.get(bound).positive(),
+                                    readSentence(entry.get("reason"))});
     }
     return expectations;
 }

@@ -35,6 +35,17 @@ Scene withExpectations(const std::string& lines) {
         "x.toml", Profile::Gate);
 }
 
+TEST(SceneExpect, TakesAListOfVariantsForOneReason) {
+    const Scene scene = withExpectations(
+        "fails = [{ technique = [\"vsm\", \"esm:kernel=3\"], metric = \"leak\", above = 0.1, reason = \"a\" }]\n");
+    ASSERT_EQ(scene.fails.size(), 2U);
+    EXPECT_EQ(scene.fails[0].technique, "vsm");
+    EXPECT_EQ(scene.fails[1].technique, "esm:kernel=3");
+    EXPECT_EQ(scene.fails[1].bound, 0.1);
+    EXPECT_EQ(scene.fails[1].reason, "a");
+    EXPECT_THROW(withExpectations("holds = [{ technique = [], metric = \"leak\", below = 0.1, reason = \"a\" }]"), BadInput);
+}
+
 TEST(SceneExpect, SaysWhereTechniquesBreak) {
     const Scene scene = withExpectations(
         "breaks = [{ technique = \"sm-psm\", axis = \"near-plane\", between = [0.1, 0.5], reason = \"a\" }]\n"
