@@ -48,7 +48,7 @@ std::string idsOf(const std::string& what, bool standard) {
 /// Where the published records are, in a clone.
 std::vector<std::filesystem::path> publishedRecords() {
     std::vector<std::filesystem::path> files;
-    for (const char* set : {"published", "failures", "modern", "modern-soft"})
+    for (const char* set : {"published", "failures"})
         if (const auto file = std::filesystem::path("results") / set / "results.jsonl"; std::filesystem::exists(file))
             files.push_back(file);
     return files;
@@ -110,8 +110,8 @@ void addList(CLI::App& app, Action& action) {
                      "good and on which it breaks")
         ->excludes(table);
     verb->add_option("--records", options->records,
-                     "Record files that the figures are read from (default: those of results/published, failures, modern "
-                     "and modern-soft)");
+                     "Record files that the figures are read from (default: those of results/published and "
+                     "results/failures)");
     verb->callback([&action, options] {
         action = [options] {
             fmt::print("{}", listing(*options));

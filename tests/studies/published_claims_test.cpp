@@ -14,8 +14,7 @@ namespace {
 /// All records that `tools/publish claims` reads, in the order in which a shell lists them.
 std::vector<Record> publishedRecords() {
     const std::filesystem::path results = std::filesystem::path(SOURCE_FOLDER) / "results";
-    std::vector<std::filesystem::path> files{results / "published/results.jsonl", results / "failures/results.jsonl",
-                                             results / "modern/results.jsonl", results / "modern-soft/results.jsonl"};
+    std::vector<std::filesystem::path> files{results / "published/results.jsonl", results / "failures/results.jsonl"};
     for (const char* folder : {"papers", "sweeps", "seeds"}) {
         std::vector<std::string> inside;
         for (const auto& entry : std::filesystem::directory_iterator(results / folder))
