@@ -370,7 +370,7 @@ private:
     std::vector<Scene> scenes_;
     groundtruth::Cache cache_;
     std::vector<std::size_t> cells_;              // that are measured, rising
-    std::map<std::size_t, std::size_t> unscored_; // cells, by the scene's index, of what was not told of
+    std::map<std::size_t, std::size_t> unscored_; // cells to come, by scene index; without scenes that were told of
     std::map<std::size_t, std::string> lost_;     // cells whose worker ended, with how it did
     KeptCells* kept_ = nullptr;
     std::vector<std::optional<Record>> known_; // of each cell, once it is known

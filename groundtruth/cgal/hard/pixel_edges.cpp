@@ -33,7 +33,7 @@ struct EdgePoint {
     std::uint32_t id;
 };
 
-/// What the pixels of a row and their neighbours before them say of edges.
+/// Edges between the pixels of a row and their neighbours to the right and below.
 struct RowEdges {
     std::vector<EdgePoint> points;
     std::vector<Pixel> beside; // receivers that an edge passes

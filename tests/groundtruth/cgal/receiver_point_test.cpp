@@ -33,7 +33,7 @@ TEST(ReceiverPoint, IsNoFartherFromItsRoundedPointThanTheError) {
         const glm::dvec3 direction = lift * (towards - origin) + (1 - lift) * (triangle[1] - triangle[0]);
         const ReceiverPoint point({origin, direction}, triangle);
         expectNear(point);
-        if (round % 4 != 0) {
+        if (round % 4 != 0) { // far above rounding, for some of these triangles are slivers
             EXPECT_LT(glm::length(point.nearError()), 1e-6 * (reach + glm::length(point.near())));
         }
     }
