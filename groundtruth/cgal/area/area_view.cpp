@@ -400,7 +400,7 @@ std::optional<std::vector<CoverEdge>> coverEdges(const SceneTriangles& scene, co
     if (view.sense() == 0) return std::nullopt;
     const RoughMap rough(receiver, light, view.sense(), scene.reachFrom(receiver.rounded()));
     EdgeCollector collector(scene, view, rough, receiver, tolerance);
-    scene.visitShaft(rough.shaft(false), [&](TriangleName name, const Triangle& t) { collector.add(name, t); });
+    scene.visitShaft(rough.shaft(false), [&](TriangleName name) { collector.add(name, scene.triangle(name)); });
     return collector.finish();
 }
 
@@ -412,7 +412,8 @@ std::optional<std::vector<CoverInterval>> coverIntervals(const SceneTriangles& s
     if (view.sense() == 0) return std::nullopt;
     const RoughMap rough(receiver, light, view.sense(), scene.reachFrom(receiver.rounded()));
     std::vector<CoverInterval> hidden;
-    scene.visitShaft(rough.shaft(true), [&](TriangleName, const Triangle& t) {
+    scene.visitShaft(rough.shaft(true), [&](TriangleName name) {
+        const Triangle t = scene.triangle(name);
         if (rough.misses({rough(t[0]), rough(t[1]), rough(t[2])}, true) || side(t, receiver) == 0) return;
         const auto part = view.filtered([&](const auto& map) { return hiddenPart(map, t, rough.window()); },
                                         [&](const auto& found) { return found && !(found->error <= tolerance); });
@@ -428,7 +429,7 @@ std::vector<Triangle> areaCandidates(const SceneTriangles& scene, const Light& l
     const double towards = glm::dot(shape.centre - receiver.rounded(), glm::cross(shape.u, shape.v));
     const RoughMap rough(receiver, shape, towards < 0 ? -1 : 1, scene.reachFrom(receiver.rounded()));
     std::vector<Triangle> result;
-    scene.visitShaft(rough.shaft(flat), [&](TriangleName, const Triangle& t) { result.push_back(t); });
+    scene.visitShaft(rough.shaft(flat), [&](TriangleName name) { result.push_back(scene.triangle(name)); });
     return result;
 }
 

@@ -127,8 +127,8 @@ private:
         node.children = count;
         for (std::uint32_t child = 0; child < count; ++child)
             for (int axis = 0; axis < 3; ++axis) {
-                node.low[axis][child] = children[child].box.low[axis];
-                node.high[axis][child] = children[child].box.high[axis];
+                node.boxes.low[axis][child] = children[child].box.low[axis];
+                node.boxes.high[axis][child] = children[child].box.high[axis];
             }
         const auto index = static_cast<std::uint32_t>(nodes.size());
         nodes.push_back(node);

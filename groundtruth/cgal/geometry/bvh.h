@@ -27,6 +27,11 @@ bool mayMeet(const PaddedSegment& segment, const FloatBox& box);
 /// Four numbers at a time, as compilers make one instruction of.
 using Four = float __attribute__((vector_size(16)));
 
+/// Of four boxes, by axis.
+struct FourBoxes {
+    std::array<Four, 3> low, high;
+};
+
 class Bvh {
 public:
     Bvh() = default;
@@ -53,7 +58,7 @@ public:
                 continue;
             }
             const Node& node = nodes_[part.first];
-            const Four entries = floats.entries(node, rounded(segment.last));
+            const Four entries = floats.entries(node.boxes, rounded(segment.last));
             const std::size_t farther = count; // those after it are of this node, the nearest last
             for (std::uint32_t child = 0; child < node.children; ++child) {
                 if (!(entries[child] < FloatSegment::outside)) continue;
@@ -65,11 +70,10 @@ public:
         return false;
     }
 
-    /// Calls `visit(primitive)` for every leaf whose box passes `meets(box)`, which no box may that lies in one that does
-    /// not.
-    template <typename Meets, typename Visit>
-    void visitBoxes(const Meets& meets, Visit&& visit) const {
-        if (empty() || !meets(bounds_)) return;
+    /// Calls `visit(primitive)` for every primitive of a leaf whose box `region.meets` and all boxes that hold it.
+    template <typename Region, typename Visit>
+    void visitBoxes(const Region& region, Visit&& visit) const {
+        if (empty() || !region.meets(bounds_)) return;
         std::array<Part, maxPending> pending;
         std::size_t count = 0;
         pending[count++] = root_;
@@ -80,8 +84,9 @@ public:
                 continue;
             }
             const Node& node = nodes_[part.first];
+            const std::array<bool, 4> met = region.meets(node.boxes);
             for (std::uint32_t child = 0; child < node.children; ++child)
-                if (meets(node.box(child))) pending[count++] = node.parts[child];
+                if (met[child]) pending[count++] = node.parts[child];
         }
     }
 
@@ -92,13 +97,9 @@ private:
     };
 
     struct Node {
-        std::array<Four, 3> low, high; // of the children, by axis
+        FourBoxes boxes; // of the children
         std::array<Part, 4> parts;
         std::uint32_t children;
-
-        [[nodiscard]] FloatBox box(std::uint32_t child) const {
-            return {{low[0][child], low[1][child], low[2][child]}, {high[0][child], high[1][child], high[2][child]}};
-        }
     };
 
     template <typename Visit>
@@ -119,12 +120,12 @@ private:
     public:
         FloatSegment(const PaddedSegment& segment, const FloatBox& bounds);
 
-        /// First parameters at which it may enter the children's boxes; `outside` where it cannot before `last`.
-        [[nodiscard]] Four entries(const Node& node, float last) const {
+        /// First parameters at which it may enter the boxes; `outside` where it cannot before `last`.
+        [[nodiscard]] Four entries(const FourBoxes& boxes, float last) const {
             Four enter{}, leave = all(last);
             for (int axis = 0; axis < 3; ++axis) {
-                const Four a = (node.low[axis] - low_[axis]) * inverse_[axis];
-                const Four b = (node.high[axis] - high_[axis]) * inverse_[axis];
+                const Four a = (boxes.low[axis] - low_[axis]) * inverse_[axis];
+                const Four b = (boxes.high[axis] - high_[axis]) * inverse_[axis];
                 const Four near = a < b ? a : b, far = a < b ? b : a;
                 enter = near > enter ? near : enter;
                 leave = far < leave ? far : leave;

@@ -35,6 +35,26 @@ public:
         return true;
     }
 
+    /// The same of four boxes at a time.
+    [[nodiscard]] std::array<bool, 4> meets(const FourBoxes& boxes) const {
+        using Doubles = double __attribute__((vector_size(32)));
+        std::array<Doubles, 3> low, high;
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = __builtin_convertvector(boxes.low[axis], Doubles);
+            high[axis] = __builtin_convertvector(boxes.high[axis], Doubles);
+        }
+        std::array<bool, 4> result{true, true, true, true};
+        for (std::size_t i = 0; i < count_; ++i) {
+            const HalfSpace& space = spaces_[i];
+            std::array<Doubles, 3> most;
+            for (int axis = 0; axis < 3; ++axis)
+                most[axis] = space.normal[axis] * (space.normal[axis] > 0 ? high : low)[axis];
+            const Doubles sum = most[0] + most[1] + most[2] + space.offset;
+            for (std::size_t box = 0; box < 4; ++box) result[box] &= !(sum[box] < -space.slack);
+        }
+        return result;
+    }
+
     /// The same region in the space of an object whose mesh lies within `bounds`.
     [[nodiscard]] Shaft inObject(const glm::dmat4& world, const FloatBox& bounds) const {
         constexpr double rounding = 64 * 0x1p-53; // of worldVertex, the products here and those of `meets`, rounded up

@@ -83,19 +83,15 @@ public:
         });
     }
 
-    /// Calls `visit(name, triangle)` for every triangle that may meet the shaft, all of one instance in a row.
+    /// Calls `visit(name)` for every triangle that may meet the shaft, all of one instance in a row.
     template <typename Visit>
     void visitShaft(const Shaft& shaft, Visit&& visit) const {
-        top_.visitBoxes([&](const FloatBox& box) { return shaft.meets(box); },
-                        [&](std::uint32_t i) {
-                            const Bvh& triangles = tree(instances_[i].tree);
-                            const Shaft local = shaft.inObject(instances_[i].world, triangles.bounds());
-                            triangles.visitBoxes([&](const FloatBox& box) { return local.meets(box); },
-                                                 [&](std::uint32_t index) {
-                                                     const TriangleName name{i, index};
-                                                     visit(name, triangle(name));
-                                                 });
-                        });
+        top_.visitBoxes(shaft, [&](std::uint32_t i) {
+            const Bvh& triangles = tree(instances_[i].tree);
+            triangles.visitBoxes(shaft.inObject(instances_[i].world, triangles.bounds()), [&](std::uint32_t index) {
+                visit(TriangleName{i, index});
+            });
+        });
     }
 
 private:

@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -45,11 +46,13 @@ Corners<Corner> clipped(const Corners<Corner>& polygon, const Value& value) {
     return kept;
 }
 
-/// A pixel's square [x, x + 1] × [y, y + 1], in pixels.
-struct PixelSquare {
-    glm::dvec2 low;
-    [[nodiscard]] glm::dvec2 high() const { return low + 1.0; }
+/// Of the image, in pixels.
+struct ImageRectangle {
+    glm::dvec2 low, high;
 };
+
+/// [x, x + 1] × [y, y + 1].
+inline ImageRectangle pixelSquare(glm::ivec2 pixel) { return {glm::dvec2(pixel), glm::dvec2(pixel) + 1.0}; }
 
 /// In image positions; corners may run either way round.
 class ImagePolygon {
@@ -92,18 +95,48 @@ private:
     double top_ = std::numeric_limits<double>::infinity(), bottom_ = -top_;
 };
 
-/// The part of a polygon that the square holds. Corners are homogeneous, (x w, y w, w) with w > 0. No corners where nothing,
-/// or nothing of an area, is left.
-inline ImagePolygon inSquare(Corners<glm::dvec3> polygon, const PixelSquare& square) {
-    const glm::dvec2 low = square.low, high = square.high();
-    polygon = clipped(polygon, [&](const glm::dvec3& p) { return p.x - low.x * p.z; });
-    polygon = clipped(polygon, [&](const glm::dvec3& p) { return high.x * p.z - p.x; });
-    polygon = clipped(polygon, [&](const glm::dvec3& p) { return p.y - low.y * p.z; });
-    polygon = clipped(polygon, [&](const glm::dvec3& p) { return high.y * p.z - p.y; });
-    ImagePolygon image;
-    if (polygon.size() < 3) return image;
-    for (const glm::dvec3& p : polygon) image.add({p.x / p.z, p.y / p.z});
-    return image;
-}
+/// A polygon before its division into image positions: corners are (x w, y w, w) with w > 0.
+class HomogeneousPolygon {
+public:
+    HomogeneousPolygon() = default;
+    explicit HomogeneousPolygon(const Corners<glm::dvec3>& corners) : corners_(corners) {
+        for (const glm::dvec3& p : corners) {
+            low_ = glm::min(low_, glm::dvec2(p) / p.z);
+            high_ = glm::max(high_, glm::dvec2(p) / p.z);
+        }
+    }
+
+    /// Whether `rectangle` may hold a part of it.
+    [[nodiscard]] bool mayMeet(const ImageRectangle& rectangle) const {
+        return corners_.size() > 2 && low_.x < rectangle.high.x + slack && high_.x > rectangle.low.x - slack &&
+               low_.y < rectangle.high.y + slack && high_.y > rectangle.low.y - slack;
+    }
+    [[nodiscard]] bool isWithin(const ImageRectangle& rectangle) const {
+        return low_.x > rectangle.low.x && high_.x < rectangle.high.x && low_.y > rectangle.low.y &&
+               high_.y < rectangle.high.y;
+    }
+
+    /// The part that the rectangle holds. No corners where nothing, or nothing of an area, is left.
+    [[nodiscard]] ImagePolygon in(const ImageRectangle& rectangle) const {
+        const glm::dvec2 low = rectangle.low, high = rectangle.high;
+        Corners<glm::dvec3> held = corners_;
+        // A side that all corners lie within cuts nothing off.
+        if (low_.x < low.x + slack) held = clipped(held, [&](const glm::dvec3& p) { return p.x - low.x * p.z; });
+        if (high_.x > high.x - slack) held = clipped(held, [&](const glm::dvec3& p) { return high.x * p.z - p.x; });
+        if (low_.y < low.y + slack) held = clipped(held, [&](const glm::dvec3& p) { return p.y - low.y * p.z; });
+        if (high_.y > high.y - slack) held = clipped(held, [&](const glm::dvec3& p) { return high.y * p.z - p.y; });
+        ImagePolygon image;
+        if (held.size() < 3) return image;
+        for (const glm::dvec3& p : held) image.add({p.x / p.z, p.y / p.z});
+        return image;
+    }
+
+private:
+    static constexpr double slack = 1e-6; // px; more than positions are rounded by
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    Corners<glm::dvec3> corners_;
+    glm::dvec2 low_{infinity}, high_{-infinity};
+};
 
 } // namespace shadowbench::groundtruth::hard

@@ -25,6 +25,8 @@ constexpr int codeVersion = 3; // raise it with every change that can change a l
 /// In a pixel that is left to rays: enough of them for σ ≤ 0.01 whatever it sees.
 constexpr int raysAcross = 50;
 
+constexpr int tileSide = 4; // pixels whose areas share what they look up
+
 /// Gives the images of `out` their size and what is the same for every oracle.
 void prepare(const PrimaryHits& primary, Reference& out) {
     if (out.visibility.sameSize(primary.id)) return;
@@ -102,18 +104,24 @@ void ExactScene::averageOverPixels(glm::ivec2 size, const PrimaryHits& primary, 
     requireHardLight(data_->light);
     prepare(primary, out);
     const PixelAreas areas(*data_->triangles, data_->camera, data_->light.homogeneous(), size);
-    inParallel(size.y, data_->threads, progress, "pixel areas", [&](int y) {
-        for (int x = 0; x < size.x; ++x) {
-            if (primary.surface(x, y) != Surface::Receiver) continue;
-            const std::optional<AreaShares> found = areas.of({x, y}, primary.id(x, y));
-            const AreaShares shares = found ? *found
-                                            : sharesByRays(*data_->triangles, data_->camera, data_->light, size, {x, y},
-                                                           primary.id(x, y), raysAcross);
-            out.surface(x, y) = Surface::Receiver;
-            if (shares.seen <= 0) continue; // a sliver: its label stays
-            out.visibility(x, y) = static_cast<float>(std::clamp(shares.lit / shares.seen, 0.0, 1.0));
-            out.sigma(x, y) = static_cast<float>(shares.sigma);
-        }
+    const auto average = [&](glm::ivec2 pixel, PixelAreas::Tile& tile) {
+        if (primary.surface(pixel.x, pixel.y) != Surface::Receiver) return;
+        const std::uint32_t id = primary.id(pixel.x, pixel.y);
+        const std::optional<AreaShares> found = tile.of(pixel, id);
+        const AreaShares shares =
+            found ? *found : sharesByRays(*data_->triangles, data_->camera, data_->light, size, pixel, id, raysAcross);
+        out.surface(pixel.x, pixel.y) = Surface::Receiver;
+        if (shares.seen <= 0) return; // a sliver: its label stays
+        out.visibility(pixel.x, pixel.y) = static_cast<float>(std::clamp(shares.lit / shares.seen, 0.0, 1.0));
+        out.sigma(pixel.x, pixel.y) = static_cast<float>(shares.sigma);
+    };
+    const glm::ivec2 tiles = (size + tileSide - 1) / tileSide;
+    inParallel(tiles.x * tiles.y, data_->threads, progress, "pixel areas", [&](int index) {
+        const glm::ivec2 first = tileSide * glm::ivec2(index % tiles.x, index / tiles.x);
+        const glm::ivec2 end = glm::min(first + tileSide, size);
+        PixelAreas::Tile tile(areas, {first, end});
+        for (int y = first.y; y < end.y; ++y)
+            for (int x = first.x; x < end.x; ++x) average({x, y}, tile);
     });
 }
 

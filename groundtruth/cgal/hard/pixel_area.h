@@ -8,6 +8,8 @@
 
 #include <glm/vec4.hpp>
 #include <optional>
+#include <unordered_map>
+#include <vector>
 
 namespace shadowbench::groundtruth::hard {
 
@@ -21,18 +23,42 @@ public:
     /// `scene` must live longer; `light` is homogeneous.
     PixelAreas(const SceneTriangles& scene, const Camera& camera, const glm::dvec4& light, glm::ivec2 size);
 
-    /// Of what the pixel sees of the surface with this id. Nothing for a pixel with more triangles than are worth cutting:
-    /// it is for rays.
-    [[nodiscard]] std::optional<AreaShares> of(glm::ivec2 pixel, std::uint32_t surface) const;
+    /// A few pixels beside each other, for which triangles are looked up, and shadows projected, once.
+    class Tile {
+    public:
+        /// `areas` must live longer; all pixels lie in the rectangle.
+        Tile(const PixelAreas& areas, const ImageRectangle& rectangle);
+
+        /// Of what the pixel sees of the surface with this id. Nothing for a pixel with more triangles than are worth
+        /// cutting: it is for rays.
+        [[nodiscard]] std::optional<AreaShares> of(glm::ivec2 pixel, std::uint32_t surface);
+
+    private:
+        struct SeenTriangle {
+            Triangle triangle;
+            glm::dvec3 normal; // of length 1, towards the light where the triangle faces it
+            HomogeneousPolygon image;
+            glm::dvec3 inverseDepth; // Patch::inverseDepth
+            int lightSide;
+            bool facesLight; // where it is seen
+            std::uint32_t surface;
+            std::unordered_map<std::uint64_t, HomogeneousPolygon> shadows; // on its plane, of the casters so far
+        };
+        void addShadows(const ImageRectangle& square, SeenTriangle& seen, Patch& patch) const;
+
+        friend class PixelAreas;
+        const PixelAreas& areas_;
+        std::vector<SeenTriangle> triangles_;
+    };
 
 private:
-    struct SeenTriangle;
+    using SeenTriangle = Tile::SeenTriangle;
     [[nodiscard]] glm::dvec3 inImage(const glm::dvec3& world) const;
     [[nodiscard]] glm::dvec3 inWorld(const Patch& patch, glm::dvec2 at) const;
-    [[nodiscard]] Shaft eyeShaft(const PixelSquare& square) const;
-    [[nodiscard]] std::optional<SeenTriangle> seen(const Triangle& triangle, const PixelSquare& square) const;
-    [[nodiscard]] Shaft lightShaft(const SeenTriangle& seen) const;
-    void addShadows(const PixelSquare& square, SeenTriangle& seen) const;
+    [[nodiscard]] Shaft eyeShaft(const ImageRectangle& rectangle) const;
+    [[nodiscard]] std::optional<SeenTriangle> seen(const Triangle& triangle, const ImageRectangle& rectangle) const;
+    [[nodiscard]] Shaft lightShaft(const SeenTriangle& seen, const Patch& patch) const;
+    [[nodiscard]] HomogeneousPolygon shadow(const Triangle& caster, const SeenTriangle& seen) const;
 
     const SceneTriangles& scene_;
     glm::dvec3 eye_;

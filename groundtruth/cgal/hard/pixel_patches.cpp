@@ -9,6 +9,7 @@ constexpr std::size_t fewEdges = 128;             // whose crossings are found, 
 constexpr std::size_t manyEdges = 1024;           // from here on no strip ends are found
 constexpr double leastStrip = 1e-12;              // px; thinner ones are left out
 constexpr double sameDepth = 1e-12;               // relative: nearer together, two patches are one surface
+constexpr double surelySeen = 1e-6;               // px²; the strips through a patch of this area have one, too
 constexpr double rounding = 1e-7;                 // of a share that is kept as a float
 constexpr double largestSigma = 0.0095;           // of the share of a pixel
 constexpr int fewestLines = 32, mostLines = 4096; // across a pixel
@@ -26,75 +27,81 @@ struct Lengths {
 /// Reads one line after the other; keeps its working space.
 class LineReader {
 public:
-    explicit LineReader(const std::vector<Patch>& patches) : patches_(patches) {}
+    explicit LineReader(const std::vector<Patch>& patches) : patches_(patches), shadows_(patches.size()) {}
 
     Lengths at(double y) {
         y_ = y;
         lengths_ = {};
         spans_.clear();
         cuts_.clear();
-        for (const Patch& patch : patches_) {
-            const std::optional<ImagePolygon::Interval> inside = patch.outline.onLine(y);
+        for (std::size_t i = 0; i < patches_.size(); ++i) {
+            const std::optional<ImagePolygon::Interval> inside = patches_[i].outline.onLine(y);
             if (!inside || !(inside->from < inside->to)) continue;
-            spans_.push_back({*inside, &patch});
+            spans_.push_back({*inside, &patches_[i], &shadows_[i]});
+            shadows_[i].known = false;
             cuts_.push_back(inside->from);
             cuts_.push_back(inside->to);
         }
         std::ranges::sort(cuts_);
         for (std::size_t i = 1; i < cuts_.size(); ++i)
-            if (cuts_[i - 1] < cuts_[i]) addNearest(cuts_[i - 1], cuts_[i], mostSplits);
+            if (cuts_[i - 1] < cuts_[i]) addBetween(cuts_[i - 1], cuts_[i]);
         return lengths_;
     }
 
 private:
+    struct Shadows {
+        std::vector<ImagePolygon::Interval> onLine;
+        bool known = false;
+    };
     struct Span {
         ImagePolygon::Interval inside;
         const Patch* patch;
+        Shadows* shadows; // of the patch, once they are needed
+        [[nodiscard]] double nearness(double x, double y) const { return patch->nearness(x, y); }
     };
     static constexpr int mostSplits = 8;
 
-    /// The patch that is nearest at `x`, of those that hold all of [from, to].
-    [[nodiscard]] const Patch* nearest(double x, double from, double to) const {
-        const Patch* best = nullptr;
-        double most = 0;
+    /// Between two cuts the same patches lie behind one another.
+    void addBetween(double from, double to) {
         const double middle = 0.5 * (from + to);
-        for (const auto& [inside, patch] : spans_) {
-            if (middle < inside.from || middle > inside.to) continue;
-            const double nearness = patch->nearness(x, y_);
+        behindOneAnother_.clear();
+        for (const Span& span : spans_)
+            if (middle >= span.inside.from && middle <= span.inside.to) behindOneAnother_.push_back(&span);
+        if (!behindOneAnother_.empty()) addNearest(from, to, mostSplits);
+    }
+
+    [[nodiscard]] const Span* nearest(double x) const {
+        const Span* best = nullptr;
+        double most = 0;
+        for (const Span* span : behindOneAnother_) {
+            const double nearness = span->nearness(x, y_);
             if (best != nullptr && nearness <= most * (1 + sameDepth)) continue;
-            best = patch;
+            best = span;
             most = nearness;
         }
         return best;
     }
 
-    /// Between two cuts the same patches lie behind one another; inverse depths are linear, so what is nearest at both ends
-    /// is nearest between them.
+    /// Inverse depths are linear, so what is nearest at both ends is nearest between them.
     void addNearest(double from, double to, int splits) {
-        const Patch* left = nearest(from, from, to);
-        const Patch* right = nearest(to, from, to);
-        if (left == nullptr || right == nullptr) return;
+        const Span *left = nearest(from), *right = nearest(to);
         const double ahead = left->nearness(from, y_) - right->nearness(from, y_);
         const double behind = right->nearness(to, y_) - left->nearness(to, y_);
         const bool cross =
             left != right && ahead > sameDepth * left->nearness(from, y_) && behind > sameDepth * right->nearness(to, y_);
-        if (!cross || splits == 0) return add(*nearest(0.5 * (from + to), from, to), from, to); // ends may be ties
+        if (!cross || splits == 0) return add(*nearest(0.5 * (from + to)), from, to); // ends may be ties
         lengths_.crossing = true;
         const double at = from + ahead / (ahead + behind) * (to - from);
         addNearest(from, at, splits - 1);
         addNearest(at, to, splits - 1);
     }
 
-    void add(const Patch& patch, double from, double to) {
-        if (!patch.counts) return;
+    void add(const Span& span, double from, double to) {
+        if (!span.patch->counts) return;
         lengths_.seen += to - from;
-        if (patch.shadowed) return;
-        shadows_.clear();
-        for (const ImagePolygon& shadow : patch.shadows)
-            if (const std::optional<ImagePolygon::Interval> inside = shadow.onLine(y_)) shadows_.push_back(*inside);
-        std::ranges::sort(shadows_, {}, &ImagePolygon::Interval::from);
+        if (span.patch->shadowed) return;
         double reached = from;
-        for (const ImagePolygon::Interval& shadow : shadows_) {
+        for (const ImagePolygon::Interval& shadow : shadowsOf(span)) {
             if (shadow.from > reached) lengths_.lit += std::min(shadow.from, to) - reached;
             reached = std::max(reached, shadow.to);
             if (reached >= to) return;
@@ -102,12 +109,24 @@ private:
         lengths_.lit += to - reached;
     }
 
+    [[nodiscard]] const std::vector<ImagePolygon::Interval>& shadowsOf(const Span& span) const {
+        auto& [onLine, known] = *span.shadows;
+        if (known) return onLine;
+        known = true;
+        onLine.clear();
+        for (const ImagePolygon& shadow : span.patch->shadows)
+            if (const std::optional<ImagePolygon::Interval> inside = shadow.onLine(y_)) onLine.push_back(*inside);
+        std::ranges::sort(onLine, {}, &ImagePolygon::Interval::from);
+        return onLine;
+    }
+
     const std::vector<Patch>& patches_;
     double y_ = 0;
     Lengths lengths_;
     std::vector<Span> spans_;
     std::vector<double> cuts_;
-    std::vector<ImagePolygon::Interval> shadows_;
+    std::vector<const Span*> behindOneAnother_;
+    std::vector<Shadows> shadows_; // by patch
 };
 
 void addEdges(const ImagePolygon& polygon, std::vector<Segment>& edges) {
@@ -128,16 +147,16 @@ std::vector<Segment> edgesOf(const std::vector<Patch>& patches) {
 /// Height at which two edges cross.
 std::optional<double> crossingHeight(const Segment& a, const Segment& b) {
     const glm::dvec2 d = a.to - a.from, e = b.to - b.from, between = b.from - a.from;
-    const double turn = d.x * e.y - d.y * e.x;
+    const double turn = d.x * e.y - d.y * e.x, sign = turn < 0 ? -1 : 1, whole = sign * turn;
     if (turn == 0) return std::nullopt;
-    const double alongA = (between.x * e.y - between.y * e.x) / turn, alongB = (between.x * d.y - between.y * d.x) / turn;
-    if (alongA < 0 || alongA > 1 || alongB < 0 || alongB > 1) return std::nullopt;
-    return a.from.y + alongA * d.y;
+    const double alongA = sign * (between.x * e.y - between.y * e.x), alongB = sign * (between.x * d.y - between.y * d.x);
+    if (std::min(alongA, alongB) < 0 || std::max(alongA, alongB) > whole) return std::nullopt;
+    return a.from.y + alongA / whole * d.y;
 }
 
 /// The heights of all corners; between them and the crossings of edges lengths change linearly.
-std::vector<double> cornerHeights(const std::vector<Segment>& edges, const PixelSquare& square) {
-    std::vector<double> heights{square.low.y, square.high().y};
+std::vector<double> cornerHeights(const std::vector<Segment>& edges, const ImageRectangle& square) {
+    std::vector<double> heights{square.low.y, square.high.y};
     if (edges.size() >= manyEdges) return heights;
     for (const Segment& edge : edges) heights.push_back(edge.from.y);
     return heights;
@@ -218,9 +237,22 @@ Sum overStrips(const std::vector<double>& heights, const AddStrip& add) {
     return sum;
 }
 
+/// Most pixels: all that they see counts, and is lit, or is in shadow.
+std::optional<AreaShares> sharesIfAlike(const std::vector<Patch>& patches) {
+    double largest = 0;
+    for (const Patch& patch : patches) {
+        const bool whole = patch.shadowed || patch.shadows.empty();
+        if (!patch.counts || !whole || patch.shadowed != patches.front().shadowed) return std::nullopt;
+        largest = std::max(largest, patch.outline.area());
+    }
+    if (largest < surelySeen) return std::nullopt;
+    return AreaShares{largest, patches.front().shadowed ? 0 : largest, 0};
+}
+
 } // namespace
 
-AreaShares shares(const std::vector<Patch>& patches, const PixelSquare& square) {
+AreaShares shares(const std::vector<Patch>& patches, const ImageRectangle& square) {
+    if (const std::optional<AreaShares> alike = sharesIfAlike(patches)) return *alike;
     LineReader reader(patches);
     const std::vector<Segment> edges = edgesOf(patches);
     std::vector<double> heights = cornerHeights(edges, square);

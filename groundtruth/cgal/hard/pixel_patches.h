@@ -23,7 +23,8 @@ struct Patch {
 
 /// Shares of a pixel's square.
 struct AreaShares {
-    double seen = 0;  // where a triangle is seen that counts: of the surface in question, facing the light
+    double seen = 0;  // where a triangle is seen that counts: of the surface in question, facing the light; at least,
+                      // if all of it is lit or all in shadow
     double lit = 0;   // and is lit
     double sigma = 0; // standard uncertainty of lit / seen; 0 where exact
 };
@@ -31,6 +32,6 @@ struct AreaShares {
 /// Of `patches` the nearest counts at every point. Exact (to rounding) unless there are more than some hundred edges or
 /// patches cross each other; then from so many lines that σ ≤ 0.01, estimated from how much neighbouring lines differ. Of
 /// some hundred edges or more, lines that agree on all or nothing include the one through the square's centre.
-AreaShares shares(const std::vector<Patch>& patches, const PixelSquare& square);
+AreaShares shares(const std::vector<Patch>& patches, const ImageRectangle& square);
 
 } // namespace shadowbench::groundtruth::hard

@@ -1,6 +1,7 @@
 // A tree only proposes, so its one promise is that it leaves out nothing that a segment meets.
 #include "base/random.h"
 #include "groundtruth/cgal/geometry/bvh.h"
+#include "groundtruth/cgal/geometry/shaft.h"
 
 #include <gtest/gtest.h>
 
@@ -102,17 +103,19 @@ TEST(Bvh, HoldsEachPrimitiveOnce) {
     const Bvh tree(boxes);
     const auto order = [&] {
         std::vector<std::uint32_t> all;
-        tree.visitBoxes([](const FloatBox&) { return true; }, [&](std::uint32_t primitive) { all.push_back(primitive); });
+        tree.visitBoxes(Shaft(), [&](std::uint32_t primitive) { all.push_back(primitive); });
         return all;
     };
     std::vector<std::uint32_t> once = order();
     std::ranges::sort(once);
     for (std::uint32_t i = 0; i < boxes.size(); ++i) ASSERT_EQ(once[i], i);
-    const auto inside = [](const FloatBox& box) { return box.low.x < 0 && box.high.y > 0.2F; };
+    Shaft inside;
+    inside.add({{-1, 0, 0}, 0, 0});     // x ≤ 0
+    inside.add({{0, 1, 0.5}, -0.2, 0}); // y + z / 2 ≥ 0.2
     std::set<std::uint32_t> some;
     tree.visitBoxes(inside, [&](std::uint32_t primitive) { some.insert(primitive); });
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        if (inside(boxes[i])) {
+        if (inside.meets(boxes[i])) {
             ASSERT_TRUE(some.contains(i)) << i;
         }
 }

@@ -137,7 +137,7 @@ TEST(PixelArea, OfPolygonsIsThatOfRaysWhereTrianglesPassThroughOneAnother) {
 /// A shadowed ground that three plates hide but for a triangle of 0.01 px around the pixel's centre, which no corner is
 /// level with; `shadows` more of the ground lie behind the plates.
 std::vector<hard::Patch> slitOverTheCentre(int shadows) {
-    const hard::PixelSquare square{{3, 5}};
+    const hard::ImageRectangle square = hard::pixelSquare({3, 5});
     const auto patch = [&](const hard::ImagePolygon& outline, double nearness) {
         hard::Patch result;
         result.outline = outline;
@@ -148,7 +148,7 @@ std::vector<hard::Patch> slitOverTheCentre(int shadows) {
     const auto polygon = [&](std::initializer_list<glm::dvec2> corners) {
         Corners<glm::dvec3> inImage;
         for (const glm::dvec2& corner : corners) inImage.add(glm::dvec3(square.low + corner, 1));
-        return hard::inSquare(inImage, square);
+        return hard::HomogeneousPolygon(inImage).in(square);
     };
     std::vector<hard::Patch> patches{patch(polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), 0.1)};
     for (int i = 0; i < shadows; ++i) {
@@ -167,12 +167,12 @@ std::vector<hard::Patch> slitOverTheCentre(int shadows) {
 
 TEST(PixelArea, ThatLinesFindWhollyLitDoesNotContradictTheShadowOfItsCentre) {
     for (const int shadows : {40, 400}) { // too many edges for their crossings; too many for their corners, too
-        const hard::AreaShares found = hard::shares(slitOverTheCentre(shadows), {{3, 5}});
+        const hard::AreaShares found = hard::shares(slitOverTheCentre(shadows), hard::pixelSquare({3, 5}));
         EXPECT_LT(found.lit / found.seen, 1 - 1e-6) << shadows;
         EXPECT_NEAR(found.lit / found.seen, 1, 3 * found.sigma) << shadows;
         EXPECT_LE(found.sigma, 0.0095) << shadows;
     }
-    const hard::AreaShares exact = hard::shares(slitOverTheCentre(1), {{3, 5}});
+    const hard::AreaShares exact = hard::shares(slitOverTheCentre(1), hard::pixelSquare({3, 5}));
     EXPECT_NEAR(exact.lit, 1 - 3 * std::sqrt(3) * 0.003 * 0.003, 1e-9);
 }
 
