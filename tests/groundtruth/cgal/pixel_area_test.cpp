@@ -134,6 +134,20 @@ TEST(PixelArea, OfPolygonsIsThatOfRaysWhereTrianglesPassThroughOneAnother) {
     expectAgreement(scene.get(), 0.008);
 }
 
+TEST(PixelArea, OfASurfaceBehindAnotherIsNoShareAtAll) {
+    const hard::ImageRectangle square = hard::pixelSquare({3, 5});
+    hard::Patch ground;
+    for (const glm::dvec2& corner : {glm::dvec2(3, 5), glm::dvec2(4, 5), glm::dvec2(4, 6), glm::dvec2(3, 6)})
+        ground.outline.add(corner);
+    ground.inverseDepth = {0, 0, 0.1};
+    ground.counts = true;
+    hard::Patch plate = ground;
+    plate.inverseDepth = {0, 0, 1};
+    plate.counts = false;
+    EXPECT_EQ(hard::shares({ground, plate}, square).seen, 0);
+    EXPECT_EQ(hard::shares({ground}, square).seen, 1);
+}
+
 /// A shadowed ground that three plates hide but for a triangle of 0.01 px around the pixel's centre, which no corner is
 /// level with; `shadows` more of the ground lie behind the plates.
 std::vector<hard::Patch> slitOverTheCentre(int shadows) {
