@@ -3,6 +3,7 @@
 #include "site/names.h"
 #include "site/pages.h"
 #include "site/viewer/cells.h"
+#include "studies/claims/figure_text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -44,13 +45,12 @@ std::string kindOf(Outcome outcome) {
     return "";
 }
 
+/// Each check with its range of figures; the claim's page has them one by one.
 std::string textOf(const Judgement& judgement) {
-    const Claim& claim = *judgement.claim;
-    const std::vector<std::string> found = describedFindings(judgement);
-    std::string text = claim.untestable;
-    for (std::size_t i = 0; i < found.size(); ++i)
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", claim.checks[i].says, found[i]);
-    return text;
+    std::vector<std::string> found;
+    for (std::size_t i = 0; i < judgement.findings.size(); ++i)
+        found.push_back(inShort(judgement.claim->checks[i], judgement.findings[i]));
+    return found.empty() ? judgement.claim->untestable : fmt::format("{}", fmt::join(found, "; "));
 }
 
 Table board(const std::vector<Judgement>& judgements) {
@@ -59,15 +59,12 @@ Table board(const std::vector<Judgement>& judgements) {
                      {.title = "verdict", .number = false},
                      {.title = "what is claimed", .number = false, .prose = true},
                      {.title = "source", .number = false},
-                     {.title = "figures", .number = false, .brief = false, .prose = true},
-                     {.title = "records", .number = false, .brief = false, .prose = true}};
+                     {.title = "figures", .number = false, .brief = false, .prose = true}};
     for (const Judgement& judgement : judgements) {
         const Claim& claim = *judgement.claim;
-        const std::string basis = basisOf(judgement);
         table.rows.push_back({{Cell{.text = claim.id, .address = claimAddress(claim)},
                                Cell{.text = std::string(name(judgement.verdict)), .kind = kindOf(judgement.verdict)},
-                               Cell{claim.says}, Cell{claim.where}, Cell{.text = textOf(judgement), .kind = "small"},
-                               Cell{.text = basis.empty() ? "–" : basis, .kind = "small"}},
+                               Cell{claim.says}, Cell{claim.where}, Cell{.text = textOf(judgement), .kind = "small"}},
                               {}});
     }
     return table;

@@ -24,7 +24,8 @@ constexpr const char* unnamed = R"js(
   document.querySelectorAll("h1").length === 1 ? [] : ["not one heading h1"],
   document.title ? [] : ["no title"],
   [...document.querySelectorAll("script")].filter((e) => !e.src).map(() => "a script in the page itself"),
-  [...document.querySelectorAll("[style]")].filter((e) => !e.closest(".viewer, svg, figure.chart"))
+  [...document.querySelectorAll("[style]")] // not what a script has set
+    .filter((e) => !e.closest(".viewer, svg, figure.chart, table[style*='table-layout: fixed']"))
     .map((e) => "a style in the page itself: " + e.outerHTML.slice(0, 120))))js";
 
 constexpr const char* files = R"js(

@@ -159,7 +159,8 @@ constexpr const char* pressed = R"((() => {
     const column = [...table.tHead.rows[0].cells].findIndex(
         (head, i) => new Set(rows().map((row) => row.cells[i].dataset.v).filter(Boolean)).size > 2);
     table.tHead.rows[0].cells[column].querySelector('button').click();
-    return rows().map((row) => row.cells[column].dataset.v).map((v) => v === undefined ? null : Number(v));
+    return new Promise((sorted) => setTimeout(sorted)).then(() => rows()) // the rest of a long table comes a moment later
+        .then((all) => all.map((row) => row.cells[column].dataset.v).map((v) => v === undefined ? null : Number(v)));
 })())";
 
 std::vector<double> numbersOf(const nlohmann::json& cells) {
