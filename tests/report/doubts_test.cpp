@@ -52,7 +52,7 @@ TEST(Doubts, HasNoRowThatWasNotScored) {
 }
 
 TEST(PublishedRecords, HaveNoUnexplainedDoubt) {
-    for (const char* set : {"published", "failures"}) {
+    for (const char* set : {"published", "failures", "levels"}) {
         const auto file = std::filesystem::path(SOURCE_FOLDER) / "results" / set / "results.jsonl";
         for (const Record& record : readRecords(file)) {
             EXPECT_EQ(unexplainedDoubts(record), "") << record.variant << " on " << record.scene << " in " << file;
