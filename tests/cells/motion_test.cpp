@@ -227,7 +227,7 @@ TEST(CostInMotion, IsTimedBesideSmUniformInTheSameRounds) {
     EXPECT_GE(valueOf(layered, "cost.cold.compile"), 0); // the difference of two frames: noise may take it
     EXPECT_FALSE(layered.values.list("cost.motion.time.samples").empty());
     EXPECT_TRUE(std::ranges::all_of(layered.motionPasses, [](const PassRecord& p) { return p.milliseconds.has_value(); }));
-    EXPECT_NEAR(valueOf(uniform, "cost.motion.time.ratio"), 1, 0.25); // itself; times of a busy machine
+    EXPECT_NEAR(valueOf(uniform, "cost.motion.time.ratio"), 1, 0.5); // itself, on a machine that other tests keep busy
 }
 
 TEST(PeakMemory, IsAtLeastWhatIsHeldBetweenFrames) {
