@@ -83,6 +83,12 @@ TEST_F(Install, TheDebianPackageHoldsTheSameAndNamesWhatItNeeds) {
     const std::string notices = readFile(prefix_ / "root/usr/share/doc/shadowbench/copyright");
     for (const char* words : {"GPL-3.0-or-later", "Mike Bostock", "Niels Lohmann", "University of Cincinnati"})
         EXPECT_NE(notices.find(words), std::string::npos) << words;
+    // What Debian runs of an installed package.
+    const std::string root = prefix_ / "root/usr";
+    const Outcome firstRun = shell("export PATH=" + root + "/bin:$PATH DOCUMENTS=" + root + "/share/doc/shadowbench" +
+                                   " AUTOPKGTEST_TMP=" + prefix_ / "" + " SHADOWBENCH_CACHE=" + prefix_.cache() + "; sh " +
+                                   SOURCE_FOLDER + "/debian/tests/first-run");
+    EXPECT_EQ(firstRun.code, 0) << firstRun.output;
 }
 
 } // namespace
