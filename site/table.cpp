@@ -86,7 +86,7 @@ constexpr std::pair<std::string_view, std::string_view> latexWords[] = {
     {"<", "\\textless{}"},
     {">", "\\textgreater{}"},
     {"|", "\\textbar{}"},
-    {"\"", "\\textquotedbl{}"},
+    {"\"", "''"}, // \textquotedbl is not in TeX's own fonts
     {"`", "\\textasciigrave{}"},
     {"[", "{[}"},
     {"]", "{]}"},

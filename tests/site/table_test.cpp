@@ -72,6 +72,7 @@ TEST(Latex, HasAWordForWhatItWouldRead) {
         "50 \\% of \\$x\\_1\\textasciicircum{}2\\$ \\& \\{\\#\\textasciitilde{}\\} \\textbackslash{}input\\{/etc/passwd\\}");
     EXPECT_EQ(latexText("σ ≤ 3 × 4² ●"), "$\\sigma$ $\\le$ 3 $\\times$ 4$^2$ $\\bullet$");
     EXPECT_EQ(latexText("Zápotocký 影"), "Zápotocký ?");
+    EXPECT_EQ(latexText("the \"method\""), "the ''method''");
 }
 
 TEST(Table, IsHtmlInWhichRecordsAreText) {
