@@ -259,15 +259,15 @@ std::string plotCommand(const std::vector<Point>& all, const std::vector<Place>&
     return data + plots + "\n";
 }
 
-/// A dot and a name for each family of the chart.
-std::string familyKey(const std::vector<Point>& all, bool external) {
+/// A dot and a name for each family of the chart, in lines that end at `right`.
+std::string familyKey(const std::vector<Point>& all, bool external, double right) {
     std::string script;
     double x = left, y = familyRow;
     for (const Family& family : families()) {
         const bool isThere = std::ranges::find(all, &family, &Point::family) != all.end();
         if (!isThere && !(external && family.id == std::string_view("external"))) continue;
         const double wide = 12 + textWidth(family.title, labelSize) + 16;
-        if (x + wide > width) {
+        if (x + wide > right) {
             x = left;
             y += 16;
         }
@@ -324,7 +324,7 @@ std::optional<std::string> chartOf(const std::vector<Record>& records, const std
 
     std::string script = plotArea(left / width, area.right() / width, top, bottom, height);
     script += fmt::format("set label {} at {} left font ',18'\n", literal(scene), Canvas::screen({left, 26}));
-    script += "unset key\n" + key(limits) + familyKey(all, !beside.empty());
+    script += "unset key\n" + key(limits) + familyKey(all, !beside.empty(), beside.empty() ? width : area.right());
     if (!standing.empty()) script += standingKey();
     script += fmt::format("set xlabel {}\n", literal("cost: " + costing.meaning));
     script += fmt::format("set ylabel {}\n", literal("error: " + meaning(metric)));

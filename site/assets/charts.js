@@ -85,7 +85,14 @@
     return { svg, width, height, left: 66, right: 18, top: 16, bottom: 46 };
   }
   function labels(area, x, y) {
-    area.svg.append("text").attr("x", (area.left + area.width - area.right) / 2).attr("y", area.height - 8).attr("text-anchor", "middle").text(x);
+    const middle = (area.left + area.width - area.right) / 2, room = 2 * Math.min(middle, area.width - middle);
+    const text = area.svg.append("text").attr("x", middle).attr("y", area.height - 8).attr("text-anchor", "middle").text(x);
+    if (x.includes(" ") && text.node().getComputedTextLength() > room) { // two lines, broken at the space that is nearest to the middle
+      const away = (space) => Math.abs(space.index - x.length / 2);
+      const at = [...x.matchAll(/ /g)].sort((a, b) => away(a) - away(b))[0].index;
+      text.text("");
+      [x.slice(0, at), x.slice(at + 1)].forEach((line, i) => text.append("tspan").attr("x", middle).attr("y", area.height - 16 + 13 * i).text(line));
+    }
     area.svg.append("text").attr("transform", "rotate(-90)").attr("x", -(area.top + area.height - area.bottom) / 2).attr("y", 15).attr("text-anchor", "middle").text(y);
   }
 

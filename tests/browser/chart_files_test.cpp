@@ -1,7 +1,12 @@
 // The committed charts as Chromium lays them out, where the boxes of texts are those that a reader sees.
+#include "base/files.h"
+#include "base/temporary_folder.h"
+#include "report/charts.h"
 #include "tests/browser/checks.h"
+#include "tests/support/report_examples.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <iterator>
 
@@ -51,6 +56,26 @@ TEST(ChartFiles, OfErrorAgainstCostHaveNoLabelOnAnotherOnAMarkOrCut) {
         EXPECT_EQ(found, nlohmann::json::array()) << chart;
         EXPECT_GT(tab->value("document.querySelectorAll('use, circle').length"), 3) << chart;
     }
+}
+
+TEST(ChartFiles, HaveRoomForTheNamesOfAllFamiliesBesideOtherRenderers) {
+    std::vector<Record> records;
+    for (const char* technique :
+         {"planar-hard", "sm-uniform", "vsm", "pcss", "volume-zfail", "temporal-sampling", "pcf-vogel", "prt-sh", "mine"})
+        records.push_back(test::hardCell(technique, 0.01 + 0.01 * static_cast<double>(records.size()),
+                                         1 + static_cast<double>(records.size())));
+    for (int i = 0; i < 40; ++i) {
+        Record& other = records.emplace_back(test::hardCell("", 0.02 + 0.001 * i, 1));
+        other.technique = other.variant = fmt::format("external:engine-{}", i);
+    }
+    const TemporaryFolder folder;
+    const fs::path chart = folder.path() / "chart.svg";
+    const std::optional<std::string> svg = report::paretoChart(records, records.front().scene);
+    ASSERT_TRUE(svg);
+    writeFile(chart, *svg);
+    const auto tab = chromium().tab();
+    tab->open(chart);
+    EXPECT_EQ(tab->value(crossing), nlohmann::json::array());
 }
 
 } // namespace

@@ -73,7 +73,7 @@ constexpr const char* cutTexts = R"js((() => {
   const scrolls = (e) => e.matches("pre, .scroll:not(:has(.stacked))");
   for (let node = walker.nextNode(); node; node = walker.nextNode()) {
     const parent = node.parentElement;
-    if (!node.data.trim() || !parent.checkVisibility() || parent.closest(".heard, .skip, .hint, option, legend, script, noscript, svg")) continue;
+    if (!node.data.trim() || !parent.checkVisibility() || parent.closest(".heard, .skip, .hint, option, legend, script, noscript")) continue;
     const range = document.createRange();
     range.selectNodeContents(node);
     const boxes = [...range.getClientRects()];
