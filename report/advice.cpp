@@ -16,6 +16,8 @@ namespace {
 /// Half an interval of a cost, as a share of it, from which on the cost ranks nothing.
 constexpr double widestSpread = 0.5;
 
+constexpr double frameMilliseconds = 1000.0 / 60;
+
 /// By cost, then error; those that were not timed last.
 std::tuple<double, double> rank(const Record& record, const CostOf& costOf) {
     const std::optional<Place> here = place(record, costOf);
@@ -67,11 +69,13 @@ Advice adviceFor(const std::vector<Record>& records, const std::string& scene, c
         else if (overlap(*here, *placeOf(*advice.take)))
             advice.asCheap.push_back(i);
     }
+    advice.fitsNoFrame = advice.take && !costing.card.empty() && placeOf(*advice.take)->cost > frameMilliseconds;
     return advice;
 }
 
 std::vector<std::string> notesOn(const Advice& advice, const std::vector<Record>& records, const std::set<Need>& needs) {
     std::vector<std::string> notes;
+    if (advice.fitsNoFrame) notes.push_back("no technique within tolerance is modelled to fit a frame at 60 Hz");
     if (!advice.asCheap.empty())
         notes.push_back("as cheap, as far as the times tell: " + variantsOf(records, advice.asCheap));
     if (!advice.uncertain.empty())

@@ -26,12 +26,13 @@ struct Advice {
     std::vector<std::size_t> external;  // within tolerance, of other renderers: what they cost is not measured here
     std::optional<std::size_t> take;    // the first of `within` that is timed and not uncertain
     std::vector<std::size_t> asCheap;   // of `within`: dearer than `take`, but not beyond both intervals
+    bool fitsNoFrame = false;           // `take`, and so all of `within`, is modelled to take longer than 1/60 s
 };
 Advice adviceFor(const std::vector<Record>& records, const std::string& scene,
                  const std::set<Need>& needs = techniques::usualNeeds());
 
-/// What a person should know of the advice beside `take`, a line each: unsuited rows with what they lack, rows that are as
-/// cheap as the times tell, rows whose times are too uncertain.
+/// What a person should know of the advice beside `take`, a line each: that it is too dear for a frame, unsuited rows with
+/// what they lack, rows that are as cheap as the times tell, rows whose times are too uncertain.
 std::vector<std::string> notesOn(const Advice& advice, const std::vector<Record>& records, const std::set<Need>& needs);
 
 /// One variant for several scenes.

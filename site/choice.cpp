@@ -39,7 +39,8 @@ Choice choiceFor(const std::vector<Record>& records, const std::string& scene) {
     const std::vector<std::size_t> suited = suitedOn(records, scene);
     Choice choice{.take = advice.take, .adequate = !advice.within.empty(), .why = {}, .others = advice.within, .notes = {}};
     if (choice.take)
-        choice.why = fmt::format("cheapest of {} within tolerance", advice.within.size());
+        choice.why = fmt::format("cheapest of {} within tolerance{}", advice.within.size(),
+                                 advice.fitsNoFrame ? ", of which none fits a frame at 60 Hz" : "");
     else if (choice.adequate)
         choice.why = fmt::format("least error of {} within tolerance; none was timed", advice.within.size());
     else if (!suited.empty())

@@ -28,6 +28,20 @@ TEST(Choice, IsTheCheapestWithinTolerance) {
     EXPECT_EQ(records[choice.others[0]].variant, "sm-alias-free");
 }
 
+TEST(Choice, SaysWhereAFrameHasNoTimeForIt) {
+    std::vector<Record> records = sceneWithin(0.005);
+    for (const double milliseconds : {16.0, 17.0}) {
+        for (Record& record : records)
+            record.modelled["gtx-1080@1920x1080"] = {milliseconds, milliseconds, milliseconds, false, {}, {}};
+        records[3].modelled["gtx-1080@1920x1080"].milliseconds = 200;
+        const Choice choice = choiceFor(records, records.front().scene);
+        const bool fits = milliseconds < 1000.0 / 60;
+        EXPECT_EQ(choice.why, fits ? "cheapest of 2 within tolerance"
+                                   : "cheapest of 2 within tolerance, of which none fits a frame at 60 Hz");
+        EXPECT_EQ(choice.notes.empty(), fits);
+    }
+}
+
 TEST(Choice, IsNeverWhatDrawsNoShadow) {
     const std::vector<Record> records = sceneWithin(0.5); // "none" is within it and the cheapest of all
     EXPECT_EQ(records[*choiceFor(records, records.front().scene).take].variant, "sm-uniform");
