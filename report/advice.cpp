@@ -16,7 +16,7 @@ namespace {
 /// Half an interval of a cost, as a share of it, from which on the cost ranks nothing.
 constexpr double widestSpread = 0.5;
 
-constexpr double frameMilliseconds = 1000.0 / 60;
+constexpr double frameMilliseconds = 1000.0 / 60; // at 60 Hz
 
 /// By cost, then error; those that were not timed last.
 std::tuple<double, double> rank(const Record& record, const CostOf& costOf) {

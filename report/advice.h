@@ -26,7 +26,7 @@ struct Advice {
     std::vector<std::size_t> external;  // within tolerance, of other renderers: what they cost is not measured here
     std::optional<std::size_t> take;    // the first of `within` that is timed and not uncertain
     std::vector<std::size_t> asCheap;   // of `within`: dearer than `take`, but not beyond both intervals
-    bool fitsNoFrame = false;           // `take`, and so all of `within`, is modelled to take longer than 1/60 s
+    bool fitsNoFrame = false; // `take`, and so all of `within` that are modelled, take longer than a frame at 60 Hz
 };
 Advice adviceFor(const std::vector<Record>& records, const std::string& scene,
                  const std::set<Need>& needs = techniques::usualNeeds());

@@ -40,7 +40,7 @@ Choice choiceFor(const std::vector<Record>& records, const std::string& scene) {
     Choice choice{.take = advice.take, .adequate = !advice.within.empty(), .why = {}, .others = advice.within, .notes = {}};
     if (choice.take)
         choice.why = fmt::format("cheapest of {} within tolerance{}", advice.within.size(),
-                                 advice.fitsNoFrame ? ", of which none fits a frame at 60 Hz" : "");
+                                 advice.fitsNoFrame ? ", of which none is modelled to fit a frame at 60 Hz" : "");
     else if (choice.adequate)
         choice.why = fmt::format("least error of {} within tolerance; none was timed", advice.within.size());
     else if (!suited.empty())

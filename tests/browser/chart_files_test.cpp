@@ -1,4 +1,4 @@
-// The committed charts as Chromium lays them out, where the boxes of texts are those that a reader sees.
+// Charts as Chromium lays them out, where the boxes of texts are those that a reader sees.
 #include "base/files.h"
 #include "base/temporary_folder.h"
 #include "report/charts.h"

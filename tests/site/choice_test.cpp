@@ -37,7 +37,7 @@ TEST(Choice, SaysWhereAFrameHasNoTimeForIt) {
         const Choice choice = choiceFor(records, records.front().scene);
         const bool fits = milliseconds < 1000.0 / 60;
         EXPECT_EQ(choice.why, fits ? "cheapest of 2 within tolerance"
-                                   : "cheapest of 2 within tolerance, of which none fits a frame at 60 Hz");
+                                   : "cheapest of 2 within tolerance, of which none is modelled to fit a frame at 60 Hz");
         EXPECT_EQ(choice.notes.empty(), fits);
     }
 }
