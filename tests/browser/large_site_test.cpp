@@ -2,6 +2,7 @@
 #include "base/files.h"
 #include "base/temporary_folder.h"
 #include "harness/records/record.h"
+#include "report/costing.h"
 #include "site/names.h"
 #include "site/pages.h"
 #include "tests/browser/checks.h"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 /// The first page and that of the first scene, with a picture in the place of gnuplot's chart.
 void writeSite(const fs::path& folder, const std::vector<Record>& records) {
     site::SiteWriter site(folder, {});
-    const fs::path chart = folder / "pareto-scene-01.svg";
+    const fs::path chart = folder / (report::chartName(report::shownCosting(records, "scene-01")) + "-scene-01.svg");
     writeFile(chart, R"(<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>)");
     site::addChoosePage(records, {}, site);
     site::addScenePage(records, "scene-01", {}, {chart}, site);
@@ -176,6 +177,18 @@ TEST(SceneChart, HasNoNameOnAnotherOrOnAMark) {
         tab->waitFor("document.querySelectorAll('svg.plot .name').length > 3");
         EXPECT_EQ(tab->value(crossedNames), nlohmann::json::array()) << width;
     }
+}
+
+TEST(SceneChart, HasItsLongestTitleWholeOnAPhone) {
+    const TemporaryFolder folder;
+    std::vector<Record> records = largeRun(9, 1);
+    for (Record& record : records) record.modelled["gtx-1080@1920x1080"] = {2, 1, 4, false, {}, {}};
+    writeSite(folder.path(), records);
+    const auto tab = chromium().tab();
+    tab->open(folder.path() / "scenes/scene-01.html");
+    tab->resize(390, 800);
+    tab->waitFor("[...document.querySelectorAll('svg.plot text')].some((text) => text.textContent.includes('modelled:'))");
+    EXPECT_EQ(cut(*tab, 390, 800), Sentences());
 }
 
 TEST(LargeSite, FitsItsWindow) {
