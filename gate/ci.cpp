@@ -103,7 +103,7 @@ CiResult judgeCommits(const CiOptions& options) {
     if (now.failure.empty() && before.failure.empty()) judgeRecords(before, now, result);
     if (repository.hasChanges())
         result.notes.emplace_back("the working tree has changes that are in no commit: they are not judged, HEAD is");
-    fs::remove_all(options.out / "logs");
+    for (const fs::path& earlier : {options.out / "logs", pictureFolder(options.out)}) fs::remove_all(earlier);
     takeLogs(now, "head", head, result, options.out);
     takeLogs(before, "base", base, result, options.out);
     result.pictures = copyFailures(result.changes, {before.records, before.images}, {now.records, now.images}, options.out);

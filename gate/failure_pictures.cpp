@@ -56,7 +56,7 @@ std::optional<Record> recordOf(const std::vector<Record>& records, const std::st
 /// A cell's pictures, with what the scene's cells share.
 void copyCell(const fs::path& images, const std::string& scene, const std::string& variant, const fs::path& to) {
     const fs::path from = images / scene;
-    if (!fs::exists(from / fileName(variant))) return;
+    if (!fs::exists(from / fileName(variant) / "visibility.png")) return; // `run` without --images keeps less there
     fs::create_directories(to / scene);
     for (const fs::directory_entry& entry : fs::directory_iterator(from))
         if (entry.is_regular_file())
@@ -71,33 +71,35 @@ fs::path folderOf(const fs::path& out, const std::string& scene, const std::stri
 
 } // namespace
 
+fs::path pictureFolder(const fs::path& out) { return out / "pictures"; }
+
 std::vector<FailurePictures> drawFailures(const std::vector<Change>& changes, const JudgedCells& judged,
                                           const MeasuredProgram* base, const MeasuredProgram& head, const fs::path& out,
                                           const Progress& progress) {
-    for (const char* side : {"head", "base"}) fs::remove_all(out / side);
     const Failing cells = failingCells(changes, [&](const Change& change) {
         return !change.variant.starts_with(externalPrefix) && judged.chooses(change.scene, change.variant);
     });
     if (cells.empty()) return {};
-    const std::vector<Record> heads = draw(head, cells, judged, out / "head", progress);
+    const std::vector<Record> heads = draw(head, cells, judged, pictureFolder(out) / "head", progress);
     const std::vector<Record> bases =
-        base == nullptr ? std::vector<Record>() : draw(*base, cells, judged, out / "base", progress);
+        base == nullptr ? std::vector<Record>() : draw(*base, cells, judged, pictureFolder(out) / "base", progress);
     std::vector<FailurePictures> pictures;
     for (const auto& [scene, variant] : cells)
-        pictures.push_back({scene, variant, folderOf(out / "head", scene, variant), folderOf(out / "base", scene, variant),
-                            recordOf(heads, scene, variant), recordOf(bases, scene, variant)});
+        pictures.push_back({scene, variant, folderOf(pictureFolder(out) / "head", scene, variant),
+                            folderOf(pictureFolder(out) / "base", scene, variant), recordOf(heads, scene, variant),
+                            recordOf(bases, scene, variant)});
     return pictures;
 }
 
 std::vector<FailurePictures> copyFailures(const std::vector<Change>& changes, const DrawnSide& base, const DrawnSide& head,
                                           const fs::path& out) {
-    for (const char* side : {"head", "base"}) fs::remove_all(out / side);
     std::vector<FailurePictures> pictures;
     for (const auto& [scene, variant] : failingCells(worstFirst(changes), [](const Change&) { return true; })) {
-        copyCell(head.images, scene, variant, out / "head" / "images");
-        copyCell(base.images, scene, variant, out / "base" / "images");
-        pictures.push_back({scene, variant, folderOf(out / "head", scene, variant), folderOf(out / "base", scene, variant),
-                            recordOf(head.records, scene, variant), recordOf(base.records, scene, variant)});
+        copyCell(head.images, scene, variant, pictureFolder(out) / "head" / "images");
+        copyCell(base.images, scene, variant, pictureFolder(out) / "base" / "images");
+        pictures.push_back({scene, variant, folderOf(pictureFolder(out) / "head", scene, variant),
+                            folderOf(pictureFolder(out) / "base", scene, variant), recordOf(head.records, scene, variant),
+                            recordOf(base.records, scene, variant)});
     }
     return pictures;
 }

@@ -51,6 +51,8 @@ public:
     }
 
     GateResult judge() {
+        for (const fs::path& earlier : {options_.out / "logs", otherFolder(), pictureFolder(options_.out)})
+            fs::remove_all(earlier);
         const MeasuredProgram head(fs::is_symlink(options_.head) ? fs::read_symlink(options_.head) : options_.head, cache_);
         const Baseline base = findOrBuildBase(head);
         const Commit commit = builtFrom();
@@ -85,7 +87,6 @@ private:
     }
 
     void judgeAgainstRecords(const Baseline& base, const MeasuredProgram& head) {
-        fs::remove_all(options_.out / "logs");
         noteUnknownScenes();
         std::vector<Record> before = readRecords(base.file);
         std::erase_if(before, [&](const Record& r) { return !isJudged(r); });
@@ -99,12 +100,40 @@ private:
             result_.notes.emplace_back("instructions are not compared: the base's records hold none");
         leaveOutWhatNoRecordIsOf(before);
         std::vector<Record> now = measure(head, "head", options_.instructions && counted, before);
-        std::vector<Record> others = measureSteps(head, "head", cells_.externalSteps()).records();
-        result_.logs = failureLogs(others, options_.out / "logs");
-        std::ranges::move(others, std::back_inserter(now));
+        const std::vector<Record> others = callOthers(head);
+        std::ranges::copy(others, std::back_inserter(now));
         judgeRecords(before, now, nullptr);
         if (const auto why = whyMeaningless(before, now, options_.sameProgram)) result_.notCompared.push_back(*why);
         addPictures(nullptr, head);
+        std::vector<Change> ofOthers = result_.changes;
+        std::erase_if(ofOthers, [](const Change& change) { return !change.variant.starts_with(externalPrefix); });
+        std::ranges::move(copyFailures(ofOthers, {before, base.file.parent_path() / "images"},
+                                       {others, otherFolder() / "images"}, options_.out),
+                          std::back_inserter(result_.pictures));
+        fs::remove_all(otherFolder());
+    }
+
+    [[nodiscard]] fs::path otherFolder() const { return options_.out / "others"; }
+
+    /// The records of other renderers, which are called once: otherFolder() has their pictures then, and `logs` of the
+    /// report what those said that failed.
+    std::vector<Record> callOthers(const MeasuredProgram& head) {
+        const fs::path folder = otherFolder();
+        StageLine line("head, other renderers", options_.quiet);
+        std::vector<Record> all;
+        for (const Step& step : cells_.externalSteps()) {
+            std::ranges::move(timed("head: " + step.name,
+                                    [&] {
+                                        head.run(step, folder, 1, line.progress());
+                                        return readRecords(folder / step.records);
+                                    }),
+                              std::back_inserter(all));
+            if (fs::is_directory(folder / "logs"))
+                fs::copy(folder / "logs", options_.out / "logs",
+                         fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+        }
+        result_.logs = failureLogs(all, options_.out / "logs");
+        return all;
     }
 
     void judgeAgainstProgram(MeasuredProgram base, MeasuredProgram head) {
@@ -269,8 +298,6 @@ private:
     Measured measureSteps(const MeasuredProgram& program, const char* who, const std::vector<Step>& steps) {
         StageLine line(who, options_.quiet);
         Measured measured = program.measure(steps, line.progress());
-        for (const fs::path& logs : measured.logs)
-            fs::copy(logs, options_.out / "logs", fs::copy_options::recursive | fs::copy_options::overwrite_existing);
         for (const StepTime& step : measured.times)
             result_.times.push_back({fmt::format("{}: {}", who, step.name), step.seconds});
         return measured;

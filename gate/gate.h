@@ -40,7 +40,7 @@ struct GateOptions {
 /// One failing cell as it was drawn for the report.
 struct FailurePictures {
     std::string scene, variant;
-    std::filesystem::path head, base;             // folders of pictures; `base` is empty when that is a file of records
+    std::filesystem::path head, base;             // folders of pictures, empty where it has none
     std::optional<Record> headRecord, baseRecord; // of the drawing
 };
 

@@ -245,19 +245,20 @@ std::vector<Step> JudgedCells::steps(const MeasuredProgram& program, bool instru
 }
 
 std::vector<Step> JudgedCells::externalSteps() const {
-    std::vector<std::string> more{"--cost", "none"};
+    std::vector<std::string> more{"--cost", "none", "--images"};
     for (const fs::path& file : externalFiles_) more.insert(more.end(), {"--external", fs::absolute(file).string()});
     std::vector<Step> steps;
     for (const JudgedScene& scene : scenes) {
         const std::vector<std::string> variants = select(scene.variants, isExternal);
-        if (!variants.empty())
-            steps.push_back({.name = scene.id + ", other renderers",
+        if (variants.empty()) continue;
+        if (const auto same = std::ranges::find(steps, variants, &Step::techniques); same != steps.end())
+            same->arguments.insert(same->arguments.end(), {"--scene", scene.argument});
+        else
+            steps.push_back({.name = "other renderers",
                              .arguments = arguments("run", scene, profile, seed, more),
                              .techniques = variants,
                              .records = "results.jsonl",
-                             .callsRenderers = true,
-                             .scene = scene.id,
-                             .seed = seed});
+                             .callsRenderers = true});
     }
     return steps;
 }

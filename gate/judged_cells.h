@@ -41,7 +41,8 @@ struct JudgedCells {
     /// that the config names are counted, or of all when it names none of the scenes.
     [[nodiscard]] std::vector<Step> steps(const MeasuredProgram& program, bool instructions) const;
 
-    /// The runs in which this program calls the renderers that are not ours.
+    /// The runs in which this program calls the renderers that are not ours, for MeasuredProgram::run: one for all scenes
+    /// that are judged with the same.
     [[nodiscard]] std::vector<Step> externalSteps() const;
 
     /// Cells that both programs have and whose time is compared: those that the config names, or all when it names none

@@ -271,10 +271,9 @@ fs::path MeasuredProgram::folderOf(const Step& step) const {
 MeasuredProgram::Results MeasuredProgram::results(const Step& step, bool again, int programs,
                                                   const Progress& progress) const {
     const fs::path out = folderOf(step);
-    if (again || step.callsRenderers) fs::remove_all(out);
+    if (again) fs::remove_all(out);
     run(step, out, programs, progress);
     Results all = byTechnique(recordsIn(out, step));
-    if (step.callsRenderers) return all;
     if (!again)
         for (const auto& [technique, records] : all)
             if (std::ranges::find(records, Status::Error, &Record::status) == records.end()) // else it is tried again
@@ -305,7 +304,7 @@ Measured MeasuredProgram::measured(const std::vector<Step>& steps, bool again, c
         const auto i = static_cast<std::size_t>(index);
         Step open = steps[i];
         Results all;
-        if (!again && !open.callsRenderers) {
+        if (!again) {
             for (const std::string& technique : open.techniques)
                 if (auto records = kept(open, technique)) all[technique] = std::move(*records);
             std::erase_if(open.techniques, [&](const std::string& technique) { return all.contains(technique); });
@@ -321,9 +320,7 @@ Measured MeasuredProgram::measured(const std::vector<Step>& steps, bool again, c
         for (const std::string& technique : steps[i].techniques)
             if (const auto found = all.find(technique); found != all.end())
                 std::ranges::move(found->second, std::back_inserter(measured.ofSteps[i]));
-        const fs::path logs = folderOf(open) / "logs";
         const std::scoped_lock lock(mutex);
-        if (open.callsRenderers && fs::is_directory(logs)) measured.logs.push_back(logs);
         ++ended;
     });
     for (const std::optional<StepTime>& time : times)

@@ -21,10 +21,10 @@ struct Step {
     std::vector<std::string> techniques; // canonical names
     std::string records;                 // file or, of a part of a run, folder that it leaves in --out
     std::string inputs = {};             // content of the files that `arguments` name, and keys of truths
-    /// It calls renderers that are not ours, which nobody can hash: nothing of it is kept. They see the environment and the
-    /// limits of this process, as with the verb `run`.
+    /// It calls renderers that are not ours. They see the environment and the limits of this process, as with the verb
+    /// `run`. Nobody can hash them: such a step is for `run`, which keeps nothing.
     bool callsRenderers = false;
-    std::string scene = {}; // id …
+    std::string scene = {}; // id of what `measure` runs …
     std::uint32_t seed = 1; // … and seed of its records
 
     [[nodiscard]] bool isSweep() const { return records == "sweep.jsonl"; }
@@ -42,8 +42,7 @@ struct StepTime {
 /// What a program's steps gave.
 struct Measured {
     std::vector<std::vector<Record>> ofSteps;
-    std::vector<StepTime> times;             // of the steps that were not already there
-    std::vector<std::filesystem::path> logs; // folders of what renderers said that failed
+    std::vector<StepTime> times; // of the steps that were not already there
 
     [[nodiscard]] std::vector<Record> records() const;
 };

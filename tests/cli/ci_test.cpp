@@ -122,7 +122,7 @@ TEST_F(Ci, AWorseImageIsRedWithItsFigureAndPicturesOfBothSides) {
         EXPECT_TRUE(contains(outcome.output, part)) << part << "\n" << outcome.output;
     for (const char* side : {"head", "base"})
         for (const char* picture : {"visibility.png", "reference.png", "error.png"})
-            EXPECT_TRUE(fs::exists(folder_ / fmt::format("out/{}/images/tiny/external_engine/{}", side, picture)));
+            EXPECT_TRUE(fs::exists(folder_ / fmt::format("out/pictures/{}/images/tiny/external_engine/{}", side, picture)));
     for (const char* caption : {">head<", ">base<", ">truth<", ">head: orange too dark, blue too bright<"})
         EXPECT_TRUE(contains(page(), caption)) << caption;
     const std::string comment = readFile(repository_ + "/s.md");

@@ -209,7 +209,7 @@ TEST_F(External, ShardsAndAWholeRunGiveTheSameRecords) {
 
 TEST_F(External, CompareAndGateJudgeTheNextVersionOfARenderer) {
     write(entry("a", copies()));
-    ASSERT_EQ(run("--technique 'external:*'").code, 0);
+    ASSERT_EQ(run("--technique 'external:*' --images").code, 0);
     const std::string before = out_;
     out_ = folder_ / "same";
     ASSERT_EQ(run("--technique 'external:*'").code, 0);
@@ -235,6 +235,11 @@ TEST_F(External, CompareAndGateJudgeTheNextVersionOfARenderer) {
     const Outcome judged = shell(gate + before + "/results.jsonl");
     EXPECT_EQ(judged.code, 4) << judged.output;
     EXPECT_TRUE(contains(judged.output, "--external " + file_)) << "how to see it again\n" << judged.output;
+    for (const char* side : {"head", "base"})
+        EXPECT_TRUE(fs::exists(folder_ / fmt::format("gate/pictures/{}/images/tiny/external_a/visibility.png", side)))
+            << side;
+    EXPECT_TRUE(contains(readFile(folder_ / "gate/gate.html"), ">head: orange too dark, blue too bright<"));
+    EXPECT_FALSE(fs::exists(folder_ / "gate/others"));
     const Outcome program = shell(gate + PROGRAM);
     EXPECT_EQ(program.code, 2) << program.output;
     EXPECT_TRUE(contains(program.output, "--external needs records as --base")) << program.output;

@@ -147,7 +147,7 @@ TEST_F(GateVerb, AWorseHeadFailsWithPicturesAndACommandThatShowsItAgain) {
     EXPECT_NE(outcome.output.find("--technique sm-uniform:map=64 --profile gate --seed 1"), std::string::npos);
     EXPECT_NE(outcome.output.find("::error title=leak is worse"), std::string::npos) << outcome.output;
     for (const char* picture : {"visibility.png", "reference.png", "error.png"})
-        EXPECT_TRUE(fs::exists(folder_ / "out/head/images/tiny/sm-uniform_map=64" / fs::path(picture))) << picture;
+        EXPECT_TRUE(fs::exists(folder_ / "out/pictures/head/images/tiny/sm-uniform_map=64" / fs::path(picture))) << picture;
     const std::string page = readFile(folder_ / "out/gate.html");
     EXPECT_NE(page.find("href=\"cells/tiny.html#head_sm-uniform_map=64\""), std::string::npos) << page;
     EXPECT_TRUE(fs::exists(folder_ / "out/cells/tiny/head_sm-uniform_map=64.js"));

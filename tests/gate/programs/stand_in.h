@@ -63,8 +63,9 @@ done
 echo "tiny 1/3  pcf"
 mkdir -p "$out"
 for variant in $(cat drawn 2>/dev/null); do
-    mkdir -p "$out/images/$scene/$variant"
-    echo >"$out/images/$scene/$variant/visibility.png"
+    folder=$out/images/$scene/$(echo "$variant" | tr : _)
+    mkdir -p "$folder"
+    echo >"$folder/visibility.png"
 done
 of_scene() { grep -F "\"scene\":\"$scene\"," "$here/records.jsonl" | grep -F "\"seed\":$seed,"; }
 of_run() { of_scene | grep -vF '"sweep":' | grep -F -f variants; }
