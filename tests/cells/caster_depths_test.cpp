@@ -118,7 +118,7 @@ protected:
     /// Whether 1 / depth of every texel is that of something within it, held between far and near plane, or less.
     template <typename Inverse>
     void expectBehindWhatTexelsHold(const NearestInTexels& nearest, std::size_t texels, Inverse inverse, const char* map) {
-        constexpr double rounding = 1e-5; // of window depths in 32-bit floats, on planes that texels see edge-on, too
+        constexpr double rounding = 5e-7; // eight halves of a 32-bit float's last digit
         std::size_t before = 0;
         for (std::size_t i = 0; i < texels; ++i)
             if (inverse(i) > std::clamp(nearest[i], 1 / view_.far, 1 / view_.near) + rounding / view_.near) ++before;
@@ -131,7 +131,7 @@ protected:
 };
 
 TEST_P(SceneWithAnAreaLight, HasMapsInWhichNoTexelIsNearerThanWhatItHolds) {
-    for (const int side : {512, 1024}) {
+    for (const int side : {512, 1500}) {
         const NearestInTexels nearest(view_, frame_->snapshot, side);
         techniques::LinearDepthMap linear(side, {});
         linear.draw(view_, *frame_);
