@@ -6,6 +6,7 @@
 #include "scene/mesh.h"
 
 #include <glm/vec2.hpp>
+#include <memory>
 #include <vector>
 
 namespace shadowbench {
@@ -22,8 +23,8 @@ struct AlphaMask {
 
 struct MaskedMesh {
     Mesh mesh;
-    std::vector<glm::vec2> uv; // of each position
-    AlphaMask mask;
+    std::vector<glm::vec2> uv;             // of each position
+    std::shared_ptr<const AlphaMask> mask; // several meshes may have one
 };
 
 } // namespace shadowbench

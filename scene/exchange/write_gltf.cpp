@@ -4,6 +4,7 @@
 #include "scene/exchange/json_values.h"
 #include "scene/masked_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -92,7 +93,8 @@ Json meshOf(const Part& part, const MaskedMesh* cards, std::size_t material, Buf
 std::string pngOf(const Image<float>& alpha) {
     std::vector<std::uint8_t> pixels;
     for (const float a : alpha)
-        pixels.insert(pixels.end(), {255, 255, 255, static_cast<std::uint8_t>(std::lround(255 * a))});
+        pixels.insert(pixels.end(),
+                      {255, 255, 255, static_cast<std::uint8_t>(std::lround(255 * std::clamp(a, 0.0F, 1.0F)))});
     return png::encoded(alpha.width(), alpha.height(), 4, pixels);
 }
 
@@ -101,17 +103,14 @@ int numberOf(AlphaMask::Wrap wrap) {
     return wrap == AlphaMask::Wrap::Mirror ? kMirror : kRepeat;
 }
 
-/// The mask as a texture of the file, with an image and a sampler of its own, named by the material.
-void addMask(const AlphaMask& mask, const std::string& image, Json& material, Json& gltf) {
+/// The mask as a texture of the file, with an image and a sampler of its own.
+void addTexture(const AlphaMask& mask, const std::string& image, Json& gltf) {
     const int filter = mask.nearest ? kNearest : kLinear;
     gltf["samplers"].push_back(
         {{"magFilter", filter}, {"minFilter", filter}, {"wrapS", numberOf(mask.u)}, {"wrapT", numberOf(mask.v)}});
     gltf["images"].push_back({{"uri", image}});
     const std::size_t number = gltf["textures"].size();
     gltf["textures"].push_back({{"sampler", number}, {"source", number}});
-    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", number}};
-    material["alphaMode"] = "MASK";
-    material["alphaCutoff"] = mask.cutoff;
 }
 
 /// An identity is left out: glTF calls for it.
@@ -200,13 +199,19 @@ GltfFiles gltfOf(const Scene& scene, const Snapshot& frame, const Parts& parts, 
     gltf["cameras"] = Json::array({cameraOf(frame.camera, scene.size)});
 
     Buffer buffer;
+    std::map<const AlphaMask*, std::size_t> textures;
     for (const Part& part : parts.list()) {
         const MaskedMesh* cards = holes == Holes::Masked ? part.mesh->cards.get() : nullptr;
         Json material = materialOf(part);
         if (cards != nullptr) {
-            const std::string image = fmt::format("{}-{}.png", name, part.name);
-            addMask(cards->mask, image, material, gltf);
-            files.emplace_back(image, pngOf(cards->mask.alpha));
+            const auto [texture, isNew] = textures.try_emplace(cards->mask.get(), textures.size());
+            if (isNew) {
+                files.emplace_back(fmt::format("{}-{}.png", name, part.name), pngOf(cards->mask->alpha));
+                addTexture(*cards->mask, files.back().first, gltf);
+            }
+            material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture->second}};
+            material["alphaMode"] = "MASK";
+            material["alphaCutoff"] = cards->mask->cutoff;
         }
         gltf["materials"].push_back(std::move(material));
         gltf["meshes"].push_back(meshOf(part, cards, gltf["materials"].size() - 1, buffer));

@@ -3,6 +3,7 @@
 #include "base/words.h"
 #include "scene/load/memory_need.h"
 #include "scene/load/scene_file.h"
+#include "scene/masked_mesh.h"
 #include "scene/meshes/import.h"
 #include "scene/meshes/primitives.h"
 #include "scene/meshes/procedural.h"
@@ -187,6 +188,13 @@ void convert(Mesh& mesh, const Conventions& file) {
         for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
 }
 
+std::shared_ptr<const MaskedMesh> converted(std::shared_ptr<const MaskedMesh> cards, const Conventions& file) {
+    if (cards == nullptr) return nullptr;
+    MaskedMesh result = *cards;
+    convert(result.mesh, file);
+    return std::make_shared<const MaskedMesh>(std::move(result));
+}
+
 } // namespace
 
 std::function<Mesh(double)> cutterOf(const TomlValue& value) {
@@ -286,6 +294,7 @@ std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, const st
         name.fail(error.what());
     }
     made.closed = closed && closed->boolean();
+    const std::shared_ptr<const MaskedMesh> cards = wanted > 0 ? nullptr : converted(std::move(made.cards), conventions);
     convert(made, conventions);
     const std::string what = part ? fmt::format("{}: mesh \"{}\"", name.where(), part->text()) : name.where();
     made = withoutFlat(made);
@@ -293,6 +302,7 @@ std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, const st
     if (wanted > 0) made = withoutFlat(simplified(made, wanted));
     requireWellFormed(made, what);
     requireRoom(made, name);
+    made.cards = cards;
     mesh = std::make_shared<const Mesh>(std::move(made));
     return mesh;
 }

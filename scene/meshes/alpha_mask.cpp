@@ -188,7 +188,7 @@ private:
 } // namespace
 
 Mesh cutByMask(const MaskedMesh& cards) {
-    const Cells cells(cards.mask);
+    const Cells cells(*cards.mask);
     Mesh left;
     Cutter cutter(cards.mesh, cards.uv, cells, left);
     for (const glm::uvec3& triangle : cards.mesh.triangles) cutter.cut(triangle);

@@ -49,28 +49,28 @@ const std::optional<GltfMask>& GltfMasks::of(const GltfJson& primitive) {
 }
 
 GltfMask GltfMasks::read(const GltfJson& material) {
-    GltfMask result;
-    result.mask.cutoff = material.value("alphaCutoff", 0.5);
-    result.mask.alpha = Image<float>(1, 1, 1.0F);
+    AlphaMask mask{.alpha = Image<float>(1, 1, 1.0F), .cutoff = material.value("alphaCutoff", 0.5)};
+    std::string coordinates;
     const GltfJson factors = material.value("pbrMetallicRoughness", GltfJson::object());
-    if (factors.contains("baseColorTexture")) readTexture(factors["baseColorTexture"], result);
+    if (factors.contains("baseColorTexture")) coordinates = readTexture(factors["baseColorTexture"], mask);
     if (factors.contains("baseColorFactor"))
-        for (float& alpha : result.mask.alpha) alpha *= factors["baseColorFactor"].at(3).get<float>();
-    return result;
+        for (float& alpha : mask.alpha) alpha *= factors["baseColorFactor"].at(3).get<float>();
+    return {std::make_shared<const AlphaMask>(std::move(mask)), coordinates};
 }
 
-void GltfMasks::readTexture(const GltfJson& use, GltfMask& result) {
+std::string GltfMasks::readTexture(const GltfJson& use, AlphaMask& mask) {
     if (use.contains(GltfJson::json_pointer("/extensions/KHR_texture_transform")))
         throw BadInput("KHR_texture_transform is not read; apply it to the texture's coordinates");
-    result.coordinates = fmt::format("TEXCOORD_{}", gltfWhole(use, "texCoord", 0));
     const GltfJson& texture = buffers_.entry("textures", wholeNumber<std::size_t>(use.at("index")));
     if (!texture.contains("source")) throw BadInput("its texture is neither PNG nor JPEG");
-    result.mask.alpha = alphaOf(buffers_.image(wholeNumber<std::size_t>(texture["source"])));
-    if (!texture.contains("sampler")) return;
-    const GltfJson& sampler = buffers_.entry("samplers", wholeNumber<std::size_t>(texture["sampler"]));
-    result.mask.nearest = gltfWhole(sampler, "magFilter", 0) == nearestFilter;
-    result.mask.u = wrapOf(sampler, "wrapS");
-    result.mask.v = wrapOf(sampler, "wrapT");
+    mask.alpha = alphaOf(buffers_.image(wholeNumber<std::size_t>(texture["source"])));
+    if (texture.contains("sampler")) {
+        const GltfJson& sampler = buffers_.entry("samplers", wholeNumber<std::size_t>(texture["sampler"]));
+        mask.nearest = gltfWhole(sampler, "magFilter", 0) == nearestFilter;
+        mask.u = wrapOf(sampler, "wrapS");
+        mask.v = wrapOf(sampler, "wrapT");
+    }
+    return fmt::format("TEXCOORD_{}", gltfWhole(use, "texCoord", 0));
 }
 
 } // namespace shadowbench

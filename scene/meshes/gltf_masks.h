@@ -5,12 +5,13 @@
 #include "scene/meshes/gltf_buffers.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 
 namespace shadowbench {
 
 struct GltfMask {
-    AlphaMask mask;
+    std::shared_ptr<const AlphaMask> mask;
     std::string coordinates; // attribute with the places in it; empty where all of it has one alpha
 };
 
@@ -24,7 +25,8 @@ public:
 
 private:
     GltfMask read(const GltfJson& material);
-    void readTexture(const GltfJson& use, GltfMask& result);
+    /// Returns the attribute with the places in it.
+    std::string readTexture(const GltfJson& use, AlphaMask& mask);
 
     GltfBuffers& buffers_;
     std::map<std::size_t, std::optional<GltfMask>> known_; // by material

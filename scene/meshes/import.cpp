@@ -5,9 +5,11 @@
 #include "base/error.h"
 #include "base/limits.h"
 #include "scene/gltf_file.h"
+#include "scene/masked_mesh.h"
 #include "scene/meshes/foreign_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
@@ -20,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t longestName = 4096; // of a mesh in a .gltf, bytes
 constexpr std::uint64_t mostParts = 1'000'000;
+constexpr std::uint64_t withoutMask = 0; // in place of a mask's number
 
 /// What is asked of the child: the extension of the file, whose meshes are wanted as one; or this before it, for its parts.
 constexpr std::string_view partsOf = "parts";
@@ -42,6 +45,15 @@ void put(Wire& wire, const Mesh& mesh) {
     wire.put(std::span(mesh.triangles));
 }
 
+void put(Wire& wire, const AlphaMask& mask) {
+    const std::array<double, 1> cutoff{mask.cutoff};
+    wire.put(static_cast<std::uint64_t>(mask.alpha.width()));
+    wire.put(static_cast<std::uint64_t>(mask.alpha.height()));
+    wire.put(std::span<const float>(mask.alpha.data(), mask.alpha.size()));
+    wire.put(std::span<const double>(cutoff));
+    for (const auto number : {std::uint64_t{mask.nearest}, std::uint64_t(mask.u), std::uint64_t(mask.v)}) wire.put(number);
+}
+
 void answerWithMesh(ForeignWork& work) {
     const Mesh mesh = readMeshHere(contentsOf(work));
     put(work.answer(), mesh);
@@ -49,11 +61,22 @@ void answerWithMesh(ForeignWork& work) {
 
 void answerWithParts(ForeignWork& work) {
     const std::map<std::string, Mesh> parts = readPartsHere(contentsOf(work));
+    std::map<const AlphaMask*, std::uint64_t> masks; // with their numbers, from 1
+    std::vector<const AlphaMask*> inOrder;
+    for (const auto& [name, mesh] : parts)
+        if (mesh.cards && masks.try_emplace(mesh.cards->mask.get(), masks.size() + 1).second)
+            inOrder.push_back(mesh.cards->mask.get());
     Wire& wire = work.answer();
+    wire.put(std::uint64_t{inOrder.size()});
+    for (const AlphaMask* mask : inOrder) put(wire, *mask);
     wire.put(std::uint64_t{parts.size()});
     for (const auto& [name, mesh] : parts) {
         wire.put(std::string_view(name).substr(0, longestName));
         put(wire, mesh);
+        wire.put(mesh.cards ? masks.at(mesh.cards->mask.get()) : withoutMask);
+        if (!mesh.cards) continue;
+        put(wire, mesh.cards->mesh);
+        wire.put(std::span(mesh.cards->uv));
     }
 }
 
@@ -89,7 +112,8 @@ std::vector<OpenedFile> filesOf(const fs::path& file, const std::string& doing) 
 
 /// What the child may still send of one file.
 struct Room {
-    std::uint64_t vertices = limitOf(Limit::Vertices), triangles = limitOf(Limit::Triangles);
+    std::uint64_t vertices = limitOf(Limit::Vertices), triangles = limitOf(Limit::Triangles),
+                  pixels = limitOf(Limit::Pixels);
 };
 
 void requireSound(const Mesh& mesh, const ReaderChild& child) {
@@ -116,6 +140,25 @@ Mesh received(ReaderChild& child, Room& room) {
     return mesh;
 }
 
+AlphaMask receivedMask(ReaderChild& child, Room& room) {
+    constexpr auto lastWrap = static_cast<std::uint64_t>(AlphaMask::Wrap::Clamp);
+    const std::uint64_t width = child.number(room.pixels, "columns of a mask");
+    const std::uint64_t height = child.number(width > 0 ? room.pixels / width : 0, "rows of a mask");
+    if (height == 0) child.refuse("a mask has no pixels");
+    room.pixels -= width * height;
+    AlphaMask mask{.alpha = Image<float>(static_cast<int>(width), static_cast<int>(height))};
+    std::array<double, 1> cutoff{};
+    child.fill(std::span<float>(mask.alpha.data(), mask.alpha.size()));
+    child.fill(std::span<double>(cutoff));
+    const auto isFinite = [](double value) { return std::isfinite(value); };
+    if (!isFinite(cutoff[0]) || !std::ranges::all_of(mask.alpha, isFinite)) child.refuse("a mask's number is not finite");
+    mask.cutoff = cutoff[0];
+    mask.nearest = child.number(1, "as a filter") == 1;
+    mask.u = static_cast<AlphaMask::Wrap>(child.number(lastWrap, "as a wrapping"));
+    mask.v = static_cast<AlphaMask::Wrap>(child.number(lastWrap, "as a wrapping"));
+    return mask;
+}
+
 } // namespace
 
 Mesh receivedMesh(ReaderChild& child) {
@@ -126,11 +169,23 @@ Mesh receivedMesh(ReaderChild& child) {
 
 std::map<std::string, Mesh> receivedParts(ReaderChild& child) {
     child.awaitAnswer();
-    Room room;
+    Room room, ofCards;
+    std::vector<std::shared_ptr<const AlphaMask>> masks;
+    for (std::uint64_t left = child.number(mostParts, "masks"); left > 0; --left)
+        masks.push_back(std::make_shared<const AlphaMask>(receivedMask(child, ofCards)));
     std::map<std::string, Mesh> parts;
     for (std::uint64_t left = child.number(mostParts, "meshes"); left > 0; --left) {
         std::string name = child.text(longestName);
-        parts.insert_or_assign(std::move(name), received(child, room));
+        Mesh mesh = received(child, room);
+        if (const std::uint64_t mask = child.number(masks.size(), "as a mask"); mask != withoutMask) {
+            MaskedMesh cards{received(child, ofCards), {}, masks[mask - 1]};
+            cards.uv.resize(cards.mesh.positions.size());
+            child.fill(std::span(cards.uv));
+            for (const glm::vec2& uv : cards.uv)
+                if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) child.refuse("a place in a texture is not finite");
+            mesh.cards = std::make_shared<const MaskedMesh>(std::move(cards));
+        }
+        parts.insert_or_assign(std::move(name), std::move(mesh));
     }
     return parts;
 }

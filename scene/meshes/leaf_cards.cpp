@@ -72,7 +72,7 @@ glm::dvec3 nextDirection(Random& random) {
 Mesh leafCards(int count, double size, int texels, double cutoff, std::uint32_t seed) {
     const Mesh card{{{-0.5, 0, 0}, {0.5, 0, 0}, {0.5, 1, 0}, {-0.5, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
     constexpr std::array<glm::vec2, 4> corners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-    MaskedMesh cards{{}, {}, sprayMask(texels, cutoff)};
+    MaskedMesh cards{{}, {}, std::make_shared<const AlphaMask>(sprayMask(texels, cutoff))};
     Random random(seed);
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 outward = nextDirection(random), foot = (1 - size) * std::cbrt(random.uniform(0.1, 1)) * outward;

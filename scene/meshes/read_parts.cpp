@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <numeric>
+#include <set>
 
 namespace shadowbench {
 namespace {
@@ -125,7 +126,9 @@ private:
         }
         if (isExported_) return mesh;
         requireNumbers(mesh, what); // which weld compares
-        return weld(mesh);
+        Mesh welded = weld(mesh);
+        welded.cards = mesh.cards;
+        return welded;
     }
 
     Mesh triangleMesh(const GltfJson& primitive, std::size_t mode) {
@@ -154,7 +157,20 @@ private:
         }
         const Mesh left = cutByMask(cards);
         if (left.triangles.empty()) throw BadInput("its mask leaves nothing of it; is its alphaCutoff as it should be?");
-        return weld(compacted(left));
+        Mesh result = weld(compacted(left));
+        if (!mask.coordinates.empty() && isKept(*mask.mask))
+            result.cards = std::make_shared<const MaskedMesh>(std::move(cards));
+        return result;
+    }
+
+    /// Masks are kept for who exports the scene, as many as one image may have pixels.
+    bool isKept(const AlphaMask& mask) {
+        if (kept_.contains(&mask)) return true;
+        const auto pixels = static_cast<std::uint64_t>(mask.alpha.width()) * static_cast<std::uint64_t>(mask.alpha.height());
+        if (pixels > pixels_) return false;
+        pixels_ -= pixels;
+        kept_.insert(&mask);
+        return true;
     }
 
     /// Of all parts together.
@@ -171,7 +187,8 @@ private:
     GltfMasks masks_;
     /// What we have exported must come back bit by bit; what modelling programs write has each corner of a sharp edge twice.
     bool isExported_ = buffers_.json().contains(GltfJson::json_pointer("/asset/extras/shadowbench"));
-    std::uint64_t vertices_ = 0, triangles_ = 0;
+    std::uint64_t vertices_ = 0, triangles_ = 0, pixels_ = limitOf(Limit::Pixels);
+    std::set<const AlphaMask*> kept_;
 };
 
 } // namespace

@@ -43,7 +43,8 @@ std::string readAnyImage(std::string_view input) {
 /// A child that has said `answer` and has ended.
 ReaderChild saying(std::string_view answer) {
     static const bool isSmall = ::setenv("SHADOWBENCH_MAX_VERTICES", "10000", 1) == 0 &&
-                                ::setenv("SHADOWBENCH_MAX_TRIANGLES", "10000", 1) == 0; // so that most inputs are quick
+                                ::setenv("SHADOWBENCH_MAX_TRIANGLES", "10000", 1) == 0 &&
+                                ::setenv("SHADOWBENCH_MAX_PIXELS", "10000", 1) == 0; // so that most inputs are quick
     std::array<int, 2> ends{};
     require(isSmall && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0, "there are no sockets");
     Descriptor childs(ends[1]);

@@ -1,7 +1,9 @@
 // Materials with holes (alphaMode MASK): what is left of their triangles.
 #include "base/base64.h"
 #include "base/image_formats.h"
+#include "scene/exchange/export.h"
 #include "scene/meshes/alpha_mask.h"
+#include "scene/meshes/import.h"
 #include "tests/scene/exchange/foreign_gltf.h"
 
 #include <algorithm>
@@ -28,7 +30,9 @@ struct Card {
     Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}};
     std::vector<glm::vec2> uv{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
-    [[nodiscard]] Mesh cutBy(const AlphaMask& mask) const { return cutByMask({mesh, uv, mask}); }
+    [[nodiscard]] Mesh cutBy(const AlphaMask& mask) const {
+        return cutByMask({mesh, uv, std::make_shared<const AlphaMask>(mask)});
+    }
 };
 
 AlphaMask maskOf(int size, double cutoff, const std::function<double(double, double)>& alpha) {
@@ -226,6 +230,52 @@ TEST_F(GltfMasks, TexturesLieBesideTheFileWithinItAndInDataUris) {
     gltf["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bin.size()}, {"byteLength", png().size()}});
     gltf["buffers"][0] = {{"byteLength", bin.size() + png().size()}};
     EXPECT_EQ(areaOf(*loaded("other.glb", glbOf(gltf.dump(), bin + png())).objects[0].levels[0].mesh), beside);
+}
+
+/// A second part with the mask of the first, and one of whose material all has one alpha.
+TEST_F(GltfMasks, AreExportedAsCardsOfWhichTheTrianglesAreLeft) {
+    gltf["materials"].push_back(
+        Json::parse(R"({"alphaMode": "MASK", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1]}})"));
+    gltf["meshes"].push_back(gltf["meshes"][0]);
+    gltf["meshes"].push_back(gltf["meshes"][0]);
+    gltf["meshes"][2]["primitives"][0]["material"] = 1;
+    for (const int mesh : {1, 2}) {
+        gltf["meshes"][mesh]["name"] = mesh == 1 ? "again" : "whole";
+        gltf["scenes"][0]["nodes"].push_back(gltf["nodes"].size());
+        gltf["nodes"].push_back({{"mesh", mesh}, {"translation", {3 * mesh, 1, 0}}});
+    }
+    const Scene scene = loaded();
+    const std::filesystem::path out = folder_.path() / "out";
+    exchange::exportScene(scene, out);
+    const Json cards = Json::parse(readFile(out / "cards.gltf"));
+    EXPECT_EQ(cards["images"].size(), 1U) << "of a mask that two parts share";
+    EXPECT_EQ(png::channelOf(readFile(out / cards["images"][0]["uri"].get<std::string>()), 3), png::channelOf(png(), 3));
+    EXPECT_EQ(std::ranges::count_if(cards["materials"], [](const Json& m) { return m.contains("alphaMode"); }), 2);
+    const std::map<std::string, Mesh> parts = importParts(out / "cards.gltf");
+    EXPECT_EQ(std::ranges::count_if(parts, [](const auto& part) { return part.second.cards != nullptr; }), 2);
+    for (const Object& object : scene.objects) {
+        EXPECT_EQ(parts.at(object.name).positions, object.levels[0].mesh->positions) << object.name;
+        EXPECT_EQ(parts.at(object.name).triangles, object.levels[0].mesh->triangles) << object.name;
+    }
+}
+
+TEST_F(GltfMasks, HaveCardsInTheScenesUnitAndNoneWhereTheMeshIsSimplified) {
+    writeFile(folder_.path() / "other.gltf", gltf.dump());
+    const auto meshOf = [&](const std::string& more) {
+        return loaded("level.toml",
+                      "title = \"t\"\ncamera = { eye = [0, 4, 6], target = [0, 0, 0], fovy = 45, near = 0.5, far = 40 }\n"
+                      "light = { kind = \"point\", centre = [1, 6, 2] }\nsize = [32, 32]\n[[object]]\n"
+                      "mesh = { file = \"other.gltf\", part = \"tri\"" +
+                          more + " }\n")
+            .objects[0]
+            .levels[0]
+            .mesh;
+    };
+    const auto mesh = meshOf(", unit = \"ft\", up = \"z\"");
+    const Mesh &cards = mesh->cards->mesh, again = cutByMask(*mesh->cards);
+    EXPECT_EQ(cards.positions[1], glm::vec3(0, 0.3048F, 0)) << "the file has it at z";
+    EXPECT_NEAR(areaOf(again), areaOf(*mesh), 1e-6);
+    EXPECT_EQ(meshOf(", simplify = 4")->cards, nullptr);
 }
 
 TEST_F(GltfMasks, WhatCannotBeReadIsNamedWithItsMaterial) {
