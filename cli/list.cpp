@@ -66,6 +66,7 @@ std::string tableOfBehaviours(const ListOptions& options) {
 
 std::string writtenPages(const ListOptions& options) {
     if (options.what != "techniques") throw BadInput("--pages are of techniques: list techniques --pages FOLDER");
+    if (options.format != "text") throw BadInput("--pages are Markdown; leave --format out");
     writeTechniquePages(recordsOf(options), options.pages);
     return fmt::format("{} pages: {}\n", techniques::catalog().size(), options.pages.string());
 }

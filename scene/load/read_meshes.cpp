@@ -212,6 +212,11 @@ double metresOf(const TomlValue& unit) {
     return std::ranges::find(units, wanted, [](const auto& known) { return known.first; })->second;
 }
 
+void requireNoKeyOfMesh(const TomlValue& object) {
+    for (const std::string& name : kKeysOfFiles)
+        if (const auto key = object.find(name)) key->fail(fmt::format("belongs in the mesh: mesh = {{ …, {} = … }}", name));
+}
+
 bool isZUp(const TomlValue& up) { return up.oneOf({"y", "z"}) == "z"; }
 
 std::shared_ptr<const Mesh> MeshStore::get(const TomlValue& value, int triangles) {

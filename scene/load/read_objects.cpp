@@ -214,6 +214,7 @@ void readSpin(const TomlValue& spin, Object& object) {
 } // namespace
 
 Object readObject(const TomlValue& value, int number, const glm::dvec3& eye, MeshStore& meshes) {
+    requireNoKeyOfMesh(value);
     value.only({"name", "colour", "mesh", "lod", "levels", "place", "scatter", "offset", "spin", "path", "pose", "profile"});
     Object object;
     const auto name = value.find("name");

@@ -49,6 +49,9 @@ private:
 /// What Level::cutAt is, of a `mesh = { … }` value that MeshStore::get() has read.
 std::function<Mesh(double)> cutterOf(const TomlValue& value);
 
+/// Throws at a key that a mesh from a file has and that stands beside `mesh`.
+void requireNoKeyOfMesh(const TomlValue& object);
+
 /// Of the texts that `unit` and `up` may be.
 double metresOf(const TomlValue& unit);
 bool isZUp(const TomlValue& up);

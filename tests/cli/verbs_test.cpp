@@ -100,6 +100,7 @@ TEST(CommandLine, ListWritesAPageForEachTechnique) {
     for (const techniques::Entry& entry : techniques::catalog())
         EXPECT_TRUE(fs::exists(folder / ("pages/" + entry.id + ".md"))) << entry.id;
     EXPECT_EQ(shell("shadowbench list scenes --pages " + folder / "pages").code, 2);
+    EXPECT_EQ(shell("shadowbench list techniques --format json --pages " + folder / "pages").code, 2);
 }
 
 class Run : public testing::Test {

@@ -168,6 +168,8 @@ const std::vector<Mistake>& mistakes() {
          "scenes/x.toml:5: object[1].mesh.plane.half: has no value for profile gate"},
         {"UnknownMesh", withObject("mesh = { sphare = { radius = 2 } }"),
          "scenes/x.toml:5: object[1].mesh.sphare: unknown key (did you mean \"sphere\"?)"},
+        {"KeyOfAMeshBesideIt", withObject("mesh = { file = \"a.obj\" }\nclosed = true"),
+         "scenes/x.toml:6: object[1].closed: belongs in the mesh: mesh = { …, closed = … }"},
         {"TwoMeshes", withObject("mesh = { plane = { half = 2 }, box = { size = [1, 1, 1] } }"),
          "scenes/x.toml:5: object[1].mesh: expected one kind of mesh, got 2"},
         {"NoMesh", withObject("name = \"x\""), "scenes/x.toml:4: object[1].mesh: missing"},

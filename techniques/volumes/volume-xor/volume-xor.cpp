@@ -12,7 +12,7 @@ Entry volumeXor() {
             .title = "Stencil shadow volumes, exclusive-or",
             .source = {Document::Zapotocky, "2.4.5"},
             .answer = Answer::Hard,
-            .lacks = {Need::AnyEye},
+            .lacks = {Need::AnyEye, Need::OpenMeshes},
             .parameters = {},
             .figures = volumeFigures(),
             .variants = {""},

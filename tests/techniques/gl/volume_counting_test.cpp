@@ -1,5 +1,6 @@
 // Shadow volumes counted in the stencil buffer: where each way of counting is exact, and where it is known to break.
 #include "base/random.h"
+#include "techniques/catalog.h"
 #include "tests/support/ground_labels.h"
 #include "tests/support/ground_score.h"
 
@@ -146,6 +147,22 @@ TEST(VolumeZfail, LeaksWhereAnOpenMeshLeavesItsVolumeOpenAtInfinity) { // course
     };
     EXPECT_GT(compareOnGround(scene, stage, rendered(stage, "volume-zfail"), shadowed).mismatch(), 0.05);
     EXPECT_EQ(compareOnGround(scene, stage, rendered(stage, "volume-zpass"), shadowed).mismatch(), 0);
+}
+
+/// A volume grows from the edges of what faces the light. Course, Everitt–Kilgard 3.1: closed models.
+TEST(ShadowVolumes, LoseASheetThatTurnsItsBackToTheLight) {
+    Scene scene = groundScene();
+    scene.light.centre = {0.2, 6.1, 0.3};
+    Mesh sheet = plane(0.5);
+    for (glm::uvec3& t : sheet.triangles) std::swap(t.y, t.z);
+    scene.objects.push_back(object(sheet, {0.6, 1.5, 0.7}));
+    Stage stage(scene);
+    stage.show(0);
+    const auto lit = [](const glm::dvec3&) { return false; };
+    for (const char* technique : {"volume-zpass", "volume-xor", "volume-zfail", "sm-zpp"}) {
+        EXPECT_EQ(compareOnGround(scene, stage, rendered(stage, technique), lit).mismatch(), 0) << technique;
+        EXPECT_TRUE(techniques::entryNamed(technique).lacks.contains(techniques::Need::OpenMeshes)) << technique;
+    }
 }
 
 Mesh rounded(Mesh mesh) {
