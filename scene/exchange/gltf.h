@@ -29,6 +29,7 @@ struct GltfUse {
     bool hasCamera = false, hasLight = false;     // the scene file has its own, and those of the glTF file do not matter
     double metres = 1;                            // of the glTF file's unit
     bool zUp = false;
+    int maskTexels = 0; // per side of a mask at most; 0: as its texture has
 };
 
 /// What a .gltf or .glb says of a scene.

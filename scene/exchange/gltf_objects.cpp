@@ -30,7 +30,7 @@ std::string nameOfPrimitive(const std::string& node, std::size_t primitive) {
 
 } // namespace
 
-GltfObjects::GltfObjects(const GltfDocument& gltf, const std::string& file) : gltf_(gltf), file_(file) {
+GltfObjects::GltfObjects(const GltfDocument& gltf, const GltfUse& use) : gltf_(gltf), use_(use) {
     PartNames names;
     for (const Json& mesh : listIn(gltf.json(), "meshes")) {
         std::vector<std::string> parts;
@@ -71,7 +71,8 @@ toml::table GltfObjects::objectOf(std::size_t mesh, std::size_t primitive, const
     // Only our exporter promises that what is seen from outside alone is closed.
     const bool closed = gltf_.isExported() && !material.value("doubleSided", false);
     const glm::dvec3 colour = vectorOr(member(material, "pbrMetallicRoughness"), "baseColorFactor", glm::dvec3(0.8));
-    toml::table from{{"file", file_}, {"part", part}, {"closed", closed}};
+    toml::table from{{"file", use_.file}, {"part", part}, {"closed", closed}};
+    if (use_.maskTexels > 0) from.insert("mask_texels", use_.maskTexels); // of all, so that the file is read once
     if (stretch) from.insert("matrix", listOfColumns(*stretch));
     return toml::table{{"name", gltf_.isExported() || node.empty() ? part : nameOfPrimitive(node, primitive)},
                        {"colour", tomlOf(colour)},

@@ -1,6 +1,7 @@
 // The meshes of a glTF file as objects of a scene file. Only sources of this folder include this.
 #pragma once
 
+#include "scene/exchange/gltf.h"
 #include "scene/exchange/gltf_document.h"
 #include "scene/mesh.h"
 
@@ -13,8 +14,8 @@ namespace shadowbench::exchange {
 
 class GltfObjects {
 public:
-    /// `file`: the glTF file, as the scene file names it. Both must outlive it.
-    GltfObjects(const GltfDocument& gltf, const std::string& file);
+    /// Both must outlive it.
+    GltfObjects(const GltfDocument& gltf, const GltfUse& use);
 
     /// Each primitive of triangles of that mesh at a place. Nodes that follow each other with one mesh are instances of the
     /// same objects, so that instances keep the order of their nodes, and their numbers.
@@ -34,7 +35,7 @@ private:
     void addBounds(const Json& primitive, const glm::dmat4& world);
 
     const GltfDocument& gltf_;
-    const std::string& file_;
+    const GltfUse& use_;
     std::vector<std::vector<std::string>> names_; // of each mesh's primitives
     std::vector<toml::table> objects_;
     std::size_t first_ = 0; // object of the last mesh

@@ -174,7 +174,7 @@ private:
     const GltfUse& use_;
     const bool isExact_ =
         use_.metres == 1 && !use_.zUp; // else what the exporter says of a view is no longer where the meshes are
-    GltfObjects objects_{gltf_, use_.file};
+    GltfObjects objects_{gltf_, use_};
     GltfViews cameras_{"camera"}, lights_{"light"};
 };
 

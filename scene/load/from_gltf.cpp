@@ -34,13 +34,14 @@ void complete(toml::table& own, const toml::table& gltf) {
 
 void completeFromGltf(toml::table& own, const TomlSource& source, const std::filesystem::path& folder) {
     const TomlValue root(source, "", own);
-    const auto gltf = root.find("gltf"), unit = root.find("unit"), up = root.find("up");
-    for (const auto& key : {unit, up})
+    const auto gltf = root.find("gltf"), unit = root.find("unit"), up = root.find("up"), texels = root.find("mask_texels");
+    for (const auto& key : {unit, up, texels})
         if (key && !gltf) key->fail("belongs to gltf = \"FILE\", and within mesh = { … } to a mesh from a file");
     if (!gltf) return;
     exchange::GltfUse use{.file = gltf->text()};
     if (unit) use.metres = metresOf(*unit);
     use.zUp = up && isZUp(*up);
+    if (texels) use.maskTexels = maskTexelsOf(*texels);
     readView(root, "camera", own, use.hasCamera, use.camera);
     readView(root, "light", own, use.hasLight, use.light);
     std::string made;
@@ -50,7 +51,7 @@ void completeFromGltf(toml::table& own, const TomlSource& source, const std::fil
         gltf->fail(error.what());
     }
     complete(own, parseToml(made, source.file));
-    for (const char* read : {"gltf", "unit", "up"}) own.erase(read);
+    for (const char* read : {"gltf", "unit", "up", "mask_texels"}) own.erase(read);
 }
 
 } // namespace shadowbench

@@ -20,8 +20,10 @@ namespace {
 
 constexpr int kMostSides = 4096;
 constexpr int kMostPoses = 1000;
+constexpr int kMostMaskTexels = 1 << 15;
 
-const std::vector<std::string> kKeysOfFiles{"file", "part", "poses", "closed", "simplify", "unit", "up", "flip", "matrix"};
+const std::vector<std::string> kKeysOfFiles{"file", "part", "poses", "closed", "simplify",
+                                            "unit", "up",   "flip",  "matrix", "mask_texels"};
 
 /// A mesh to be made, and the words by which an equal one is found again.
 struct Recipe {
@@ -212,6 +214,8 @@ double metresOf(const TomlValue& unit) {
     return std::ranges::find(units, wanted, [](const auto& known) { return known.first; })->second;
 }
 
+int maskTexelsOf(const TomlValue& texels) { return texels.integer(1, kMostMaskTexels); }
+
 void requireNoKeyOfMesh(const TomlValue& object) {
     for (const std::string& name : kKeysOfFiles)
         if (const auto key = object.find(name)) key->fail(fmt::format("belongs in the mesh: mesh = {{ …, {} = … }}", name));
@@ -220,8 +224,9 @@ void requireNoKeyOfMesh(const TomlValue& object) {
 bool isZUp(const TomlValue& up) { return up.oneOf({"y", "z"}) == "z"; }
 
 std::shared_ptr<const Mesh> MeshStore::get(const TomlValue& value, int triangles) {
-    value.only({"plane", "box", "sphere", "column", "bumpy", "windmill_tower", "windmill_rotor", "tree", "leaf_cards",
-                "walker", "file", "part", "poses", "closed", "simplify", "unit", "up", "flip", "matrix"});
+    value.only({"plane",    "box",        "sphere", "column", "bumpy",  "windmill_tower", "windmill_rotor",
+                "tree",     "leaf_cards", "walker", "file",   "part",   "poses",          "closed",
+                "simplify", "unit",       "up",     "flip",   "matrix", "mask_texels"});
     if (value.find("file")) {
         const auto poses = poseNames(value.only(kKeysOfFiles));
         return imported(value, poses.empty() ? value.find("part") : poses.front(), triangles);
@@ -264,11 +269,11 @@ void MeshStore::requireRoom(const Mesh& another, const TomlValue& key) {
 }
 
 /// A file is read once, however many of its meshes a scene takes.
-const Mesh& MeshStore::partOf(const std::filesystem::path& file, const TomlValue& part) {
+const Mesh& MeshStore::partOf(const std::filesystem::path& file, const TomlValue& part, int maskTexels) {
     if (file.extension() != ".gltf" && file.extension() != ".glb")
         throw BadInput("a part is a mesh of a .gltf or .glb file, by name");
-    const auto [known, isNew] = parts_.try_emplace(file);
-    if (isNew) known->second = importParts(file);
+    const auto [known, isNew] = parts_.try_emplace({file, maskTexels});
+    if (isNew) known->second = importParts(file, maskTexels);
     const std::string wanted = part.text();
     if (const auto found = known->second.find(wanted); found != known->second.end()) return found->second;
     std::vector<std::string> names;
@@ -284,17 +289,21 @@ std::shared_ptr<const Mesh> MeshStore::imported(const TomlValue& value, const st
     if (simplify && triangles > 0) simplify->fail("the levels of lod state the triangles; leave this one out");
     const int wanted = simplify ? simplify->integer(4, kMostTriangles) : triangles;
     const Conventions conventions = conventionsOf(value);
+    const auto texels = value.find("mask_texels");
+    if (texels && !part) texels->fail("belongs to a part of a glTF file");
+    const int maskTexels = texels ? maskTexelsOf(*texels) : 0;
     const std::filesystem::path file = folder_ / name.text();
     std::string words =
         fmt::format("file {} {} {} {} {} {} {}", file.string(), closed && closed->boolean(), wanted, conventions.metres,
                     conventions.zUp, conventions.flip, part ? "part " + part->text() : "");
+    if (texels) words += fmt::format(" mask {}", maskTexels);
     for (int i = 0; conventions.matrix && i < 9; ++i) words += fmt::format(" {}", (*conventions.matrix)[i / 3][i % 3]);
     std::shared_ptr<const Mesh>& mesh = meshes_[words];
     if (mesh != nullptr) return mesh;
 
     Mesh made;
     try {
-        made = part ? partOf(file, *part) : importMesh(file);
+        made = part ? partOf(file, *part, maskTexels) : importMesh(file);
     } catch (const BadInput& error) {
         name.fail(error.what());
     }

@@ -194,7 +194,7 @@ Scene sceneOf(toml::table& table, const std::string& shows, const fs::path& file
     const TomlValue root(source, "", table);
     if (table.empty()) root.fail("the file is empty; a scene has a title, a camera, a light and objects");
     root.only({"title", "profile", "size", "reference_samples", "moving_reference_samples", "camera", "light", "timeline",
-               "object", "lod", "tolerance", "expect", "gltf", "unit", "up"});
+               "object", "lod", "tolerance", "expect", "gltf", "unit", "up", "mask_texels"});
     completeFromGltf(table, source, file.parent_path());
 
     Scene scene;

@@ -36,14 +36,15 @@ public:
 private:
     std::shared_ptr<const Mesh> generated(const TomlValue& generator, int triangles, int pose);
     std::shared_ptr<const Mesh> imported(const TomlValue& value, const std::optional<TomlValue>& part, int triangles);
-    const Mesh& partOf(const std::filesystem::path& file, const TomlValue& part);
+    const Mesh& partOf(const std::filesystem::path& file, const TomlValue& part, int maskTexels);
     /// Throws at the key once the meshes so far cannot be in memory.
     void requireRoom(const Mesh& another, const TomlValue& key);
 
     std::filesystem::path folder_; // that mesh files are relative to
     std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
-    std::uint64_t bytes_ = 0;                                            // of meshes_
-    std::map<std::filesystem::path, std::map<std::string, Mesh>> parts_; // of glTF files, by name
+    std::uint64_t bytes_ = 0; // of meshes_
+    /// Of glTF files with so many texels of a mask at most, by name.
+    std::map<std::pair<std::filesystem::path, int>, std::map<std::string, Mesh>> parts_;
 };
 
 /// What Level::cutAt is, of a `mesh = { … }` value that MeshStore::get() has read.
@@ -55,6 +56,9 @@ void requireNoKeyOfMesh(const TomlValue& object);
 /// Of the texts that `unit` and `up` may be.
 double metresOf(const TomlValue& unit);
 bool isZUp(const TomlValue& up);
+
+/// Of `mask_texels`.
+int maskTexelsOf(const TomlValue& texels);
 
 /// Where `own`, the table of a scene file in `folder`, names a glTF file: adds what it leaves to that file, its objects
 /// first.

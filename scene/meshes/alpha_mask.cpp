@@ -170,9 +170,9 @@ private:
         for (std::uint32_t i = 2; i < positions.size(); ++i)
             if (const glm::uvec3 t(first, first + i - 1, first + i); hasArea(left_, t)) left_.triangles.push_back(t);
         if (left_.triangles.size() > limitOf(Limit::Triangles))
-            throw BadInput(
-                fmt::format("without the holes of its mask it has {} triangles, {}; a smaller texture gives fewer",
-                            left_.triangles.size(), beyond(Limit::Triangles)));
+            throw BadInput(fmt::format("without the holes of its mask it has {} triangles, {}; mask_texels = 64 in the "
+                                       "scene file takes a smaller mask",
+                                       left_.triangles.size(), beyond(Limit::Triangles)));
     }
 
     const Mesh& mesh_;

@@ -18,6 +18,7 @@ struct ForeignMeshFile {
     std::string extension; // ".obj", ".ply", ".gltf" or ".glb"; the importer is chosen by it alone
     std::string bytes;
     std::map<std::string, std::string> buffers; // and textures of a glTF file, by the name that it gives them
+    int maskTexels = 0;                         // per side of a mask at most; 0: as its texture has
 };
 
 /// Throws BadInput, without a file's name, unless it is one of the four.

@@ -5,7 +5,11 @@
 #include "base/json_text.h"
 #include "base/limits.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <utility>
+#include <vector>
 
 namespace shadowbench {
 namespace {
@@ -28,6 +32,34 @@ Image<float> alphaOf(const std::string& bytes) {
         throw BadInput(
             fmt::format("its texture has {} × {} pixels, {}", header.width, header.height, beyond(Limit::Pixels)));
     return header.alpha < 0 ? solid : png::channelOf(bytes, header.alpha);
+}
+
+/// Which of `size` texels in a row a texel of `smaller` in its place covers, with the share of each.
+std::vector<std::pair<int, double>> coveredBy(int texel, int smaller, int size) {
+    const double step = static_cast<double>(size) / smaller, begin = texel * step, end = begin + step;
+    std::vector<std::pair<int, double>> covered;
+    for (int i = static_cast<int>(begin); i < std::min(static_cast<int>(std::ceil(end)), size); ++i)
+        covered.emplace_back(i, (std::min(end, i + 1.0) - std::max<double>(begin, i)) / step);
+    return covered;
+}
+
+/// The same in at most `texels` per side, each the mean of what it covers.
+Image<float> reduced(const Image<float>& alpha, int texels) {
+    const int largest = std::max(alpha.width(), alpha.height());
+    if (texels == 0 || largest <= texels) return alpha;
+    const auto sideOf = [&](int side) {
+        return std::max(1, static_cast<int>(std::lround(static_cast<double>(side) * texels / largest)));
+    };
+    Image<float> smaller(sideOf(alpha.width()), sideOf(alpha.height()));
+    for (int y = 0; y < smaller.height(); ++y)
+        for (int x = 0; x < smaller.width(); ++x) {
+            double sum = 0;
+            for (const auto& [row, high] : coveredBy(y, smaller.height(), alpha.height()))
+                for (const auto& [column, wide] : coveredBy(x, smaller.width(), alpha.width()))
+                    sum += high * wide * alpha(column, row);
+            smaller(x, y) = static_cast<float>(sum);
+        }
+    return smaller;
 }
 
 } // namespace
@@ -63,7 +95,7 @@ std::string GltfMasks::readTexture(const GltfJson& use, AlphaMask& mask) {
         throw BadInput("KHR_texture_transform is not read; apply it to the texture's coordinates");
     const GltfJson& texture = buffers_.entry("textures", wholeNumber<std::size_t>(use.at("index")));
     if (!texture.contains("source")) throw BadInput("its texture is neither PNG nor JPEG");
-    mask.alpha = alphaOf(buffers_.image(wholeNumber<std::size_t>(texture["source"])));
+    mask.alpha = reduced(alphaOf(buffers_.image(wholeNumber<std::size_t>(texture["source"]))), texels_);
     if (texture.contains("sampler")) {
         const GltfJson& sampler = buffers_.entry("samplers", wholeNumber<std::size_t>(texture["sampler"]));
         mask.nearest = gltfWhole(sampler, "magFilter", 0) == nearestFilter;

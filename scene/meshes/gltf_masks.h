@@ -18,7 +18,8 @@ struct GltfMask {
 /// Members throw as GltfBuffers' do.
 class GltfMasks {
 public:
-    explicit GltfMasks(GltfBuffers& buffers) : buffers_(buffers) {}
+    /// `texels`: per side of a mask at most, as a level of a mipmap has; 0: as its texture has.
+    GltfMasks(GltfBuffers& buffers, int texels) : buffers_(buffers), texels_(texels) {}
 
     /// Of the primitive's material; nothing unless its alphaMode is MASK. An alpha of vertices is not read.
     const std::optional<GltfMask>& of(const GltfJson& primitive);
@@ -29,6 +30,7 @@ private:
     std::string readTexture(const GltfJson& use, AlphaMask& mask);
 
     GltfBuffers& buffers_;
+    int texels_;
     std::map<std::size_t, std::optional<GltfMask>> known_; // by material
 };
 

@@ -24,7 +24,8 @@ constexpr std::size_t longestName = 4096; // of a mesh in a .gltf, bytes
 constexpr std::uint64_t mostParts = 1'000'000;
 constexpr std::uint64_t withoutMask = 0; // in place of a mask's number
 
-/// What is asked of the child: the extension of the file, whose meshes are wanted as one; or this before it, for its parts.
+/// What is asked of the child: the extension of the file, whose meshes are wanted as one; or this and maskTexels before it,
+/// for its parts: "parts64.glb".
 constexpr std::string_view partsOf = "parts";
 
 // ---- in the child
@@ -32,8 +33,10 @@ constexpr std::string_view partsOf = "parts";
 
 ForeignMeshFile contentsOf(const ForeignWork& work) {
     const std::string request = work.request();
-    ForeignMeshFile file{
-        request.starts_with(partsOf) ? request.substr(partsOf.size()) : request, contentOf(work.files().front()), {}};
+    const std::size_t extension = request.find('.');
+    ForeignMeshFile file{request.substr(extension), contentOf(work.files().front()), {}};
+    if (request.starts_with(partsOf))
+        file.maskTexels = std::stoi(request.substr(partsOf.size(), extension - partsOf.size()));
     for (const OpenedFile& buffer : std::span(work.files()).subspan(1)) file.buffers.emplace(buffer.name, contentOf(buffer));
     return file;
 }
@@ -196,9 +199,10 @@ Mesh importMesh(const fs::path& file) {
     return receivedMesh(child);
 }
 
-std::map<std::string, Mesh> importParts(const fs::path& file) {
+std::map<std::string, Mesh> importParts(const fs::path& file, int maskTexels) {
     const std::string doing = fmt::format("cannot read {}", file.string());
-    ReaderChild child(meshReader, doing, filesOf(file, doing), std::string(partsOf) + extensionOf(file));
+    ReaderChild child(meshReader, doing, filesOf(file, doing),
+                      fmt::format("{}{}{}", partsOf, maskTexels, extensionOf(file)));
     return receivedParts(child);
 }
 

@@ -20,7 +20,7 @@ Mesh importMesh(const std::filesystem::path& file);
 /// closed; points and lines are left out. Of what we have exported, vertices and triangles are those of the file in their
 /// order; others are welded, too. Read is what any exporter may write without extensions and sparse accessors: positions of
 /// 32-bit floats; lists, strips and fans; buffers beside the file, within it or in data URIs. Throws as above.
-std::map<std::string, Mesh> importParts(const std::filesystem::path& file);
+std::map<std::string, Mesh> importParts(const std::filesystem::path& file, int maskTexels = 0);
 
 /// `mesh` without its triangles of no area, which no image shows, and with what it says of them in `flat`. One that is said
 /// to be closed is as it was: they may be what closes it; and so is one that has no others.

@@ -95,7 +95,7 @@ std::vector<glm::vec2> coordinatesOf(const GltfElements& elements, const std::ve
 
 class PartReader {
 public:
-    explicit PartReader(const ForeignMeshFile& file) : buffers_(file), masks_(buffers_) {}
+    explicit PartReader(const ForeignMeshFile& file) : buffers_(file), masks_(buffers_, file.maskTexels) {}
 
     std::map<std::string, Mesh> parts() {
         std::map<std::string, Mesh> result;

@@ -278,6 +278,33 @@ TEST_F(GltfMasks, HaveCardsInTheScenesUnitAndNoneWhereTheMeshIsSimplified) {
     EXPECT_EQ(meshOf(", simplify = 4")->cards, nullptr);
 }
 
+/// As a level of its mipmap: the means of what smaller texels cover.
+TEST_F(GltfMasks, HaveAsManyTexelsAsTheSceneFileTakes) {
+    constexpr const char* of = "gltf = \"other.gltf\"\nmask_texels = ";
+    const auto areaThrough = [&](const std::string& lines) { return areaOf(*through(lines).objects[0].levels[0].mesh); };
+    EXPECT_EQ(areaThrough(of + std::string("2")), area()) << "of two texels";
+    EXPECT_EQ(areaThrough(of + std::string("1")), 2) << "half of the texel is solid, as the cutoff asks";
+    gltf["materials"][0]["alphaCutoff"] = 0.51;
+    expectWithin(refusalOf([&] { return through(of + std::string("1")); }), "its mask leaves nothing of it");
+    expectWithin(refusalOf([&] { return through(of + std::string("0")); }),
+                 "level.toml:2: mask_texels: expected a whole number from 1");
+    expectWithin(refusalOf([&] { return through("mask_texels = 2"); }), "mask_texels: belongs to gltf = ");
+}
+
+/// 3 × 2 texels in 2 × 1: each has one whole column and half of the middle one.
+TEST_F(GltfMasks, OfAnySizeAreMeansOfWhatTheirTexelsCover) {
+    std::vector<std::uint8_t> pixels;
+    for (const int alpha : {0, 60, 240, 120, 180, 240})
+        pixels.insert(pixels.end(), {9, 9, 9, static_cast<std::uint8_t>(alpha)});
+    writeFile(folder_.path() / "leaf.png", png::encoded(3, 2, 4, pixels));
+    gltf["materials"][0]["alphaCutoff"] = 0.1;
+    const Scene scene = through("gltf = \"other.gltf\"\nmask_texels = 2");
+    const Image<float>& alpha = scene.objects[0].levels[0].mesh->cards->mask->alpha;
+    ASSERT_EQ(std::pair(alpha.width(), alpha.height()), std::pair(2, 1));
+    EXPECT_NEAR(alpha[0], (0 + 120 + 0.5 * (60 + 180)) / 3 / 255, 1e-6);
+    EXPECT_NEAR(alpha[1], (240 + 240 + 0.5 * (60 + 180)) / 3 / 255, 1e-6);
+}
+
 TEST_F(GltfMasks, WhatCannotBeReadIsNamedWithItsMaterial) {
     const Json whole = gltf;
     const auto expect = [&](const std::string& reason) {
