@@ -170,7 +170,7 @@ private:
         for (std::uint32_t i = 2; i < positions.size(); ++i)
             if (const glm::uvec3 t(first, first + i - 1, first + i); hasArea(left_, t)) left_.triangles.push_back(t);
         if (left_.triangles.size() > limitOf(Limit::Triangles))
-            throw BadInput(fmt::format("without the holes of its mask it has {} triangles, {}; mask_texels = 64 in the "
+            throw BadInput(fmt::format("without the holes of its mask it has {} triangles, {}; mask_texels = 32 in a "
                                        "scene file takes a smaller mask",
                                        left_.triangles.size(), beyond(Limit::Triangles)));
     }
