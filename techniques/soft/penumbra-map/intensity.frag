@@ -9,5 +9,6 @@ out float intensity;
 void main() {
     float receiver = linearDepth(texelFetch(windowDepths, ivec2(gl_FragCoord.xy), 0).r);  // Z_P
     if (depth >= receiver) discard;
-    intensity = (depth - acrossSurface) / (receiver - acrossSurface);
+    // No vertex lies behind its cone, but rounding may put it there, and the receiver of a contact between the two.
+    intensity = clamp((depth - acrossSurface) / (receiver - acrossSurface), 0.0, 1.0);
 }

@@ -1,5 +1,6 @@
 // Penumbra maps: eq. 2.2's own ramp along sheets and around cones, and the umbra that never shrinks.
 #include "base/error.h"
+#include "base/random.h"
 #include "tests/support/plate_scene.h"
 #include "tests/support/soft_scenes.h"
 
@@ -107,6 +108,35 @@ TEST(PenumbraMap, WherePenumbraeOverlapTheDarkerOneIsKept) { // minimum blending
 }
 
 TEST(PenumbraMap, TopsOfCastersAreLitUpToTheirRims) { expectTopsLitUpToTheirRims("penumbra-map"); }
+
+/// The plate over grass whose blades are triangles.
+Scene grassScene() {
+    Scene scene = plateScene(1, 256);
+    Random random(7);
+    Mesh grass;
+    for (int i = 0; i < 600; ++i) {
+        const glm::vec3 foot(random.uniform(-2, 2), 0, random.uniform(-2, 2));
+        const auto first = static_cast<std::uint32_t>(grass.positions.size());
+        const glm::vec3 side(random.uniform(-0.05, 0.05), 0, random.uniform(-0.05, 0.05));
+        grass.positions.insert(grass.positions.end(), {foot, foot + side, foot + glm::vec3(0, 0.3, 0)});
+        grass.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    scene.objects.push_back(object(grass, {0, 0, 0}));
+    return scene;
+}
+
+/// Where a caster touches the ground, rounding may put a cone before its vertex, or the ground between the two.
+TEST(PenumbraMap, IsAShareAtContacts) {
+    Scene scene = grassScene();
+    const Light above = scene.light;
+    for (const Light& light :
+         {above, Light{LightKind::Rectangle, {4, 7, 6}, {-0.4, -0.7, -0.6}, {1, 0, 0}, {0, 0.6, -0.7}}}) {
+        scene.light = light;
+        Stage stage(scene);
+        stage.show(0);
+        for (const float v : rendered(stage, "penumbra-map")) ASSERT_TRUE(v >= 0 && v <= 1) << v;
+    }
+}
 
 TEST(PenumbraMap, RefusesWhatItCannotAnswer) {
     EXPECT_THROW(techniques::parseVariant("penumbra-map:map=8"), BadInput);
