@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <map>
 #include <string>
@@ -264,6 +265,65 @@ TEST_P(EveryVariant, DrawsACasterThatDeformsAsFromTheBeginning) {
     const auto kept = variant.entry->make(variant.parameters);
     draw(*kept, moving - 1);
     EXPECT_EQ(draw(*kept, moving), draw(*variant.entry->make(variant.parameters), moving));
+}
+
+/// A box over a slab, all lengths `scale` times as long.
+Scene boxAtScale(double scale) {
+    Scene scene;
+    scene.id = "scaled";
+    scene.size = {72, 64};
+    scene.timeline = {2, 2};
+    scene.camera = {
+        scale * glm::dvec3(2.3, 3.1, 4.2), scale * glm::dvec3(0.1, 0, 0), {0, 1, 0}, 40, 0.1 * scale, 50 * scale};
+    scene.light = {LightKind::Rectangle,
+                   scale * glm::dvec3(0.7, 4.3, 0.4),
+                   {0, -1, 0},
+                   scale * glm::dvec3(0.5, 0, 0.1),
+                   scale * glm::dvec3(-0.1, 0, 0.5)};
+    for (const auto& [size, at] : {std::pair{glm::dvec3(8, 0.2, 8), glm::dvec3(0)}, {{0.6, 0.5, 0.7}, {0.1, 0.7, 0.2}}}) {
+        Object object;
+        Mesh mesh = box(size);
+        for (glm::vec3& position : mesh.positions) position *= static_cast<float>(scale);
+        object.levels.push_back({std::make_shared<const Mesh>(std::move(mesh))});
+        object.instances.push_back({glm::translate(glm::dmat4(1), scale * at), 0});
+        scene.objects.push_back(object);
+    }
+    return scene;
+}
+
+/// Whether a variant has lengths in metres, as its engine has: how far it marches, how wide it filters at most, how depths
+/// weigh.
+bool knowsMetres(std::string_view variant) {
+    return variant.starts_with("screen-contact") || variant.starts_with("ray-classified") ||
+           (variant.starts_with("pcss-vogel") && variant.find("widest=0.56") != std::string_view::npos);
+}
+
+/// The share of pixels that a unit may change: layers that lie at fixed depths. A history is mixed in single precision.
+double changedByUnit(std::string_view variant) { return variant.starts_with("layered-attenuation") ? 0.002 : 0; }
+float roundedByUnit(std::string_view variant) { return variant.starts_with("temporal-soft") ? 1e-5F : 0; }
+
+/// By a power of two, which no sum or product of floats rounds otherwise.
+TEST_P(EveryVariant, DrawsAModelOfAnySizeAlike) {
+    testContext();
+    const auto imagesAt = [&](double scale) {
+        Scene scene = boxAtScale(scale);
+        if (!techniques::parseVariant(GetParam()).entry->temporal) scene.timeline = {1, 0};
+        if (notApplicable(scene, techniques::parseVariant(GetParam()))) { // one for linear lights
+            scene.light.kind = LightKind::Line;
+            scene.light.v = {0, 0, 0};
+        }
+        Stage stage(scene);
+        return shortRun(stage, knowsMetres(GetParam()) ? GetParam() : madeSmall(GetParam()));
+    };
+    const auto images = imagesAt(1), larger = imagesAt(64);
+    std::size_t different = 0, all = 0;
+    for (std::size_t frame = 0; frame < images.size(); ++frame)
+        for (std::size_t i = 0; i < images[frame].size(); ++i, ++all)
+            different += std::abs(images[frame][i] - larger[frame][i]) > roundedByUnit(GetParam()) ? 1 : 0;
+    if (knowsMetres(GetParam()))
+        EXPECT_GT(different, 0U) << "it has no length in metres";
+    else
+        EXPECT_LE(different, changedByUnit(GetParam()) * static_cast<double>(all)) << "of " << all << " pixels";
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, EveryVariant, testing::ValuesIn(variantsForAreaLights()), nameOfText);

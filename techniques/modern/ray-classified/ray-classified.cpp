@@ -4,9 +4,9 @@
 // and then by columns; of zeros and ones it gives their variance, too  5. means over frames, clamped to half a standard
 // deviation around that share: a history that lies far from it counts as young, and variance is raised while it is young  6.
 // three steps of an edge-avoiding à-trous filter, the first of which makes the next frame's history  7. contrast. Figures
-// are the SDK's. Departures: shares of rows go through a texture, where compute shaders keep them in the group's memory;
-// rays beside the image do not count, where the SDK has them shadowed; each pixel moves as its own point did, not as the
-// nearest of four.
+// are the SDK's; its filter weighs differences of depth by the metre, so it blurs more in a small model. Departures: shares
+// of rows go through a texture, where compute shaders keep them in the group's memory; rays beside the image do not count,
+// where the SDK has them shadowed; each pixel moves as its own point did, not as the nearest of four.
 #include "techniques/contract/entry.h"
 #include "techniques/contract/resolve.h"
 #include "techniques/modern/surface.h"
