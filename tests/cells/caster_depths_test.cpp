@@ -118,7 +118,7 @@ protected:
     /// Whether 1 / depth of every texel is that of something within it, held between far and near plane, or less.
     template <typename Inverse>
     void expectBehindWhatTexelsHold(const NearestInTexels& nearest, std::size_t texels, Inverse inverse, const char* map) {
-        constexpr double rounding = 5e-7; // eight halves of a 32-bit float's last digit
+        constexpr double rounding = 5e-7; // four steps of a 32-bit float near 1
         std::size_t before = 0;
         for (std::size_t i = 0; i < texels; ++i)
             if (inverse(i) > std::clamp(nearest[i], 1 / view_.far, 1 / view_.near) + rounding / view_.near) ++before;
