@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace shadowbench {
@@ -127,7 +128,9 @@ TEST_F(RunningAProgram, LiftsTheLimitsThatItIsAskedToLift) {
     command.memoryLimit.reset();
     command.openFiles.reset();
     run(command);
-    EXPECT_EQ(said_, "unlimited");
+    rlimit own = {};
+    ASSERT_EQ(getrlimit(RLIMIT_AS, &own), 0);
+    EXPECT_EQ(said_, own.rlim_cur == RLIM_INFINITY ? "unlimited" : std::to_string(own.rlim_cur / 1024));
 }
 
 TEST_F(RunningAProgram, StopsItWhenTheUserInterrupts) {
