@@ -293,7 +293,7 @@ TEST_F(Ci, TheBaseIsWhatTheHostSaysElseWhereTheBranchBegan) {
     const Outcome unknown = ci("--base nowhere");
     EXPECT_EQ(unknown.code, 5);
     EXPECT_TRUE(contains(unknown.output, "the base nowhere is no commit")) << unknown.output;
-    const Outcome outside = shell("cd " + (folder_ / "cache") + " && shadowbench ci");
+    const Outcome outside = shell("cd / && shadowbench ci"); // the temporary folder may be in one
     EXPECT_EQ(outside.code, 2);
     EXPECT_TRUE(contains(outside.output, "is in no git repository")) << outside.output;
 }
