@@ -71,7 +71,7 @@ LightView FolderViews::single(const Frame& frame) const {
         return fitLispsm(frame.hardLight, frame.snapshot, camera, frame.aspect());
     case FolderView::Sample: {
         const glm::dvec2 at(haltonOf(frame.index, frame.seed, 2), haltonOf(frame.index, frame.seed, 3));
-        return fitFromSample(light, light.sample(at), boundingCorners(frame.snapshot));
+        return fitFromSample(light, light.sample(at), frame.snapshot);
     }
     case FolderView::Cube:
     case FolderView::Cascades:

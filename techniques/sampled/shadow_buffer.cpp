@@ -64,7 +64,7 @@ gl::Defines shadowBufferDefines(const Parameters& parameters) {
 LightView lightSampleView(const Frame& frame) {
     const Light& light = frame.snapshot.light;
     const glm::dvec2 sample(haltonOf(frame.index, frame.seed, 2), haltonOf(frame.index, frame.seed, 3));
-    return fitFromSample(light, light.sample(sample), boundingCorners(frame.snapshot));
+    return fitFromSample(light, light.sample(sample), frame.snapshot);
 }
 
 ShadowBuffer::Images::Images(glm::ivec2 size, glm::ivec2 border)

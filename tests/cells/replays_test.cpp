@@ -223,8 +223,7 @@ public:
     void next() {
         const Light& light = frame_.light;
         const glm::dvec2 sample(techniques::haltonOf(frames_, 1, 2), techniques::haltonOf(frames_, 1, 3));
-        const techniques::LightView view =
-            techniques::fitFromSample(light, light.sample(sample), techniques::boundingCorners(frame_));
+        const techniques::LightView view = techniques::fitFromSample(light, light.sample(sample), frame_);
         const test::MapReplay map(triangles_, view, side);
         const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
         const std::vector<Pixel> before = pixels_;

@@ -55,6 +55,35 @@ TEST(LightView, ARectangularLightsSidesAreTheMapsSides) {
     EXPECT_NEAR(along.z, 0, 1e-12); // the map's plane is the light's plane
 }
 
+TEST(LightView, AFlatLightLooksToTheSideOfTheCamerasTarget) {
+    const Light light{LightKind::Disk, {0, 10, 0}, {0, -1, 0}, {2, 0, 0}, {0, 0, 2}};
+    Snapshot scene = slabScene(light);
+    const glm::dmat4 high = glm::translate(glm::dmat4(1), glm::dvec3(0, 90, 0));
+    scene.batches[0].placements.push_back({high, high, 2}); // the middle of the scene is above the light
+    const auto axis = [&] { return glm::dvec3(fitToScene(light, scene).depthFromWorld).y; };
+    EXPECT_NEAR(axis(), -1, 1e-12);
+    const glm::dvec3 rim = light.sample({0.9, 0.5});
+    EXPECT_NEAR(fitFromSample(light, rim, scene).depthFromWorld.y, -1, 1e-12);
+    scene.camera.target.y = 10 + 1e-9; // in the light's plane but for rounding
+    EXPECT_NEAR(axis(), 1, 1e-12);
+    scene.camera.target.y = 20;
+    EXPECT_NEAR(axis(), 1, 1e-12);
+    scene.camera.target.y = -1; // below all that there is
+    EXPECT_NEAR(axis(), 1, 1e-12);
+}
+
+TEST(LightView, AnAreaLightsViewBeginsAtWhatItsPyramidHolds) {
+    // A wall 3 m beside the light rises above its plane: 80° off the axis, the view holds it from 3 / tan 80° on.
+    const Light light{LightKind::Rectangle, {0, 2, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+    Snapshot scene = slabScene(light);
+    const glm::dmat4 beside = glm::translate(glm::dmat4(1), glm::dvec3(3.5, 0, 0));
+    scene.batches.push_back({std::make_shared<Mesh>(box({1, 20, 20})), {}, false, {{beside, beside, 2}}});
+    EXPECT_NEAR(fitToScene(light, scene).near, 3 / std::tan(glm::radians(80.0)), 1e-5);
+    const Light nearer{LightKind::Rectangle, {2.99, 2, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+    const LightView held = fitToScene(nearer, scene);
+    EXPECT_NEAR(held.near, 0.01 * held.far, 1e-6);
+}
+
 TEST(LightView, ALightInsideTheSceneIsHeldAtTheLimitsOfOneMap) {
     const Light light{LightKind::Point, {0, 0.5, 0}, {0, -1, 0}, {}, {}};
     const LightView view = fitToScene(light, slabScene(light));

@@ -118,7 +118,7 @@ LightView downwards() {
     std::vector<glm::dvec3> points;
     for (const double x : {-4.0, 4.0})
         for (const double z : {-4.0, 4.0}) points.emplace_back(x, 0, z);
-    return fitToPoints(light, points);
+    return fitToPoints(light, points, {0, 0, 0});
 }
 
 TEST(Outline, DualGridHasDepthSamplesAtCorners) {

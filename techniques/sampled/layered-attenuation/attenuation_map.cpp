@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/gtc/matrix_transform.hpp>
 #include <string>
 
 namespace shadowbench::techniques {
@@ -18,6 +19,10 @@ int wordsFor(int samples) { return (samples + 31) / 32; }
 std::size_t fields(int samples) { return 2 + static_cast<std::size_t>(wordsFor(samples)); }
 
 std::size_t texels(int side) { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
+
+/// All depths into [−1, 0]: what rounds to the far plane is seen, too, and has layers.
+const glm::dmat4 nearHalf =
+    glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -0.5)) * glm::scale(glm::dmat4(1), glm::dvec3(1, 1, 0.5));
 
 } // namespace
 
@@ -45,9 +50,9 @@ void AttenuationMap::clear() {
 
 void AttenuationMap::warp(const Frame& frame, const std::vector<glm::dvec3>& points) {
     clear();
-    const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const LightView sample = fitFromSample(frame.snapshot.light, points[i], corners);
+        LightView sample = fitFromSample(frame.snapshot.light, points[i], frame.snapshot);
+        sample.clipFromWorld = nearHalf * sample.clipFromWorld;
         map_.draw(sample, frame);
         const auto pass = frame.pass("warped layers");
         bindTo(warp_);

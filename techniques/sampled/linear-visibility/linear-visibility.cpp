@@ -58,7 +58,7 @@ private:
         const glm::dvec3 point = light.centre + (static_cast<double>(number) / segments_ - 0.5) * light.u;
         // A rim of two texels that hold nothing: the outline of what reaches the view's end is a discontinuity too.
         const glm::dvec2 rim(2.0 / end.map.side());
-        end.view = partOf(fitFromSample(light, point, boundingCorners(frame.snapshot)), -rim, 1.0 + rim);
+        end.view = partOf(fitFromSample(light, point, frame.snapshot), -rim, 1.0 + rim);
         end.map.draw(end.view, frame);
     }
 

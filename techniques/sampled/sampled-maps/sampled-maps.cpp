@@ -23,9 +23,8 @@ public:
         if (!sum_ || sum_->size() != frame.size) sum_.emplace(gl::Format::R32F, frame.size);
         const gl::RenderTarget sumTarget({&*sum_});
         sumTarget.clearColour(0, glm::vec4(0));
-        const std::vector<glm::dvec3> corners = boundingCorners(frame.snapshot);
         for (const glm::dvec3& point : lightPoints(frame.snapshot.light, pattern_, count_, frame.seed)) {
-            const LightView light = fitFromSample(frame.snapshot.light, point, corners);
+            const LightView light = fitFromSample(frame.snapshot.light, point, frame.snapshot);
             map_.draw(light, frame);
             addTest(frame, light, sumTarget);
         }

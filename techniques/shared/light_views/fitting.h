@@ -13,6 +13,10 @@ namespace shadowbench::techniques {
 /// x, y, z over w.
 glm::dvec3 divided(const glm::dvec4& h);
 
+/// The part of a convex polygon where dot(plane, (p, 1)) ≥ 0; new corners are also appended to `cutPoints`.
+std::vector<glm::dvec3> cut(const std::vector<glm::dvec3>& polygon, const glm::dvec4& plane,
+                            std::vector<glm::dvec3>* cutPoints = nullptr);
+
 /// Box of the points after the projective map `transform`.
 Bounds boundsOf(const glm::dmat4& transform, const std::vector<glm::dvec3>& points);
 

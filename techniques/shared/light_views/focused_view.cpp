@@ -15,7 +15,7 @@ LightView fitFocused(const Light& light, const Snapshot& snapshot, const Camera&
     halfSpaces.insert(halfSpaces.end(), within.begin(), within.end());
     const std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, halfSpaces);
     if (body.size() < 3) return whole;
-    return fitToPoints(light, body);
+    return fitToPoints(light, body, snapshot.camera.target);
 }
 
 } // namespace shadowbench::techniques

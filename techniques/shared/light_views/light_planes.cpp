@@ -29,7 +29,7 @@ std::vector<LightView> lightPlanes(const Light& light, const Snapshot& snapshot)
     if (light.kind == LightKind::Directional) return {fitToScene(light, snapshot)};
     const std::vector<glm::dvec3> corners = boundingCorners(snapshot);
     if (contains(snapshot.bounds(), light.centre)) return cubeViews(light.centre, corners);
-    const LightView whole = fitToPoints(light, corners);
+    const LightView whole = fitToScene(light, snapshot);
     if (std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& p) { return holds(whole, p); })) return {whole};
     return cubeViews(light.centre, corners);
 }

@@ -4,7 +4,9 @@
 #include "techniques/shared/light_views/fitting.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
@@ -13,15 +15,18 @@
 namespace shadowbench::techniques {
 namespace {
 
-/// Right, up and forward of a light's plane.
-Camera::Basis lightBasis(const Light& light, const std::vector<glm::dvec3>& points) {
+/// Right, up and forward of a light's plane; `target` as in `fitToPoints`.
+Camera::Basis lightBasis(const Light& light, const std::vector<glm::dvec3>& points, const glm::dvec3& target) {
     Bounds box;
     for (const glm::dvec3& p : points) box.add(p);
     if (light.kind == LightKind::Rectangle || light.kind == LightKind::Disk) {
         // The map's plane is the light's own, its sides the light's sides, so that offsets on the light are offsets on the
         // map.
         glm::dvec3 axis = glm::normalize(glm::cross(light.u, light.v));
-        if (glm::dot(axis, box.centre() - light.centre) < 0) axis = -axis;
+        const bool within = glm::clamp(target, box.low, box.high) == target;
+        double side = within ? glm::dot(axis, target - light.centre) : 0;
+        if (std::abs(side) <= 1e-6 * glm::distance(target, light.centre)) side = glm::dot(axis, box.centre() - light.centre);
+        if (side < 0) axis = -axis;
         const glm::dvec3 right = glm::normalize(light.u);
         return {right, glm::cross(right, axis), axis};
     }
@@ -49,7 +54,42 @@ glm::dmat4 viewFrom(const glm::dvec3& eye, const Camera::Basis& basis) {
 constexpr double nearestShare = 0.01;                 // of the far distance
 const double steepest = std::tan(glm::radians(80.0)); // off the axis
 
-LightView fitPerspective(const glm::dvec3& eye, const Camera::Basis& basis, std::vector<glm::dvec3> points) {
+/// The least depth of a triangle's part within a pyramid from the eye; infinity where none is. All in the view's space.
+double leastDepth(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec4, 4>& sides) {
+    for (const glm::dvec4& side : sides)
+        if (std::ranges::all_of(corners, [&](const glm::dvec3& p) { return glm::dot(glm::dvec3(side), p) < 0; }))
+            return std::numeric_limits<double>::infinity();
+    std::vector<glm::dvec3> part(corners.begin(), corners.end());
+    for (const glm::dvec4& side : sides) part = cut(part, side);
+    double least = std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& p : part) least = std::min(least, -p.z);
+    return least;
+}
+
+/// The same of all of the scene. `view`: of the light; `slopes`: of the pyramid's sides.
+double leastDepth(const Snapshot& scene, const glm::dmat4& view, const Bounds& slopes) {
+    const std::array<glm::dvec4, 4> sides{
+        glm::dvec4(1, 0, slopes.low.x, 0), {-1, 0, -slopes.high.x, 0}, {0, 1, slopes.low.y, 0}, {0, -1, -slopes.high.y, 0}};
+    double least = std::numeric_limits<double>::infinity();
+    for (const Batch& batch : scene.batches) {
+        const Bounds box = batch.mesh->bounds();
+        for (const Placement& placement : batch.placements) {
+            const glm::dmat4 fromObject = view * placement.world;
+            if (-transformed(box, fromObject).high.z >= least) continue;
+            std::vector<glm::dvec3> seen;
+            for (const glm::vec3& p : batch.mesh->positions) seen.emplace_back(fromObject * glm::dvec4(p, 1));
+            for (const glm::uvec3& t : batch.mesh->triangles)
+                if (-std::max({seen[t.x].z, seen[t.y].z, seen[t.z].z}) < least)
+                    least = std::min(least, leastDepth({seen[t.x], seen[t.y], seen[t.z]}, sides));
+        }
+    }
+    return least;
+}
+
+/// `scene`: whose parts before the light give the near distance where points are nearer than the limit; else it is the
+/// limit.
+LightView fitPerspective(const glm::dvec3& eye, const Camera::Basis& basis, std::vector<glm::dvec3> points,
+                         const Snapshot* scene = nullptr) {
     const glm::dmat4 view = viewFrom(eye, basis);
     double near = std::numeric_limits<double>::infinity();
     double far = 0;
@@ -59,6 +99,7 @@ LightView fitPerspective(const glm::dvec3& eye, const Camera::Basis& basis, std:
         far = std::max(far, depth);
     }
     if (far <= 0) throw BadInput("the light looks away from the whole scene: no shadow map can be drawn from it");
+    const bool held = near * (1 - 1e-6) < nearestShare * far;
     near = std::max(near * (1 - 1e-6), nearestShare * far);
     far *= 1 + 1e-6;
 
@@ -68,6 +109,7 @@ LightView fitPerspective(const glm::dvec3& eye, const Camera::Basis& basis, std:
         const double depth = std::max(-v.z, near);
         slopes.add({std::clamp(v.x / depth, -steepest, steepest), std::clamp(v.y / depth, -steepest, steepest), 0});
     }
+    if (held && scene != nullptr) near = std::clamp(leastDepth(*scene, view, slopes) * (1 - 1e-6), near, 0.5 * far);
     const glm::dmat4 projection =
         glm::frustum(slopes.low.x * near, slopes.high.x * near, slopes.low.y * near, slopes.high.y * near, near, far);
     return {projection * view,
@@ -109,19 +151,24 @@ std::vector<glm::dvec3> boundingCorners(const Snapshot& snapshot) {
     return points;
 }
 
-LightView fitToPoints(const Light& light, std::vector<glm::dvec3> points) {
-    const Camera::Basis basis = lightBasis(light, points);
+LightView fitToPoints(const Light& light, std::vector<glm::dvec3> points, const glm::dvec3& target) {
+    const Camera::Basis basis = lightBasis(light, points, target);
     if (light.kind == LightKind::Directional) return fitOrthographic(basis, std::move(points));
     return fitPerspective(light.centre, basis, std::move(points));
 }
 
-LightView fitFromSample(const Light& light, const glm::dvec3& sample, std::vector<glm::dvec3> points) {
+LightView fitFromSample(const Light& light, const glm::dvec3& sample, const Snapshot& snapshot) {
     Light moved = light;
     moved.centre = sample;
-    return fitToPoints(moved, std::move(points));
+    return fitToScene(moved, snapshot);
 }
 
-LightView fitToScene(const Light& light, const Snapshot& snapshot) { return fitToPoints(light, boundingCorners(snapshot)); }
+LightView fitToScene(const Light& light, const Snapshot& snapshot) {
+    std::vector<glm::dvec3> corners = boundingCorners(snapshot);
+    if (!light.isArea()) return fitToPoints(light, std::move(corners), snapshot.camera.target);
+    const Camera::Basis basis = lightBasis(light, corners, snapshot.camera.target);
+    return fitPerspective(light.centre, basis, std::move(corners), &snapshot);
+}
 
 LightView jittered(const LightView& view, double angle, glm::dvec2 shift, int texels) {
     LightView result = view;

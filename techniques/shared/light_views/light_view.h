@@ -31,14 +31,17 @@ std::vector<glm::dvec3> boundingCorners(const Snapshot& snapshot);
 
 /// The light frustum fitted to `points` (Scherzer 2.2; course, "Shadow Mapping"). A point or area light looks from its
 /// centre: along its normal if it is a flat area light (at right angles to a line light), else towards the middle of the
-/// points; a directional light is orthographic. Points nearer to the light's plane than a hundredth of the far distance, or
-/// more than 80° off the axis, are held at that limit: a single map cannot see behind its light.
-LightView fitToPoints(const Light& light, std::vector<glm::dvec3> points);
+/// points; a directional light is orthographic. A flat light looks to the side of its plane that `target`, the camera's, is
+/// on; where that is in the plane or beside the points, to the side of their middle. Points nearer to the light's plane than
+/// a hundredth of the far distance, or more than 80° off the axis, are held at that limit: a single map cannot see behind
+/// its light.
+LightView fitToPoints(const Light& light, std::vector<glm::dvec3> points, const glm::dvec3& target);
 
-/// The view of point `sample` of an area light, its plane parallel to the light's.
-LightView fitFromSample(const Light& light, const glm::dvec3& sample, std::vector<glm::dvec3> points);
+/// The view of point `sample` of an area light over the whole scene, its plane parallel to the light's.
+LightView fitFromSample(const Light& light, const glm::dvec3& sample, const Snapshot& snapshot);
 
-/// `fitToPoints` over the whole scene.
+/// `fitToPoints` over the whole scene. Where points are held at the least distance, the view of an area light begins at the
+/// nearest part of a triangle that it holds: a room that reaches above its lamp is not next to the lamp.
 LightView fitToScene(const Light& light, const Snapshot& snapshot);
 
 /// The same view rasterised differently: the projection window turned by `angle` (radians), re-fitted to the covered points,

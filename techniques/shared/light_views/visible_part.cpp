@@ -1,5 +1,7 @@
 #include "techniques/shared/light_views/visible_part.h"
 
+#include "techniques/shared/light_views/fitting.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,22 +11,6 @@ namespace shadowbench::techniques {
 namespace {
 
 using Polygon = std::vector<glm::dvec3>;
-
-/// The part of a convex polygon where dot(plane, (p, 1)) ≥ 0; new corners are also appended to `cutPoints`.
-Polygon cut(const Polygon& polygon, const glm::dvec4& plane, std::vector<glm::dvec3>& cutPoints) {
-    Polygon kept;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec3& a = polygon[i];
-        const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
-        const double da = glm::dot(plane, glm::dvec4(a, 1));
-        const double db = glm::dot(plane, glm::dvec4(b, 1));
-        if (da >= 0) kept.push_back(a);
-        if ((da >= 0) == (db >= 0)) continue;
-        kept.push_back(a + da / (da - db) * (b - a));
-        cutPoints.push_back(kept.back());
-    }
-    return kept;
-}
 
 /// Sorts points of one plane around their middle, so that they bound a convex polygon.
 void sortAround(Polygon& polygon, const glm::dvec3& normal) {
@@ -42,7 +28,7 @@ std::vector<Polygon> cutBody(const std::vector<Polygon>& faces, const glm::dvec4
     std::vector<Polygon> kept;
     Polygon lid;
     for (const Polygon& face : faces) {
-        Polygon rest = cut(face, plane, lid);
+        Polygon rest = cut(face, plane, &lid);
         if (rest.size() >= 3) kept.push_back(std::move(rest));
     }
     if (lid.size() < 3) return kept;

@@ -62,6 +62,18 @@ TEST(LayeredAttenuation, ASteepReceiverTakesAllLayersOfItsTexels) {
     EXPECT_NEAR(meanOnWall(stage, "layered-attenuation:n=16,map=256"), meanOnWall(stage, "sampled-maps:n=16,map=512"), 0.05);
 }
 
+TEST(LayeredAttenuation, SeesAGroundThatIsItsViewsFarPlane) {
+    // Under a light parallel to the ground, and with something so near the light that the ground's window depth rounds to 1.
+    Scene scene = groundScene(64);
+    scene.objects[0] = object(plane(4), {0, 0, 0});
+    scene.objects.push_back(object(box({0.1, 0.1, 0.1}), {0.2, 5.88, 0.1}));
+    scene.light = {LightKind::Rectangle, {0, 6, 0}, {0, -1, 0}, {0.6, 0, 0}, {0, 0, 0.6}};
+    Stage stage(scene);
+    stage.show(0);
+    EXPECT_LE(differenceOnReceivers(stage, rendered(stage, "layered-attenuation"), rendered(stage, "sampled-maps")),
+              1.0 / 32);
+}
+
 TEST(LayeredAttenuation, OfNSamplesHasNPlusOneValues) {
     const Scene scene = overlapScene();
     Stage stage(scene);
