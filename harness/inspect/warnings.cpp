@@ -2,6 +2,7 @@
 
 #include "harness/inspect/meshes.h"
 #include "scene/load/load.h"
+#include "techniques/shared/light_views/light_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -153,6 +154,30 @@ void judgeLight(const Evidence& e, Warnings& warnings) {
                             "move it away: what lies so near hides half of the scene from it"});
 }
 
+/// How much of the shadow that is seen lies where no map of a flat light looks.
+double shadowBehind(const Evidence& e) {
+    const glm::dvec4 plane = techniques::fitToScene(e.snapshot.light, e.snapshot).depthFromWorld;
+    double behind = 0, all = 0;
+    for (std::size_t i = 0; i < e.seen.visibility.size(); ++i) {
+        if (e.seen.hits.surface[i] != Surface::Receiver) continue;
+        const double hidden = 1 - e.seen.visibility[i];
+        all += hidden;
+        if (glm::dot(plane, glm::dvec4(e.seen.hits.position[i], 1)) < 0) behind += hidden;
+    }
+    return all > 0 ? behind / all : 0;
+}
+
+void judgeSides(const Evidence& e, Warnings& warnings) {
+    constexpr double few = 0.05;
+    const Light& light = e.snapshot.light;
+    if (light.kind != LightKind::Rectangle && light.kind != LightKind::Disk) return;
+    if (shadowBehind(e) <= few) return;
+    warnings.push_back(
+        {"shadow is seen on both sides of the light's plane, and shadow maps of the light look to one, that of the "
+         "camera's target",
+         "choose light and target so that what matters is on one side, or expect that maps miss the rest"});
+}
+
 void judgeEmptyView(const Evidence& e, Warnings& warnings) {
     const Camera& camera = e.snapshot.camera;
     double nearest = HUGE_VAL, farthest = -HUGE_VAL;
@@ -255,6 +280,7 @@ std::vector<Warning> warningsOf(const Evidence& e, const std::vector<MeshReport>
     const bool isEnclosed = judgeEnclosure(e, warnings);
     judgeLight(e, warnings);
     judgeFrame(e, isEnclosed, warnings);
+    judgeSides(e, warnings);
     return warnings;
 }
 

@@ -296,6 +296,19 @@ TEST_F(Inspect, ARoomWithCameraAndLightInside) {
     EXPECT_EQ(said(room), "");
 }
 
+TEST_F(Inspect, ALampBetweenTwoFloors) {
+    // A shelf over the lamp casts the shadow that is seen above it; the table's is below, to the camera's target.
+    Model room;
+    room.add({-1, 3.2, -1}, {1, 3.3, 1});
+    room.add({-4, 5.5, -4}, {4, 5.6, 4});
+    const std::string light = "kind = \"disk\", centre = [0, 2.2, 0], u = [0.2, 0, 0], v = [0, 0, 0.2]";
+    const std::string side = "eye = [0.3, 2.6, 9.3], near = 0.5, far = 40, ";
+    expectWords(
+        said(room, {.camera = side + "target = [0, 0.5, 0]", .light = light, .view = "fovy = 65"}),
+        {"shadow is seen on both sides of the light's plane, and shadow maps of the light look to one, that of the"});
+    EXPECT_EQ(said({}, {.camera = side + "target = [0, 0.5, 0]", .light = light, .view = "fovy = 65"}), "");
+}
+
 TEST_F(Inspect, ALightBelow) {
     expectWords(said({}, {.light = "kind = \"point\", centre = [0, -3, 0]"}),
                 {"100 % of what is seen faces away from the light, which is 2.7 m below the whole scene; move it above"});
