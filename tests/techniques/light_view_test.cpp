@@ -84,6 +84,17 @@ TEST(LightView, AnAreaLightsViewBeginsAtWhatItsPyramidHolds) {
     EXPECT_NEAR(held.near, 0.01 * held.far, 1e-6);
 }
 
+TEST(LightView, WarpsAreFittedToWhatTheLightsPyramidHolds) {
+    // A lamp in a hall: of the camera's view most is more than 80° off the light's axis.
+    const Light lamp{LightKind::Point, {0, 3, -2}, {0, -1, 0}, {}, {}};
+    Snapshot scene = slabScene(lamp);
+    const glm::dmat4 beside = glm::translate(glm::dmat4(1), glm::dvec3(9.5, 0, 0));
+    scene.batches.push_back({std::make_shared<Mesh>(box({1, 20, 20})), {}, false, {{beside, beside, 2}}});
+    const LightView whole = fitToScene(lamp, scene), warped = fitLispsm(lamp, scene, scene.camera, 1);
+    EXPECT_GE(warped.covered.size(), 8U);
+    for (const glm::dvec3& p : warped.covered) EXPECT_TRUE(holds(whole, p)) << p.x << " " << p.y << " " << p.z;
+}
+
 TEST(LightView, ALightInsideTheSceneIsHeldAtTheLimitsOfOneMap) {
     const Light light{LightKind::Point, {0, 0.5, 0}, {0, -1, 0}, {}, {}};
     const LightView view = fitToScene(light, slabScene(light));

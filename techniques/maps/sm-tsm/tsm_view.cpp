@@ -21,7 +21,7 @@ LightView fitTsm(const Light& light, const Snapshot& snapshot, const Camera& cam
     constexpr double rule = 0.8;
     LightView view = fitToScene(light, snapshot);
     const glm::dvec4 nearPlane = view.depthFromWorld - glm::dvec4(0, 0, 0, view.near);
-    std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, {&nearPlane, 1});
+    std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, spaceOf(view));
     if (body.size() < 3) return view;
     // Clip space with the map's own proportions, so that right angles are right angles.
     glm::dmat4 plane = glm::scale(glm::dmat4(1), glm::dvec3(0.5 * view.span, 1)) * view.clipFromWorld;

@@ -16,13 +16,6 @@ namespace {
 
 bool contains(const Bounds& box, const glm::dvec3& p) { return glm::clamp(p, box.low, box.high) == p; }
 
-/// Whether the point is in the view without being held at its limits (`fitToPoints`).
-bool holds(const LightView& view, const glm::dvec3& p) {
-    const glm::dvec4 h = view.clipFromWorld * glm::dvec4(p, 1);
-    constexpr double rounding = 1 + 1e-9;
-    return h.w > 0 && std::max({std::abs(h.x), std::abs(h.y), std::abs(h.z)}) <= h.w * rounding;
-}
-
 } // namespace
 
 std::vector<LightView> lightPlanes(const Light& light, const Snapshot& snapshot) {

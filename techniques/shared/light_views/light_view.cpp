@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "techniques/shared/light_views/fitting.h"
+#include "techniques/shared/light_views/visible_part.h"
 
 #include <algorithm>
 #include <array>
@@ -139,6 +140,20 @@ std::optional<glm::dvec2> texelAt(const LightView& view, const glm::dvec3& world
     const glm::dvec2 at = glm::dvec2(h) / h.w;
     const bool inside = h.w > 0 && std::abs(at.x) <= 1 && std::abs(at.y) <= 1;
     return inside ? std::optional((0.5 * at + 0.5) * size) : std::nullopt;
+}
+
+bool holds(const LightView& view, const glm::dvec3& p) {
+    const glm::dvec4 h = view.clipFromWorld * glm::dvec4(p, 1);
+    constexpr double rounding = 1 + 1e-9;
+    return h.w > 0 && std::max({std::abs(h.x), std::abs(h.y), std::abs(h.z)}) <= h.w * rounding;
+}
+
+std::vector<glm::dvec4> spaceOf(const LightView& view) {
+    std::vector<glm::dvec4> space{view.depthFromWorld - glm::dvec4(0, 0, 0, view.near)};
+    if (std::ranges::all_of(view.covered, [&](const glm::dvec3& p) { return holds(view, p); })) return space;
+    const std::array<glm::dvec4, 6> frustum = frustumPlanes(view.clipFromWorld);
+    space.insert(space.end(), frustum.begin(), frustum.begin() + 4);
+    return space;
 }
 
 std::vector<glm::dvec3> boundingCorners(const Snapshot& snapshot) {

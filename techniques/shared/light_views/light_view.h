@@ -26,6 +26,13 @@ struct LightView {
 /// The same as mapPoint() of shared/maps/light_space.glsl (compared in tests/techniques/gl/map_point_test.cpp).
 std::optional<glm::dvec2> texelAt(const LightView& view, const glm::dvec3& world, const glm::dvec2& size);
 
+/// Whether the point is in the view without being held at its limits (`fitToPoints`).
+bool holds(const LightView& view, const glm::dvec3& p);
+
+/// Half-spaces dot(plane, (p, 1)) ≥ 0 of what the view holds. Nothing of the scene is nearer to the light than its near
+/// plane, though corners of its bounding box may be; its sides are among them only where points are held at the limits.
+std::vector<glm::dvec4> spaceOf(const LightView& view);
+
 /// World corners of the bounding boxes of all placements.
 std::vector<glm::dvec3> boundingCorners(const Snapshot& snapshot);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -36,9 +37,8 @@ glm::dvec3 middleAt(double first, double deepest, std::span<const glm::dvec3> bo
 TurnedLight turnedAlongView(const Light& light, const Snapshot& snapshot, const Camera& camera, double aspect,
                             std::span<const glm::dvec4> within) {
     const LightView view = fitToScene(light, snapshot);
-    // Nothing of the scene is nearer to the light than the near plane, though corners of its bounding box may be.
     std::vector<glm::dvec4> halfSpaces(within.begin(), within.end());
-    halfSpaces.push_back(view.depthFromWorld - glm::dvec4(0, 0, 0, view.near));
+    std::ranges::copy(spaceOf(view), std::back_inserter(halfSpaces));
     std::vector<glm::dvec3> body = visiblePart(snapshot.bounds(), camera, aspect, halfSpaces);
     if (body.size() < 3) return {.view = view}; // nothing visible lies in front of the light
 
