@@ -53,6 +53,16 @@ double metresOfPixel(const Evidence& e, double distance) {
     return 2 * distance * std::tan(0.5 * glm::radians(e.snapshot.camera.fovy)) / e.scene.size.y;
 }
 
+/// The longest side of a triangle, in metres of the world.
+double longestSide(const Mesh& mesh, const glm::dmat4& world) {
+    std::vector<glm::dvec3> corners;
+    for (const glm::vec3& p : mesh.positions) corners.emplace_back(world * glm::dvec4(p, 1));
+    double longest = 0;
+    for (const glm::uvec3& t : mesh.triangles)
+        for (int i = 0; i < 3; ++i) longest = std::max(longest, glm::distance(corners[t[i]], corners[t[(i + 1) % 3]]));
+    return longest;
+}
+
 /// Rasterisers keep positions and depths in 32 bits, and a map has so many texels for the whole scene.
 void judgePrecision(const Evidence& e, Warnings& warnings) {
     constexpr double step = 0x1p-23, mostShift = 0.1; // of a single-precision number; of a pixel
@@ -69,6 +79,15 @@ void judgePrecision(const Evidence& e, Warnings& warnings) {
                              "precision lie {:.2g} m apart",
                              nameOf(e, placement.id), far, step * far),
                  "move them to the origin and give the mesh a place, or cut it into parts that have theirs"});
+        constexpr double mostOff = 2; // pixels
+        const double side = longestSide(*batch.mesh, placement.world), off = step * side / metresOfPixel(e, camera.near);
+        if (off > mostOff)
+            warnings.push_back(
+                {fmt::format("triangles of {} are {:.3g} m long, and near is {:.2g} m: a rasteriser in single precision may "
+                             "draw one that passes the camera {:.2g} pixels beside its place",
+                             nameOf(e, placement.id), side, camera.near, off),
+                 fmt::format("cut them, make them no larger than what is seen, or make near more than {:.1g}",
+                             2 * camera.near * off / mostOff)});
     }
     const double leastNear = view * step / 1e-3; // two depths at the target are a thousandth of the way apart
     if (camera.near < leastNear)

@@ -191,6 +191,15 @@ TEST_F(Inspect, AGroundOfTenKilometres) {
                  "make the ground no larger than what is seen"});
 }
 
+TEST_F(Inspect, ATriangleOfKilometresNextToTheNearPlane) {
+    Model model;
+    model.add({-9000, -0.4, -9000}, {9000, -0.3, 9000});
+    const std::string far = "eye = [2.1, 6.2, 7.3], target = [0.1, 0, 0.2], far = 40000, near = ";
+    const std::string words = "triangles of model are 2.55e+04 m long, and near is 0.05 m: a rasteriser";
+    expectWords(said(model, {.camera = far + "0.05"}), {words, " pixels beside its place; cut them, make them no larger"});
+    EXPECT_EQ(said(model, {.camera = far + "0.5"}).find("triangles of"), std::string::npos);
+}
+
 TEST_F(Inspect, TextWithAByteOrderMarkAndCarriageReturns) {
     scene(Model());
     std::string text = "\xEF\xBB\xBF";
