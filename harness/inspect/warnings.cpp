@@ -173,28 +173,29 @@ void judgeLight(const Evidence& e, Warnings& warnings) {
                             "move it away: what lies so near hides half of the scene from it"});
 }
 
-/// How much of the shadow that is seen lies where no map of a flat light looks.
-double shadowBehind(const Evidence& e) {
-    const glm::dvec4 plane = techniques::fitToScene(e.snapshot.light, e.snapshot).depthFromWorld;
-    double behind = 0, all = 0;
+/// How much of the shadow that is seen lies beside what one map of the light holds.
+double shadowBesideTheMap(const Evidence& e) {
+    const techniques::LightView view = techniques::fitToScene(e.snapshot.light, e.snapshot);
+    double beside = 0, all = 0;
     for (std::size_t i = 0; i < e.seen.visibility.size(); ++i) {
         if (e.seen.hits.surface[i] != Surface::Receiver) continue;
         const double hidden = 1 - e.seen.visibility[i];
         all += hidden;
-        if (glm::dot(plane, glm::dvec4(e.seen.hits.position[i], 1)) < 0) behind += hidden;
+        if (!techniques::texelAt(view, e.seen.hits.position[i], {1, 1})) beside += hidden;
     }
-    return all > 0 ? behind / all : 0;
+    return all > 0 ? beside / all : 0;
 }
 
-void judgeSides(const Evidence& e, Warnings& warnings) {
+void judgeMap(const Evidence& e, Warnings& warnings) {
     constexpr double few = 0.05;
     const Light& light = e.snapshot.light;
-    if (light.kind != LightKind::Rectangle && light.kind != LightKind::Disk) return;
-    if (shadowBehind(e) <= few) return;
+    if (light.isEnvironment() || light.kind == LightKind::Directional || shadowBesideTheMap(e) <= few) return;
+    const bool isFlat = light.kind == LightKind::Rectangle || light.kind == LightKind::Disk;
     warnings.push_back(
-        {"shadow is seen on both sides of the light's plane, and shadow maps of the light look to one, that of the "
-         "camera's target",
-         "choose light and target so that what matters is on one side, or expect that maps miss the rest"});
+        {fmt::format("shadow is seen beside what one map of the light sees: 160° around its way to {}",
+                     isFlat ? "the side of the camera's target" : "the middle of the scene"),
+         "move the light out of what it lights, or expect that techniques with one map miss it; sm-cube, volumes and "
+         "silhouettes do not"});
 }
 
 void judgeEmptyView(const Evidence& e, Warnings& warnings) {
@@ -299,7 +300,7 @@ std::vector<Warning> warningsOf(const Evidence& e, const std::vector<MeshReport>
     const bool isEnclosed = judgeEnclosure(e, warnings);
     judgeLight(e, warnings);
     judgeFrame(e, isEnclosed, warnings);
-    judgeSides(e, warnings);
+    judgeMap(e, warnings);
     return warnings;
 }
 

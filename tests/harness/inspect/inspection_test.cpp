@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace shadowbench::inspect {
@@ -116,7 +117,11 @@ TEST_F(Inspect, ALevelOfAKilometreSeenFromTheGround) {
     Model model;
     model.add({-600, -0.9, -600}, {600, -0.5, 600});
     model.add({300, -0.9, 300}, {310, 40, 310});
-    EXPECT_EQ(said(model, {.camera = "eye = [2.1, 6.2, 7.3], target = [0.1, 0, 0.2], near = 0.5, far = 3000"}), "");
+    const std::string lines =
+        said(model, {.camera = "eye = [2.1, 6.2, 7.3], target = [0.1, 0, 0.2], near = 0.5, far = 3000"});
+    // The tower's height draws the map of the lamp, which looks to the scene's middle, away from the table.
+    EXPECT_TRUE(lines.starts_with("warning: shadow is seen beside what one map of the light sees")) << lines;
+    EXPECT_EQ(std::ranges::count(lines, '\n'), 1) << lines;
 }
 
 TEST_F(Inspect, ZUpReadAsYUp) {
@@ -314,7 +319,7 @@ TEST_F(Inspect, ALampBetweenTwoFloors) {
     const std::string side = "eye = [0.3, 2.6, 9.3], near = 0.5, far = 40, ";
     expectWords(
         said(room, {.camera = side + "target = [0, 0.5, 0]", .light = light, .view = "fovy = 65"}),
-        {"shadow is seen on both sides of the light's plane, and shadow maps of the light look to one, that of the"});
+        {"shadow is seen beside what one map of the light sees: 160° around its way to the side of the camera's target"});
     EXPECT_EQ(said({}, {.camera = side + "target = [0, 0.5, 0]", .light = light, .view = "fovy = 65"}), "");
 }
 
@@ -413,15 +418,21 @@ TEST(InspectBuiltin, SaysByHowMuchASceneIsMoved) {
     EXPECT_EQ(textOf(inspect(loadScene("contact", Profile::Gate)), "").find("moved"), std::string::npos);
 }
 
-TEST(InspectBuiltin, NothingIsSaidOfAnySceneButThatWhichIsMuchLargerThanItsView) {
+TEST(InspectBuiltin, NothingIsSaidButOfSizesAndMapsThatAFewScenesAreThereToShow) {
+    const std::map<std::string, std::string> expected{
+        {"large-world", "a texel of a map of 1024² over the whole scene"},
+        {"colonnade", "shadow is seen beside what one map of the light sees"},
+        {"interior", "shadow is seen beside what one map of the light sees"},
+        {"tessellation", "shadow is seen beside what one map of the light sees"},
+    };
     for (const std::string& id : builtinScenes()) {
         std::string lines;
         for (const Warning& warning : warningsOf(loadScene(id, Profile::Gate))) lines += lineOf(warning) + "\n";
-        if (id == "large-world") {
-            EXPECT_NE(lines.find("a texel of a map of 1024² over the whole scene"), std::string::npos) << lines;
-        } else {
+        const auto found = expected.find(id);
+        if (found == expected.end())
             EXPECT_EQ(lines, "") << id;
-        }
+        else
+            EXPECT_NE(lines.find(found->second), std::string::npos) << id << ": " << lines;
     }
 }
 
