@@ -3,6 +3,7 @@
 #include "techniques/gl/api.h"
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 
 namespace shadowbench::gl {
 
@@ -30,7 +31,8 @@ void GBuffer::draw(const SceneBuffers& scene, const glm::dmat4& clipFromWorld) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDisable(GL_CULL_FACE);
-    program.set("clipFromWorld", glm::mat4(widened(clipFromWorld)));
+    const glm::dvec4 eye = glm::inverse(clipFromWorld) * glm::dvec4(0, 0, 1, 0);
+    program.set("clipFromWorld", glm::mat4(widened(clipFromWorld))).set("eye", glm::vec3(glm::dvec3(eye) / eye.w));
     program.use();
     if (moving_)
         scene.drawWithMotion();

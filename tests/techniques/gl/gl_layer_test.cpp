@@ -226,6 +226,22 @@ TEST(GBuffer, IdsAreThePlacements) {
     }
 }
 
+TEST(GBuffer, NormalsOfAGroundThatReachesItsHorizonPointToTheViewer) {
+    Scene scene = boxScene();
+    scene.objects = {object(plane(9000), {0, 0, 0})};
+    for (int tilt = 0; tilt < 16; ++tilt) { // the horizon between two rows of pixels, and within a row
+        scene.camera = {{0, 1.7, 0}, {0, 1.6 - 0.004 * tilt, -10}, {0, 1, 0}, 50, 0.1, 20000};
+        const Snapshot shown = snapshot(scene, 0);
+        gl::SceneBuffers buffers;
+        buffers.update(shown);
+        gl::GBuffer gbuffer(scene.size);
+        gbuffer.draw(buffers, shown.camera.projection(1) * shown.camera.view());
+        const auto ids = gbuffer.readIds();
+        const auto normals = gbuffer.readNormals();
+        for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_TRUE(ids[i] == 0 || normals[i].y > 0.9F) << tilt << " " << i;
+    }
+}
+
 TEST(GBuffer, KnowsWhereVerticesThatDeformWereBefore) {
     const Scene scene = boxScene();
     Snapshot shown = snapshot(scene, 0);
