@@ -79,7 +79,7 @@ void judgePrecision(const Evidence& e, Warnings& warnings) {
                              "precision lie {:.2g} m apart",
                              nameOf(e, placement.id), far, step * far),
                  "move them to the origin and give the mesh a place, or cut it into parts that have theirs"});
-        constexpr double mostOff = 2; // pixels
+        constexpr double mostOff = 2; // pixels, of a bound: what is drawn is off by less
         const double side = longestSide(*batch.mesh, placement.world), off = step * side / metresOfPixel(e, camera.near);
         if (off > mostOff)
             warnings.push_back(
@@ -187,15 +187,15 @@ double shadowBesideTheMap(const Evidence& e) {
 }
 
 void judgeMap(const Evidence& e, Warnings& warnings) {
-    constexpr double few = 0.05;
+    constexpr double few = 0.05; // a rim of pixels at the map's own is no matter
     const Light& light = e.snapshot.light;
     if (light.isEnvironment() || light.kind == LightKind::Directional || shadowBesideTheMap(e) <= few) return;
     const bool isFlat = light.kind == LightKind::Rectangle || light.kind == LightKind::Disk;
     warnings.push_back(
-        {fmt::format("shadow is seen beside what one map of the light sees: 160° around its way to {}",
+        {fmt::format("part of the shadow in view lies outside the 160° that one map of the light sees, which looks to {}",
                      isFlat ? "the side of the camera's target" : "the middle of the scene"),
-         "move the light out of what it lights, or expect that techniques with one map miss it; sm-cube, volumes and "
-         "silhouettes do not"});
+         "move the light out of what it lights, or expect techniques with a single map to miss that part; sm-cube, volumes "
+         "and wedges do not"});
 }
 
 void judgeEmptyView(const Evidence& e, Warnings& warnings) {

@@ -26,6 +26,7 @@ Camera::Basis lightBasis(const Light& light, const std::vector<glm::dvec3>& poin
         glm::dvec3 axis = glm::normalize(glm::cross(light.u, light.v));
         const bool within = glm::clamp(target, box.low, box.high) == target;
         double side = within ? glm::dot(axis, target - light.centre) : 0;
+        // A target in the light's plane is on no side; what rounding leaves must not choose one.
         if (std::abs(side) <= 1e-6 * glm::distance(target, light.centre)) side = glm::dot(axis, box.centre() - light.centre);
         if (side < 0) axis = -axis;
         const glm::dvec3 right = glm::normalize(light.u);
@@ -110,6 +111,7 @@ LightView fitPerspective(const glm::dvec3& eye, const Camera::Basis& basis, std:
         const double depth = std::max(-v.z, near);
         slopes.add({std::clamp(v.x / depth, -steepest, steepest), std::clamp(v.y / depth, -steepest, steepest), 0});
     }
+    // Where the pyramid holds nothing but what lies at the far distance, the range of depths still needs some extent.
     if (held && scene != nullptr) near = std::clamp(leastDepth(*scene, view, slopes) * (1 - 1e-6), near, 0.5 * far);
     const glm::dmat4 projection =
         glm::frustum(slopes.low.x * near, slopes.high.x * near, slopes.low.y * near, slopes.high.y * near, near, far);

@@ -120,7 +120,7 @@ TEST_F(Inspect, ALevelOfAKilometreSeenFromTheGround) {
     const std::string lines =
         said(model, {.camera = "eye = [2.1, 6.2, 7.3], target = [0.1, 0, 0.2], near = 0.5, far = 3000"});
     // The tower's height draws the map of the lamp, which looks to the scene's middle, away from the table.
-    EXPECT_TRUE(lines.starts_with("warning: shadow is seen beside what one map of the light sees")) << lines;
+    EXPECT_TRUE(lines.starts_with("warning: part of the shadow in view lies outside the 160°")) << lines;
     EXPECT_EQ(std::ranges::count(lines, '\n'), 1) << lines;
 }
 
@@ -319,7 +319,7 @@ TEST_F(Inspect, ALampBetweenTwoFloors) {
     const std::string side = "eye = [0.3, 2.6, 9.3], near = 0.5, far = 40, ";
     expectWords(
         said(room, {.camera = side + "target = [0, 0.5, 0]", .light = light, .view = "fovy = 65"}),
-        {"shadow is seen beside what one map of the light sees: 160° around its way to the side of the camera's target"});
+        {"part of the shadow in view lies outside the 160° that one map of the light sees, which looks to the side of the"});
     EXPECT_EQ(said({}, {.camera = side + "target = [0, 0.5, 0]", .light = light, .view = "fovy = 65"}), "");
 }
 
@@ -421,9 +421,9 @@ TEST(InspectBuiltin, SaysByHowMuchASceneIsMoved) {
 TEST(InspectBuiltin, NothingIsSaidButOfSizesAndMapsThatAFewScenesAreThereToShow) {
     const std::map<std::string, std::string> expected{
         {"large-world", "a texel of a map of 1024² over the whole scene"},
-        {"colonnade", "shadow is seen beside what one map of the light sees"},
-        {"interior", "shadow is seen beside what one map of the light sees"},
-        {"tessellation", "shadow is seen beside what one map of the light sees"},
+        {"colonnade", "part of the shadow in view lies outside the 160°"},
+        {"interior", "part of the shadow in view lies outside the 160°"},
+        {"tessellation", "part of the shadow in view lies outside the 160°"},
     };
     for (const std::string& id : builtinScenes()) {
         std::string lines;
