@@ -31,6 +31,10 @@ bool isHuge(const glm::dvec3& extent, double view, double far) {
     return (size > std::max(20 * view, far) && least > view) || size > 1e4 * view;
 }
 
+double metresOfPixel(const Evidence& e, double distance) {
+    return 2 * distance * std::tan(0.5 * glm::radians(e.snapshot.camera.fovy)) / e.scene.size.y;
+}
+
 void judgeSizes(const Evidence& e, const std::vector<MeshReport>& meshes, Warnings& warnings) {
     const double whole = glm::distance(e.box.low, e.box.high);
     const double view = glm::distance(e.snapshot.camera.eye, e.snapshot.camera.target);
@@ -44,13 +48,9 @@ void judgeSizes(const Evidence& e, const std::vector<MeshReport>& meshes, Warnin
         if (isHuge(extent, view, e.snapshot.camera.far))
             warnings.push_back(
                 {what, "if its file is in centimetres, write unit = \"cm\" beside it (in millimetres: \"mm\")"});
-        else if (glm::length(extent) < 2e-3 * view)
+        else if (glm::length(extent) < metresOfPixel(e, view))
             warnings.push_back({what, "correct the unit of its file or its scale: it is smaller than a pixel"});
     }
-}
-
-double metresOfPixel(const Evidence& e, double distance) {
-    return 2 * distance * std::tan(0.5 * glm::radians(e.snapshot.camera.fovy)) / e.scene.size.y;
 }
 
 /// The longest side of a triangle, in metres of the world.

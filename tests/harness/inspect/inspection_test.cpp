@@ -103,6 +103,10 @@ TEST_F(Inspect, OfASoundSceneNothingIsSaid) {
     EXPECT_EQ(said({}, {.light = "kind = \"directional\", direction = [-0.3, -1, 0.2]"}), "");
     EXPECT_EQ(said({}, {.light = "kind = \"rectangle\", centre = [1.7, 6.1, -2.3], u = [1, 0, 0], v = [0, 0, 1]"}), "");
     EXPECT_EQ(said({}, {.light = "kind = \"environment\", sky = { constant = 1 }"}), "");
+    EXPECT_EQ(said({}, {.camera = "eye = [1470, 4340, 5110], target = [0.1, 0, 0.2], near = 6000, far = 8000",
+                        .view = "fovy = 1",
+                        .size = 256}),
+              ""); // a long lens makes many pixels of what is far away
 }
 
 TEST_F(Inspect, CentimetresReadAsMetres) {
