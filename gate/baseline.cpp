@@ -5,6 +5,7 @@
 #include "base/folder_lock.h"
 #include "base/git.h"
 #include "base/hash.h"
+#include "base/pattern.h"
 #include "base/process.h"
 #include "base/temporary_folder.h"
 
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <optional>
-#include <regex>
 #include <unistd.h>
 #include <vector>
 
@@ -79,8 +79,8 @@ public:
         }
         const fs::path header = build_ / "embedded" / "embedded_commit.h";
         const std::string text = fs::exists(header) ? readFile(header) : "";
-        std::smatch found;
-        return std::regex_search(text, found, std::regex("program = \"([0-9a-f]+)\"")) ? found[1].str() : "";
+        const std::vector<std::string> found = firstMatch(text, "program = \"([0-9a-f]+)\"");
+        return found.empty() ? "" : found[1];
     }
 
     /// Leaves the built program in `file`.

@@ -2,12 +2,12 @@
 
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/pattern.h"
 #include "groundtruth/contract/reference_files.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 namespace shadowbench {
 namespace {
@@ -81,11 +81,11 @@ std::vector<std::string> writeTruths(SceneFrames& frames, const fs::path& folder
 }
 
 void removeTruths(const fs::path& folder) {
-    static const std::regex ours("frame-[0-9]+-(hard|soft|pixel-area|area|irradiance|solid-angle)\\.(exr|json)");
+    const std::string ours = "^frame-[0-9]+-(hard|soft|pixel-area|area|irradiance|solid-angle)\\.(exr|json)$";
     std::error_code missing;
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing))
-        if (std::regex_match(entry.path().filename().string(), ours)) files.push_back(entry.path());
+        if (!firstMatch(entry.path().filename().string(), ours).empty()) files.push_back(entry.path());
     for (const fs::path& file : files) fs::remove(file);
 }
 

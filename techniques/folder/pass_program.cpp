@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/memory_bound.h"
+#include "base/pattern.h"
 #include "base/words.h"
 #include "techniques/folder/compile_error.h"
 #include "techniques/folder/inputs.h"
@@ -17,7 +18,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <new>
-#include <regex>
 #include <sstream>
 
 namespace shadowbench::techniques {
@@ -127,7 +127,7 @@ private:
 
     /// Where a file of the folder declares a uniform: the pass's own first.
     [[nodiscard]] Declaration declarationOf(const std::string& uniform) const {
-        const std::regex declaration("\\buniform\\b.*\\b" + uniform + "\\b");
+        const std::string declaration = "\\buniform\\b.*\\b" + uniform + "\\b";
         std::vector<std::string> names;
         if (folder_.shaders.contains(pass_.shader)) names.push_back(pass_.shader);
         for (const auto& [name, text] : folder_.shaders) names.push_back(name);
@@ -135,7 +135,7 @@ private:
             std::istringstream lines(folder_.shaders.at(name));
             std::string line;
             for (int number = 1; std::getline(lines, line); ++number)
-                if (line.size() < 1000 && std::regex_search(line, declaration)) // regex recurses by the character
+                if (!firstMatch(line, declaration).empty())
                     return {fmt::format("{}/{}:{}", folder_.path.string(), name, number), line};
         }
         return {file(), ""};

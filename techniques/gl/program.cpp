@@ -1,6 +1,7 @@
 #include "techniques/gl/program.h"
 
 #include "base/error.h"
+#include "base/pattern.h"
 #include "base/trace.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
@@ -9,7 +10,6 @@
 #include <array>
 #include <cctype>
 #include <glm/gtc/type_ptr.hpp>
-#include <regex>
 #include <sstream>
 
 namespace shadowbench::gl {
@@ -17,14 +17,13 @@ namespace {
 
 /// Mesa writes "0:12(3): error: …": puts the file and line that line 12 came from in its place.
 std::string withOrigins(const std::string& log, const ShaderSource& source) {
-    static const std::regex position(R"(^0:(\d+)\(\d+\))");
     std::istringstream lines(log);
     std::string line, result;
     while (std::getline(lines, line)) {
-        std::smatch match;
-        if (std::regex_search(line, match, position)) {
+        const std::vector<std::string> match = firstMatch(line, "^0:([0-9]+)\\([0-9]+\\)(.*)");
+        if (!match.empty()) {
             const std::size_t number = std::stoul(match[1]);
-            if (number >= 1 && number <= source.origin.size()) line = source.origin[number - 1] + match.suffix().str();
+            if (number >= 1 && number <= source.origin.size()) line = source.origin[number - 1] + match[2];
         }
         result += (result.empty() ? "" : "\n") + line;
     }
