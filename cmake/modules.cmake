@@ -2,6 +2,9 @@
 # Its sources are those of the folder that no deeper folder of the file holds. Folders become target names: harness/cells is
 # harness_cells. tests/tree/layers_test.cpp holds every include to the same file.
 
+# For code whose time decides no figure: what compiles fastest. GCC misjudges what is initialised where it optimises so little.
+set(SHADOWBENCH_COMPILE_FAST $<$<CONFIG:Release>:-Og> -Wno-maybe-uninitialized)
+
 # Headers that many files of a module include, compiled once: pch_common for all, pch_<package> for the modules that link it.
 function(shadowbench_precompiled name)
   add_library(pch_${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
@@ -9,6 +12,15 @@ function(shadowbench_precompiled name)
     COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)  # nothing of it runs but what headers initialise
   target_link_libraries(pch_${name} PRIVATE shadowbench_options)
   target_precompile_headers(pch_${name} PRIVATE ${ARGN})
+endfunction()
+
+# Has the targets take the headers of pch_<name>.
+function(shadowbench_precompile name)
+  if(SHADOWBENCH_PRECOMPILE)
+    foreach(target IN LISTS ARGN)
+      target_precompile_headers(${target} REUSE_FROM pch_${name})
+    endforeach()
+  endif()
 endfunction()
 
 # The library `target` of `sources`. Those that see CGAL are compiled apart, with its headers precompiled.
@@ -27,22 +39,20 @@ function(shadowbench_library target pch sources)
     add_library(${target}_exact OBJECT ${exact})
     target_link_libraries(${target}_exact PRIVATE shadowbench_options CGAL::CGAL)
     set_property(TARGET ${target}_exact PROPERTY JOB_POOL_COMPILE cgal)
-    if(SHADOWBENCH_PRECOMPILE)
-      target_precompile_headers(${target}_exact REUSE_FROM pch_cgal)
-    endif()
+    shadowbench_precompile(cgal ${target}_exact)
     list(APPEND plain $<TARGET_OBJECTS:${target}_exact>)
   endif()
   add_library(${target} STATIC ${plain})
   target_link_libraries(${target} PUBLIC shadowbench_options)
+  if(target MATCHES "^(base|scene_(exchange|load)|groundtruth_(contract|store|certify|povray)|techniques_folder|harness_(cells|foreign|inspect|records|runs)|report|studies|gate|history|site|cli)")
+    target_compile_options(${target} PRIVATE ${SHADOWBENCH_COMPILE_FAST})
+  endif()
   shadowbench_counted(${target} ${target} counted)
   if(SHADOWBENCH_PRECOMPILE AND NOT counted)
     target_precompile_headers(${target} REUSE_FROM pch_${pch})
     if(NOT target MATCHES "^groundtruth")  # most of a compilation is headers and their templates, which files together need once
       set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     endif()
-  endif()
-  if(target MATCHES "^(scene_exchange|harness_(foreign|records|runs)|report|studies|gate|history|site|cli)")  # what they take decides no figure: they need only compile fast
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()
 
