@@ -8,7 +8,7 @@
 
 namespace shadowbench {
 
-#define GL_FUNCTION(name) extern decltype(&::name) name;
+#define GL_FUNCTION(name) extern decltype(&::name) name; // NOLINT(bugprone-macro-parentheses): no expression
 #include "techniques/gl/functions.inc"
 #undef GL_FUNCTION
 
