@@ -214,7 +214,7 @@ struct SceneTimes {
     std::string id;
     std::size_t triangles = 0, receivers = 0, wrong = 0;
     double primary = 0, build = 0, trace = 0, labels = 0;
-    double lightTrace = 0, area = 0, areaRms = 0; // 0 where the light has no area
+    double lightTrace = 0, area = 0, areaRms = 0; // 0 where no area shares are compared
 };
 
 constexpr double surfaceOffset = 1e-3; // metres from the surface at which Embree's rays begin
@@ -241,11 +241,13 @@ SceneTimes measureScene(const std::string& id, const Settings& settings) {
         seconds = secondsSince(start);
         start = std::chrono::steady_clock::now();
     };
-    const PrimaryHits primary = groundtruth::hard::primaryHits(shown, scene.size);
+    Snapshot centre = shown; // labels are of what faces it
+    centre.light = shown.light.centreOnly();
+    const PrimaryHits primary = groundtruth::hard::primaryHits(centre, scene.size);
     lap(times.primary);
     const EmbreeShadows embree(shown, availableThreads());
     lap(times.build);
-    const Image<float> traced = embree.visibility(primary, shown.light.centreOnly().homogeneous(), from);
+    const Image<float> traced = embree.visibility(primary, centre.light.homogeneous(), from);
     lap(times.trace);
     const Reference exact = compute(groundtruth::Request(shown, scene.size, groundtruth::Truth::Hard));
     lap(times.labels);
@@ -254,10 +256,11 @@ SceneTimes measureScene(const std::string& id, const Settings& settings) {
         ++times.receivers;
         times.wrong += traced[i] != exact.visibility[i];
     }
-    if (!shown.light.isArea()) return times;
+    if (!shown.light.isArea() || settings.lightRays == 0) return times;
+    const PrimaryHits facing = groundtruth::hard::primaryHits(shown, scene.size); // all of the light
     start = std::chrono::steady_clock::now();
     const int side = static_cast<int>(std::lround(std::sqrt(settings.lightRays)));
-    const Image<float> mean = lightMean(embree, primary, shown.light, side, from);
+    const Image<float> mean = lightMean(embree, facing, shown.light, side, from);
     lap(times.lightTrace);
     const Reference area = compute(groundtruth::Request(shown, scene.size, groundtruth::Truth::Area));
     lap(times.area);
@@ -274,15 +277,17 @@ SceneTimes measureScene(const std::string& id, const Settings& settings) {
 
 std::string scenesReport(const Settings& settings) {
     std::string text = fmt::format(
-        "# What exact shadows cost on scenes\n\nMade by `oracles --scene {} --profile {}`, {} threads. Embree 3 traces one "
-        "ray to the light's centre, or {} to\npoints of an area light, from {:g} m off the surface, and starts from the "
+        "# What exact shadows cost on scenes\n\nMade by `oracles --scene {} --profile {} --light-rays {}`, {} threads. "
+        "Embree 3 traces one "
+        "ray to the light's centre, and so many to\npoints of an area light, from {:g} m off the surface, and starts from "
+        "the "
         "exact "
         "primary hits; labels and area shares are what a run\ncomputes, from the snapshot on, primary hits included.\n\n"
         "| scene | triangles | receivers | primary hits, s | Embree build + trace, s | labels, s | ÷ Embree | Embree wrong, "
         "px "
         "| Embree's light rays, s | area shares, s | ÷ Embree | rms apart "
         "|\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
-        fmt::join(settings.scenes, ","), settings.profile, availableThreads(), settings.lightRays, surfaceOffset);
+        fmt::join(settings.scenes, ","), settings.profile, settings.lightRays, availableThreads(), surfaceOffset);
     for (const std::string& id : settings.scenes) {
         const SceneTimes t = measureScene(id, settings);
         text += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} + {:.2f} | {:.2f} | **{:.2f}** | {} |", t.id, t.triangles,
@@ -303,8 +308,9 @@ int run(int argc, char** argv) {
     app.add_option("--threads", settings.threads)->check(CLI::Range(1, 256));
     app.add_option("--scene", settings.scenes, "scenes of the library, or files, instead of the bumpy body")->delimiter(',');
     app.add_option("--profile", settings.profile, "of the scenes")->capture_default_str();
-    app.add_option("--light-rays", settings.lightRays, "a pixel that Embree traces to an area light")
-        ->check(CLI::Range(1, 1024))
+    app.add_option("--light-rays", settings.lightRays,
+                   "a pixel that Embree traces to an area light; 0 compares no area shares")
+        ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     app.add_option("--out", settings.out, "file for the tables");
     CLI11_PARSE(app, argc, argv);
