@@ -241,7 +241,7 @@ SceneTimes measureScene(const std::string& id, const Settings& settings) {
         seconds = secondsSince(start);
         start = std::chrono::steady_clock::now();
     };
-    Snapshot centre = shown; // labels are of what faces it
+    Snapshot centre = shown; // what has a label faces the centre
     centre.light = shown.light.centreOnly();
     const PrimaryHits primary = groundtruth::hard::primaryHits(centre, scene.size);
     lap(times.primary);
@@ -257,7 +257,7 @@ SceneTimes measureScene(const std::string& id, const Settings& settings) {
         times.wrong += traced[i] != exact.visibility[i];
     }
     if (!shown.light.isArea() || settings.lightRays == 0) return times;
-    const PrimaryHits facing = groundtruth::hard::primaryHits(shown, scene.size); // all of the light
+    const PrimaryHits facing = groundtruth::hard::primaryHits(shown, scene.size); // what has a share faces all of the light
     start = std::chrono::steady_clock::now();
     const int side = static_cast<int>(std::lround(std::sqrt(settings.lightRays)));
     const Image<float> mean = lightMean(embree, facing, shown.light, side, from);
@@ -277,12 +277,12 @@ SceneTimes measureScene(const std::string& id, const Settings& settings) {
 
 std::string scenesReport(const Settings& settings) {
     std::string text = fmt::format(
-        "# What exact shadows cost on scenes\n\nMade by `oracles --scene {} --profile {} --light-rays {}`, {} threads. "
-        "Embree 3 traces one "
-        "ray to the light's centre, and so many to\npoints of an area light, from {:g} m off the surface, and starts from "
-        "the "
-        "exact "
-        "primary hits; labels and area shares are what a run\ncomputes, from the snapshot on, primary hits included.\n\n"
+        "# What exact shadows cost on scenes\n\n"
+        "Made by `oracles --scene {} --profile {} --light-rays {}`, {} threads. Embree 3 traces one ray to the light's\n"
+        "centre, and as many to points of an area light as `--light-rays` says, from {:g} m off the surface, and starts "
+        "from\n"
+        "the exact primary hits; labels and area shares are what a run computes, from the snapshot on, primary hits "
+        "included.\n\n"
         "| scene | triangles | receivers | primary hits, s | Embree build + trace, s | labels, s | ÷ Embree | Embree wrong, "
         "px "
         "| Embree's light rays, s | area shares, s | ÷ Embree | rms apart "
