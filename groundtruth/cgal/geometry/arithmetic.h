@@ -7,6 +7,7 @@
 #include <CGAL/Exact_kernel_selector.h>
 #include <CGAL/Interval_nt.h>
 
+#include <cmath>
 #include <type_traits>
 
 namespace shadowbench::groundtruth::geometry {
@@ -29,6 +30,21 @@ int filteredSign(const Polynomial& polynomial) {
         if (CGAL::is_certain(sign)) return static_cast<int>(CGAL::get_certain(sign));
     }
     return signOf<Ring>(polynomial(std::type_identity<Ring>()));
+}
+
+/// Of a determinant of three vectors, as a share of the same with every term positive. Shewchuk, "Adaptive Precision
+/// Floating-Point Arithmetic and Fast Robust Geometric Predicates" (1997), orient3d, stage A: (7 + 56 ε) ε, rounded up, and
+/// twice that, for whoever asks may have rounding directed.
+constexpr double determinantError = 16 * 0x1p-53;
+constexpr double sumsRoundedUp = 1 + 0x1p-20;
+
+/// Sign of a determinant of three vectors, each given or a rounded difference of two points; 0 where rounding could have
+/// changed it. `magnitude`: with every term positive; `more`: what else the value can be wrong by.
+inline int certainSign(double determinant, double magnitude, double more = 0) {
+    const double bound = determinantError * magnitude + sumsRoundedUp * more;
+    constexpr double underflow = 1e-200; // far above what lost subnormal products can add up to
+    if (!(bound > underflow && std::abs(determinant) > bound)) return 0;
+    return determinant > 0 ? 1 : -1;
 }
 
 /// The point xyz / w, w > 0.

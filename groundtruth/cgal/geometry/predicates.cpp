@@ -34,12 +34,6 @@ DepthBounds depthBounds(const Ray& ray, const Triangle& triangle) {
     return {t.inf(), t.sup()};
 }
 
-/// Of a determinant of three vectors, as a share of the same with every term positive. Shewchuk, "Adaptive Precision
-/// Floating-Point Arithmetic and Fast Robust Geometric Predicates" (1997), orient3d, stage A: (7 + 56 ε) ε, rounded up, and
-/// twice that, for whoever asks may have rounding directed.
-constexpr double determinantError = 16 * 0x1p-53;
-constexpr double sumsRoundedUp = 1 + 0x1p-20;
-
 /// u × v in rounded arithmetic, and with every term positive.
 struct RoundedCross {
     RoundedCross(const glm::dvec3& u, const glm::dvec3& v) {
@@ -49,15 +43,6 @@ struct RoundedCross {
     }
     glm::dvec3 value, magnitude;
 };
-
-/// Sign of a determinant of three vectors, each given or a rounded difference of two points; 0 where rounding could have
-/// changed it. `magnitude`: with every term positive; `more`: what else the value can be wrong by.
-int certainSign(double determinant, double magnitude, double more = 0) {
-    const double bound = determinantError * magnitude + sumsRoundedUp * more;
-    constexpr double underflow = 1e-200; // far above what lost subnormal products can add up to
-    if (!(bound > underflow && std::abs(determinant) > bound)) return 0;
-    return determinant > 0 ? 1 : -1;
-}
 
 int roundedSign(const glm::dvec3& u, const glm::dvec3& v, const glm::dvec3& p) {
     const RoundedCross n(u, v);
@@ -176,6 +161,18 @@ int side(const Triangle& triangle, const glm::dvec4& point) {
         const Vector<Number> p = vector<Number>(glm::dvec3(point));
         return dot(normal<Number>(triangle), point.w == 0 ? p : p - vector<Number>(triangle[0]));
     });
+}
+
+int belowLight(const Triangle& plane, const glm::dvec4& light, const glm::dvec3& vertex) {
+    if (light.w == 0) return 1;
+    const glm::dvec3 level(light);
+    int sign = roundedSign(plane[1] - plane[0], plane[2] - plane[0], level - vertex);
+    if (sign == 0)
+        sign = filteredSign([&](auto tag) {
+            using Number = typename decltype(tag)::type;
+            return dot(normal<Number>(plane), vector<Number>(level) - vector<Number>(vertex));
+        });
+    return sign * side(plane, light);
 }
 
 Triangle facing(Triangle triangle, const glm::dvec4& light) {

@@ -36,6 +36,9 @@ int compareDepth(const Ray& ray, const Triangle& triangle, double t);
 /// points with w = 1 or w = 0 (a direction).
 int side(const Triangle& triangle, const glm::dvec4& point);
 
+/// 1 for a vertex below the light (on the receiver's side of the parallel plane through it), 0 at its level, −1 above it.
+int belowLight(const Triangle& plane, const glm::dvec4& light, const glm::dvec3& vertex);
+
 /// The triangle with the corners in the order in which they appear counter-clockwise from the (homogeneous) light.
 Triangle facing(Triangle triangle, const glm::dvec4& light);
 

@@ -70,6 +70,50 @@ ShadowProjection::ShadowProjection(const Triangle& receiver, const glm::dvec4& l
     m.rowX = halfWidth * (scaleX * dualX + dualW);
     m.rowY = halfHeight * (scaleY * dualY + dualW);
     m.rowW = dualW;
+    findBorders(size);
+}
+
+/// Map::project as linear functions of the vertex, and of these what is negative beyond a border.
+void ShadowProjection::findBorders(glm::ivec2 size) {
+    const Map& m = *map_;
+    struct Linear {
+        Vector<Interval> slope;
+        Interval offset;
+    };
+    const Vector<Interval> toLight = m.light - m.lightWeight * m.eye, start = m.origin - m.eye;
+    const auto image = [&](const Vector<Interval>& row) {
+        return Linear{m.lightHeight * row - dot(row, toLight) * m.normal, m.lightHeight * dot(row, start)};
+    };
+    const Linear x = image(m.rowX), y = image(m.rowY), w = image(m.rowW);
+    const auto plus = [](const Linear& a, double factor, const Linear& b) {
+        return Linear{a.slope + Interval(factor) * b.slope, a.offset + Interval(factor) * b.offset};
+    };
+    const auto minus = [](const Linear& a) { return Linear{-a.slope, -a.offset}; };
+    const std::array<Linear, 6> borders{Linear{-(m.lightWeight * m.normal), m.lightHeight},
+                                        w,
+                                        plus(x, margin, w),
+                                        plus(minus(x), size.x + margin, w),
+                                        plus(y, margin, w),
+                                        plus(minus(y), size.y + margin, w)};
+    std::ranges::transform(borders, borders_.begin(), [](const Linear& border) {
+        const auto middle = [](const Interval& i) { return 0.5 * (i.inf() + i.sup()); };
+        const auto error = [](const Interval& i) { return 2 * (i.sup() - i.inf()) + 16 * 0x1p-53 * std::abs(i.sup()); };
+        const auto& [slope, offset] = border;
+        return Border{{middle(slope.x), middle(slope.y), middle(slope.z)},
+                      middle(offset),
+                      std::max({error(slope.x), error(slope.y), error(slope.z)}),
+                      error(offset)};
+    });
+}
+
+bool ShadowProjection::misses(std::span<const glm::dvec3> points) const {
+    return std::ranges::any_of(borders_, [&](const Border& border) {
+        return std::ranges::all_of(points, [&](const glm::dvec3& point) {
+            const glm::dvec3 from = point - receiver_[0];
+            const double length = std::abs(from.x) + std::abs(from.y) + std::abs(from.z);
+            return glm::dot(border.slope, from) + border.offset < -(border.slopeError * length + border.offsetError);
+        });
+    });
 }
 
 ShadowProjection::~ShadowProjection() = default;

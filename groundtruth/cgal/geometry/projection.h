@@ -6,6 +6,7 @@
 
 #include <glm/vec2.hpp>
 #include <memory>
+#include <span>
 
 namespace shadowbench::groundtruth::geometry {
 
@@ -38,13 +39,28 @@ public:
     /// bit if the caller keeps one order.
     [[nodiscard]] ShadowVertex contact(const glm::dvec3& a, const glm::dvec3& b) const;
 
+    /// Pixels around the image beyond which no shadow's edge matters.
+    static constexpr int margin = 3;
+    /// Do the shadows of the points and of all between them surely lie beyond one border of the image and its margin, above
+    /// the light's level or behind the camera?
+    [[nodiscard]] bool misses(std::span<const glm::dvec3> points) const;
+
     /// How far, in pixels, a pixel's exact ray may be from its nominal centre because Camera::ray rounds.
     [[nodiscard]] double pixelError() const { return pixelError_; }
 
 private:
     struct Map;
+    /// slope · (point − receiver()[0]) + offset is positive on the image's side. It is wrong by at most the errors, that of
+    /// the slope by the metre along the axes.
+    struct Border {
+        glm::dvec3 slope;
+        double offset, slopeError, offsetError;
+    };
+    void findBorders(glm::ivec2 size);
+
     Triangle receiver_;
     std::unique_ptr<Map> map_;
+    std::array<Border, 6> borders_{};
     double pixelError_;
 };
 

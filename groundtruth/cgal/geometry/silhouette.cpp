@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 namespace shadowbench::groundtruth::geometry {
@@ -136,7 +137,8 @@ ShadowVertex shadowVertex(const TriangleInstance& instance, const ChainPoint& po
 
 EdgePoint edgePoint(const TriangleInstance& instance, const ChainPoint& point) {
     const std::vector<glm::vec3>& positions = instance.mesh->positions;
-    return {worldVertex(instance.world, positions[point.a]), worldVertex(instance.world, positions[point.b]), point.kind};
+    const glm::dvec3 a = worldVertex(instance.world, positions[point.a]);
+    return {a, point.kind == EdgePointKind::Vertex ? a : worldVertex(instance.world, positions[point.b]), point.kind};
 }
 
 } // namespace
@@ -173,6 +175,13 @@ std::vector<SpatialEdge> borderOf(const TriangleInstance& instance, std::uint32_
 
 ShadowEdge shadowEdge(const TriangleInstance& instance, const ChainEdge& edge, const ShadowProjection& projection) {
     return {shadowVertex(instance, edge.from, projection), shadowVertex(instance, edge.to, projection), edge.covers};
+}
+
+bool missesImage(const TriangleInstance& instance, const ChainEdge& edge, const ShadowProjection& projection) {
+    const EdgePoint from = edgePoint(instance, edge.from), to = edgePoint(instance, edge.to);
+    const std::array points{from.a, to.a, from.b, to.b};
+    const bool whole = edge.from.kind == EdgePointKind::Vertex && edge.to.kind == EdgePointKind::Vertex;
+    return projection.misses(std::span(points).first(whole ? 2 : 4));
 }
 
 std::vector<ShadowEdge> silhouette(const TriangleInstance& instance, const glm::dvec4& light,

@@ -52,6 +52,9 @@ struct ShadowEdge {
 };
 ShadowEdge shadowEdge(const TriangleInstance& instance, const ChainEdge& edge, const ShadowProjection& projection);
 
+/// Does the shadow of the edge, and of the whole mesh's edge that it is part of, surely miss the image?
+bool missesImage(const TriangleInstance& instance, const ChainEdge& edge, const ShadowProjection& projection);
+
 /// The shadow's edges of one instance, but for those at infinity.
 std::vector<ShadowEdge> silhouette(const TriangleInstance& instance, const glm::dvec4& light,
                                    const ShadowProjection& projection);

@@ -4,6 +4,8 @@
 #include "groundtruth/cgal/geometry/arithmetic.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace shadowbench::groundtruth::geometry {
 namespace {
@@ -61,12 +63,14 @@ auto edgePoint(const EdgePoint& p, const Triangle& plane, const glm::dvec4& ligh
 WindingAround::WindingAround(const ReceiverPoint& point, const Triangle& plane, const glm::dvec4& light)
     : point_(point), start_(nullptr), plane_(facing(plane, light)), light_(light) {
     chooseCorners();
+    roundedWay_ = roundedWay();
 }
 
 WindingAround::WindingAround(const ReceiverPoint& point, const ReceiverPoint& start, const Triangle& plane,
                              const glm::dvec4& light)
     : point_(point), start_(&start), plane_(facing(plane, light)), light_(light) {
     chooseCorners();
+    roundedWay_ = roundedWay();
 }
 
 /// Two corners that are not in line with the point (a corner and the start, if there is one).
@@ -82,7 +86,27 @@ void WindingAround::chooseCorners() {
     throw InternalError("A winding number was asked for around a point from that point itself.");
 }
 
+WindingAround::Way WindingAround::roundedWay() const {
+    const Interval::Protector rounding;
+    constexpr std::type_identity<Interval> tag;
+    const Vector<Interval> p = homogeneous(point_, tag).xyz, l = vector<Interval>(glm::dvec3(light_));
+    const Vector<Interval> to = start_ ? homogeneous(*start_, tag).xyz : vector<Interval>(plane_[way_]);
+    const Vector<Interval> normal = cross(light_.w == 0 ? l : l - p, to - p);
+    Way way{};
+    for (int axis = 0; axis < 3; ++axis) {
+        way.normal[axis] = 0.5 * (normal[axis].inf() + normal[axis].sup());
+        way.error[axis] = 2 * (normal[axis].sup() - normal[axis].inf());
+    }
+    return way;
+}
+
 int WindingAround::sideOfWay(const EdgePoint& end) const {
+    if (end.kind == EdgePointKind::Vertex) {
+        const glm::dvec3 q = end.a - point_.near(), magnitude = glm::abs(roundedWay_.normal), &error = roundedWay_.error;
+        const double more = glm::dot(error, glm::abs(q)) + glm::dot(magnitude + error, point_.nearError());
+        if (const int sign = certainSign(glm::dot(roundedWay_.normal, q), glm::dot(magnitude, glm::abs(q)), more))
+            return sign;
+    }
     const auto seen = edgePoint(end, plane_, light_);
     return start_ ? turnAround(point_, light_, receiverPoint(*start_), seen)
                   : turnAround(point_, light_, corner(plane_[way_]), seen);
@@ -161,15 +185,6 @@ bool inPlane(const Triangle& triangle, const ReceiverPoint& point) {
                const Homogeneous<Number>& p = homogeneous(point, tag);
                return dot(normal<Number>(triangle), p.xyz - p.w * vector<Number>(triangle[0]));
            }) == 0;
-}
-
-int belowLight(const Triangle& plane, const glm::dvec4& light, const glm::dvec3& vertex) {
-    if (light.w == 0) return 1;
-    const int sign = filteredSign([&](auto tag) {
-        using Number = typename decltype(tag)::type;
-        return dot(normal<Number>(plane), vector<Number>(glm::dvec3(light)) - vector<Number>(vertex));
-    });
-    return sign * side(plane, light);
 }
 
 } // namespace shadowbench::groundtruth::geometry

@@ -54,7 +54,13 @@ private:
         int covers;
     };
 
+    /// The plane through light, point and start, rounded: its side of q is the sign of normal · (q − point).
+    struct Way {
+        glm::dvec3 normal, error;
+    };
+
     void chooseCorners();
+    [[nodiscard]] Way roundedWay() const;
     void addThrough(const SpatialEdge& edge, int sideFrom, int sideTo);
     [[nodiscard]] int sideOfWay(const EdgePoint& end) const;  // of the plane through light, point and start
     [[nodiscard]] int sideAcross(const EdgePoint& end) const; // of the plane through light, point and the corner beside
@@ -65,6 +71,7 @@ private:
     const ReceiverPoint* start_; // null: infinity
     Triangle plane_;             // facing the light
     const glm::dvec4& light_;
+    Way roundedWay_{};
     int way_ = 0;         // corner through which the ray to infinity runs
     int across_ = 0;      // corner beside the way
     int acrossOfWay_ = 0; // side of the plane through light, point and that corner on which the way lies
@@ -74,8 +81,5 @@ private:
 
 /// Does the triangle's plane contain the point?
 bool inPlane(const Triangle& triangle, const ReceiverPoint& point);
-
-/// 1 for a vertex below the light (on the receiver's side of the parallel plane through it), 0 at its level, −1 above it.
-int belowLight(const Triangle& plane, const glm::dvec4& light, const glm::dvec3& vertex);
 
 } // namespace shadowbench::groundtruth::geometry

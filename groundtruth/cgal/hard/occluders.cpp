@@ -1,11 +1,10 @@
 #include "groundtruth/cgal/hard/occluders.h"
 
 #include "base/parallel.h"
-#include "groundtruth/cgal/hard/scanline.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
 namespace shadowbench::groundtruth::hard {
 namespace {
@@ -19,24 +18,25 @@ Corners cornersOf(const FloatBox& box) {
     return bounds.corners();
 }
 
-/// Do shadows of what lies in the box surely miss the image? A linear function of the image position that is negative at all
-/// corners is negative in the box.
-bool missesImage(const Corners& corners, const ShadowProjection& projection, glm::ivec2 size) {
-    const double margin = scanMargin + 2;
-    std::array<bool, 4> beyond{true, true, true, true};
-    for (const glm::dvec3& corner : corners) {
-        const auto [p, error, lightSide] = projection.project(corner);
-        for (int axis = 0; axis < 2; ++axis) {
-            const double high = size[axis] + margin;
-            const double slack = 2 * (error[axis] + high * error.z + 0x1p-50 * (std::abs(p[axis]) + high * std::abs(p.z)));
-            beyond[2 * axis] &= p[axis] + margin * p.z + slack < 0;
-            beyond[2 * axis + 1] &= high * p.z - p[axis] + slack < 0;
-        }
+} // namespace
+
+Casters::Casters(const SceneTriangles& scene, std::vector<std::shared_ptr<const Chains>> chains)
+    : scene_(scene), chains_(std::move(chains)), first_{0} {
+    for (std::uint32_t i = 0; i < chains_.size(); ++i) {
+        first_.push_back(first_.back() + (chains_[i] ? chains_[i]->edges.size() : 0));
+        if (!chains_[i]) continue;
+        for (const std::uint32_t triangle : chains_[i]->grounded) grounded_.push_back({i, triangle});
     }
-    return std::ranges::any_of(beyond, [](bool b) { return b; });
 }
 
-} // namespace
+std::size_t Casters::instanceOf(std::size_t edge) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(first_, edge) - first_.begin()) - 1;
+}
+
+CastEdge Casters::edge(std::size_t index) const {
+    const std::size_t i = instanceOf(index);
+    return {scene_.instances()[i], chains_[i]->edges[index - first_[i]]};
+}
 
 Occluders::Occluders(const SceneTriangles& scene, const glm::dvec4& light, int threads)
     : scene_(scene), light_(light), threads_(threads), edges_(scene.meshes()), whole_(scene.instances().size()) {}
@@ -47,8 +47,7 @@ const MeshEdges& Occluders::edgesOf(const TriangleInstance& instance) const {
     return entry.edges;
 }
 
-std::shared_ptr<const Chains> Occluders::chainsOf(std::size_t index, const ShadowProjection& projection, glm::ivec2 size,
-                                                  int threads) const {
+std::shared_ptr<const Chains> Occluders::chainsOf(std::size_t index, const ShadowProjection& projection, int threads) const {
     const TriangleInstance& instance = scene_.instances()[index];
     const Corners corners = cornersOf(instance.box);
     std::array<int, 8> heights{}, levels{};
@@ -56,7 +55,7 @@ std::shared_ptr<const Chains> Occluders::chainsOf(std::size_t index, const Shado
     if (std::ranges::max(heights) <= 0) return nullptr;
     std::ranges::transform(corners, levels.begin(),
                            [&](const auto& c) { return belowLight(projection.receiver(), light_, c); });
-    if (std::ranges::max(levels) <= 0 || missesImage(corners, projection, size)) return nullptr;
+    if (std::ranges::max(levels) <= 0 || projection.misses(corners)) return nullptr;
 
     if (std::ranges::min(heights) <= 0 || std::ranges::min(levels) <= 0)
         return std::make_shared<Chains>(clippedChains(instance, edgesOf(instance), light_, projection.receiver(), threads));
@@ -67,7 +66,7 @@ std::shared_ptr<const Chains> Occluders::chainsOf(std::size_t index, const Shado
     return whole.chains;
 }
 
-Casters Occluders::castersOnto(const ShadowProjection& projection, glm::ivec2 size, const Progress& progress) const {
+Casters Occluders::castersOnto(const ShadowProjection& projection, const Progress& progress) const {
     const std::size_t count = scene_.instances().size();
     std::vector<std::shared_ptr<const Chains>> chains(count);
     const auto trianglesOf = [&](std::size_t i) { return scene_.instances()[i].mesh->triangles.size(); };
@@ -75,21 +74,15 @@ Casters Occluders::castersOnto(const ShadowProjection& projection, glm::ivec2 si
     std::size_t others = 0;
     for (std::size_t i = 0; i < count; ++i) {
         if (isLarge(i))
-            chains[i] = chainsOf(i, projection, size, threads_);
+            chains[i] = chainsOf(i, projection, threads_);
         else
             others += trianglesOf(i);
     }
     inParallel(static_cast<int>(count), others < large ? 1 : threads_, progress, "silhouettes", [&](int i) {
-        if (!isLarge(i)) chains[i] = chainsOf(i, projection, size, 1);
+        if (!isLarge(i)) chains[i] = chainsOf(i, projection, 1);
     });
 
-    Casters casters;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (!chains[i]) continue;
-        for (const ChainEdge& edge : chains[i]->edges) casters.edges.push_back({i, edge});
-        for (const std::uint32_t triangle : chains[i]->grounded) casters.grounded.push_back({i, triangle});
-    }
-    return casters;
+    return {scene_, std::move(chains)};
 }
 
 } // namespace shadowbench::groundtruth::hard

@@ -5,6 +5,8 @@
 #include "groundtruth/cgal/geometry/primary.h"
 
 #include <algorithm>
+#include <atomic>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <string>
@@ -15,6 +17,18 @@ namespace {
 [[noreturn]] void inconsistent(int row) {
     throw InternalError("Winding numbers disagree in image row " + std::to_string(row - scanMargin) +
                         ": the silhouettes of this scene are inconsistent; please report it.");
+}
+
+/// May the edge meet the rectangle between two centres (pixel + scanMargin)?
+bool mayMeet(const PixelEdge& edge, glm::ivec2 low, glm::ivec2 high) {
+    const double toCentre = 0.5 - scanMargin, error = 2 * edge.error;
+    return glm::all(glm::greaterThanEqual(glm::max(edge.from, edge.to) + error, glm::dvec2(low) + toCentre)) &&
+           glm::all(glm::lessThanEqual(glm::min(edge.from, edge.to) - error, glm::dvec2(high) + toCentre));
+}
+
+int onlyNumber(const WindingAround::Range& range, int row) {
+    if (range.lowest != range.highest) inconsistent(row);
+    return range.lowest;
 }
 
 } // namespace
@@ -70,29 +84,25 @@ std::optional<int> PlaneWinding::linkColumn(int row) const {
     return std::nullopt;
 }
 
-/// A row that no certain step leads to starts at an exact number; the last row that a way from there leads to is checked.
+/// The first number is exact, and so is the way to a row that no certain step leads to. The last number is checked.
 void PlaneWinding::linkRows() {
+    std::optional<Pixel> last; // that is certain
     for (int row = 0; row < height(); ++row) {
-        const bool follows = row > 0 && shift_[row - 1].has_value();
-        const std::optional<int> link = follows ? linkColumn(row) : std::nullopt;
-        if (link) {
+        const std::optional<int> first = firstCertain(row);
+        if (!first) continue;
+        const bool follows = last && last->row == row - 1;
+        if (const std::optional<int> link = follows ? linkColumn(row) : std::nullopt)
             shift_[row] = *shift_[row - 1] + winding_.change(*link, row - 1) + winding_.changeDown(*link, row) -
                           winding_.change(*link, row);
-            continue;
-        }
-        if (follows) requireExact(row - 1);
-        if (const std::optional<int> x = firstCertain(row)) shift_[row] = exactNumber(*x, row) - winding_.change(*x, row);
+        else
+            shift_[row] =
+                (last ? exactNumber({*first, row}, *last) : exactNumber({*first, row})) - winding_.change(*first, row);
+        last = {*first, row};
     }
-    if (shift_.back()) requireExact(height() - 1);
-}
-
-/// Checks the last certain number of a row.
-void PlaneWinding::requireExact(int row) const {
-    for (int x = width() - 1; x >= 0; --x) {
-        if (!isCertain(x, row)) continue;
-        if (exactNumber(x, row) != *shift_[row] + winding_.change(x, row)) inconsistent(row);
-        return;
-    }
+    if (!last) return;
+    for (int x = last->x; x < width(); ++x)
+        if (isCertain(x, last->row)) last->x = x;
+    if (exactNumber(*last) != number(last->x, last->row)) inconsistent(last->row);
 }
 
 /// All certain steps down to a row must lead to the same numbers as the steps along it.
@@ -127,17 +137,34 @@ Ray PlaneWinding::centreRay(int x, int row) const {
 }
 
 SpatialEdge PlaneWinding::edge(std::uint32_t index) const {
-    const CastEdge& cast = casters_.edges[index];
-    return spatialEdge(occluders_.scene().instances()[cast.instance], cast.edge);
+    const CastEdge cast = casters_.edge(index);
+    return spatialEdge(cast.instance, cast.edge);
 }
 
-int PlaneWinding::exactNumber(int x, int row) const {
-    const ReceiverPoint point(centreRay(x, row), view_.plane);
-    WindingAround around(point, view_.plane, occluders_.light());
-    for (std::uint32_t i = 0; i < casters_.edges.size(); ++i) around.add(edge(i));
-    const WindingAround::Range range = around.range();
-    if (range.lowest != range.highest) inconsistent(row);
-    return range.lowest;
+void PlaneWinding::addEdges(WindingAround& around, std::size_t begin, std::size_t end) const {
+    casters_.forEachEdge(begin, end,
+                         [&](std::size_t, const CastEdge& cast) { around.add(spatialEdge(cast.instance, cast.edge)); });
+}
+
+int PlaneWinding::exactNumber(const Pixel& at) const {
+    std::atomic<int> sum = 0;
+    inParallelParts(casters_.edges(), occluders_.threads(), [&](std::size_t begin, std::size_t end) {
+        const ReceiverPoint point(centreRay(at.x, at.row), view_.plane);
+        WindingAround around(point, view_.plane, occluders_.light());
+        addEdges(around, begin, end);
+        sum += onlyNumber(around.range(), at.row);
+    });
+    return sum;
+}
+
+/// From that of `start`, of a row that is known.
+int PlaneWinding::exactNumber(const Pixel& at, const Pixel& start) const {
+    const ReceiverPoint point(centreRay(at.x, at.row), view_.plane), from(centreRay(start.x, start.row), view_.plane);
+    WindingAround around(point, from, view_.plane, occluders_.light());
+    const glm::ivec2 a(at.x, at.row), b(start.x, start.row);
+    for (const PixelEdge& near : edges_)
+        if (mayMeet(near, glm::min(a, b), glm::max(a, b))) around.add(edge(near.source));
+    return onlyNumber(around.range(number(start.x, start.row)), at.row);
 }
 
 WindingAround::Range PlaneWinding::at(int x, int y) const {
@@ -153,17 +180,13 @@ WindingAround::Range PlaneWinding::exactAround(int x, int row) const {
     if (start) {
         const ReceiverPoint from(centreRay(*start, row), view_.plane);
         WindingAround around(point, from, view_.plane, occluders_.light());
-        const double low = std::min(x, *start) - scanMargin + 0.5, high = std::max(x, *start) - scanMargin + 0.5;
-        for (const std::uint32_t i : uncertainEdges_[row]) {
-            const PixelEdge& near = edges_[i];
-            if (std::max(near.from.x, near.to.x) + 2 * near.error < low) continue;
-            if (std::min(near.from.x, near.to.x) - 2 * near.error > high) continue;
-            around.add(edge(near.source));
-        }
+        const glm::ivec2 low(std::min(x, *start), row), high(std::max(x, *start), row);
+        for (const std::uint32_t i : uncertainEdges_[row])
+            if (mayMeet(edges_[i], low, high)) around.add(edge(edges_[i].source));
         return around.range(number(*start, row));
     }
     WindingAround around(point, view_.plane, occluders_.light());
-    for (std::uint32_t i = 0; i < casters_.edges.size(); ++i) around.add(edge(i));
+    addEdges(around, 0, casters_.edges());
     for (const TriangleName& name : grounded)
         for (SpatialEdge border :
              borderOf(occluders_.scene().instances()[name.instance], name.triangle, occluders_.light(), view_.plane)) {
@@ -176,7 +199,7 @@ WindingAround::Range PlaneWinding::exactAround(int x, int row) const {
 /// Occluding triangles whose plane contains the point: it lies on them, they do not cover it.
 std::vector<TriangleName> PlaneWinding::groundedAt(const ReceiverPoint& point) const {
     std::vector<TriangleName> result;
-    for (const TriangleName& name : casters_.grounded) {
+    for (const TriangleName& name : casters_.grounded()) {
         const Triangle t = occluders_.scene().triangle(name);
         const glm::dvec3 low = glm::min(t[0], glm::min(t[1], t[2])), high = glm::max(t[0], glm::max(t[1], t[2]));
         const bool apart = glm::any(glm::greaterThan(low, point.high())) || glm::any(glm::lessThan(high, point.low()));

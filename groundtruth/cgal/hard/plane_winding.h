@@ -40,6 +40,11 @@ public:
     [[nodiscard]] bool isCertain(int x, int row) const { return wanted_(x, row) != 0 && winding_.uncertain(x, row) == 0; }
 
 private:
+    /// Of a centre, + scanMargin.
+    struct Pixel {
+        int x, row;
+    };
+
     void findWanted(int row);
     void sumRow(int row);
     void linkRows();
@@ -48,10 +53,11 @@ private:
     [[nodiscard]] bool onPlane(int x, int row) const;
     [[nodiscard]] std::optional<int> firstCertain(int row) const;
     [[nodiscard]] std::optional<int> linkColumn(int row) const;
-    void requireExact(int row) const;
     [[nodiscard]] Ray centreRay(int x, int row) const;
     [[nodiscard]] SpatialEdge edge(std::uint32_t index) const;
-    [[nodiscard]] int exactNumber(int x, int row) const;
+    void addEdges(WindingAround& around, std::size_t begin, std::size_t end) const;
+    [[nodiscard]] int exactNumber(const Pixel& at) const;
+    [[nodiscard]] int exactNumber(const Pixel& at, const Pixel& start) const;
     [[nodiscard]] WindingAround::Range exactAround(int x, int row) const;
     [[nodiscard]] std::vector<TriangleName> groundedAt(const ReceiverPoint& point) const;
     [[nodiscard]] std::optional<int> nearestCertain(int x, int row) const;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 namespace shadowbench::groundtruth::hard {
 namespace {
@@ -29,20 +28,21 @@ Image<std::uint8_t> membersOf(const PlanarReceiver& receiver, const PrimaryHits&
     return members;
 }
 
-std::vector<PixelEdge> inPixels(const Occluders& occluders, const Casters& casters, const ShadowProjection& projection,
-                                glm::ivec2 size) {
-    std::vector<std::optional<PixelEdge>> all(casters.edges.size());
-    inParallelParts(all.size(), occluders.threads(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto& [instance, edge] = casters.edges[i];
-            if (edge.atLightLevel) continue;
-            all[i] = toPixels(shadowEdge(occluders.scene().instances()[instance], edge, projection), size,
-                              projection.pixelError(), static_cast<std::uint32_t>(i));
-        }
+std::vector<PixelEdge> inPixels(const Casters& casters, const ShadowProjection& projection, glm::ivec2 size, int threads) {
+    constexpr std::size_t most = 1U << 13U;
+    std::vector<std::vector<PixelEdge>> parts((casters.edges() + most - 1) / most);
+    inParallel(static_cast<int>(parts.size()), threads, [&](int i) {
+        std::vector<PixelEdge>& edges = parts[i];
+        const std::size_t begin = most * static_cast<std::size_t>(i), end = std::min(begin + most, casters.edges());
+        casters.forEachEdge(begin, end, [&](std::size_t index, const CastEdge& cast) {
+            if (cast.edge.atLightLevel || missesImage(cast.instance, cast.edge, projection)) return;
+            if (const auto edge = toPixels(shadowEdge(cast.instance, cast.edge, projection), size, projection.pixelError(),
+                                           static_cast<std::uint32_t>(index)))
+                edges.push_back(*edge);
+        });
     });
     std::vector<PixelEdge> edges;
-    for (const std::optional<PixelEdge>& edge : all)
-        if (edge) edges.push_back(*edge);
+    for (const std::vector<PixelEdge>& part : parts) edges.insert(edges.end(), part.begin(), part.end());
     return edges;
 }
 
@@ -54,8 +54,8 @@ void labelPlane(const Occluders& occluders, const Camera& camera, glm::ivec2 siz
     const SceneTriangles& scene = occluders.scene();
     const PlaneView view{camera, size, scene.triangle({scene.instanceOf(receiver.id), receiver.triangles.front()}), members};
     const ShadowProjection projection(view.plane, occluders.light(), camera, size);
-    const Casters casters = occluders.castersOnto(projection, size, progress);
-    const std::vector<PixelEdge> edges = inPixels(occluders, casters, projection, size);
+    const Casters casters = occluders.castersOnto(projection, progress);
+    const std::vector<PixelEdge> edges = inPixels(casters, projection, size, occluders.threads());
     const PlaneWinding winding(view, occluders, casters, edges);
 
     inParallel(size.y, occluders.threads(), progress, "labels", [&](int y) {
