@@ -1,5 +1,6 @@
 #include "base/random.h"
 #include "groundtruth/cgal/geometry/predicates.h"
+#include "groundtruth/cgal/geometry/winding.h"
 
 #include <gtest/gtest.h>
 
@@ -95,6 +96,34 @@ TEST(Blocking, OfAPointExactlyBelowAnEdgeTouchesHoweverTheReceiverLies) {
 TEST(Side, OfAPointInThePlaneIsZeroHoweverTheReceiverLies) {
     const Triangle plane{glm::dvec3(0, 2, 0), glm::dvec3(1, 1, -4), glm::dvec3(1, 1, 4)};
     forPointsAt({2, 0, 0.75}, [&](const ReceiverPoint& point) { EXPECT_EQ(side(plane, point), 0); });
+}
+
+/// The lowest and highest number of triangles over the point, from infinity and from a start that the triangle covers.
+void expectOnBorder(const ReceiverPoint& point, const Triangle& triangle, const glm::dvec3& covered) {
+    const Triangle ground{glm::dvec3(-9, 0, -9), glm::dvec3(-9, 0, 9), glm::dvec3(9, 0, 0)};
+    const glm::dvec4 light(0, 2, 0, 1);
+    const Triangle turned = facing(triangle, light);
+    const ReceiverPoint start({covered + glm::dvec3(0, 1, 0), {0, -1, 0}}, ground);
+    WindingAround fromInfinity(point, ground, light), fromStart(point, start, ground, light);
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 &a = turned[i], &b = turned[(i + 1) % 3];
+        const SpatialEdge edge{{a, a, EdgePointKind::Vertex}, {b, b, EdgePointKind::Vertex}, 1};
+        fromInfinity.add(edge);
+        fromStart.add(edge);
+    }
+    for (const WindingAround::Range& range : {fromInfinity.range(), fromStart.range(1)}) {
+        EXPECT_EQ(range.lowest, 0);
+        EXPECT_EQ(range.highest, 1);
+    }
+}
+
+TEST(WindingAround, APointExactlyBelowABorderHasBothNumbersHoweverTheReceiverLies) {
+    const Triangle edge{glm::dvec3(1, 1, -4), glm::dvec3(1, 1, 4), glm::dvec3(-3, 1, 0)};
+    const Triangle corner{glm::dvec3(1, 1, 0.375), glm::dvec3(1, 1, 4), glm::dvec3(-1, 1, 4)}; // on one side of the way
+    forPointsAt({2, 0, 0.75}, [&](const ReceiverPoint& point) {
+        expectOnBorder(point, edge, {0.5, 0, 0.125});
+        expectOnBorder(point, corner, {0.5, 0, 5});
+    });
 }
 
 } // namespace
