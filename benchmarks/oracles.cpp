@@ -193,9 +193,9 @@ std::string report(const Settings& settings) {
     std::vector<Measured> all;
     for (const int triangles : settings.triangles) all.push_back(measure(triangles, settings));
     std::string text = fmt::format("# What exact shadows cost\n\nMade by `oracles`: a bumpy body over a planar ground, {0}² "
-                                   "pixels, {1} threads, medians of {2} "
+                                   "pixels, {1} thread{3}, medians of {2} "
                                    "interleaved rounds.\nAll start from the same primary hits (",
-                                   settings.size, settings.threads, settings.rounds);
+                                   settings.size, settings.threads, settings.rounds, settings.threads == 1 ? "" : "s");
     for (const Measured& m : all) text += fmt::format("{}{:.1f} s", &m == all.data() ? "" : ", ", m.primary);
     text += " with their tree, not included) and label the ground's pixels.\n\n"
             "* Embree 3: copying the vertices, building (default quality, robust), one `rtcOccluded1` for each pixel, in "
