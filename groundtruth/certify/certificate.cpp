@@ -131,7 +131,7 @@ std::vector<Answer> atEach(const std::vector<glm::ivec2>& pixels, int threads, c
     return answers;
 }
 
-[[noreturn]] void reject(std::string_view what) {
+[[noreturn]] void rejectRender(std::string_view what) {
     throw Inconclusive(
         fmt::format("POV-Ray's shadows were compared with the exact visible fraction and rejected: {}; ask for "
                     "more samples, and report this scene if that does not help",
@@ -198,11 +198,11 @@ double resolvedTolerance(int samples) { return std::min(0.9, 4 * std::pow(sample
 
 void requireCertified(const Certificate& c, int samples) {
     if (c.wrong > 0)
-        reject(fmt::format("{} of {} points are fully lit or fully shadowed and should not be", c.wrong, c.points));
+        rejectRender(fmt::format("{} of {} points are fully lit or fully shadowed and should not be", c.wrong, c.points));
     if (c.uneven > 0.25)
-        reject(fmt::format("a pixel sees no whole number of the {} samples, so their weights are not equal", samples));
+        rejectRender(fmt::format("a pixel sees no whole number of the {} samples, so their weights are not equal", samples));
     if (c.replayed > mostReplayed)
-        reject(
+        rejectRender(
             fmt::format("its values differ by {:.2f} of {} samples on average from what these samples see: the light, the "
                         "samples or the geometry are not those of the scene",
                         c.replayed, samples));
@@ -210,17 +210,17 @@ void requireCertified(const Certificate& c, int samples) {
 
     const double replay = mostReplayed / samples;
     if (std::abs(c.bias) > c.honest->bias + replay)
-        reject(fmt::format(
+        rejectRender(fmt::format(
             "its mean error of {:+.5f} over {} penumbra points is none of sampling: other sets of {} samples err "
             "by {:.5f} at most",
             c.bias, c.penumbra, samples, c.honest->bias));
     if (c.rms > c.honest->rms + replay)
-        reject(
+        rejectRender(
             fmt::format("its rms error of {:.5f} over {} penumbra points is more than other sets of {} samples leave, which "
                         "is {:.5f} at most",
                         c.rms, c.penumbra, samples, c.honest->rms));
     if (c.rms > c.honest->fall * c.rmsQuarter + replay)
-        reject(
+        rejectRender(
             fmt::format("its rms error does not fall with the number of samples: {:.5f} with a quarter of them, {:.5f} with "
                         "all {}, where other sets fall to {:.2f} times at least",
                         c.rmsQuarter, c.rms, samples, c.honest->fall));

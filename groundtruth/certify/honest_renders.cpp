@@ -9,9 +9,9 @@ namespace shadowbench::groundtruth {
 namespace {
 
 constexpr int setCount = 64;
-constexpr double studentQuantile = 4.613;    // of Student's t with 63 degrees of freedom: 1 − 10⁻⁵
-constexpr std::uint32_t firstSet = 1U << 21; // sets of the sequence that no render and no certificate of a sky uses
-constexpr double leastRms = 0.25;            // of one sample, for logarithms: less is a whole number of samples by luck
+constexpr double studentQuantile = 4.613;        // of Student's t with 63 degrees of freedom: 1 − 10⁻⁵
+constexpr std::uint32_t firstFreeSet = 1U << 21; // sets of the sequence that no render and no certificate of a sky uses
+constexpr double leastRms = 0.25;                // of one sample, for logarithms: less is a whole number of samples by luck
 
 std::vector<glm::dvec2> pointsOf(int samples, std::uint32_t set, int from, int to) {
     std::vector<glm::dvec2> points;
@@ -22,7 +22,7 @@ std::vector<glm::dvec2> pointsOf(int samples, std::uint32_t set, int from, int t
 std::vector<std::vector<glm::dvec2>> allSets(int samples, std::uint32_t judged) {
     const int quarter = povray::sampleParts(samples).firstQuarter;
     std::vector<std::vector<glm::dvec2>> sets{pointsOf(samples, judged, 0, samples)};
-    for (std::uint32_t set = firstSet; set < firstSet + setCount; ++set) {
+    for (std::uint32_t set = firstFreeSet; set < firstFreeSet + setCount; ++set) {
         sets.push_back(pointsOf(samples, set, 0, quarter));
         sets.push_back(pointsOf(samples, set, quarter, samples));
     }

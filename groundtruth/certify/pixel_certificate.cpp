@@ -106,7 +106,7 @@ Mean meanOf(const std::vector<Compared>& points, const Value& value) {
     return mean;
 }
 
-[[noreturn]] void reject(const std::string& what) {
+[[noreturn]] void rejectAreas(const std::string& what) {
     throw Inconclusive(
         fmt::format("pixel areas were compared with exact rays and rejected: {}; please report this scene", what));
 }
@@ -144,21 +144,23 @@ void requirePixelsCertified(const PixelCertificate& c) {
     constexpr double standardErrors = 4.5; // a mean of honest errors beyond is one in 100,000
     constexpr double rounding = 1e-6;      // areas are floats
     if (c.contradicting > 0)
-        reject(fmt::format("{} pixels are fully lit or shadowed against their exact label", c.contradicting));
+        rejectAreas(fmt::format("{} pixels are fully lit or shadowed against their exact label", c.contradicting));
     if (c.impossible > 0)
-        reject(fmt::format("{} of {} pixels are further from their rays than rays can be, by up to {:.4f}", c.impossible,
-                           c.points, c.largest));
+        rejectAreas(fmt::format("{} of {} pixels are further from their rays than rays can be, by up to {:.4f}",
+                                c.impossible, c.points, c.largest));
     if (c.rms > 0.75 * c.independent + rounding)
-        reject(fmt::format("the rms error over {} pixels is {:.4f}, more than 0.75 times the {:.4f} of independent rays",
-                           c.points, c.rms, c.independent));
+        rejectAreas(
+            fmt::format("the rms error over {} pixels is {:.4f}, more than 0.75 times the {:.4f} of independent rays",
+                        c.points, c.rms, c.independent));
     if (c.points < enough) return;
     if (std::abs(c.bias) > standardErrors * c.biasError + rounding)
-        reject(fmt::format("the mean error over {} pixels is {:.5f}, more than {} times its standard error, {:.5f}",
-                           c.points, c.bias, standardErrors, c.biasError));
+        rejectAreas(fmt::format("the mean error over {} pixels is {:.5f}, more than {} times its standard error, {:.5f}",
+                                c.points, c.bias, standardErrors, c.biasError));
     if (c.excess > standardErrors * c.excessError + rounding * rounding)
-        reject(fmt::format("the rms error over {} pixels is {:.4f}, beyond what the rays themselves err by on this scene, "
-                           "{:.4f}",
-                           c.points, c.rms, std::sqrt(std::max(0.0, c.rms * c.rms - c.excess))));
+        rejectAreas(
+            fmt::format("the rms error over {} pixels is {:.4f}, beyond what the rays themselves err by on this scene, "
+                        "{:.4f}",
+                        c.points, c.rms, std::sqrt(std::max(0.0, c.rms * c.rms - c.excess))));
 }
 
 std::map<std::string, double> measured(const PixelCertificate& c) {

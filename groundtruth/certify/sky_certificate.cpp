@@ -50,7 +50,7 @@ std::vector<SkyDirection> shiftedDirections(const SkySampler& sampler, const std
     return directions;
 }
 
-[[noreturn]] void reject(const std::string& what) {
+[[noreturn]] void rejectSky(const std::string& what) {
     throw Inconclusive(
         fmt::format("POV-Ray's shadows were compared with exact directions of the sky and rejected: {}; ask for "
                     "more samples, and report this scene if that does not help",
@@ -83,18 +83,18 @@ void requireSkyCertified(const Certificate& c, int samples) {
     constexpr double mostBias = 0.001, mostRms = 0.005;
     constexpr int fewestPartlyLit = 32; // the rms of 32 is known to an eighth
     if (c.wrong > 0)
-        reject(fmt::format("{} of {} points are fully lit or fully shadowed and should not be", c.wrong, c.points));
+        rejectSky(fmt::format("{} of {} points are fully lit or fully shadowed and should not be", c.wrong, c.points));
     if (c.penumbra < fewestPartlyLit) return;
 
     const double fewer = std::pow(std::max(1.0, static_cast<double>(usualDirections) / samples), 0.75);
     if (std::abs(c.bias) > fewer * mostBias)
-        reject(fmt::format("its mean error over {} partly lit points is {:.4f}, more than {:.4f}", c.penumbra, c.bias,
-                           fewer * mostBias));
+        rejectSky(fmt::format("its mean error over {} partly lit points is {:.4f}, more than {:.4f}", c.penumbra, c.bias,
+                              fewer * mostBias));
     if (c.rms > fewer * mostRms)
-        reject(fmt::format("its rms error over {} partly lit points is {:.4f}, more than {:.4f}", c.penumbra, c.rms,
-                           fewer * mostRms));
+        rejectSky(fmt::format("its rms error over {} partly lit points is {:.4f}, more than {:.4f}", c.penumbra, c.rms,
+                              fewer * mostRms));
     if (c.rms > std::max(0.75 * c.rmsQuarter, 0.2 * fewer * mostRms))
-        reject(
+        rejectSky(
             fmt::format("its rms error does not fall with the number of directions: {:.4f} with a quarter of them, {:.4f} "
                         "with all {}",
                         c.rmsQuarter, c.rms, samples));

@@ -11,6 +11,8 @@
 
 namespace shadowbench::groundtruth::area {
 
+inline constexpr double unit = 0x1p-53; // relative rounding error of one operation
+
 /// What changes from left to right across an edge.
 struct Change {
     int covers = 0, inner = 0, outer = 0;

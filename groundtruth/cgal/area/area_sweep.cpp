@@ -9,8 +9,6 @@
 namespace shadowbench::groundtruth::area {
 namespace {
 
-constexpr double unit = 0x1p-53; // relative rounding error of one operation
-
 /// `change` is that of an edge that runs downwards, which has more to its left.
 void addEdge(const glm::dvec2& from, const glm::dvec2& to, const Change& change, std::vector<UpwardEdge>& edges) {
     if (to.y < from.y) edges.push_back({to, from, change});

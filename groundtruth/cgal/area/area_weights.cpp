@@ -15,10 +15,8 @@
 namespace shadowbench::groundtruth::area {
 namespace {
 
-constexpr double unit = 0x1p-53; // relative rounding error of one operation
-
 /// Of the whole irradiance: what rounding may add to one part that Lambert's sum gives.
-constexpr double wantedError = 0x1p-46;
+constexpr double roundingError = 0x1p-46;
 
 /// On [0, 1].
 struct Node {
@@ -162,7 +160,7 @@ double LightWeights::irradiance(const LightPart& part, int cuts) const {
     if (across > 0 && upwards > 0) return quadrature(part, across, upwards);
 
     const Bounded closed = lambert(part);
-    if (cuts == 0 || closed.error <= wantedError * std::max(whole_, closed.value)) return closed.value;
+    if (cuts == 0 || closed.error <= roundingError * std::max(whole_, closed.value)) return closed.value;
     if (height > width)
         return irradiance({part.low, middle, part.lowLeft, part.lowRight, middleLeft, middleRight}, cuts - 1) +
                irradiance({middle, part.high, middleLeft, middleRight, part.highLeft, part.highRight}, cuts - 1);

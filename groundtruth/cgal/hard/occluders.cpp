@@ -11,13 +11,6 @@ namespace {
 
 constexpr std::size_t large = 1U << 16U; // triangles from which the threads share one instance
 
-using Corners = std::array<glm::dvec3, 8>;
-
-Corners cornersOf(const FloatBox& box) {
-    const Bounds bounds{glm::dvec3(box.low), glm::dvec3(box.high)};
-    return bounds.corners();
-}
-
 } // namespace
 
 Casters::Casters(const SceneTriangles& scene, std::vector<std::shared_ptr<const Chains>> chains)
@@ -49,7 +42,7 @@ const MeshEdges& Occluders::edgesOf(const TriangleInstance& instance) const {
 
 std::shared_ptr<const Chains> Occluders::chainsOf(std::size_t index, const ShadowProjection& projection, int threads) const {
     const TriangleInstance& instance = scene_.instances()[index];
-    const Corners corners = cornersOf(instance.box);
+    const auto corners = Bounds{glm::dvec3(instance.box.low), glm::dvec3(instance.box.high)}.corners();
     std::array<int, 8> heights{}, levels{};
     std::ranges::transform(corners, heights.begin(), [&](const auto& c) { return projection.height(c); });
     if (std::ranges::max(heights) <= 0) return nullptr;

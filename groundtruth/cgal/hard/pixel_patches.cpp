@@ -14,7 +14,7 @@ constexpr double rounding = 1e-7;                 // of a share that is kept as 
 constexpr double largestSigma = 0.0095;           // of the share of a pixel
 constexpr int fewestLines = 32, mostLines = 4096; // across a pixel
 
-struct Segment {
+struct PatchEdge {
     glm::dvec2 from, to;
 };
 
@@ -129,14 +129,14 @@ private:
     std::vector<Shadows> shadows_; // by patch
 };
 
-void addEdges(const ImagePolygon& polygon, std::vector<Segment>& edges) {
+void addEdges(const ImagePolygon& polygon, std::vector<PatchEdge>& edges) {
     const Corners<glm::dvec2>& corners = polygon.corners();
     for (std::size_t i = 0; i < corners.size(); ++i) edges.push_back({corners[i], corners.after(i)});
 }
 
 /// All edges at whose corners and crossings lengths along a line can begin to change in another way.
-std::vector<Segment> edgesOf(const std::vector<Patch>& patches) {
-    std::vector<Segment> edges;
+std::vector<PatchEdge> edgesOf(const std::vector<Patch>& patches) {
+    std::vector<PatchEdge> edges;
     for (const Patch& patch : patches) {
         addEdges(patch.outline, edges);
         for (const ImagePolygon& shadow : patch.shadows) addEdges(shadow, edges);
@@ -145,7 +145,7 @@ std::vector<Segment> edgesOf(const std::vector<Patch>& patches) {
 }
 
 /// Height at which two edges cross.
-std::optional<double> crossingHeight(const Segment& a, const Segment& b) {
+std::optional<double> crossingHeight(const PatchEdge& a, const PatchEdge& b) {
     const glm::dvec2 d = a.to - a.from, e = b.to - b.from, between = b.from - a.from;
     const double turn = d.x * e.y - d.y * e.x, sign = turn < 0 ? -1 : 1, whole = sign * turn;
     if (turn == 0) return std::nullopt;
@@ -155,14 +155,14 @@ std::optional<double> crossingHeight(const Segment& a, const Segment& b) {
 }
 
 /// The heights of all corners; between them and the crossings of edges lengths change linearly.
-std::vector<double> cornerHeights(const std::vector<Segment>& edges, const ImageRectangle& square) {
+std::vector<double> cornerHeights(const std::vector<PatchEdge>& edges, const ImageRectangle& square) {
     std::vector<double> heights{square.low.y, square.high.y};
     if (edges.size() >= manyEdges) return heights;
-    for (const Segment& edge : edges) heights.push_back(edge.from.y);
+    for (const PatchEdge& edge : edges) heights.push_back(edge.from.y);
     return heights;
 }
 
-void addCrossings(const std::vector<Segment>& edges, std::vector<double>& heights) {
+void addCrossings(const std::vector<PatchEdge>& edges, std::vector<double>& heights) {
     for (std::size_t i = 0; i < edges.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (const std::optional<double> y = crossingHeight(edges[i], edges[j])) heights.push_back(*y);
@@ -254,7 +254,7 @@ std::optional<AreaShares> sharesIfAlike(const std::vector<Patch>& patches) {
 AreaShares shares(const std::vector<Patch>& patches, const ImageRectangle& square) {
     if (const std::optional<AreaShares> alike = sharesIfAlike(patches)) return *alike;
     LineReader reader(patches);
-    const std::vector<Segment> edges = edgesOf(patches);
+    const std::vector<PatchEdge> edges = edgesOf(patches);
     std::vector<double> heights = cornerHeights(edges, square);
     const bool exact = edges.size() <= fewEdges;
     if (exact) addCrossings(edges, heights);

@@ -5,24 +5,16 @@
 #include "base/error.h"
 #include "groundtruth/cgal/plan/shadow_polygons_plane.h"
 
-#include <CGAL/Arr_naive_point_location.h>
-#include <CGAL/Arr_segment_traits_2.h>
-#include <CGAL/Arrangement_2.h>
-#include <CGAL/Triangular_expansion_visibility_2.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/matrix.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 
 namespace shadowbench::groundtruth::plan {
 namespace {
-
-using Traits = CGAL::Arr_segment_traits_2<ExactKernel>;
-using Environment = CGAL::Arrangement_2<Traits>;
-using Visibility = CGAL::Triangular_expansion_visibility_2<Environment, CGAL::Tag_true>;
 
 [[noreturn]] void refuse(std::uint32_t id, const std::string& reason) {
     throw BadInput("The scene is no plan view for 2-D visibility: surface " + std::to_string(id) + " " + reason + ".");
@@ -116,13 +108,6 @@ std::vector<CoverEdge> boxAround(const std::vector<CoverEdge>& edges, const Exac
     return result;
 }
 
-/// The face of the plan in which the light stands.
-Environment::Face_const_handle faceOf(const Environment& plan, const ExactPoint& light) {
-    const auto found = CGAL::Arr_naive_point_location<Environment>(plan).locate(light);
-    if (const auto* face = boost::get<Environment::Face_const_handle>(&found)) return *face;
-    throw BadInput("The scene is no plan view for 2-D visibility: the light stands exactly on a wall; move it.");
-}
-
 /// The border of what the light sees, to whose left it lies, as `first`.
 std::vector<CoverEdge> visibleEdges(const ExactRegion& footprints, const std::vector<CoverEdge>& receiver,
                                     const ExactPoint& light) {
@@ -133,19 +118,10 @@ std::vector<CoverEdge> visibleEdges(const ExactRegion& footprints, const std::ve
     const std::vector<CoverEdge> box = boxAround(all, light);
     walls.insert(walls.end(), box.begin(), box.end());
 
-    std::vector<Traits::Curve_2> curves;
-    for (const CoverEdge& wall : walls) curves.emplace_back(wall.from, wall.to);
-    Environment plan;
-    CGAL::insert(plan, curves.begin(), curves.end());
-    const Environment::Face_const_handle free = faceOf(plan, light);
-
-    Environment seen;
-    const Visibility visibility(plan);
-    const auto first = visibility.compute_visibility(light, free, seen)->outer_ccb();
+    const std::optional<ExactRing> seen = CoveredPlane(walls).visibleFrom(light);
+    if (!seen) throw BadInput("The scene is no plan view for 2-D visibility: the light stands exactly on a wall; move it.");
     std::vector<CoverEdge> edges;
-    auto h = first;
-    do edges.push_back({h->source()->point(), h->target()->point(), {1, 0}});
-    while (++h != first);
+    addBorder({{{*seen, {}}}}, {1, 0}, edges);
     return edges;
 }
 

@@ -10,6 +10,7 @@
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arrangement_2.h>
 #include <CGAL/Interval_nt.h>
+#include <CGAL/Triangular_expansion_visibility_2.h>
 
 #include <algorithm>
 #include <iterator>
@@ -216,6 +217,19 @@ std::vector<std::optional<Covers>> CoveredPlane::at(const std::vector<ExactPoint
             result[i] = (*face)->data().covers;
     }
     return result;
+}
+
+std::optional<ExactRing> CoveredPlane::visibleFrom(const ExactPoint& point) const {
+    const std::optional<Face> face = faceAt(faces_->plane, point);
+    if (!face) return std::nullopt;
+    CGAL::Arrangement_2<CGAL::Arr_segment_traits_2<ExactKernel>> seen;
+    const CGAL::Triangular_expansion_visibility_2<Arrangement, CGAL::Tag_true> visibility(faces_->plane);
+    const auto first = visibility.compute_visibility(point, *face, seen)->outer_ccb();
+    ExactRing ring;
+    auto h = first;
+    do ring.push_back(h->source()->point());
+    while (++h != first);
+    return ring;
 }
 
 ExactRegion CoveredPlane::where(const std::function<bool(Covers)>& inside) const {

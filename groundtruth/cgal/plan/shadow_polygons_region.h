@@ -61,6 +61,10 @@ public:
     /// Covers of points; nothing where they lie on an edge.
     [[nodiscard]] std::vector<std::optional<Covers>> at(const std::vector<ExactPoint>& points) const;
 
+    /// The border of what a point sees, which edges hide, counter-clockwise; nothing if the point lies on an edge. It must
+    /// stand in a bounded face.
+    [[nodiscard]] std::optional<ExactRing> visibleFrom(const ExactPoint& point) const;
+
     /// The closure of the faces whose covers satisfy `inside`.
     [[nodiscard]] ExactRegion where(const std::function<bool(Covers)>& inside) const;
 
