@@ -22,7 +22,7 @@ struct PixelCertificate {
     double bias = 0;      // mean error
     double biasError = 0; // its standard error: each pixel has rays of its own, so the errors are independent
     double rms = 0;       // root of the mean squared error
-    double own = 0;       // the same, by the rays' own sets and σ*, if the areas are right
+    double expected = 0;  // the same, by the rays' own sets and σ*, if the areas are right
     double excess = 0;    // mean of the squared errors, less what the rays' own sets and σ* say that they are
     double excessError = 0; // its standard error
     double largest = 0;     // absolute error
@@ -39,7 +39,8 @@ PixelCertificate certifyPixels(const hard::ExactScene& scene, const Reference& m
 /// * no pixel that is fully lit or shadowed contradicts its exact label;
 /// * no point is further from its rays than rays can be, one honest certificate in 100,000 excepted (Bernstein's
 /// inequality);
-/// * the rms error is at most 0.75 times that of independent rays, or 1.75 times the rays' own. The rays of a point lie one
+/// * the rms error is at most 0.75 times that of independent rays, or 1.75 times what is expected of the rays. The rays of a
+/// point lie one
 ///   in each cell of a grid, which leaves them about a third of that error where shadows are wider than a cell, and all of
 ///   it where they are not, as of grass seen from afar;
 /// * with 32 points or more, the bias and the excess are 0 within 4.5 standard errors. What rays err by on this scene is

@@ -97,7 +97,8 @@ void ShadowProjection::findBorders(glm::ivec2 size) {
                                         plus(minus(y), size.y + margin, w)};
     std::ranges::transform(borders, borders_.begin(), [](const Linear& border) {
         const auto middle = [](const Interval& i) { return 0.5 * (i.inf() + i.sup()); };
-        const auto error = [](const Interval& i) { return 2 * (i.sup() - i.inf()) + 16 * 0x1p-53 * std::abs(i.sup()); };
+        // Twice the width, for the middle is rounded, too, and what is multiplied by it is a difference of points.
+        const auto error = [](const Interval& i) { return 2 * (i.sup() - i.inf()) + determinantError * std::abs(i.sup()); };
         const auto& [slope, offset] = border;
         return Border{{middle(slope.x), middle(slope.y), middle(slope.z)},
                       middle(offset),

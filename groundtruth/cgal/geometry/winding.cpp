@@ -95,6 +95,7 @@ WindingAround::Way WindingAround::roundedWay() const {
     Way way{};
     for (int axis = 0; axis < 3; ++axis) {
         way.normal[axis] = 0.5 * (normal[axis].inf() + normal[axis].sup());
+        // Twice the width, for the middle is rounded, too.
         way.error[axis] = 2 * (normal[axis].sup() - normal[axis].inf());
     }
     return way;

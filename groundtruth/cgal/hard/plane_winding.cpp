@@ -86,23 +86,23 @@ std::optional<int> PlaneWinding::linkColumn(int row) const {
 
 /// The first number is exact, and so is the way to a row that no certain step leads to. The last number is checked.
 void PlaneWinding::linkRows() {
-    std::optional<Pixel> last; // that is certain
+    std::optional<glm::ivec2> last; // that is certain
     for (int row = 0; row < height(); ++row) {
         const std::optional<int> first = firstCertain(row);
         if (!first) continue;
-        const bool follows = last && last->row == row - 1;
+        const bool follows = last && last->y == row - 1;
         if (const std::optional<int> link = follows ? linkColumn(row) : std::nullopt)
             shift_[row] = *shift_[row - 1] + winding_.change(*link, row - 1) + winding_.changeDown(*link, row) -
                           winding_.change(*link, row);
         else
             shift_[row] =
                 (last ? exactNumber({*first, row}, *last) : exactNumber({*first, row})) - winding_.change(*first, row);
-        last = {*first, row};
+        last = glm::ivec2(*first, row);
     }
     if (!last) return;
     for (int x = last->x; x < width(); ++x)
-        if (isCertain(x, last->row)) last->x = x;
-    if (exactNumber(*last) != number(last->x, last->row)) inconsistent(last->row);
+        if (isCertain(x, last->y)) last->x = x;
+    if (exactNumber(*last) != number(last->x, last->y)) inconsistent(last->y);
 }
 
 /// All certain steps down to a row must lead to the same numbers as the steps along it.
@@ -146,25 +146,24 @@ void PlaneWinding::addEdges(WindingAround& around, std::size_t begin, std::size_
                          [&](std::size_t, const CastEdge& cast) { around.add(spatialEdge(cast.instance, cast.edge)); });
 }
 
-int PlaneWinding::exactNumber(const Pixel& at) const {
+int PlaneWinding::exactNumber(glm::ivec2 at) const {
     std::atomic<int> sum = 0;
     inParallelParts(casters_.edges(), occluders_.threads(), [&](std::size_t begin, std::size_t end) {
-        const ReceiverPoint point(centreRay(at.x, at.row), view_.plane);
+        const ReceiverPoint point(centreRay(at.x, at.y), view_.plane);
         WindingAround around(point, view_.plane, occluders_.light());
         addEdges(around, begin, end);
-        sum += onlyNumber(around.range(), at.row);
+        sum += onlyNumber(around.range(), at.y);
     });
     return sum;
 }
 
 /// From that of `start`, of a row that is known.
-int PlaneWinding::exactNumber(const Pixel& at, const Pixel& start) const {
-    const ReceiverPoint point(centreRay(at.x, at.row), view_.plane), from(centreRay(start.x, start.row), view_.plane);
+int PlaneWinding::exactNumber(glm::ivec2 at, glm::ivec2 start) const {
+    const ReceiverPoint point(centreRay(at.x, at.y), view_.plane), from(centreRay(start.x, start.y), view_.plane);
     WindingAround around(point, from, view_.plane, occluders_.light());
-    const glm::ivec2 a(at.x, at.row), b(start.x, start.row);
     for (const PixelEdge& near : edges_)
-        if (mayMeet(near, glm::min(a, b), glm::max(a, b))) around.add(edge(near.source));
-    return onlyNumber(around.range(number(start.x, start.row)), at.row);
+        if (mayMeet(near, glm::min(at, start), glm::max(at, start))) around.add(edge(near.source));
+    return onlyNumber(around.range(number(start.x, start.y)), at.y);
 }
 
 WindingAround::Range PlaneWinding::at(int x, int y) const {

@@ -40,11 +40,6 @@ public:
     [[nodiscard]] bool isCertain(int x, int row) const { return wanted_(x, row) != 0 && winding_.uncertain(x, row) == 0; }
 
 private:
-    /// Of a centre, + scanMargin.
-    struct Pixel {
-        int x, row;
-    };
-
     void findWanted(int row);
     void sumRow(int row);
     void linkRows();
@@ -56,8 +51,9 @@ private:
     [[nodiscard]] Ray centreRay(int x, int row) const;
     [[nodiscard]] SpatialEdge edge(std::uint32_t index) const;
     void addEdges(WindingAround& around, std::size_t begin, std::size_t end) const;
-    [[nodiscard]] int exactNumber(const Pixel& at) const;
-    [[nodiscard]] int exactNumber(const Pixel& at, const Pixel& start) const;
+    /// At pixel + scanMargin.
+    [[nodiscard]] int exactNumber(glm::ivec2 at) const;
+    [[nodiscard]] int exactNumber(glm::ivec2 at, glm::ivec2 start) const;
     [[nodiscard]] WindingAround::Range exactAround(int x, int row) const;
     [[nodiscard]] std::vector<TriangleName> groundedAt(const ReceiverPoint& point) const;
     [[nodiscard]] std::optional<int> nearestCertain(int x, int row) const;

@@ -232,7 +232,7 @@ TEST(PixelCertificate, IsRefusedWithTheFirstBoundThatItBreaks) {
     c.rms = 0.016;
     EXPECT_NE(refused(c).find("the rms error over 31 pixels is 0.0160, more than 0.75 times the 0.0200 of independent rays"),
               std::string::npos);
-    c.own = 0.01;
+    c.expected = 0.01;
     EXPECT_NO_THROW(requirePixelsCertified(c)) << "its rays err as much";
     c.rms = 0.018;
     EXPECT_NE(refused(c).find("and 1.75 times the 0.0100 by which the rays themselves err"), std::string::npos);
