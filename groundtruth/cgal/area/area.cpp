@@ -24,20 +24,23 @@ constexpr std::array tolerances{0x1p-42, 0x1p-46, 0x1p-55};
 
 constexpr VisibleFraction umbra{0, 0}, fullyLit{1, 1};
 
-/// A fraction and the certain bound of its rounding.
+/// A fraction and the certain bound of its rounding, with the part of it that edges bring.
 struct BoundedFraction {
     VisibleFraction fraction;
-    double error;
+    double error, edgeError = 0;
+
+    /// Edges that bring less than the rounding of the sum over thousands of them need not be exact.
+    [[nodiscard]] bool isTightEnough() const { return error <= wantedError || 2 * edgeError <= error; }
 };
 
 /// What is smaller than the error is taken for nothing, so that abutting occluders leave no crack.
 BoundedFraction areaFraction(const std::vector<CoverEdge>& edges, const LightShape& shape) {
     if (edges.empty()) return {fullyLit, 0};
     const SweptAreas swept = sweepAreas(edges, shape);
-    const double error = swept.error / shape.area;
-    if (swept.areas.outerVisible <= swept.error) return {umbra, 2 * error};
-    if (swept.areas.outerHidden <= swept.error) return {fullyLit, 2 * error};
-    return {enclosedFraction(swept.areas, shape), error};
+    const double error = swept.error / shape.area, edgeError = swept.edgeError / shape.area;
+    if (swept.areas.outerVisible <= swept.error) return {umbra, 2 * error, 2 * edgeError};
+    if (swept.areas.outerHidden <= swept.error) return {fullyLit, 2 * error, 2 * edgeError};
+    return {enclosedFraction(swept.areas, shape), error, edgeError};
 }
 
 /// What hides the light, and the fraction that it leaves.
@@ -50,9 +53,9 @@ struct Hidden {
 BoundedFraction lengthFraction(const std::vector<CoverInterval>& hidden) {
     if (hidden.empty()) return {fullyLit, 0};
     const VisibleLength length = visibleLength(hidden);
-    if (length.visible <= length.error) return {umbra, 2 * length.error};
-    if (1 - length.visible <= length.error) return {fullyLit, 2 * length.error};
-    return {{length.visible, length.visible}, length.error};
+    if (length.visible <= length.error) return {umbra, 2 * length.error, 2 * length.edgeError};
+    if (1 - length.visible <= length.error) return {fullyLit, 2 * length.error, 2 * length.edgeError};
+    return {{length.visible, length.visible}, length.error, length.edgeError};
 }
 
 void requireSize(const PrimaryHits& primary, glm::ivec2 size) {
@@ -97,7 +100,7 @@ struct AreaScene::Data {
         std::optional<Hidden> found;
         for (const double tolerance : tolerances) {
             found = hidden(point, tolerance);
-            if (!found || found->left.error <= wantedError) break;
+            if (!found || found->left.isTightEnough()) break;
         }
         return found;
     }

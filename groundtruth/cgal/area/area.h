@@ -53,9 +53,9 @@ public:
     AreaScene(const AreaScene&) = delete;
     AreaScene& operator=(const AreaScene&) = delete;
 
-    /// The fast form: filtered exact decisions, areas in double precision, within 1e-12 of `exactFraction`; exactly 1 where
-    /// nothing hides the light and 0 in the umbra. `pixel` must be a Surface::Receiver of `primary`, whose size is `size`;
-    /// else InternalError.
+    /// The fast form: filtered exact decisions, areas in double precision, within 1e-12 of `exactFraction`, or, where the
+    /// sum over the edges is rounded by more than half of that, within twice its rounding; exactly 1 where nothing hides the
+    /// light and 0 in the umbra. `pixel` must be a Surface::Receiver of `primary`, whose size is `size`; else InternalError.
     [[nodiscard]] VisibleFraction fraction(glm::ivec2 pixel, glm::ivec2 size, const PrimaryHits& primary) const;
 
     /// The same of another share; InternalError for a line. Exactly 1 and 0 where `fraction` is.

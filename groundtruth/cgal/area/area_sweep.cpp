@@ -40,13 +40,16 @@ void addRow(const Row& row, LightAreas& areas) {
     areas.outerHidden += height * lengths.outerHidden;
 }
 
-/// Edges meet in the same rows as the true ones, each end moved by e per coordinate at most: an edge sweeps at most
-/// (length + 3 e) · 3 e; in every row that it crosses its place
-/// is rounded by some units, and so is the sum over the gaps; each row's height by one, the running sums by one.
+/// Edges meet in the same rows as the true ones, each end moved by its error e per coordinate at most: an edge sweeps at
+/// most (length + 3 e) · 3 e.
+double sweptBy(const CoverEdge& edge) { return 3 * edge.error * (glm::distance(edge.from, edge.to) + 3 * edge.error); }
+
+/// In every row that an edge crosses its place is rounded by some units, and so is the sum over the gaps; each row's height
+/// by one, the running sums by one.
 double errorBound(const std::vector<CoverEdge>& edges, const LightShape& shape, std::size_t rows) {
     double error = 0;
     for (const CoverEdge& edge : edges) {
-        error += 3 * edge.error * (glm::distance(edge.from, edge.to) + 3 * edge.error);
+        error += sweptBy(edge);
         error += 16 * unit * std::abs(edge.to.y - edge.from.y);
     }
     const double shapeEdges = shape.area < 1 ? 4 : 2; // that a row crosses
@@ -71,17 +74,20 @@ SweptAreas sweepAreas(const std::vector<CoverEdge>& edges, const LightShape& sha
         addRow(row, areas);
         ++rows;
     });
-    return {areas, errorBound(edges, shape, rows)};
+    double edgeError = 0;
+    for (const CoverEdge& edge : edges) edgeError += sweptBy(edge);
+    return {areas, errorBound(edges, shape, rows), edgeError};
 }
 
 VisibleLength visibleLength(std::vector<CoverInterval> hidden) {
     std::ranges::sort(hidden, {}, &CoverInterval::from);
-    VisibleLength result{0, 0};
+    VisibleLength result{};
     double reached = -0.5;
     for (const CoverInterval& part : hidden) {
         if (part.from > reached) result.visible += part.from - reached;
         reached = std::max(reached, part.to);
         result.error += 2 * part.error + 4 * unit;
+        result.edgeError += 2 * part.error;
     }
     if (reached < 0.5) result.visible += 0.5 - reached;
     return result;

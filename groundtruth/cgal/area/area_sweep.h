@@ -13,10 +13,10 @@
 
 namespace shadowbench::groundtruth::area {
 
-/// With a certain bound of the error of every figure.
+/// With a certain bound of the error of every figure, and the part of it that the errors of the edges bring.
 struct SweptAreas {
     LightAreas areas;
-    double error;
+    double error, edgeError;
 };
 
 /// Hidden is where the winding number of `edges` (which lie in the light's window) is positive.
@@ -24,7 +24,7 @@ SweptAreas sweepAreas(const std::vector<CoverEdge>& edges, const LightShape& sha
 
 /// The same for parts of the line [−½, ½]: the visible length.
 struct VisibleLength {
-    double visible, error;
+    double visible, error, edgeError;
 };
 VisibleLength visibleLength(std::vector<CoverInterval> hidden);
 

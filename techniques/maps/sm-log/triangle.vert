@@ -24,7 +24,8 @@ void main() {
     uint triangle = uint(gl_VertexID) / 6u, instance = uint(baseInstance + gl_InstanceID);
     vec4 h0 = onPlane(triangle, 0u, instance), h1 = onPlane(triangle, 1u, instance), h2 = onPlane(triangle, 2u, instance);
 
-    // Behind the light or the warp's centre a triangle may reach anywhere.
+    // Wholly behind the light or the warp's centre a triangle is nowhere on the map, partly it may reach anywhere.
+    bool none = max(max(h0.w, h1.w), h2.w) < 0.0 || max(max(h0.y, h1.y), h2.y) < 0.0;
     bool whole = min(min(h0.w, h1.w), h2.w) < least || min(min(h0.y, h1.y), h2.y) < least;
     vec2 m0 = cornerOnMap(h0), m1 = cornerOnMap(h1), m2 = cornerOnMap(h2);
     vec2 low = whole ? vec2(0.0) : min(min(m0, m1), m2) - texel, high = whole ? vec2(1.0) : max(max(m0, m1), m2) + texel;
@@ -40,6 +41,6 @@ void main() {
 
     const int corners[6] = int[](0, 1, 2, 2, 1, 3);
     int corner = corners[gl_VertexID % 6];
-    vec2 at = mix(low, high, vec2(corner & 1, corner >> 1));
+    vec2 at = none ? vec2(0.0) : mix(low, high, vec2(corner & 1, corner >> 1));
     gl_Position = vec4(2.0 * clamp(at, -1.0, 2.0) - 1.0, 0.0, 1.0);
 }

@@ -9,12 +9,12 @@ uniform float cell;  // a grid's side is 1
 flat out vec3 v0, v1, v2;           // corners, in the world
 flat out vec3 side0, side1, side2;  // dot(·, (at, 1)) ≥ 0 where a cell's centre is no farther out than the side of a cell that is touched
 
-const float rounding = 0.125;         // cells: of positions in the grid
+const float margin = 0.5 + 0.125;     // cells: from a cell's centre to its side, and the rounding of positions in the grid
 const float productRounding = 4e-6;   // of a cross product, in parts of its factors' lengths
 
 vec3 movedOut(vec3 from, vec3 to, float facing) {
     vec3 side = facing * cross(from, to);
-    side.z += (0.5 + rounding) * cell * (abs(side.x) + abs(side.y)) + productRounding * length(from) * length(to);
+    side.z += margin * cell * (abs(side.x) + abs(side.y)) + productRounding * length(from) * length(to);
     return side;
 }
 
@@ -35,7 +35,7 @@ void main() {
     vec3 w = max(vec3(h0.z, h1.z, h2.z), least);
     vec2 p0 = h0.xy / w.x, p1 = h1.xy / w.y, p2 = h2.xy / w.z;
     bool whole = min(min(h0.z, h1.z), h2.z) < least, none = max(max(h0.z, h1.z), h2.z) < 0.0;
-    vec2 low = whole ? vec2(0.0) : min(min(p0, p1), p2) - 2.0 * cell, high = whole ? vec2(1.0) : max(max(p0, p1), p2) + 2.0 * cell;
+    vec2 low = whole ? vec2(0.0) : min(min(p0, p1), p2) - margin * cell, high = whole ? vec2(1.0) : max(max(p0, p1), p2) + margin * cell;
 
     const int corners[6] = int[](0, 1, 2, 2, 1, 3);
     int corner = corners[gl_VertexID % 6];

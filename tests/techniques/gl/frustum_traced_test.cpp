@@ -100,6 +100,21 @@ TEST(FrustumTraced, ListsAreLongWhereTheLightsViewCrowdsPixels) { // as a map ha
     EXPECT_GT(coarse, 2 * tests);
 }
 
+TEST(FrustumTraced, ATriangleSmallerThanACellIsTestedAgainstTheCellsThatItTouches) {
+    Scene scene = fromAbove(3);
+    const auto tests = [&] {
+        Stage stage(scene);
+        stage.show(0);
+        return figuresOf(stage, "frustum-traced:grid=64").at("tests");
+    };
+    const double ofGround = tests();
+    Mesh triangle = plane(1e-3); // a cell is 4 cm
+    triangle.triangles.resize(1);
+    scene.objects.push_back(object(triangle, {0.13, 0.1, 0.21}));
+    EXPECT_GE(tests() - ofGround, 16); // a cell's list: AGridOverTheVisiblePointsSharesThemOutEvenly
+    EXPECT_LE(tests() - ofGround, 4 * 25);
+}
+
 TEST(FrustumTraced, FiguresLeaveTheImageAndTheNextOneAsTheyAre) {
     const Scene scene = boxScene();
     Stage stage(scene);

@@ -1,5 +1,6 @@
 // Logarithmic perspective shadow maps: as wrong near the eye as far from it, with edges that are curves in the map; no
 // better than a focused map where light and camera look at each other.
+#include "techniques/gl/counters.h"
 #include "techniques/maps/sm-log/log_view.h"
 #include "tests/support/ground_score.h"
 #include "tests/support/rows_over_frames.h"
@@ -22,6 +23,19 @@ TEST(SmLog, EdgesOfLongTrianglesAreWhereTheyAre) { // chords of their curves wou
     Scene scene = avenueScene(0.5);
     scene.objects.push_back(object(box({0.3, 0.3, 90}), {-1.1, 2.3, -46}));
     EXPECT_LT(mismatchOn(1, scene, "sm-log:map=4096"), 0.001);
+}
+
+TEST(SmLog, TrianglesBehindTheCameraTakeNoFragments) {
+    const auto fragments = [](int boxes) {
+        Scene scene = avenueScene(0.5);
+        for (int i = 0; i < boxes; ++i) scene.objects.push_back(object(box({0.3, 0.3, 0.3}), {0.2, 2.3, 30 - 0.1 * i}));
+        Stage stage(scene);
+        stage.show(0);
+        gl::WorkMeter meter;
+        rendered(stage, "sm-log:map=256");
+        return static_cast<double>(meter.finish().fragments);
+    };
+    EXPECT_LT(fragments(21), fragments(1) + 256 * 256); // of which each of 240 triangles would take as many
 }
 
 TEST(SmLog, AFlatGroundDoesNotShadowItself) {
