@@ -108,9 +108,10 @@ TEST(FrustumTraced, ATriangleSmallerThanACellIsTestedAgainstTheCellsThatItTouche
         return figuresOf(stage, "frustum-traced:grid=64").at("tests");
     };
     const double ofGround = tests();
-    Mesh triangle = plane(1e-3); // a cell is 4 cm
-    triangle.triangles.resize(1);
-    scene.objects.push_back(object(triangle, {0.13, 0.1, 0.21}));
+    Mesh needle = plane(1e-3); // a cell is 4 cm
+    needle.triangles.resize(1);
+    for (glm::vec3& p : needle.positions) p.z *= 0.1F;
+    scene.objects.push_back(object(needle, {0.13, 0.1, 0.21}));
     EXPECT_GE(tests() - ofGround, 16); // a cell's list: AGridOverTheVisiblePointsSharesThemOutEvenly
     EXPECT_LE(tests() - ofGround, 4 * 25);
 }
