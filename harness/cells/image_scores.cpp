@@ -50,7 +50,8 @@ const Mask& alignedMask(const Receivers& receivers, Truth truth, int frame) {
     throw InternalError(fmt::format(
         "the rasteriser and the ground truth disagree on the primary hit of {:.2f} % of the pixels of frame {} "
         "(limit 0.10 %), so no score is given: two faces lie in one plane (move one), or surfaces are too near to "
-        "each other for single precision (shadowbench inspect SCENE says why)",
+        "each other for single precision (shadowbench inspect SCENE says why), or details are a small part of a pixel "
+        "wide (take the camera nearer)",
         100 * mask.primaryMismatch, frame));
 }
 
