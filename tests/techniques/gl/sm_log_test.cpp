@@ -35,7 +35,7 @@ TEST(SmLog, TrianglesBehindTheCameraTakeNoFragments) {
         rendered(stage, "sm-log:map=256");
         return static_cast<double>(meter.finish().fragments);
     };
-    EXPECT_LT(fragments(21), fragments(1) + 256 * 256); // of which each of 240 triangles would take as many
+    EXPECT_LT(fragments(21), fragments(1) + 256 * 256); // what one triangle takes that covers the map
 }
 
 TEST(SmLog, AFlatGroundDoesNotShadowItself) {
