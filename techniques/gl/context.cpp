@@ -10,6 +10,8 @@
 #include <array>
 #include <atomic>
 #include <cstdlib>
+#include <limits>
+#include <malloc.h>
 #include <string_view>
 
 namespace shadowbench::gl {
@@ -151,6 +153,10 @@ void Context::check(const std::string& doing) {
 }
 
 void fixRasteriser(const ContextOptions& options) {
+    // Its textures are blocks of megabytes, which come and go with each technique. Given back to the kernel, each of their
+    // pages would be mapped and cleared anew.
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     setenv("LP_NUM_THREADS", std::to_string(options.rasterThreads).c_str(), 1);
     setenv("LP_NATIVE_VECTOR_WIDTH", std::to_string(options.vectorBits).c_str(), 1);
