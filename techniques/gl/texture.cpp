@@ -57,13 +57,15 @@ bool isDepth(Format format) { return format == Format::Depth32F || format == For
 /// GL's row 0 is at the bottom, ours at the top.
 template <typename T>
 Image<T> readPixels(unsigned framebuffer, glm::ivec2 size, GLenum buffer, GLenum format, GLenum type) {
-    Image<T> upsideDown(size.x, size.y);
+    Image<T> image(size.x, size.y);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     if (buffer != GL_NONE) glReadBuffer(buffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, size.x, size.y, format, type, upsideDown.data());
-    Image<T> image(size.x, size.y);
-    for (int y = 0; y < size.y; ++y) std::copy_n(&upsideDown(0, size.y - 1 - y), size.x, &image(0, y));
+    glReadPixels(0, 0, size.x, size.y, format, type, image.data());
+    for (int y = 0; y < size.y / 2; ++y) {
+        T* row = image.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x);
+        std::swap_ranges(row, row + size.x, &image(0, size.y - 1 - y));
+    }
     return image;
 }
 
