@@ -71,6 +71,7 @@ bool isSampler(GLenum type) {
     case GL_SAMPLER_2D:
     case GL_SAMPLER_2D_ARRAY:
     case GL_SAMPLER_2D_SHADOW:
+    case GL_SAMPLER_BUFFER:
     case GL_UNSIGNED_INT_SAMPLER_2D:
         return true;
     default:
@@ -239,6 +240,12 @@ Program& Program::set(const std::string& sampler, const TextureArray& array) {
     return *this;
 }
 
+Program& Program::set(const std::string& sampler, const BufferTexture& buffer) {
+    activateUnit(sampler);
+    glBindTexture(GL_TEXTURE_BUFFER, buffer.id());
+    return *this;
+}
+
 Program& Program::setImage(const std::string& image, const Texture& texture) {
     const Uniform& found = uniform(image);
     if (!isImage(found.type)) throw InternalError(title_ + ": " + image + " is no image");
@@ -250,7 +257,7 @@ Program& Program::setImage(const std::string& image, const Texture& texture) {
 void Program::activateUnit(const std::string& sampler) const {
     const Uniform& found = uniform(sampler);
     if (!isSampler(found.type))
-        throw InternalError(title_ + ": " + sampler + " is no sampler of a 2D texture or an array of them");
+        throw InternalError(title_ + ": " + sampler + " is no sampler of a 2D texture, an array of them or a buffer");
     glProgramUniform1i(id_, found.location, found.unit);
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(found.unit));
 }

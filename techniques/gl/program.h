@@ -19,6 +19,7 @@ namespace shadowbench::gl {
 
 class Texture;
 class TextureArray;
+class BufferTexture;
 
 /// Preprocessor definitions put before the source.
 using Defines = std::vector<std::pair<std::string, std::string>>;
@@ -98,6 +99,7 @@ public:
     /// Binds the texture to the sampler of that name.
     Program& set(const std::string& sampler, const Texture& texture);
     Program& set(const std::string& sampler, const TextureArray& array);
+    Program& set(const std::string& sampler, const BufferTexture& buffer);
 
     /// Lets the image of that name be stored into the texture's largest level.
     Program& setImage(const std::string& image, const Texture& texture);

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
+#include "techniques/gl/scene_buffers.h"
 
 #include <algorithm>
 #include <array>
@@ -217,6 +218,15 @@ void TextureArray::makeMipmaps() {
     bindToChange(GL_TEXTURE_2D_ARRAY, id_);
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
+
+BufferTexture::BufferTexture(const Buffer& buffer) {
+    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.id()); // a name is a buffer once it has been bound
+    glGenTextures(1, &id_);
+    bindToChange(GL_TEXTURE_BUFFER, id_);
+    glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer.id());
+}
+
+BufferTexture::~BufferTexture() { glDeleteTextures(1, &id_); }
 
 RenderTarget::RenderTarget(std::initializer_list<const Texture*> attachments)
     : RenderTarget(std::span<const Texture* const>(attachments.begin(), attachments.size())) {}

@@ -13,6 +13,8 @@
 
 namespace shadowbench::gl {
 
+class Buffer;
+
 enum class Format { R8, RGBA8, R32F, RG16F, RG32F, RGBA16F, RGBA32F, R32UI, Depth32F, Depth32FStencil8, RGBA16, RG32UI };
 
 /// How a sampler reads between texels and outside [0, 1]².
@@ -76,6 +78,21 @@ private:
     glm::ivec2 size_;
     int layers_;
     std::size_t bytes_; // all levels
+};
+
+/// A buffer of vec4 that shaders read through a samplerBuffer: a software rasteriser reads a storage block one invocation
+/// after the other, and a texture for several at once. The buffer must outlive it.
+class BufferTexture {
+public:
+    explicit BufferTexture(const Buffer& buffer);
+    ~BufferTexture();
+    BufferTexture(const BufferTexture&) = delete;
+    BufferTexture& operator=(const BufferTexture&) = delete;
+
+    [[nodiscard]] unsigned id() const { return id_; }
+
+private:
+    unsigned id_ = 0;
 };
 
 /// Textures to draw into: colour attachments in order, and at most one depth(-stencil) texture. They must outlive it. Cheap

@@ -34,7 +34,7 @@ void main() {
     uint triangle = uint(firstLarge), last = min(largeCount, uint(firstLarge + mostLarge));
     while (triangle < last) {
         uint corner = 3u * triangle++;
-        if (shade(pixel, point.xyz, largeCorners[corner].xyz, largeCorners[corner + 1u].xyz, largeCorners[corner + 2u].xyz)) break;
+        if (shade(pixel, point.xyz, largeCorner(corner), largeCorner(corner + 1u), largeCorner(corner + 2u))) break;
     }
     count(max(triangle, uint(firstLarge)) - uint(firstLarge));
 }

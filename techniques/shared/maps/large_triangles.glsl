@@ -1,9 +1,15 @@
-// Triangles that touch too many cells or pixels, or the light's plane: tested against every pixel instead.
+// Triangles that touch too many cells or pixels, or the light's plane: tested against every pixel instead. What has been handed on is read
+// as a texture (gl/texture.h, BufferTexture).
 layout(std430, binding = 6) buffer Large {
     uint largeCount;
     uint padding[3];
     vec4 largeCorners[];  // three a triangle
 };
+uniform samplerBuffer largeTriangles;  // the whole block
+
+vec3 largeCorner(uint number) {
+    return texelFetch(largeTriangles, int(number) + 1).xyz;
+}
 
 void handOn(vec3 v0, vec3 v1, vec3 v2) {
     uint slot = 3u * atomicAdd(largeCount, 1u);

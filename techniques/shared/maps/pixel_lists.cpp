@@ -109,7 +109,9 @@ void PixelLists::castAll(const Frame& frame, Casts& casts, const std::function<v
     }
     const std::size_t pixels = pixelsOf(frame);
     const std::size_t atOnce = mostRounds / (1 + words_); // a shader has at most as many rounds in its loop as results
-    casts.large.set("pixels", static_cast<int>(pixels)).set("mostLarge", static_cast<int>(atOnce));
+    casts.large.set("largeTriangles", largeTriangles_)
+        .set("pixels", static_cast<int>(pixels))
+        .set("mostLarge", static_cast<int>(atOnce));
     for (std::size_t first = 0; first < trianglesOf(frame); first += atOnce) {
         casts.large.set("firstLarge", static_cast<int>(first));
         casts.large.dispatch(pixels);

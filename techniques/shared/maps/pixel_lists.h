@@ -7,6 +7,7 @@
 #include "techniques/contract/technique.h"
 #include "techniques/gl/program.h"
 #include "techniques/gl/scene_buffers.h"
+#include "techniques/gl/texture.h"
 #include "techniques/shared/light_views/light_view.h"
 
 #include <cstddef>
@@ -53,6 +54,7 @@ private:
     gl::Program bin_;
     Casts casts_;
     gl::Buffer heads_, nexts_, results_, large_;
+    gl::BufferTexture largeTriangles_{large_};
 };
 
 } // namespace shadowbench::techniques

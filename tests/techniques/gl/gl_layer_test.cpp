@@ -67,7 +67,7 @@ TEST(Program, SaysWhichSamplersTakeTextures) {
     EXPECT_EQ(test::messageOf<InternalError>([&] {
                   program.set("sky", gl::Texture(gl::Format::R32F, {1, 1}));
               }),
-              "gl/screen.vert + x.frag: sky is no sampler of a 2D texture or an array of them");
+              "gl/screen.vert + x.frag: sky is no sampler of a 2D texture, an array of them or a buffer");
 }
 
 TEST(Program, AMisspeltUniformIsAnError) {
