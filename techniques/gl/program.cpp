@@ -73,6 +73,7 @@ bool isSampler(GLenum type) {
     case GL_SAMPLER_2D_SHADOW:
     case GL_SAMPLER_BUFFER:
     case GL_UNSIGNED_INT_SAMPLER_2D:
+    case GL_UNSIGNED_INT_SAMPLER_BUFFER:
         return true;
     default:
         return false;

@@ -219,11 +219,11 @@ void TextureArray::makeMipmaps() {
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 
-BufferTexture::BufferTexture(const Buffer& buffer) {
+BufferTexture::BufferTexture(const Buffer& buffer, Numbers numbers) {
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.id()); // a name is a buffer once it has been bound
     glGenTextures(1, &id_);
     bindToChange(GL_TEXTURE_BUFFER, id_);
-    glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer.id());
+    glTexBuffer(GL_TEXTURE_BUFFER, numbers == Numbers::Float ? GL_RGBA32F : GL_RGBA32UI, buffer.id());
 }
 
 BufferTexture::~BufferTexture() { glDeleteTextures(1, &id_); }

@@ -12,10 +12,10 @@ TracedRays::TracedRays(const std::string& raysOfAPixel)
 
 void TracedRays::draw(const Frame& frame, const gl::Texture& share, const char* name) {
     if (!built_ || frame.scene.moving()) build(frame);
-    nodes_.bindStorage(0);
-    corners_.bindStorage(1);
     const Light& light = frame.snapshot.light;
-    program_.set("positions", frame.gbuffer.position())
+    program_.set("nodes", nodeTexels_)
+        .set("corners", cornerTexels_)
+        .set("positions", frame.gbuffer.position())
         .set("normals", frame.gbuffer.normal())
         .set("lightCentre", glm::vec3(light.centre))
         .set("lightU", glm::vec3(light.u))

@@ -3,6 +3,8 @@
 
 #include "techniques/contract/technique.h"
 #include "techniques/gl/program.h"
+#include "techniques/gl/scene_buffers.h"
+#include "techniques/gl/texture.h"
 
 #include <string>
 
@@ -28,6 +30,7 @@ private:
 
     gl::Program program_;
     gl::Buffer nodes_, corners_;
+    gl::BufferTexture nodeTexels_{nodes_, gl::BufferTexture::Numbers::Unsigned}, cornerTexels_{corners_};
     float lift_ = 0; // metres that rays begin above their surface
     bool built_ = false;
 };

@@ -5,8 +5,17 @@ struct TreeNode {
     vec3 high;
     uint triangle;
 };
-layout(std430, binding = 0) readonly buffer Nodes { TreeNode nodes[]; };
-layout(std430, binding = 1) readonly buffer Corners { vec4 corners[]; };
+uniform usamplerBuffer nodes;   // two texels each
+uniform samplerBuffer corners;  // three a triangle
+
+TreeNode nodeAt(uint number) {
+    uvec4 low = texelFetch(nodes, 2 * int(number)), high = texelFetch(nodes, 2 * int(number) + 1);
+    return TreeNode(uintBitsToFloat(low.xyz), low.w, uintBitsToFloat(high.xyz), high.w);
+}
+
+vec3 cornerAt(uint number) {
+    return texelFetch(corners, int(number)).xyz;
+}
 
 /// The segment from `from` to `from` + 1 / `inverse`.
 bool meetsBox(TreeNode node, vec3 from, vec3 inverse) {
@@ -20,9 +29,9 @@ bool meetsBox(TreeNode node, vec3 from, vec3 inverse) {
 
 /// Möller and Trumbore 1997; its ends do not belong to the segment.
 bool meetsTriangle(uint number, vec3 from, vec3 segment) {
-    vec3 a = corners[3u * number].xyz;
-    vec3 ab = corners[3u * number + 1u].xyz - a;
-    vec3 ac = corners[3u * number + 2u].xyz - a;
+    vec3 a = cornerAt(3u * number);
+    vec3 ab = cornerAt(3u * number + 1u) - a;
+    vec3 ac = cornerAt(3u * number + 2u) - a;
     vec3 p = cross(segment, ac);
     float determinant = dot(ab, p);
     if (determinant == 0.0) return false;
@@ -37,9 +46,9 @@ bool meetsTriangle(uint number, vec3 from, vec3 segment) {
 bool segmentIsBlocked(vec3 from, vec3 to) {
     vec3 segment = to - from;
     vec3 inverse = 1.0 / mix(segment, vec3(1e-20), equal(segment, vec3(0.0)));
-    uint end = uint(nodes.length());
+    uint end = uint(textureSize(nodes)) / 2u;
     for (uint i = 0u; i < end;) {
-        TreeNode node = nodes[i];
+        TreeNode node = nodeAt(i);
         if (node.after == 0u) break;
         bool met = meetsBox(node, from, inverse);
         if (met && node.triangle != 0u && meetsTriangle(node.triangle - 1u, from, segment)) return true;
