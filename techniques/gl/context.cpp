@@ -153,8 +153,8 @@ void Context::check(const std::string& doing) {
 }
 
 void fixRasteriser(const ContextOptions& options) {
-    // Its textures are blocks of megabytes, which come and go with each technique. Given back to the kernel, each of their
-    // pages would be mapped and cleared anew.
+    // Textures are blocks of megabytes, which come and go with each technique. If they went back to the kernel, it would map
+    // and clear each of their pages anew.
     mallopt(M_MMAP_MAX, 0);
     mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);

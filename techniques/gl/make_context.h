@@ -18,7 +18,7 @@ std::unique_ptr<Context> makeOsMesaContext(const ContextOptions& options);
 std::unique_ptr<Context> makeEglContext(const ContextOptions& options, bool software);
 
 /// Mesa reads these environment variables when it makes a context; they fix the code that is generated, hence the image and
-/// the instruction count.
+/// the instruction count. The process keeps the memory that it frees from then on.
 void fixRasteriser(const ContextOptions& options);
 
 } // namespace shadowbench::gl

@@ -63,10 +63,7 @@ Image<T> readPixels(unsigned framebuffer, glm::ivec2 size, GLenum buffer, GLenum
     if (buffer != GL_NONE) glReadBuffer(buffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, size.x, size.y, format, type, image.data());
-    for (int y = 0; y < size.y / 2; ++y) {
-        T* row = image.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x);
-        std::swap_ranges(row, row + size.x, &image(0, size.y - 1 - y));
-    }
+    for (int y = 0; y < size.y / 2; ++y) std::swap_ranges(&image(0, y), &image(0, y) + size.x, &image(0, size.y - 1 - y));
     return image;
 }
 

@@ -12,7 +12,7 @@
 
 namespace shadowbench::techniques {
 
-/// As std430 lays it out.
+/// Two texels of four numbers (gl/texture.h, BufferTexture).
 struct TreeNode {
     glm::vec3 low;
     std::uint32_t after; // the node to go on with where the ray does not meet this one's box

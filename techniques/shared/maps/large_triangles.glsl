@@ -1,4 +1,4 @@
-// Triangles that touch too many cells or pixels, or the light's plane: tested against every pixel instead. What has been handed on is read
+// Triangles that touch too many cells or pixels, or the light's plane: tested against every pixel instead. A later dispatch reads them
 // as a texture (gl/texture.h, BufferTexture).
 layout(std430, binding = 6) buffer Large {
     uint largeCount;
