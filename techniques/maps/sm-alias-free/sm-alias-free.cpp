@@ -13,10 +13,12 @@
 namespace shadowbench::techniques {
 namespace {
 
+constexpr int roundsOfLarge = 2; // a triangle's, and the one that ends the loop (cast.comp)
+
 class AliasFree final : public Technique {
 public:
     explicit AliasFree(const Parameters& p)
-        : slack_(p.real("slack")), lists_("maps/sm-alias-free/cast.comp", {}, p.integer("grid"), 1),
+        : slack_(p.real("slack")), lists_("maps/sm-alias-free/cast.comp", {}, p.integer("grid"), 1, roundsOfLarge),
           resolve_(gl::Program::screen("shared/maps/unhidden.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {

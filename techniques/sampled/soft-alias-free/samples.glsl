@@ -17,6 +17,24 @@ float highest(vec3 line) {
     return line.x + dot(abs(line.yz), halfLight);
 }
 
+/// Whether a triangle hides nothing of the light from the origin since it lies beyond one of the four planes through the origin and the
+/// light's sides. Never of a linear light, which has no plane of its own.
+bool besideLight(vec3 a, vec3 b, vec3 c, vec3 centre) {
+    vec3 ahead = cross(lightRight, lightUp);
+    if (dot(ahead, centre) < 0.0) ahead = -ahead;
+    float distance = dot(ahead, centre);
+    vec3 depths = vec3(dot(ahead, a), dot(ahead, b), dot(ahead, c));
+    // How far from the light's centre the corners' images lie on its plane, times their depths: those need no division.
+    vec3 across = distance * vec3(dot(lightRight, a), dot(lightRight, b), dot(lightRight, c)) - dot(lightRight, centre) * depths;
+    vec3 up = distance * vec3(dot(lightUp, a), dot(lightUp, b), dot(lightUp, c)) - dot(lightUp, centre) * depths;
+    // No term of these differences is greater than the light's distance times the farthest corner's, and the rounding of floats is a
+    // small part of this: a triangle that touches a plane is not beyond it.
+    float rounding = 1e-5 * length(centre) * sqrt(max(max(dot(a, a), dot(b, b)), dot(c, c)));
+    vec3 wide = halfLight.x * depths, high = halfLight.y * depths;
+    return all(greaterThan(across, wide + rounding)) || all(lessThan(across, -wide - rounding)) ||
+           all(greaterThan(up, high + rounding)) || all(lessThan(up, -high - rounding));
+}
+
 vec4 heights(vec3 line, int group) {
     return line.x + line.y * samplesAcross[group] + line.z * samplesUp[group];
 }

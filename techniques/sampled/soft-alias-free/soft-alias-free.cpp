@@ -21,6 +21,10 @@ namespace {
 
 constexpr int wordBits = 32, groupSize = 4; // sampled/soft-alias-free/samples.glsl
 
+/// For each large triangle of a block of 32 (cast.comp): a share of the loop over blocks, the loop over the block's
+/// triangles and the one over those that reach the light, each with the round that ends it.
+constexpr int roundsOfBlocks = 3;
+
 int wordsFor(int samples) { return (samples + wordBits - 1) / wordBits; }
 
 gl::Defines definesFor(int samples) { return {{"WORDS", std::to_string(wordsFor(samples))}}; }
@@ -38,7 +42,8 @@ class SoftAliasFree final : public Technique {
 public:
     explicit SoftAliasFree(const Parameters& p)
         : count_(p.integer("n")), pattern_(p.text("pattern")), slack_(p.real("slack")),
-          lists_("sampled/soft-alias-free/cast.comp", definesFor(count_), p.integer("grid"), wordsFor(count_)),
+          lists_("sampled/soft-alias-free/cast.comp", definesFor(count_), p.integer("grid"), wordsFor(count_),
+                 roundsOfBlocks + wordsFor(count_) + 1),
           resolve_(gl::Program::screen("sampled/soft-alias-free/soft-alias-free.frag", definesFor(count_))) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {

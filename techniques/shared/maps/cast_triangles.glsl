@@ -1,7 +1,9 @@
 // The main function of a compute shader that includes shared/maps/pixel_lists.glsl and defines
-//     bool shade(uint pixel, vec3 point, vec3 v0, vec3 v1, vec3 v2)   which adds a triangle's shadow to the results of a pixel and says
-//                                                                     whether no other triangle can change them
-//     const int roundsOfShade                                         of its loops, at most
+//     void shade(uint pixel, vec3 point, vec3 v0, vec3 v1, vec3 v2)          which adds a triangle's shadow to the results of a pixel
+//     const int roundsOfShade                                                of its loops, at most
+//     uint shadeLarge(uint pixel, vec3 point, uint first, uint last)         which does so for these triangles of
+//                                                                            shared/maps/large_triangles.glsl, and returns how many
+//                                                                            it has tested
 // It calls shade() for each triangle and each pixel that may lie in the triangle's shadow, and for some that do not. With LARGE it tests
 // all pixels against the triangles that were too large for that. ROUNDS: of all loops of an invocation, at most.
 #include "gl/invocation.glsl"
@@ -31,12 +33,8 @@ void main() {
     if (pixel >= uint(pixels)) return;
     vec4 point = pointOf(positions, pixel);
     if (point.w < 0.5) return;
-    uint triangle = uint(firstLarge), last = min(largeCount, uint(firstLarge + mostLarge));
-    while (triangle < last) {
-        uint corner = 3u * triangle++;
-        if (shade(pixel, point.xyz, largeCorner(corner), largeCorner(corner + 1u), largeCorner(corner + 2u))) break;
-    }
-    count(max(triangle, uint(firstLarge)) - uint(firstLarge));
+    uint first = uint(firstLarge), last = min(largeCount, uint(firstLarge + mostLarge));
+    if (first < last) count(shadeLarge(pixel, point.xyz, first, last));
 }
 
 #else

@@ -52,10 +52,10 @@ double deepest(const LightView& view, const Snapshot& snapshot) {
 PixelLists::Casts::Casts(const std::string& shade, const gl::Defines& defines)
     : small(gl::Program::compute(shade, defines)), large(gl::Program::compute(shade, with(defines, "LARGE"))) {}
 
-PixelLists::PixelLists(std::string shade, gl::Defines defines, int grid, int words)
+PixelLists::PixelLists(std::string shade, gl::Defines defines, int grid, int words, int roundsOfLarge)
     : shade_(std::move(shade)), defines_(with(std::move(defines), "ROUNDS", mostRounds)), grid_(grid),
-      words_(static_cast<std::size_t>(words)), bin_(gl::Program::compute("shared/maps/bin_pixels.comp")),
-      casts_(shade_, defines_) {}
+      words_(static_cast<std::size_t>(words)), largeAtOnce_(static_cast<std::size_t>(mostRounds / roundsOfLarge)),
+      bin_(gl::Program::compute("shared/maps/bin_pixels.comp")), casts_(shade_, defines_) {}
 
 void PixelLists::gather(const Frame& frame, const LightView& view, const glm::dvec3& u, const glm::dvec3& v) {
     const auto pass = frame.pass("pixel lists");
@@ -108,11 +108,10 @@ void PixelLists::castAll(const Frame& frame, Casts& casts, const std::function<v
         casts.small.dispatch(triangles(batch));
     }
     const std::size_t pixels = pixelsOf(frame);
-    const std::size_t atOnce = mostRounds / (1 + words_); // a shader has at most as many rounds in its loop as results
     casts.large.set("largeTriangles", largeTriangles_)
         .set("pixels", static_cast<int>(pixels))
-        .set("mostLarge", static_cast<int>(atOnce));
-    for (std::size_t first = 0; first < trianglesOf(frame); first += atOnce) {
+        .set("mostLarge", static_cast<int>(largeAtOnce_));
+    for (std::size_t first = 0; first < trianglesOf(frame); first += largeAtOnce_) {
         casts.large.set("firstLarge", static_cast<int>(first));
         casts.large.dispatch(pixels);
     }

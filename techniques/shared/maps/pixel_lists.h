@@ -20,8 +20,9 @@ namespace shadowbench::techniques {
 class PixelLists {
 public:
     /// `shade`: the compute shader with the technique's test of a triangle against a pixel, which includes
-    /// shared/maps/cast_triangles.glsl. `grid`: cells per side. `words`: results a pixel.
-    PixelLists(std::string shade, gl::Defines defines, int grid, int words);
+    /// shared/maps/cast_triangles.glsl. `grid`: cells per side. `words`: results a pixel. `roundsOfLarge`: of all loops of
+    /// its shadeLarge() for each triangle, at most, those that end a loop with them.
+    PixelLists(std::string shade, gl::Defines defines, int grid, int words, int roundsOfLarge);
 
     /// Puts the frame's pixels into lists over `view`, as the pass "pixel lists"; all results become 0. The light's centre
     /// is the view's; `u` and `v`, which lie in the light's plane and across the view's axis, are its sides, 0 for a hard
@@ -48,8 +49,8 @@ private:
     std::string shade_;
     gl::Defines defines_;
     int grid_;
-    std::size_t words_;
-    LightView view_; // of the frame rendered last
+    std::size_t words_, largeAtOnce_; // triangles that a dispatch tests against all pixels
+    LightView view_;                  // of the frame rendered last
     glm::vec2 reach_{0};
     gl::Program bin_;
     Casts casts_;

@@ -96,6 +96,16 @@ TEST(SoftAliasFree, TheGridChangesNothing) { // cells are as good as any others,
         EXPECT_EQ(rendered(stage, fmt::format("soft-alias-free:grid={}", grid)), v) << grid;
 }
 
+TEST(SoftAliasFree, TestsAsManyLargeTrianglesAsThereAre) { // in several dispatches, none with more rounds than llvmpipe runs
+    Scene scene = groundScene(16);
+    scene.light = {LightKind::Rectangle, {0.4, 6, 0.2}, {0, -1, 0}, {1.3, 0, 0}, {0, 0, 1.3}};
+    scene.objects.push_back(object(sphere(0.5, 62'000), {0.13, 1.2, 0.21}));
+    scene.objects.push_back(object(plane(0.8), {-1.4, 1.2, 0.4})); // the last ones
+    Stage stage(scene);
+    stage.show(0);
+    EXPECT_EQ(rendered(stage, "soft-alias-free:grid=1"), rendered(stage, "soft-alias-free"));
+}
+
 double testsOf(Stage& stage, const std::string& variant) { return figuresOf(stage, variant).at("tests"); }
 
 double pixelsSeen(const Stage& stage) {
