@@ -13,7 +13,7 @@ const int roundsOfShade = WORDS + 1;
 Hull hullOf(vec3 a, vec3 b, vec3 c, vec3 centre) {
     vec3 normal = cross(b - a, c - a);
     float height = dot(a, normal);
-    float side = height < 0.0 ? -1.0 : 1.0;
+    float side = height < 0.0 ? -1.0 : 1.0;  // the samples beyond the triangle lie on this side of it
     precise vec3 ab = cross(a, b), bc = cross(b, c), ca = cross(c, a);
     return Hull(side * onLight(ab, centre), side * onLight(bc, centre), side * onLight(ca, centre),
                 side * onLight(normal, centre) - vec3(abs(height), 0.0, 0.0));

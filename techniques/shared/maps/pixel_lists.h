@@ -49,8 +49,9 @@ private:
     std::string shade_;
     gl::Defines defines_;
     int grid_;
-    std::size_t words_, largeAtOnce_; // triangles that a dispatch tests against all pixels
-    LightView view_;                  // of the frame rendered last
+    std::size_t words_;
+    std::size_t largeAtOnce_; // triangles that a dispatch tests against all pixels
+    LightView view_;          // of the frame rendered last
     glm::vec2 reach_{0};
     gl::Program bin_;
     Casts casts_;
