@@ -7,30 +7,30 @@
 namespace shadowbench::gate {
 namespace {
 
-Change judged(const Record& record, const Bound& bound) {
-    const std::optional<double> value = metrics::bounded(record.values, bound.metric);
-    const bool kept = value && (bound.below ? *value < bound.value : *value > bound.value);
+Change judged(const Record& record, const BoundRule& rule) {
+    const auto& [metric, bound, below] = rule.bound;
+    const std::optional<double> value = metrics::bounded(record.values, metric);
     const std::string is = value ? fmt::format("is {:.6g}", *value) : "is not measured";
-    const std::string what = bound.below ? fmt::format("must be below {}", bound.value)
-                                         : fmt::format("is expected to fail, above {}", bound.value);
-    return {
-        record.scene,
-        record.variant,
-        "bound." + bound.metric,
-        *metrics::boundedMetric(bound.metric)->about,
-        bound.value,
-        value,
-        0,
-        !value ? Direction::NotCompared
-        : kept ? Direction::Same
-               : Direction::Worse,
-        fmt::format("{} on {}: {} {} and {}: {}", record.variant, record.scene, bound.metric, is, what, bound.cells.reason)};
+    const std::string what =
+        below ? fmt::format("must be below {}", bound) : fmt::format("is expected to fail, above {}", bound);
+    return {record.scene,
+            record.variant,
+            "bound." + metric,
+            *metrics::boundedMetric(metric)->about,
+            bound,
+            value,
+            0,
+            !value                        ? Direction::NotCompared
+            : rule.bound.isKeptBy(*value) ? Direction::Same
+                                          : Direction::Worse,
+            fmt::format("{} on {}: {} {} and {}: {}", record.variant, record.scene, metric, is, what, rule.cells.reason)};
 }
 
 /// A bound that no scored record of its scene is of.
-Change vacuous(const Bound& bound) {
-    const std::string techniques = fmt::format("{}", fmt::join(bound.cells.techniques, ", "));
-    return {bound.cells.scene,
+Change vacuous(const BoundRule& rule) {
+    const auto& [cells, bound] = rule;
+    const std::string techniques = fmt::format("{}", fmt::join(cells.techniques, ", "));
+    return {cells.scene,
             techniques,
             "bound." + bound.metric,
             *metrics::boundedMetric(bound.metric)->about,
@@ -38,27 +38,24 @@ Change vacuous(const Bound& bound) {
             {},
             0,
             Direction::NotCompared,
-            fmt::format("{} on {}: the bound on {} met no result", techniques, bound.cells.scene, bound.metric)};
-}
-
-/// The gate measures nothing that is measured on demand alone.
-std::vector<Bound> listOf(const Scene& scene, const std::vector<Expectation>& expectations, bool below) {
-    std::vector<Bound> bounds;
-    for (const Expectation& e : expectations)
-        if (metrics::boundedMetric(e.metric)->notCompared != metrics::onDemand)
-            bounds.push_back({{scene.id, {e.technique}, {}, e.reason}, e.metric, e.bound, below});
-    return bounds;
+            fmt::format("{} on {}: the bound on {} met no result", techniques, cells.scene, bound.metric)};
 }
 
 } // namespace
 
-std::vector<Bound> boundsOf(const Scene& scene) {
-    std::vector<Bound> bounds = listOf(scene, scene.holds, true);
-    for (Bound& failure : listOf(scene, scene.fails, false)) bounds.push_back(std::move(failure));
+std::string text(const Bound& bound) {
+    return fmt::format("{} {} {}", bound.metric, bound.below ? "below" : "above", bound.value);
+}
+
+std::vector<BoundRule> boundsOf(const Scene& scene) {
+    std::vector<BoundRule> bounds;
+    for (const auto& [technique, bound, reason] : scene.expectations)
+        if (metrics::boundedMetric(bound.metric)->notCompared != metrics::onDemand) // the gate measures nothing on demand
+            bounds.push_back({{scene.id, {technique}, {}, reason}, bound});
     return bounds;
 }
 
-std::vector<Change> judgeBounds(const std::vector<Record>& records, const std::vector<Bound>& bounds, bool all) {
+std::vector<Change> judgeBounds(const std::vector<Record>& records, const std::vector<BoundRule>& bounds, bool all) {
     std::vector<Change> changes;
     std::vector<bool> met(bounds.size(), false);
     for (const Record& record : records) {

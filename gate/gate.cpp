@@ -307,12 +307,12 @@ private:
         Comparison compared = compare(before, now, cells_.policy.rules, cells_.expected(base));
         result_.presence = std::move(compared.presence);
         std::ranges::move(compared.changes, std::back_inserter(result_.changes));
-        std::vector<Bound> bounds = cells_.policy.config.bounds;
+        std::vector<BoundRule> bounds = cells_.policy.config.bounds;
         if (options_.profile == Profile::Gate) // what scenes expect, they expect of this profile; those of others are known
             for (const JudgedScene& scene : cells_.scenes)
                 if (!scene.content.empty())
                     std::ranges::move(boundsOf(loadScene(scene.argument, options_.profile)), std::back_inserter(bounds));
-        std::erase_if(bounds, [&](const Bound& bound) { // of scenes that this gate does not measure
+        std::erase_if(bounds, [&](const BoundRule& bound) { // of scenes that this gate does not measure
             return std::ranges::find(cells_.scenes, bound.cells.scene, &JudgedScene::id) == cells_.scenes.end();
         });
         std::ranges::move(judgeBounds(now, bounds, options_.techniques.empty() && leftOut_ == 0),

@@ -40,12 +40,12 @@ GateRule readGateRule(const TomlValue& entry) {
     return rule;
 }
 
-Bound readBound(const TomlValue& entry) {
+BoundRule readBound(const TomlValue& entry) {
     entry.only({"scene", "techniques", "except", "reason", "metric", "below", "above"});
     const auto below = entry.find("below"), above = entry.find("above");
     if (below.has_value() == above.has_value()) entry.fail("has either \"below\" or \"above\"");
-    return {readGateRule(entry), entry.get("metric").oneOf(metrics::boundedMetrics()), (below ? *below : *above).positive(),
-            below.has_value()};
+    return {readGateRule(entry),
+            {entry.get("metric").oneOf(metrics::boundedMetrics()), (below ? *below : *above).positive(), below.has_value()}};
 }
 
 SweepRule readSweep(const TomlValue& entry) {
@@ -141,7 +141,7 @@ std::vector<std::string> GateConfig::unknownScenes(const std::vector<std::string
     const std::vector<std::string> builtin = builtinScenes();
     std::vector<std::string> named;
     for (const GateRule& rule : scenes) named.push_back(rule.scene);
-    for (const Bound& bound : bounds) named.push_back(bound.cells.scene);
+    for (const BoundRule& bound : bounds) named.push_back(bound.cells.scene);
     for (const SweepRule& sweep : sweeps) named.push_back(sweep.cells.scene);
     for (const GateRule& rule : counted) named.push_back(rule.scene);
     for (const GateRule& rule : timed) named.push_back(rule.scene);

@@ -32,11 +32,9 @@ struct GateRule {
 };
 
 /// A score that a technique must keep on a scene, whatever the base does.
-struct Bound {
+struct BoundRule {
     GateRule cells;
-    std::string metric; // its name for bounds
-    double value = 0;
-    bool below = true; // false: an expected failure, which must lie above
+    Bound bound;
 };
 
 /// A curve whose break points are compared.
@@ -62,7 +60,7 @@ inline constexpr std::uint32_t seedsOfChance = 8;
 
 struct GateConfig {
     std::vector<GateRule> scenes; // judged beside the standard ones when the user names none
-    std::vector<Bound> bounds;
+    std::vector<BoundRule> bounds;
     std::vector<SweepRule> sweeps;
     std::vector<GateRule> counted; // instructions
     std::vector<GateRule> timed;   // in pairs

@@ -140,7 +140,7 @@ JudgedCells::JudgedCells(const GateOptions& options, const std::optional<Policy>
     }
     for (const GateRule& rule : policy.config.counted) addNamed(rule, chosen); // cheap ones that run the code of those shown
     if (options.techniques.empty())
-        for (const Bound& bound : policy.config.bounds) addNamed(bound.cells, chosen); // else a bound would meet nothing
+        for (const BoundRule& bound : policy.config.bounds) addNamed(bound.cells, chosen); // else a bound would meet nothing
 }
 
 void JudgedCells::addScene(const std::string& argument, std::vector<std::string> variants, bool isBeside) {

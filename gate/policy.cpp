@@ -29,12 +29,12 @@ void fields(auto&& visit, auto& rule) requires requires { rule.except; }
     visit("except", rule.except);
     visit("reason", rule.reason);
 }
-void fields(auto&& visit, auto& bound) requires requires { bound.below; }
+void fields(auto&& visit, auto& rule) requires requires { rule.bound; }
 {
-    fields(visit, bound.cells);
-    visit("metric", bound.metric);
-    visit("value", bound.value);
-    visit("below", bound.below);
+    fields(visit, rule.cells);
+    visit("metric", rule.bound.metric);
+    visit("value", rule.bound.value);
+    visit("below", rule.bound.below);
 }
 void fields(auto&& visit, auto& sweep) requires requires { sweep.axis; }
 {
@@ -150,7 +150,7 @@ Policy withScenes(GateConfig config, Profile profile) {
     Policy policy{standardScenes(), std::move(config), ownRules(), {}};
     if (profile != Profile::Gate) return policy; // what scenes expect, they expect of this profile
     for (const std::string& id : builtinScenes())
-        for (Bound& bound : boundsOf(loadScene(id, profile, metrics::boundedMetrics())))
+        for (BoundRule& bound : boundsOf(loadScene(id, profile, metrics::boundedMetrics())))
             policy.config.bounds.push_back(std::move(bound));
     return policy;
 }
@@ -168,9 +168,10 @@ bool holdsAll(const std::vector<std::string>& all, const std::vector<std::string
 bool asStrict(const GateRule& head, const GateRule& base) {
     return head.scene == base.scene && holdsAll(head.techniques, base.techniques) && holdsAll(base.except, head.except);
 }
-bool asStrict(const Bound& head, const Bound& base) {
-    return asStrict(head.cells, base.cells) && head.metric == base.metric && head.below == base.below &&
-           (base.below ? head.value <= base.value : head.value >= base.value);
+bool asStrict(const BoundRule& head, const BoundRule& base) {
+    return asStrict(head.cells, base.cells) && head.bound.metric == base.bound.metric &&
+           head.bound.below == base.bound.below &&
+           (base.bound.below ? head.bound.value <= base.bound.value : head.bound.value >= base.bound.value);
 }
 bool asStrict(const SweepRule& head, const SweepRule& base) {
     return asStrict(head.cells, base.cells) && head.axis == base.axis && head.values == base.values;
@@ -184,9 +185,7 @@ void keepLoosened(std::vector<Entry>& base, const std::vector<Entry>& head) {
 }
 
 std::string text(const GateRule& rule) { return fmt::format("{} on {}", fmt::join(rule.techniques, ", "), rule.scene); }
-std::string text(const Bound& bound) {
-    return fmt::format("{}: {} {} {}", text(bound.cells), bound.metric, bound.below ? "below" : "above", bound.value);
-}
+std::string text(const BoundRule& rule) { return fmt::format("{}: {}", text(rule.cells), gate::text(rule.bound)); }
 std::string text(const SweepRule& sweep) { return fmt::format("{} over {}", text(sweep.cells), sweep.axis); }
 std::string text(const Waiver& waiver) {
     return fmt::format("{} of {} on {} until {}: {}", waiver.what, fmt::join(waiver.techniques, ", "), waiver.scene,
@@ -282,8 +281,8 @@ Union unite(const Policy& base, const Policy& head) {
     join(all.timed, some.timed);
     join(all.seeds, some.seeds);
     join(all.choices, some.choices);
-    for (const Bound& bound : some.bounds)
-        if (metrics::boundedMetric(bound.metric) != nullptr) all.bounds.push_back(bound);
+    for (const BoundRule& rule : some.bounds)
+        if (metrics::boundedMetric(rule.bound.metric) != nullptr) all.bounds.push_back(rule);
     result.policy.rules = stricter(base.rules, head.rules);
     const TimeRule &was = base.time, &is = head.time;
     result.policy.time = {std::min(was.floor, is.floor), std::min(was.wallFloor, is.wallFloor),

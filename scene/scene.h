@@ -92,11 +92,19 @@ struct LodWalk {
     Track eye, target; // of the camera, by the walk's frames
 };
 
-/// What a scene is there to show of one technique: a bound on one metric.
+/// A bound on one metric.
+struct Bound {
+    std::string metric; // one that `tolerance` may name
+    double value = 0;
+    bool below = true; // false: of an expected failure, which lies above
+
+    [[nodiscard]] bool isKeptBy(double score) const { return below ? score < value : score > value; }
+};
+
+/// What a scene is there to show of one technique.
 struct Expectation {
     std::string technique; // a variant; may name a technique that the catalogue does not have yet
-    std::string metric;    // one that `tolerance` may name
-    double bound = 0;      // of an expected failure: the metric lies above; of a technique that holds: below
+    Bound bound;
     std::string reason;
 };
 
@@ -123,12 +131,11 @@ struct Scene {
     std::vector<Object> objects;
     std::optional<LodWalk> lod;
     std::map<std::string, double> tolerance; // metric name → worst value a viewer of this scene accepts
-    std::vector<Expectation> fails;          // techniques that the scene breaks: one that stops failing is an error too
-    std::vector<Expectation> holds;          // techniques that it does not break
-    std::vector<BreakExpectation> breaks;    // where techniques break as one of its quantities moves
-    int referenceSamples = 1024;             // of an area light's or an environment's reference on the scored frame …
-    int movingReferenceSamples = 256;        // … and on the moving frames
-    glm::dvec3 moved{0};                     // what was added to all places of the file: moveToOrigin()
+    std::vector<Expectation> expectations; // techniques that it breaks, or does not: one that stops failing is an error too
+    std::vector<BreakExpectation> breaks;  // where techniques break as one of its quantities moves
+    int referenceSamples = 1024;           // of an area light's or an environment's reference on the scored frame …
+    int movingReferenceSamples = 256;      // … and on the moving frames
+    glm::dvec3 moved{0};                   // what was added to all places of the file: moveToOrigin()
 };
 
 /// Adds `by`, in metres, to all that has a place in the world.

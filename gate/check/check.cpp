@@ -87,14 +87,13 @@ std::vector<SceneExpectations> readExpectations(const fs::path& file) {
     if (!fs::exists(file)) return {};
     std::vector<SceneExpectations> all = parseExpectations(readFile(file), file, expectableMetrics());
     for (SceneExpectations& of : all)
-        for (auto* list : {&of.fails, &of.holds})
-            for (Expectation& one : *list) {
-                try {
-                    one.technique = techniques::parseVariant(one.technique).name;
-                } catch (const BadInput& error) {
-                    throw BadInput(fmt::format("{}: \"{}\": {}", file.string(), one.technique, error.what()));
-                }
+        for (Expectation& one : of.expectations) {
+            try {
+                one.technique = techniques::parseVariant(one.technique).name;
+            } catch (const BadInput& error) {
+                throw BadInput(fmt::format("{}: \"{}\": {}", file.string(), one.technique, error.what()));
             }
+        }
     return all;
 }
 
@@ -108,15 +107,13 @@ std::string reasonOf(const std::vector<Record>& records, const Change& change) {
 /// `expected` on its scene. Whether all hold.
 bool judge(const SceneExpectations& expected, const RunOptions& options, const OnResult& onResult) {
     Scene scene = loadScene(expected.scene, Profile::Gate);
-    scene.fails = expected.fails;
-    scene.holds = expected.holds;
+    scene.expectations = expected.expectations;
     const std::vector<Record> records = run(options).records;
     bool hold = true;
-    for (const Bound& bound : boundsOf(scene)) {
-        const Change change = judgeBounds(records, {bound}, true).front();
+    for (const BoundRule& rule : boundsOf(scene)) {
+        const Change change = judgeBounds(records, {rule}, true).front();
         const bool holds = change.direction == Direction::Same;
-        onResult({fmt::format("{} on {}: {} {} {}", change.variant, change.scene, bound.metric,
-                              bound.below ? "below" : "above", bound.value),
+        onResult({fmt::format("{} on {}: {}", change.variant, change.scene, text(rule.bound)),
                   holds         ? ""
                   : change.head ? change.sentence
                                 : reasonOf(records, change)});
@@ -131,8 +128,7 @@ bool judgeExpectations(const std::vector<SceneExpectations>& all, const fs::path
     for (const SceneExpectations& expected : all) {
         RunOptions options;
         options.scenes = {expected.scene};
-        for (const auto* list : {&expected.fails, &expected.holds})
-            for (const Expectation& one : *list) options.techniques.push_back(one.technique);
+        for (const Expectation& one : expected.expectations) options.techniques.push_back(one.technique);
         options.out = room.path();
         options.cache = cache;
         options.measure.time = false;

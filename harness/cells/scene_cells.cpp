@@ -26,13 +26,14 @@ bool names(const std::string& expected, const techniques::Variant& variant) {
 
 /// What the scene is there to break is broken: the bounds that are exceeded are said with the scores.
 void markExpectedFailure(const Scene& scene, const techniques::Variant& variant, Record& record) {
-    for (const Expectation& expected : scene.fails) {
-        if (!names(expected.technique, variant)) continue;
-        const std::optional<double> value = metrics::bounded(record.values, expected.metric);
-        if (!value || *value <= expected.bound) continue;
+    for (const Expectation& expected : scene.expectations) {
+        const Bound& bound = expected.bound;
+        if (bound.below || !names(expected.technique, variant)) continue;
+        const std::optional<double> value = metrics::bounded(record.values, bound.metric);
+        if (!value || !bound.isKeptBy(*value)) continue;
         record.status = Status::ExpectedFailure;
         record.reason += fmt::format("{}{} is expected to lie above {:g}: {}", record.reason.empty() ? "" : "; ",
-                                     expected.metric, expected.bound, expected.reason);
+                                     bound.metric, bound.value, expected.reason);
     }
 }
 

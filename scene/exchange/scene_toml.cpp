@@ -158,23 +158,21 @@ toml::table lodOf(const LodWalk& walk) {
     return table;
 }
 
-toml::array expectationsOf(const std::vector<Expectation>& expectations, const char* bound) {
-    toml::array list;
-    for (const Expectation& one : expectations)
-        list.push_back(onOneLine(
-            toml::table{{"technique", one.technique}, {"metric", one.metric}, {bound, one.bound}, {"reason", one.reason}}));
-    return list;
-}
-
 toml::table expectOf(const Scene& scene) {
-    toml::array breaks, never;
+    toml::array fails, holds, breaks, never;
+    for (const auto& [technique, bound, reason] : scene.expectations)
+        (bound.below ? holds : fails)
+            .push_back(onOneLine(toml::table{{"technique", technique},
+                                             {"metric", bound.metric},
+                                             {bound.below ? "below" : "above", bound.value},
+                                             {"reason", reason}}));
     for (const BreakExpectation& one : scene.breaks) {
         toml::table entry{{"technique", one.technique}, {"axis", one.axis}, {"reason", one.reason}};
         if (one.between) entry.insert("between", toml::array{one.between->x, one.between->y});
         (one.between ? breaks : never).push_back(onOneLine(std::move(entry)));
     }
-    return toml::table{{"fails", expectationsOf(scene.fails, "above")},
-                       {"holds", expectationsOf(scene.holds, "below")},
+    return toml::table{{"fails", std::move(fails)},
+                       {"holds", std::move(holds)},
                        {"breaks", std::move(breaks)},
                        {"never_breaks", std::move(never)}};
 }
@@ -198,7 +196,7 @@ std::string tomlOf(const Scene& scene, const Parts& parts) {
                                               {"approach", scene.timeline.approach}}},
                      {"object", std::move(objects)}};
     if (!tolerance.empty()) root.insert("tolerance", std::move(tolerance));
-    if (!scene.fails.empty() || !scene.holds.empty() || !scene.breaks.empty()) root.insert("expect", expectOf(scene));
+    if (!scene.expectations.empty() || !scene.breaks.empty()) root.insert("expect", expectOf(scene));
     if (scene.lod) root.insert("lod", lodOf(*scene.lod));
 
     std::ostringstream text;

@@ -12,7 +12,7 @@ namespace shadowbench {
 
 struct SceneExpectations {
     std::string scene; // as loadScene takes it
-    std::vector<Expectation> fails, holds;
+    std::vector<Expectation> expectations;
 };
 
 /// `[[expect]]` entries, each a scene with lists as `[expect]` of scene files has them, in the gate profile. `file` is named

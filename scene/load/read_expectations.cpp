@@ -30,15 +30,19 @@ std::vector<std::string> readVariants(const TomlValue& value) {
     return variants;
 }
 
-/// `bound` is the key of the bound: "above" or "below".
-std::vector<Expectation> readExpectationList(const TomlValue& list, const std::string& bound,
-                                             const std::vector<std::string>& metrics) {
+/// The lists "holds", whose bounds are "below", and "fails", whose are "above".
+std::vector<Expectation> readExpectationLists(const TomlValue& value, const std::vector<std::string>& metrics) {
     std::vector<Expectation> expectations;
-    for (const TomlValue& entry : list.list()) {
-        entry.only({"technique", "metric", bound, "reason"});
-        for (const std::string& technique : readVariants(entry.get("technique")))
-            expectations.push_back({technique, readMetric(entry.get("metric"), metrics), entry.get(bound).positive(),
-                                    readSentence(entry.get("reason"))});
+    for (const bool below : {true, false}) {
+        const std::string side = below ? "below" : "above";
+        const auto list = value.find(below ? "holds" : "fails");
+        if (!list) continue;
+        for (const TomlValue& entry : list->list()) {
+            entry.only({"technique", "metric", side, "reason"});
+            const Bound bound{readMetric(entry.get("metric"), metrics), entry.get(side).positive(), below};
+            for (const std::string& technique : readVariants(entry.get("technique")))
+                expectations.push_back({technique, bound, readSentence(entry.get("reason"))});
+        }
     }
     return expectations;
 }
@@ -84,8 +88,7 @@ std::map<std::string, double> readTolerances(const TomlValue& value, const std::
 
 void readExpectations(const TomlValue& value, const std::vector<std::string>& metrics, Scene& scene) {
     value.only({"fails", "holds", "breaks", "never_breaks"});
-    if (const auto fails = value.find("fails")) scene.fails = readExpectationList(*fails, "above", metrics);
-    if (const auto holds = value.find("holds")) scene.holds = readExpectationList(*holds, "below", metrics);
+    scene.expectations = readExpectationLists(value, metrics);
     if (const auto breaks = value.find("breaks")) readBreaks(*breaks, true, scene);
     if (const auto never = value.find("never_breaks")) readBreaks(*never, false, scene);
 }
@@ -99,10 +102,8 @@ std::vector<SceneExpectations> parseExpectations(std::string_view toml, const st
     std::vector<SceneExpectations> all;
     for (const TomlValue& entry : root.get("expect").list()) {
         entry.only({"scene", "fails", "holds"});
-        SceneExpectations read{readSceneName(entry.get("scene"), file.parent_path()), {}, {}};
-        if (const auto fails = entry.find("fails")) read.fails = readExpectationList(*fails, "above", metrics);
-        if (const auto holds = entry.find("holds")) read.holds = readExpectationList(*holds, "below", metrics);
-        if (read.fails.empty() && read.holds.empty()) entry.fail("says neither what fails nor what holds");
+        SceneExpectations read{readSceneName(entry.get("scene"), file.parent_path()), readExpectationLists(entry, metrics)};
+        if (read.expectations.empty()) entry.fail("says neither what fails nor what holds");
         if (std::ranges::count(all, read.scene, &SceneExpectations::scene) > 0)
             entry.get("scene").fail("has an entry above; put both together");
         all.push_back(std::move(read));

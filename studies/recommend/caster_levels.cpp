@@ -15,14 +15,12 @@ using ErrorsOfLevels = std::function<Errors(const Levels&)>;
 /// Shares of the progress at which the receivers are found, and the search starts and ends.
 constexpr double receiversUntil = 0.1, searchFrom = 0.3, searchUntil = 0.7;
 
-std::vector<Bound> boundsOf(const Scene& scene, const std::vector<std::string>& words) {
-    std::vector<Bound> bounds;
-    for (const std::string& word : words) bounds.push_back(parseBound(word, scene.light));
-    if (bounds.empty()) bounds = ownBounds(scene);
-    if (bounds.empty())
+Errors toleranceOf(const Scene& scene, const std::vector<std::string>& words) {
+    Errors tolerance = words.empty() ? ownTolerance(scene) : parseTolerance(words, scene.light);
+    if (tolerance.empty())
         throw BadInput(
             fmt::format("scene {} states no tolerance for shadows of its light: give one with --tolerance", scene.id));
-    return bounds;
+    return tolerance;
 }
 
 int frameOf(const Scene& scene, std::optional<int> wanted) {
@@ -70,7 +68,7 @@ Progress part(const Progress& progress, double from, double to) {
 class Recommender {
 public:
     Recommender(const Scene& scene, const CasterOptions& options, const Progress& progress)
-        : scene_(scene), frame_(frameOf(scene, options.frame)), bounds_(boundsOf(scene, options.tolerance)),
+        : scene_(scene), frame_(frameOf(scene, options.frame)), tolerance_(toleranceOf(scene, options.tolerance)),
           casters_(withChains(scene, options.chains), frame_, options.bands.empty() ? ownBands(scene) : options.bands),
           drawn_(snapshot(scene, frame_)),
           receivers_(receivers(drawn_, scene.size, casters_, part(progress, 0, receiversUntil))),
@@ -106,7 +104,7 @@ private:
         result.profile = name(scene_.profile);
         result.frame = frame_;
         result.size = scene_.size;
-        result.tolerance = bounds_;
+        result.tolerance = tolerance_;
         result.receiverPixels = receivers_.pixels;
         result.allReceiverPixels = receivers_.all;
         for (const Batch& batch : drawn_.batches)
@@ -130,7 +128,8 @@ private:
 
     void search(const ErrorsOfLevels& errorsOf, CasterRecommendation& result) {
         const Costs costs = casters_.costs();
-        const auto choice = cheapestAdequate(costs, [&](const Levels& levels) { return within(errorsOf(levels), bounds_); });
+        const auto choice =
+            cheapestAdequate(costs, [&](const Levels& levels) { return within(errorsOf(levels), tolerance_); });
         if (!choice) throw InternalError("the finest levels' own shadow was found to differ from itself; report this scene");
 
         levels_ = choice->levels;
@@ -164,19 +163,19 @@ private:
         step(1, "verification: recommended levels");
         result.verifier = oracle.name;
         result.verifiedErrors = whole.of(casters_.cast(levels_));
-        result.verified = within(result.verifiedErrors, bounds_);
+        result.verified = within(result.verifiedErrors, tolerance_);
         for (std::size_t group = 0; group < levels_.size(); ++group) {
             std::optional<CoarserLevel>& coarser = result.groups[group].coarser;
             if (!coarser) continue;
             step(group + 2, "verification: one level coarser");
             coarser->verified = whole.of(casters_.cast(with(group, coarser->level)));
-            result.verified = result.verified && !within(coarser->verified, bounds_);
+            result.verified = result.verified && !within(coarser->verified, tolerance_);
         }
     }
 
     const Scene& scene_;
     int frame_;
-    std::vector<Bound> bounds_;
+    Errors tolerance_;
     Casters casters_;
     Snapshot drawn_;
     Receivers receivers_;

@@ -13,7 +13,7 @@
 namespace shadowbench::recommend {
 
 struct CasterOptions {
-    std::vector<std::string> tolerance; // as parseBound takes them; empty: the scene's own
+    std::vector<std::string> tolerance; // as parseTolerance takes them; empty: the scene's own
     std::vector<double> bands;          // empty: the scene's own
     Chains chains;                      // empty: the scene's own levels
     std::optional<int> frame;           // nothing: the scored one
@@ -42,7 +42,7 @@ struct CasterRecommendation {
     std::string scene, profile;
     int frame = 0;
     glm::ivec2 size{0, 0};
-    std::vector<Bound> tolerance;
+    Errors tolerance;
     std::size_t receiverPixels = 0, allReceiverPixels = 0; // counted; of the frame with objects that have levels
 
     std::vector<GroupLevel> groups;

@@ -82,11 +82,7 @@ public:
         if (report::ofScene(records, scene.id).empty())
             throw BadInput(fmt::format("{} holds no record of scene {}", options_.records.string(), scene.id));
         if (options_.casters.tolerance.empty()) return records;
-        std::map<std::string, double> tolerances;
-        for (const std::string& text : options_.casters.tolerance) {
-            const Bound bound = parseBound(text, scene.light);
-            tolerances[bound.metric] = bound.most;
-        }
+        const Errors tolerances = parseTolerance(options_.casters.tolerance, scene.light);
         for (Record& record : records) record.tolerances = tolerances;
         return records;
     }

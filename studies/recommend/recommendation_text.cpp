@@ -20,19 +20,12 @@ std::string asText(const std::string& metric, double value) {
     return report::isShare(metric) ? fmt::format("{:.3g} %", 100 * value) : fmt::format("{:.3g}", value);
 }
 
-/// The errors that have a bound.
-std::string asText(const Errors& errors, const std::vector<Bound>& bounds) {
+/// The errors that have a tolerance.
+std::string asText(const Errors& errors, const Errors& tolerance) {
     std::vector<std::string> parts;
-    for (const Bound& bound : bounds)
-        if (const auto found = errors.find(bound.metric); found != errors.end())
-            parts.push_back(bound.metric + " " + asText(bound.metric, found->second));
+    for (const auto& [metric, error] : errors)
+        if (tolerance.contains(metric)) parts.push_back(metric + " " + asText(metric, error));
     return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-std::string asText(const std::vector<Bound>& bounds) {
-    Errors errors;
-    for (const Bound& bound : bounds) errors[bound.metric] = bound.most;
-    return asText(errors, bounds);
 }
 
 std::string distances(const GroupLevel& group) {
@@ -84,7 +77,7 @@ std::string text(const CasterRecommendation& c) {
         return 100 - 100 * static_cast<double>(triangles) / static_cast<double>(c.finestTriangles);
     };
     std::string lines = fmt::format(" coarsest shadow casters within {} of their finest levels · {} · frame {}\n",
-                                    asText(c.tolerance), c.profile, c.frame);
+                                    asText(c.tolerance, c.tolerance), c.profile, c.frame);
     lines += groupTable(c);
     lines +=
         fmt::format(" triangles: {} of {}, {:.0f} % saved, at {} ({}; {} of {} choices judged)\n", c.triangles,
@@ -157,7 +150,7 @@ ordered_json toJson(const GroupLevel& group) {
 
 ordered_json toJson(const CasterRecommendation& c) {
     ordered_json result{{"profile", c.profile}, {"frame", c.frame}, {"size", {c.size.x, c.size.y}}};
-    for (const Bound& bound : c.tolerance) result["tolerance"][bound.metric] = bound.most;
+    for (const auto& [metric, worst] : c.tolerance) result["tolerance"][metric] = worst;
     for (const GroupLevel& group : c.groups) result["groups"].push_back(toJson(group));
     result["oracle"] = c.oracle;
     result["errors"] = c.errors;

@@ -66,35 +66,38 @@ Errors softErrors(const Shadow& shadow, const Shadow& exact, const Receivers& re
     return errors;
 }
 
-bool within(const Errors& errors, const std::vector<Bound>& bounds) {
-    return std::ranges::all_of(bounds, [&](const Bound& bound) {
-        const auto found = errors.find(bound.metric);
-        return found == errors.end() || found->second <= bound.most;
+bool within(const Errors& errors, const Errors& tolerance) {
+    return std::ranges::all_of(tolerance, [&](const auto& worst) {
+        const auto found = errors.find(worst.first);
+        return found == errors.end() || found->second <= worst.second;
     });
 }
 
-std::vector<Bound> ownBounds(const Scene& scene) {
+Errors ownTolerance(const Scene& scene) {
     const std::vector<std::string>& known = metricsOf(scene.light);
-    std::vector<Bound> bounds;
-    for (const auto& [metric, most] : scene.tolerance)
-        if (std::ranges::find(known, metric) != known.end()) bounds.push_back({metric, most});
-    return bounds;
+    Errors own = scene.tolerance;
+    std::erase_if(own, [&](const auto& worst) { return std::ranges::find(known, worst.first) == known.end(); });
+    return own;
 }
 
-Bound parseBound(const std::string& text, const Light& light) {
+Errors parseTolerance(const std::vector<std::string>& words, const Light& light) {
     const std::vector<std::string>& known = metricsOf(light);
-    const std::size_t equals = text.find('=');
-    const std::string metric = equals == std::string::npos ? known.front() : text.substr(0, equals);
-    const std::string number = equals == std::string::npos ? text : text.substr(equals + 1);
-    if (std::ranges::find(known, metric) == known.end())
-        throw BadInput(fmt::format("shadows of {} are not measured by \"{}\"{}; they are by {}",
-                                   light.isArea() ? "an area light" : "this light", metric, didYouMean(metric, known),
-                                   fmt::join(known, ", ")));
-    Bound bound{metric, 0};
-    const auto [end, failed] = std::from_chars(number.data(), number.data() + number.size(), bound.most);
-    if (failed != std::errc() || end != number.data() + number.size() || !(bound.most >= 0))
-        throw BadInput(fmt::format("a tolerance is a number such as 0.005, or {}=0.005, not \"{}\"", known.front(), text));
-    return bound;
+    Errors tolerance;
+    for (const std::string& word : words) {
+        const std::size_t equals = word.find('=');
+        const std::string metric = equals == std::string::npos ? known.front() : word.substr(0, equals);
+        const std::string number = equals == std::string::npos ? word : word.substr(equals + 1);
+        if (std::ranges::find(known, metric) == known.end())
+            throw BadInput(fmt::format("shadows of {} are not measured by \"{}\"{}; they are by {}",
+                                       light.isArea() ? "an area light" : "this light", metric, didYouMean(metric, known),
+                                       fmt::join(known, ", ")));
+        double& worst = tolerance[metric];
+        const auto [end, failed] = std::from_chars(number.data(), number.data() + number.size(), worst);
+        if (failed != std::errc() || end != number.data() + number.size() || !(worst >= 0))
+            throw BadInput(
+                fmt::format("a tolerance is a number such as 0.005, or {}=0.005, not \"{}\"", known.front(), word));
+    }
+    return tolerance;
 }
 
 } // namespace shadowbench::recommend

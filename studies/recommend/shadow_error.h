@@ -19,20 +19,14 @@ Errors hardErrors(const LabelErrors& labels);
 Errors hardErrors(const Shadow& shadow, const Shadow& exact);
 Errors softErrors(const Shadow& shadow, const Shadow& exact, const Receivers& receivers);
 
-/// The worst value of a metric that is accepted.
-struct Bound {
-    std::string metric;
-    double most;
-};
-
-/// Whether no error lies above its bound; one that could not be measured does not.
-bool within(const Errors& errors, const std::vector<Bound>& bounds);
+/// Whether no error lies above its tolerance; one that could not be measured does not.
+bool within(const Errors& errors, const Errors& tolerance);
 
 /// Those of the scene's tolerances that the errors of its light are measured by.
-std::vector<Bound> ownBounds(const Scene& scene);
+Errors ownTolerance(const Scene& scene);
 
-/// "mismatch=0.01", or a number alone: of mismatch for a hard light, of penumbra_rmse for an area light. Throws BadInput
-/// naming the metrics that the light has.
-Bound parseBound(const std::string& text, const Light& light);
+/// Each "mismatch=0.01", or a number alone: of mismatch for a hard light, of penumbra_rmse for an area light. Throws
+/// BadInput naming the metrics that the light has.
+Errors parseTolerance(const std::vector<std::string>& words, const Light& light);
 
 } // namespace shadowbench::recommend

@@ -46,6 +46,9 @@ protected:
         return tab;
     }
 
+    /// Waits until the view has been remembered with this in its address.
+    static void waitForAddress(Tab& tab, const std::string& part) { tab.waitFor("location.hash.includes('" + part + "')"); }
+
     /// The view once its address has been remembered.
     static std::string address(Tab& tab) {
         tab.value("new Promise((done) => setTimeout(done, 200))");
@@ -105,7 +108,7 @@ TEST_F(Cells, ChooseThePixelThatIsClicked) {
     const double zoom = box[2];
     tab->click(box[0].get<double>() + 20.5 * zoom, box[1].get<double>() + 31.5 * zoom);
     EXPECT_EQ(field(*tab, "pixel"), "20, 31");
-    EXPECT_NE(address(*tab).find("pixel=20,31"), std::string::npos);
+    waitForAddress(*tab, "pixel=20,31");
     tab->press("ArrowRight");
     EXPECT_EQ(field(*tab, "pixel"), "21, 31");
 }
@@ -196,7 +199,7 @@ TEST_F(Cells, ShowTheFramesOfTheSequenceAndWhatFlickers) {
     EXPECT_EQ(tab->value("[...document.querySelectorAll('.viewer .pane')].filter((e) => !e.hidden).length"), 3);
     EXPECT_EQ(tab->value("Number(document.querySelector('[name=frame]').max)"), 1);
     tab->press(".");
-    EXPECT_NE(address(*tab).find("frame=1"), std::string::npos);
+    waitForAddress(*tab, "frame=1");
     EXPECT_NE(
         tab->value("document.querySelector('.viewer figcaption').textContent").get<std::string>().find("moving frame 1"),
         std::string::npos);
@@ -225,7 +228,7 @@ TEST_F(Cells, ShowTheSceneWithItsShadowsByKeyAndBySwitch) {
     const auto before = tab->value(picture);
     tab->press("s");
     tab->waitFor("document.querySelector('.viewer').viewer.shown?.shading");
-    EXPECT_NE(address(*tab).find("shaded=1"), std::string::npos);
+    waitForAddress(*tab, "shaded=1");
     EXPECT_TRUE(tab->value("document.querySelector('[name=shaded]').checked").get<bool>());
     for (const auto& [pane, wanted] : {std::pair("technique", &expected), std::pair("second", &exact)}) {
         const auto shownPixels = tab->value(std::string("[...document.querySelector('.viewer').viewer.shown.") + pane +

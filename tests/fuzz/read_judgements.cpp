@@ -12,7 +12,7 @@ void readBounds(std::string_view input) {
     const gate::GateConfig list = gate::parseGateConfig(std::string(input), "bounds.toml", Profile::Gate);
     (void)list.unknownScenes({});
     (void)list.isByChance("simple", "sm-uniform");
-    for (const gate::Bound& bound : list.bounds) (void)bound.cells.named();
+    for (const gate::BoundRule& bound : list.bounds) (void)bound.cells.named();
 }
 
 void readPolicyOfAProgram(std::string_view input) {

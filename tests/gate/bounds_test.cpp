@@ -17,8 +17,8 @@ namespace {
 
 using test::hardRecord;
 
-Bound bound(const std::string& technique, const std::string& metric, double value, bool below) {
-    return {{"dueling-frusta", {technique}, {}, "a test"}, metric, value, below};
+BoundRule bound(const std::string& technique, const std::string& metric, double value, bool below) {
+    return {{"dueling-frusta", {technique}, {}, "a test"}, {metric, value, below}};
 }
 
 Record scoredRecord() {
@@ -31,7 +31,7 @@ Record scoredRecord() {
 }
 
 TEST(Bounds, AreBrokenOnTheWrongSideOnly) {
-    const auto direction = [](const Bound& b) { return judgeBounds({scoredRecord()}, {b}).at(0).direction; };
+    const auto direction = [](const BoundRule& b) { return judgeBounds({scoredRecord()}, {b}).at(0).direction; };
     EXPECT_EQ(direction(bound("sm-uniform", "leak", 0.03, true)), Direction::Same);
     EXPECT_EQ(direction(bound("sm-uniform", "leak", 0.01, true)), Direction::Worse);
     EXPECT_EQ(direction(bound("sm-*", "leak", 0.01, false)), Direction::Same) << "an expected failure that fails";
@@ -46,7 +46,7 @@ TEST(Bounds, OnAMetricThatIsMissingAreNotJudged) {
 }
 
 TEST(Bounds, ConcernNeitherSweepsNorWhatWasNotScored) {
-    const Bound leak = bound("sm-uniform", "leak", 0.01, true);
+    const BoundRule leak = bound("sm-uniform", "leak", 0.01, true);
     Record swept = scoredRecord(), failed = scoredRecord();
     swept.sweep = SweepStep{"near-plane", "m", "sm-uniform", 1, {}};
     failed.status = Status::Error;
@@ -71,7 +71,7 @@ TEST(Bounds, MayBeOfOtherRenderersWhichOnlyTheirFileNames) {
 TEST(Bounds, ConcernTheirCellsOnly) {
     Record elsewhere = scoredRecord();
     elsewhere.scene = "trees";
-    Bound excepted = bound("sm-*", "leak", 0.01, true);
+    BoundRule excepted = bound("sm-*", "leak", 0.01, true);
     excepted.cells.except = {"sm-uniform"};
     EXPECT_TRUE(judgeBounds({elsewhere}, {bound("sm-uniform", "leak", 0.01, true)}).empty());
     EXPECT_TRUE(judgeBounds({scoredRecord()}, {excepted}).empty());
@@ -89,7 +89,7 @@ TEST(Bounds, HoldForEverySeed) {
 }
 
 TEST(Bounds, ThatMeetNothingAreNotJudgedWhereAllWasMeasured) {
-    const Bound other = bound("still-to-come", "leak", 0.01, true);
+    const BoundRule other = bound("still-to-come", "leak", 0.01, true);
     EXPECT_TRUE(judgeBounds({scoredRecord()}, {other}).empty());
     const std::vector<Change> changes =
         judgeBounds({scoredRecord()}, {other, bound("sm-uniform", "leak", 0.03, true)}, true);
@@ -124,7 +124,7 @@ TEST_F(GateConfigFile, HoldsBoundsSweepsAndCellsOfCost) {
                                  "256]\ntechniques = [\"sm-uniform\"]\nreason = \"r\"\n[[time]]\nscene = "
                                  "\"trees\"\ntechniques = [\"*\"]\nexcept = [\"lod-*\"]\nreason = \"r\"\n");
     ASSERT_EQ(list.bounds.size(), 1U);
-    EXPECT_TRUE(list.bounds[0].below);
+    EXPECT_TRUE(list.bounds[0].bound.below);
     ASSERT_EQ(list.sweeps.size(), 1U);
     EXPECT_EQ(list.sweeps[0].values, (std::vector<double>{512, 256}));
     ASSERT_EQ(list.timed.size(), 1U);
@@ -217,12 +217,12 @@ TEST(GatePlan, EveryBoundOnASceneThatIsJudgedMeetsACell) {
     options.bounds = std::filesystem::path(SOURCE_FOLDER) / "gate/bounds.toml";
     const JudgedCells cells(options);
     std::size_t met = 0;
-    for (const Bound& bound : cells.policy.config.bounds) {
+    for (const BoundRule& bound : cells.policy.config.bounds) {
         const auto scene = std::ranges::find(cells.scenes, bound.cells.scene, &JudgedScene::id);
         if (scene == cells.scenes.end()) continue; // the tests of scenes hold it
         ++met;
         EXPECT_TRUE(std::ranges::any_of(scene->variants, [&](const std::string& v) { return bound.cells.covers(v); }))
-            << bound.metric << " on " << scene->id << " of " << bound.cells.techniques.front();
+            << bound.bound.metric << " on " << scene->id << " of " << bound.cells.techniques.front();
     }
     EXPECT_GT(met, 30U);
 }

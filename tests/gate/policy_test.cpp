@@ -18,9 +18,9 @@
 namespace shadowbench::gate {
 namespace {
 
-Bound leakBelow(double value) { return {{"trees", {"pcf", "sm-uniform"}, {}, "a test"}, "leak", value, true}; }
+BoundRule leakBelow(double value) { return {{"trees", {"pcf", "sm-uniform"}, {}, "a test"}, {"leak", value, true}}; }
 
-Policy policyWith(const Bound& bound) {
+Policy policyWith(const BoundRule& bound) {
     Policy policy;
     policy.standard = {"trees"};
     policy.config.bounds = {bound};
@@ -34,10 +34,10 @@ TEST(GatePolicy, ALooserBoundIsListedAndAStricterOneIsNot) {
     const std::vector<std::string> sentences = loosened(base, policyWith(leakBelow(0.2)));
     ASSERT_EQ(sentences.size(), 1U);
     EXPECT_NE(sentences[0].find("pcf, sm-uniform on trees: leak below 0.1"), std::string::npos) << sentences[0];
-    Bound above = leakBelow(0.1), lower = leakBelow(0.05);
-    above.below = lower.below = false;
+    BoundRule above = leakBelow(0.1), lower = leakBelow(0.05);
+    above.bound.below = lower.bound.below = false;
     EXPECT_EQ(loosened(policyWith(above), policyWith(lower)).size(), 1U) << "an expected failure";
-    Bound fewer = leakBelow(0.1), except = leakBelow(0.1);
+    BoundRule fewer = leakBelow(0.1), except = leakBelow(0.1);
     fewer.cells.techniques = {"pcf"};
     except.cells.except = {"pcf"};
     EXPECT_EQ(loosened(base, policyWith(fewer)).size(), 1U);
@@ -60,11 +60,11 @@ TEST(GatePolicy, ASweepThatAsksForLessIsListed) {
 
 TEST(GatePolicy, ABoundOnAnotherMetricOrSideKeepsNothing) {
     const Policy base = policyWith(leakBelow(0.1));
-    Bound other = leakBelow(0.05);
-    other.metric = "mismatch";
+    BoundRule other = leakBelow(0.05);
+    other.bound.metric = "mismatch";
     EXPECT_EQ(loosened(base, policyWith(other)).size(), 1U);
     other = leakBelow(0.05);
-    other.below = false;
+    other.bound.below = false;
     EXPECT_EQ(loosened(base, policyWith(other)).size(), 1U);
 }
 
@@ -112,7 +112,7 @@ TEST(GatePolicy, EveryKindOfEntryThatIsGoneIsListedAndJudgesOn) {
 
 TEST(GatePolicy, IsReadAsItIsWrittenAndMayNameWhatThisBuildLacks) {
     BuildInfo build{"c0ffee", true, "9a55", policyWith(leakBelow(0.1))};
-    build.policy.config.bounds[0].metric = "a-metric-to-come";
+    build.policy.config.bounds[0].bound.metric = "a-metric-to-come";
     build.policy.config.bounds[0].cells.techniques = {"a-technique-to-come"};
     build.policy.rules.limits["accuracy.to_come"] = {metrics::TruthError::Rms, 2, "accuracy.pixels.lit", 0.1, 0.2, true, 1};
     build.policy.time = {0.02, 0.07, 0.3, 0.002};

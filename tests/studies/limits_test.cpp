@@ -288,24 +288,21 @@ TEST(HardErrors, CountPixelsThatBothShadowsLabel) {
     EXPECT_EQ(errors, (Errors{{"mismatch", 0.5}, {"false_shadow", 0.5}}));
 }
 
-TEST(Bounds, TakeNothingAndRefuseWhatIsNoNumber) {
+TEST(Tolerance, TakesNothingAndRefusesWhatIsNoNumber) {
     const Light hard = loadScene("windmills", Profile::Gate).light;
-    EXPECT_EQ(parseBound("0", hard).most, 0);
-    EXPECT_EQ(parseBound("leak=1", hard).metric, "leak");
+    EXPECT_EQ(parseTolerance({"0"}, hard).at("mismatch"), 0);
+    EXPECT_TRUE(parseTolerance({"leak=1"}, hard).contains("leak"));
     for (const char* text : {"nan", "0.1x", "leak=", "", "leak=-1"})
-        EXPECT_THROW((void)parseBound(text, hard), BadInput) << text;
-    EXPECT_EQ(test::messageOf<BadInput>([&] { (void)parseBound("leek=1", hard); }),
+        EXPECT_THROW((void)parseTolerance({text}, hard), BadInput) << text;
+    EXPECT_EQ(test::messageOf<BadInput>([&] { (void)parseTolerance({"leek=1"}, hard); }),
               "shadows of this light are not measured by \"leek\" (did you mean \"leak\"?); they are by mismatch, "
               "false_shadow, leak");
 }
 
-TEST(Bounds, OfTheSceneAreThoseOfItsLight) {
+TEST(Tolerance, OfTheSceneIsThatOfItsLight) {
     Scene scene = loadScene("windmills", Profile::Gate);
     scene.tolerance = {{"leak", 0.25}, {"rmse", 0.5}};
-    const std::vector<Bound> bounds = ownBounds(scene);
-    ASSERT_EQ(bounds.size(), 1U);
-    EXPECT_EQ(bounds[0].metric, "leak");
-    EXPECT_EQ(bounds[0].most, 0.25);
+    EXPECT_EQ(ownTolerance(scene), (Errors{{"leak", 0.25}}));
 }
 
 TEST(Casters, StandInTheBandThatTheirDistanceEnds) {

@@ -49,11 +49,10 @@ inline void expectSameSnapshot(const Snapshot& a, const Snapshot& b) {
 inline void expectSameExpectations(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.tolerance, b.tolerance);
     const auto same = [](const Expectation& one, const Expectation& other) {
-        return one.technique == other.technique && one.metric == other.metric && one.bound == other.bound &&
-               one.reason == other.reason;
+        return one.technique == other.technique && one.bound.metric == other.bound.metric &&
+               one.bound.value == other.bound.value && one.bound.below == other.bound.below && one.reason == other.reason;
     };
-    EXPECT_TRUE(std::ranges::equal(a.fails, b.fails, same));
-    EXPECT_TRUE(std::ranges::equal(a.holds, b.holds, same));
+    EXPECT_TRUE(std::ranges::equal(a.expectations, b.expectations, same));
     EXPECT_TRUE(std::ranges::equal(a.breaks, b.breaks, [](const BreakExpectation& one, const BreakExpectation& other) {
         return one.technique == other.technique && one.axis == other.axis && one.between == other.between &&
                one.reason == other.reason;
