@@ -5,6 +5,7 @@
 #include "base/trace.h"
 #include "techniques/gl/api.h"
 #include "techniques/gl/context.h"
+#include "techniques/gl/scene_buffers.h"
 #include "techniques/gl/texture.h"
 
 #include <array>
@@ -289,6 +290,14 @@ void Program::dispatch(std::size_t invocations) const {
 void Program::dispatchGroups(glm::uvec3 groups) const {
     use();
     glDispatchCompute(groups.x, groups.y, groups.z);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    ++Context::current().tally().passes;
+}
+
+void Program::dispatchGroups(const Buffer& buffer, std::size_t first) const {
+    use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.id());
+    glDispatchComputeIndirect(static_cast<GLintptr>(first * sizeof(GLuint)));
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
     ++Context::current().tally().passes;
 }

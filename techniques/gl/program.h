@@ -19,6 +19,7 @@ namespace shadowbench::gl {
 
 class Texture;
 class TextureArray;
+class Buffer;
 class BufferTexture;
 
 /// Preprocessor definitions put before the source.
@@ -128,6 +129,9 @@ public:
 
     /// The same of as many work groups along each axis, 65,535 at most.
     void dispatchGroups(glm::uvec3 groups) const;
+
+    /// The same of the groups that shaders have written to `buffer`: three words from word `first` on.
+    void dispatchGroups(const Buffer& buffer, std::size_t first) const;
 
     /// Invocations of a work group of a compute shader.
     [[nodiscard]] glm::uvec3 groupSize() const;

@@ -111,6 +111,18 @@ GLuint makeFramebuffer(const TextureArray& array, int layer) {
     return id;
 }
 
+GLenum formatOf(BufferTexture::Texel texel) {
+    switch (texel) {
+    case BufferTexture::Texel::FourFloats:
+        return GL_RGBA32F;
+    case BufferTexture::Texel::FourWords:
+        return GL_RGBA32UI;
+    case BufferTexture::Texel::Word:
+        return GL_R32UI;
+    }
+    throw InternalError("no such texel");
+}
+
 } // namespace
 
 Texture::Texture(Format format, glm::ivec2 size, Filter filter, Wrap wrap, Levels levels)
@@ -216,11 +228,11 @@ void TextureArray::makeMipmaps() {
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 
-BufferTexture::BufferTexture(const Buffer& buffer, Numbers numbers) {
+BufferTexture::BufferTexture(const Buffer& buffer, Texel texel) {
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.id()); // a name is a buffer once it has been bound
     glGenTextures(1, &id_);
     bindToChange(GL_TEXTURE_BUFFER, id_);
-    glTexBuffer(GL_TEXTURE_BUFFER, numbers == Numbers::Float ? GL_RGBA32F : GL_RGBA32UI, buffer.id());
+    glTexBuffer(GL_TEXTURE_BUFFER, formatOf(texel), buffer.id());
 }
 
 BufferTexture::~BufferTexture() { glDeleteTextures(1, &id_); }

@@ -80,13 +80,13 @@ private:
     std::size_t bytes_; // all levels
 };
 
-/// A buffer of four numbers a texel that shaders read through a samplerBuffer or usamplerBuffer: a software rasteriser reads
-/// a storage block one invocation after the other, and a texture for several at once. The buffer must outlive it.
+/// A buffer that shaders read through a samplerBuffer or usamplerBuffer: a software rasteriser reads a storage block one
+/// invocation after the other, and a texture for several at once. The buffer must outlive it.
 class BufferTexture {
 public:
-    enum class Numbers { Float, Unsigned };
+    enum class Texel { FourFloats, FourWords, Word };
 
-    explicit BufferTexture(const Buffer& buffer, Numbers numbers = Numbers::Float);
+    BufferTexture(const Buffer& buffer, Texel texel);
     ~BufferTexture();
     BufferTexture(const BufferTexture&) = delete;
     BufferTexture& operator=(const BufferTexture&) = delete;

@@ -30,7 +30,8 @@ private:
 
     gl::Program program_;
     gl::Buffer nodes_, corners_;
-    gl::BufferTexture nodeTexels_{nodes_, gl::BufferTexture::Numbers::Unsigned}, cornerTexels_{corners_};
+    gl::BufferTexture nodeTexels_{nodes_, gl::BufferTexture::Texel::FourWords},
+        cornerTexels_{corners_, gl::BufferTexture::Texel::FourFloats};
     float lift_ = 0; // metres that rays begin above their surface
     bool built_ = false;
 };

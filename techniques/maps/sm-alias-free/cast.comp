@@ -9,17 +9,16 @@ uniform float slack;
 const int roundsOfShade = 0;
 
 void shade(uint pixel, vec3 point, vec3 v0, vec3 v1, vec3 v2) {
-    if (results[pixel] == 0u && hides(v0, v1, v2, point, light, slack)) results[pixel] = 1u;
+    if (hides(v0, v1, v2, point, light, slack)) results[pixel] = 1u;
 }
 
-uint shadeLarge(uint pixel, vec3 point, uint first, uint last) {
-    uint triangle = first;
-    while (triangle < last) {
-        uint corner = 3u * triangle++;
-        shade(pixel, point, largeCorner(corner), largeCorner(corner + 1u), largeCorner(corner + 2u));
-        if (results[pixel] != 0u) break;
+void shadeLarge(uint pixel, vec3 point, uint first, uint which) {
+    bool hidden = false;
+    for (; which != 0u && !hidden; which &= which - 1u) {
+        uint corner = 3u * (first + uint(findLSB(which)));
+        hidden = hides(largeCorner(corner), largeCorner(corner + 1u), largeCorner(corner + 2u), point, light, slack);
     }
-    return triangle - first;
+    if (hidden) results[pixel] = 1u;
 }
 
 #include "shared/maps/cast_triangles.glsl"

@@ -13,17 +13,18 @@
 namespace shadowbench::techniques {
 namespace {
 
-constexpr int roundsOfLarge = 2; // a triangle's, and the one that ends the loop (cast.comp)
+constexpr int lights = 1;
+constexpr int roundsOfLarge = 2; // one, and a share of those of the loops over blocks (shared/maps/cast_triangles.glsl)
 
 class AliasFree final : public Technique {
 public:
     explicit AliasFree(const Parameters& p)
-        : slack_(p.real("slack")), lists_("maps/sm-alias-free/cast.comp", {}, p.integer("grid"), 1, roundsOfLarge),
+        : slack_(p.real("slack")), lists_("maps/sm-alias-free/cast.comp", {}, p.integer("grid"), 1, lights, roundsOfLarge),
           resolve_(gl::Program::screen("shared/maps/unhidden.frag")) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const Bounds bounds = frame.snapshot.bounds();
-        lists_.gather(frame, focusedView(frame));
+        lists_.gather(frame, focusedView(frame), {frame.hardLight.homogeneous()});
         lists_.cast(frame, [&](gl::Program& program) {
             program.set("light", glm::vec4(frame.hardLight.homogeneous()))
                 .set("slack", static_cast<float>(slack_ * glm::distance(bounds.low, bounds.high)));

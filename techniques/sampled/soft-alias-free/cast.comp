@@ -40,21 +40,18 @@ void shade(uint pixel, vec3 point, vec3 v0, vec3 v1, vec3 v2) {
     if (reaches(point, v0, v1, v2)) orHidden(pixel, point, v0, v1, v2);
 }
 
-/// In blocks: invocations that run in step test their samples together as often as one of them has triangles that reach it, not once for
-/// each triangle that reaches one of them.
-uint shadeLarge(uint pixel, vec3 point, uint first, uint last) {
-    for (uint block = first; block < last; block += 32u) {
-        uint reaching = 0u, size = min(32u, last - block);
-        for (uint i = 0u; i < size; ++i) {
-            uint corner = 3u * (block + i);
-            if (reaches(point, largeCorner(corner), largeCorner(corner + 1u), largeCorner(corner + 2u))) reaching |= 1u << i;
-        }
-        for (; reaching != 0u; reaching &= reaching - 1u) {
-            uint corner = 3u * (block + uint(findLSB(reaching)));
-            orHidden(pixel, point, largeCorner(corner), largeCorner(corner + 1u), largeCorner(corner + 2u));
-        }
+/// Invocations that run in step test their samples together as often as one of them has triangles that reach it, not once for each
+/// triangle that reaches one of them.
+void shadeLarge(uint pixel, vec3 point, uint first, uint which) {
+    uint reaching = 0u;
+    for (; which != 0u; which &= which - 1u) {
+        uint triangle = uint(findLSB(which)), corner = 3u * (first + triangle);
+        if (reaches(point, largeCorner(corner), largeCorner(corner + 1u), largeCorner(corner + 2u))) reaching |= 1u << triangle;
     }
-    return last - first;
+    for (; reaching != 0u; reaching &= reaching - 1u) {
+        uint corner = 3u * (first + uint(findLSB(reaching)));
+        orHidden(pixel, point, largeCorner(corner), largeCorner(corner + 1u), largeCorner(corner + 2u));
+    }
 }
 
 #include "shared/maps/cast_triangles.glsl"

@@ -21,13 +21,22 @@ namespace {
 
 constexpr int wordBits = 32, groupSize = 4; // sampled/soft-alias-free/samples.glsl
 
-/// For each large triangle of a block of 32 (cast.comp): a share of the loop over blocks, the loop over the block's
-/// triangles and the one over those that reach the light, each with the round that ends it.
+/// For each large triangle: the loop over its block's and the one over those that reach the light (cast.comp), and a share
+/// of the rounds that end them and of the loops over blocks.
 constexpr int roundsOfBlocks = 3;
+
+constexpr int lightCorners = 4;
 
 int wordsFor(int samples) { return (samples + wordBits - 1) / wordBits; }
 
 gl::Defines definesFor(int samples) { return {{"WORDS", std::to_string(wordsFor(samples))}}; }
+
+std::vector<glm::dvec4> cornersOf(const Light& light) {
+    std::vector<glm::dvec4> corners;
+    for (const double u : {-0.5, 0.5})
+        for (const double v : {-0.5, 0.5}) corners.emplace_back(light.centre + u * light.u + v * light.v, 1);
+    return corners;
+}
 
 /// Two directions of unit length that span a light's plane; the second is 0 for a linear light.
 struct LightPlane {
@@ -42,13 +51,13 @@ class SoftAliasFree final : public Technique {
 public:
     explicit SoftAliasFree(const Parameters& p)
         : count_(p.integer("n")), pattern_(p.text("pattern")), slack_(p.real("slack")),
-          lists_("sampled/soft-alias-free/cast.comp", definesFor(count_), p.integer("grid"), wordsFor(count_),
+          lists_("sampled/soft-alias-free/cast.comp", definesFor(count_), p.integer("grid"), wordsFor(count_), lightCorners,
                  roundsOfBlocks + wordsFor(count_) + 1),
           resolve_(gl::Program::screen("sampled/soft-alias-free/soft-alias-free.frag", definesFor(count_))) {}
 
     void render(const Frame& frame, const gl::Texture& visibility) override {
         const Light& light = frame.snapshot.light;
-        lists_.gather(frame, fitFocused(light, frame.snapshot, frame.snapshot.camera, frame.aspect()), light.u, light.v);
+        lists_.gather(frame, fitFocused(light, frame.snapshot, frame.snapshot.camera, frame.aspect()), cornersOf(light));
         lists_.cast(frame, [&](gl::Program& program) { setLight(program, frame); });
         resolve_.set("width", frame.size.x).set("samples", count_);
         resolve(frame, {&visibility}, resolve_);

@@ -1,17 +1,15 @@
 // The main function of a compute shader that includes shared/maps/pixel_lists.glsl and defines
 //     void shade(uint pixel, vec3 point, vec3 v0, vec3 v1, vec3 v2)          which adds a triangle's shadow to the results of a pixel
 //     const int roundsOfShade                                                of its loops, at most
-//     uint shadeLarge(uint pixel, vec3 point, uint first, uint last)         which does so for these triangles of
-//                                                                            shared/maps/large_triangles.glsl, and returns how many
-//                                                                            it has tested
+//     void shadeLarge(uint pixel, vec3 point, uint first, uint which)        which does so for those of 32 triangles of
+//                                                                            shared/maps/large_triangles.glsl whose bits are set
 // It calls shade() for each triangle and each pixel that may lie in the triangle's shadow, and for some that do not. With LARGE it tests
-// all pixels against the triangles that were too large for that. ROUNDS: of all loops of an invocation, at most.
+// all pixels against the triangles that were too large for that, but for those that hide nothing from any pixel of a tile of 8 × 8.
+// ROUNDS: of all loops of an invocation, at most. LIGHTS: corners of the light.
 #include "gl/invocation.glsl"
 #include "gl/triangles.glsl"
 #include "shared/maps/large_triangles.glsl"
 #include "shared/maps/pixel_lists.glsl"
-
-uniform sampler2D positions;
 
 #ifdef COUNT_TESTS
 layout(std430, binding = 7) buffer Tests { uint tests; };
@@ -25,20 +23,69 @@ void count(uint tested) {
 
 #ifdef LARGE
 
-uniform int pixels;
-uniform int firstLarge, mostLarge;  // triangles of this dispatch
+#include "shared/maps/may_hide.glsl"
+#include "shared/maps/ordered.glsl"
+
+uniform int firstLarge;  // of this dispatch
+uniform vec4 lights[LIGHTS];
+
+const uint none = 0u;        // below all codes of ordered()
+shared uint extremes[6];     // of the tile's points: x, y, z at their greatest, then −x, −y, −z at theirs, in the code of ordered()
+shared uint reaching[3][2];  // bits of 64 triangles that may hide something: of this round, the next one and the one before
+
+void waitForAll() {
+    memoryBarrierShared();
+    barrier();
+}
+
+/// A box around the points that the work group's pixels see.
+Box tileAround(bool seen, vec3 point) {
+    uint here = gl_LocalInvocationIndex;
+    if (here < 6u) extremes[here] = none;
+    if (here < 2u) reaching[0][here] = 0u;
+    waitForAll();
+    for (int axis = 0; axis < 3 && seen; ++axis) {
+        atomicMax(extremes[axis], ordered(point[axis]));
+        atomicMax(extremes[3 + axis], ordered(-point[axis]));
+    }
+    waitForAll();
+    vec3 high = vec3(unordered(extremes[0]), unordered(extremes[1]), unordered(extremes[2]));
+    vec3 low = -vec3(unordered(extremes[3]), unordered(extremes[4]), unordered(extremes[5]));
+    return Box(0.5 * (low + high), 0.5 * (high - low));
+}
 
 void main() {
-    uint pixel = invocation();
-    if (pixel >= uint(pixels)) return;
-    vec4 point = pointOf(positions, pixel);
-    if (point.w < 0.5) return;
     uint first = uint(firstLarge), last = min(largeCount, uint(firstLarge + mostLarge));
-    if (first < last) count(shadeLarge(pixel, point.xyz, first, last));
+    ivec2 size = textureSize(positions, 0);
+    uint here = gl_LocalInvocationIndex;
+    ivec2 at = tileSide * ivec2(gl_WorkGroupID.xy) + ivec2(here % tileSide, here / tileSide);
+    vec4 point = all(lessThan(at, size)) ? texelFetch(positions, at, 0) : vec4(0.0);
+    bool seen = point.w > 0.5;
+    uint pixel = uint(at.y * size.x + at.x), tested = 0u;
+    Box box = tileAround(seen, point.xyz);
+    int round = 0;
+    // Invocations take a triangle each for the tile, then all of those that are left for their own pixels. That bits are cleared a round
+    // before they are set leaves one wait a round.
+    for (uint block = first; block < last && extremes[0] != none; block += 64u) {
+        int next = (round + 1) % 3;
+        if (here < 2u) reaching[next][here] = 0u;
+        uint triangle = block + here, corner = 3u * triangle;
+        if (triangle < last && mayHide(largeCorner(corner), largeCorner(corner + 1u), largeCorner(corner + 2u), box, lights))
+            atomicOr(reaching[round][here / 32u], 1u << (here % 32u));
+        waitForAll();
+        for (uint word = 0u; word < 2u && seen; ++word) {
+            uint which = reaching[round][word];
+            shadeLarge(pixel, point.xyz, block + 32u * word, which);
+            tested += uint(bitCount(which));
+        }
+        round = next;
+    }
+    if (seen) count(tested);
 }
 
 #else
 
+uniform usamplerBuffer headTexels, nextTexels;  // shared/maps/pixel_lists.glsl
 uniform int triangleCount;
 uniform int instanceCount;
 uniform int baseInstance;
@@ -77,17 +124,19 @@ void main() {
     }
     // Cells and their lists in one loop, so that invocations that run in step do not wait for each other's lists.
     ivec2 cell = first;
-    uint entry = heads[cellIndex(whichGrid, cell)], tested = 0u;
-    int round = 0;
+    uint entry = texelFetch(headTexels, cellIndex(whichGrid, cell)).x, tested = 0u;
+    int width = textureSize(positions, 0).x, round = 0;
     for (; cell.y <= last.y && round < mostRounds; ++round) {
         if (entry != 0u) {
-            shade(entry - 1u, pointOf(positions, entry - 1u).xyz, v0, v1, v2);
-            entry = nexts[entry - 1u];
+            ivec2 at = placeOf(entry);
+            uint pixel = uint(at.y * width + at.x);
+            shade(pixel, texelFetch(positions, at, 0).xyz, v0, v1, v2);
+            entry = texelFetch(nextTexels, int(pixel)).x;
             ++tested;
         }
         if (entry == 0u) {
             cell = cell.x < last.x ? cell + ivec2(1, 0) : ivec2(first.x, cell.y + 1);
-            if (cell.y <= last.y) entry = heads[cellIndex(whichGrid, cell)];
+            if (cell.y <= last.y) entry = texelFetch(headTexels, cellIndex(whichGrid, cell)).x;
         }
     }
     if (cell.y <= last.y) handOn(v0, v1, v2);  // pixels that it has met already change no more

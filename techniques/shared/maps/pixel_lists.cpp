@@ -6,14 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <utility>
 
 namespace shadowbench::techniques {
 namespace {
 
 constexpr std::size_t word = sizeof(std::uint32_t), corner = sizeof(glm::vec4);
-constexpr unsigned testsBinding = 7; // shared/maps/cast_triangles.glsl
-constexpr int mostRounds = 65000;    // llvmpipe ends a shader's loops after 65,535 rounds in all
+constexpr unsigned testsBinding = 7;     // shared/maps/cast_triangles.glsl
+constexpr std::size_t groupsOfLater = 1; // a word of shared/maps/large_triangles.glsl
+constexpr int tileSide = 8;              // shared/maps/large_triangles.glsl
+constexpr int mostRounds = 65000;        // llvmpipe ends a shader's loops after 65,535 rounds in all
 
 std::size_t pixelsOf(const Frame& frame) {
     return static_cast<std::size_t>(frame.size.x) * static_cast<std::size_t>(frame.size.y);
@@ -34,9 +37,14 @@ std::size_t trianglesOf(const Frame& frame) {
     return count;
 }
 
-/// How far half of `side` reaches in the light's view, times depth.
-glm::dvec2 halfReach(const glm::dmat4& mapFromWorld, const glm::dvec3& side) {
-    return 0.5 * glm::abs(glm::dvec2(mapFromWorld * glm::dvec4(side, 0)));
+/// How far the light reaches from its middle in its own view, times depth.
+glm::vec2 reach(const LightView& view, const std::vector<glm::dvec4>& lights) {
+    const glm::dmat4 map = mapFromClip() * view.clipFromWorld;
+    const glm::dvec4 middle =
+        std::accumulate(lights.begin(), lights.end(), glm::dvec4(0)) / static_cast<double>(lights.size());
+    glm::dvec2 farthest(0);
+    for (const glm::dvec4& light : lights) farthest = glm::max(farthest, glm::abs(glm::dvec2(map * (light - middle))));
+    return farthest;
 }
 
 /// The greatest distance of the scene from the light's plane.
@@ -52,16 +60,16 @@ double deepest(const LightView& view, const Snapshot& snapshot) {
 PixelLists::Casts::Casts(const std::string& shade, const gl::Defines& defines)
     : small(gl::Program::compute(shade, defines)), large(gl::Program::compute(shade, with(defines, "LARGE"))) {}
 
-PixelLists::PixelLists(std::string shade, gl::Defines defines, int grid, int words, int roundsOfLarge)
-    : shade_(std::move(shade)), defines_(with(std::move(defines), "ROUNDS", mostRounds)), grid_(grid),
-      words_(static_cast<std::size_t>(words)), largeAtOnce_(static_cast<std::size_t>(mostRounds / roundsOfLarge)),
+PixelLists::PixelLists(std::string shade, gl::Defines defines, int grid, int words, int lights, int roundsOfLarge)
+    : shade_(std::move(shade)), defines_(with(with(std::move(defines), "ROUNDS", mostRounds), "LIGHTS", lights)),
+      grid_(grid), words_(static_cast<std::size_t>(words)),
+      largeAtOnce_(static_cast<std::size_t>(mostRounds / roundsOfLarge)),
       bin_(gl::Program::compute("shared/maps/bin_pixels.comp")), casts_(shade_, defines_) {}
 
-void PixelLists::gather(const Frame& frame, const LightView& view, const glm::dvec3& u, const glm::dvec3& v) {
+void PixelLists::gather(const Frame& frame, const LightView& view, std::vector<glm::dvec4> lights) {
     const auto pass = frame.pass("pixel lists");
     view_ = view;
-    const glm::dmat4 map = mapFromClip() * view.clipFromWorld;
-    reach_ = glm::vec2(halfReach(map, u) + halfReach(map, v));
+    lights_ = std::move(lights);
     const std::size_t pixels = pixelsOf(frame);
     heads_.clear(2 * static_cast<std::size_t>(grid_) * static_cast<std::size_t>(grid_) * word);
     nexts_.clear(pixels * word);
@@ -69,7 +77,7 @@ void PixelLists::gather(const Frame& frame, const LightView& view, const glm::dv
     clearLarge(frame);
     bind();
     setGrid(bin_);
-    bin_.set("positions", frame.gbuffer.position()).set("pixels", static_cast<int>(pixels));
+    bin_.set("positions", frame.gbuffer.position());
     bin_.dispatch(pixels);
 }
 
@@ -93,11 +101,14 @@ void PixelLists::cast(const Frame& frame, const std::function<void(gl::Program&)
 
 void PixelLists::castAll(const Frame& frame, Casts& casts, const std::function<void(gl::Program&)>& set) {
     for (gl::Program* program : {&casts.small, &casts.large}) {
-        program->set("positions", frame.gbuffer.position());
+        program->set("positions", frame.gbuffer.position()).set("mostLarge", static_cast<int>(largeAtOnce_));
         set(*program);
     }
     setGrid(casts.small);
-    casts.small.set("reach", reach_).set("deepest", static_cast<float>(deepest(view_, frame.snapshot)));
+    casts.small.set("headTexels", headTexels_)
+        .set("nextTexels", nextTexels_)
+        .set("reach", reach(view_, lights_))
+        .set("deepest", static_cast<float>(deepest(view_, frame.snapshot)));
     frame.scene.instances().bindStorage(2);
     for (const gl::SceneBuffers::Batch& batch : frame.scene.batches()) {
         batch.vertices.bindStorage(0);
@@ -107,13 +118,15 @@ void PixelLists::castAll(const Frame& frame, Casts& casts, const std::function<v
             .set("baseInstance", static_cast<int>(batch.baseInstance));
         casts.small.dispatch(triangles(batch));
     }
-    const std::size_t pixels = pixelsOf(frame);
-    casts.large.set("largeTriangles", largeTriangles_)
-        .set("pixels", static_cast<int>(pixels))
-        .set("mostLarge", static_cast<int>(largeAtOnce_));
+    const std::vector<glm::vec4> lights(lights_.begin(), lights_.end());
+    casts.large.set("largeTriangles", largeTriangles_).set("lights", lights);
+    const glm::ivec2 tiles = (frame.size + tileSide - 1) / tileSide;
     for (std::size_t first = 0; first < trianglesOf(frame); first += largeAtOnce_) {
         casts.large.set("firstLarge", static_cast<int>(first));
-        casts.large.dispatch(pixels);
+        if (first == 0)
+            casts.large.dispatchGroups({tiles, 1});
+        else
+            casts.large.dispatchGroups(large_, groupsOfLater);
     }
 }
 

@@ -1,14 +1,22 @@
 // The irregular z-buffer: two grids over the light's view, of what lies before and behind the light, whose cells hold lists of the pixels
 // that fall into them (shared/maps/pixel_lists.h).
-#include "shared/maps/pixel_point.glsl"
 
 uniform mat4 mapFromWorld;
 uniform int grid;         // cells per side
 uniform float nearest;    // |w| below which nothing is projected: too close to the light's plane
 
-layout(std430, binding = 3) buffer Heads { uint heads[]; };        // per cell of both grids: 0, or 1 + the first pixel of its list
-layout(std430, binding = 4) buffer Nexts { uint nexts[]; };        // per pixel: the next of its list, in the same way
+layout(std430, binding = 3) buffer Heads { uint heads[]; };        // per cell of both grids: 0, or the entry of the first pixel of its list
+layout(std430, binding = 4) buffer Nexts { uint nexts[]; };        // per pixel: that of the next of its list, in the same way
 layout(std430, binding = 5) buffer Results { uint results[]; };    // per pixel: the technique's words, 0 at first
+
+/// A pixel of a list, above 0.
+uint entryOf(ivec2 at) {
+    return uint(at.y << 16 | at.x) + 1u;
+}
+
+ivec2 placeOf(uint entry) {
+    return ivec2((entry - 1u) & 0xffffu, (entry - 1u) >> 16);
+}
 
 const int nowhere = -1, front = 0, back = 1;
 

@@ -1,6 +1,7 @@
 // Boxes, in a projective space, of the surface points that the camera's pixels see: one for each range of eye depth
 // (shared/maps/receiver_bounds.h).
 #include "gl/invocation.glsl"
+#include "shared/maps/ordered.glsl"
 
 uniform sampler2D positions;
 uniform int rowsEach;            // pixels of an invocation: part of a column
@@ -10,12 +11,6 @@ uniform mat4 clipFromWorld;
 
 /// For each range x, y, z at their greatest, then −x, −y, −z at theirs, in the code of ordered(); 0: no point.
 layout(std430, binding = 3) buffer Extremes { uint extremes[]; };
-
-/// A number above 0 that is greater for a greater float.
-uint ordered(float x) {
-    uint bits = floatBitsToUint(x);
-    return bits ^ ((bits & 0x80000000u) != 0u ? 0xffffffffu : 0x80000000u);
-}
 
 void main() {
     ivec2 size = textureSize(positions, 0);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <gtest/gtest.h>
+#include <random>
 #include <string>
+#include <vector>
 
 namespace shadowbench {
 namespace {
@@ -58,6 +60,33 @@ TEST(SmAliasFree, TheGridChangesNothing) {
     const Image<float> v = rendered(stage, "sm-alias-free");
     for (const char* variant : {"sm-alias-free:grid=1", "sm-alias-free:grid=7", "sm-alias-free:grid=1000"})
         EXPECT_EQ(rendered(stage, variant), v) << variant;
+}
+
+TEST(SmAliasFree, TilesLoseNoShadowOfATriangle) { // without lists, all triangles are tested against tiles first
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> coordinate(-2, 2), size(-0.4F, 0.4F);
+    Mesh soup;
+    for (std::uint32_t t = 0; t < 300; ++t) {
+        const glm::vec3 at(coordinate(random), coordinate(random) + 2, coordinate(random));
+        for (int corner = 0; corner < 3; ++corner)
+            soup.positions.push_back(at + glm::vec3(size(random), size(random), size(random)));
+        soup.triangles.emplace_back(3 * t, 3 * t + 1, 3 * t + 2);
+    }
+    Scene scene = groundScene(100); // whose last tiles are cut off
+    scene.objects.push_back(object(soup, {0, 0.1, 0}));
+    const std::vector<Light> lights{
+        {LightKind::Point, {1.7, 6.1, -2.3}, {}, {}, {}},
+        {LightKind::Point, {0.2, 2.1, 0.3}, {}, {}, {}}, // amid them
+        {LightKind::Directional, {}, glm::normalize(glm::dvec3(-0.3, -1, 0.4)), {}, {}},
+    };
+    for (const Light& light : lights) {
+        scene.light = light;
+        Stage stage(scene);
+        stage.show(0);
+        const Image<float> listed = rendered(stage, "sm-alias-free:grid=64");
+        EXPECT_GT(std::count(listed.begin(), listed.end(), 0.0F), 500);
+        EXPECT_EQ(rendered(stage, "sm-alias-free:grid=1"), listed);
+    }
 }
 
 TEST(SmAliasFree, NeedsNoClosedMeshes) {

@@ -113,16 +113,17 @@ double pixelsSeen(const Stage& stage) {
     return static_cast<double>(std::count_if(drawn.id.begin(), drawn.id.end(), [](unsigned id) { return id != 0; }));
 }
 
-TEST(SoftAliasFree, CostsATestOfEachPixelWithoutLists) { // and with them a small part of it
+TEST(SoftAliasFree, CostsTheTilesThatATriangleMayShadeWithoutLists) { // and with them a small part of it
     const Scene scene = overlapScene();
     Stage stage(scene);
     stage.show(0);
     const Image<float> before = rendered(stage, "soft-alias-free:grid=1");
     const double all = pixelsSeen(stage) * static_cast<double>(stage.shown().triangles());
-    EXPECT_EQ(testsOf(stage, "soft-alias-free:grid=1"), all);
+    const double ofTiles = testsOf(stage, "soft-alias-free:grid=1");
+    EXPECT_LT(ofTiles, 0.5 * all);
     EXPECT_EQ(stage.visibility(), before);
     // The three boxes' faces of two triangles each; the body's are small.
-    EXPECT_LT(testsOf(stage, "soft-alias-free"), 0.2 * all);
+    EXPECT_LT(testsOf(stage, "soft-alias-free"), 0.5 * ofTiles);
 }
 
 TEST(SoftAliasFree, CostsMoreTheFartherThePenumbraReaches) {
