@@ -1,8 +1,8 @@
 // The irregular z-buffer (Aila and Laine 2004; Johnson, Mark and Burns 2004): pixels in lists, one for each cell of a grid
 // over the light's view, and triangles that are tested against the pixels of all cells that their shadows may touch, in the
 // order of work of Sintorn, Eisemann and Assarsson 2008 (Scherzer 2.3.5). Departures: the lists are linked; a triangle
-// visits the cells of a box around its shadow; one that touches a large part of them all is tested against tiles of pixels in
-// the image instead, and then against those of the tiles that it may shade.
+// visits the cells of a box around its shadow; one that touches a large part of them all is tested against tiles of pixels
+// in the image instead, and then against those of the tiles that it may shade.
 #pragma once
 
 #include "techniques/contract/technique.h"
