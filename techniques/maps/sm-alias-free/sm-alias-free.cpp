@@ -14,7 +14,7 @@ namespace shadowbench::techniques {
 namespace {
 
 constexpr int lights = 1;
-constexpr int roundsOfLarge = 2; // one, and a share of those of the loops over blocks (shared/maps/cast_triangles.glsl)
+constexpr int roundsOfLarge = 2; // a round of the loop of shadeLarge() (cast.comp), and a share of other loops
 
 class AliasFree final : public Technique {
 public:

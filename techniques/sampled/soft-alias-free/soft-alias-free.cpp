@@ -21,8 +21,8 @@ namespace {
 
 constexpr int wordBits = 32, groupSize = 4; // sampled/soft-alias-free/samples.glsl
 
-/// For each large triangle: the loop over its block's and the one over those that reach the light (cast.comp), and a share
-/// of the rounds that end them and of the loops over blocks.
+/// For each large triangle: a round of each of the two loops of shadeLarge() (cast.comp), and a share of the rounds that end
+/// them and of the loop over blocks of triangles (shared/maps/cast_triangles.glsl).
 constexpr int roundsOfBlocks = 3;
 
 constexpr int lightCorners = 4;

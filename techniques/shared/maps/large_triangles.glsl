@@ -1,4 +1,4 @@
-// Triangles that touch too many cells or pixels, or the light's plane: tested against every pixel instead. Later dispatches read them
+// Triangles that touch too many cells or pixels, or the light's plane: tested against tiles of pixels instead. Later dispatches read them
 // as a texture (gl/texture.h, BufferTexture), each as many as it can test at once.
 layout(std430, binding = 6) buffer Large {
     uint largeCount;
